@@ -1,1 +1,26 @@
-//! To come.
+//! The mechanics of a machining robot: how far from the drawing will it cut, and why?
+//!
+//! Pure mathematics: no files, no clock, no printing, no randomness. SI units throughout (m, N, N m, rad, s).
+//!
+//! Read [`predict`] first: it is the whole idea in one function. Then, in the order in which a number comes
+//! about: [`frame`] and [`spatial`] (poses, twists, wrenches), [`robot`] (chain, postures), [`compliance`],
+//! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
+//! points at once), [`map`] (planes, sections, volumes, the region within a tolerance).
+//!
+//! Symbols and conventions: `docs/notation.md`.
+
+pub mod frame;
+pub mod spatial;
+pub mod robot;
+pub mod compliance;
+pub mod load;
+pub mod source;
+pub mod predict;
+pub mod workpiece;
+pub mod path;
+pub mod watch;
+pub mod kernel;
+pub mod map;
+
+/// The linear algebra that the public types are made of.
+pub use nalgebra;

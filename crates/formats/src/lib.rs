@@ -1,1 +1,12 @@
-//! To come.
+//! Foreign text and tables in and out of armill.
+//!
+//! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
+//!   each with its place, its limit and a hint.
+//! - [`table`]: columns of results as CSV, Parquet and VTK.
+//! - [`file`](mod@file): files that are either written whole or not at all.
+//!
+//! Nothing in this crate prints. Same input, same bytes.
+
+pub mod document;
+pub mod file;
+pub mod table;

@@ -1,0 +1,10 @@
+//! How much does the arm yield at the tool?
+//!
+//! [`cartesian`]: the 6 x 6 compliance and stiffness at the TCP. [`directions`]: in which direction it yields
+//! most, and how much force a tolerance permits.
+
+pub mod cartesian;
+pub mod directions;
+
+pub use cartesian::{Stiffness, compliance_at_tool, stiffness_at_tool};
+pub use directions::{PrincipalCompliance, permissible_force, permissible_force_in_worst_direction, principal_compliances};

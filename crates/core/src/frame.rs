@@ -1,0 +1,76 @@
+//! Frames: how a pose is written, and how a tool axis becomes a tool pose.
+//!
+//! A transform is named so that neighbours cancel: `base_from_tool = base_from_flange * flange_from_tool`.
+//!
+//! | frame | origin and axes |
+//! |---|---|
+//! | `base` | root of the robot |
+//! | `flange` | z out of the flange, as ROS-Industrial `tool0` |
+//! | `tool` | origin at the tool centre point (TCP), z from the spindle towards the part |
+//! | `part` | workpiece, z = outward normal of its plane |
+//!
+//! Lengths in m, angles in rad. Source: `docs/notation.md`.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+
+/// A rigid displacement; the name of the variable says from which frame to which.
+pub type Isometry = Isometry3<f64>;
+
+/// The isometry with translation `xyz` (m) and rotation `Rz(rz) Ry(ry) Rx(rx)` (rad).
+///
+/// The same as turning about the fixed axes x, then y, then z: URDF's `rpy` and Yaskawa's Rx, Ry, Rz.
+pub fn from_xyz_and_fixed_angles(xyz: Vector3<f64>, rx_ry_rz: Vector3<f64>) -> Isometry {
+    let rotation = UnitQuaternion::from_euler_angles(rx_ry_rz.x, rx_ry_rz.y, rx_ry_rz.z);
+    Isometry::from_parts(Translation3::from(xyz), rotation)
+}
+
+/// The orientation `base_from_tool` of a tool whose z axis is `axis`, turned about it by `spin` (rad).
+///
+/// At spin zero the tool's second axis (y) lies as near as possible to base y, or to base x where the
+/// axis is parallel to y. Positive spin follows the right hand about `axis`.
+pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f64> {
+    let z = axis.into_inner();
+    // Within 1e-6 rad of base y the projection of y has no direction left that could be trusted.
+    let reference = if z.cross(&Vector3::y()).norm() > 1e-6 { Vector3::y() } else { Vector3::x() };
+    let y = (reference - z * reference.dot(&z)).normalize();
+    let unspun = Matrix3::from_columns(&[y.cross(&z), y, z]);
+    let about_axis = UnitQuaternion::from_axis_angle(&axis, spin);
+    about_axis * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(unspun))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    #[test]
+    fn fixed_angles_turn_about_x_first() {
+        let quarter_turns = from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(FRAC_PI_2, 0.0, FRAC_PI_2));
+        // y goes to z by the turn about x; the turn about z leaves it there.
+        assert!((quarter_turns.rotation * Vector3::y() - Vector3::z()).norm() < 1e-15);
+    }
+
+    #[test]
+    fn tool_z_is_the_axis_and_tool_y_lies_near_base_y() {
+        let axis = Unit::new_normalize(Vector3::new(0.3, 0.2, -0.9));
+        let base_from_tool = tool_orientation(axis, 0.0);
+        assert!((base_from_tool * Vector3::z() - axis.into_inner()).norm() < 1e-15);
+        let y = base_from_tool * Vector3::y();
+        for spin in [0.1, -0.1, 1.0, PI] {
+            let turned = tool_orientation(axis, spin) * Vector3::y();
+            assert!(turned.y < y.y, "spin {spin} brings tool y nearer to base y");
+        }
+    }
+
+    #[test]
+    fn axis_along_base_y_falls_back_to_base_x() {
+        let y = tool_orientation(Vector3::y_axis(), 0.0) * Vector3::y();
+        assert!((y - Vector3::x()).norm() < 1e-15);
+    }
+
+    #[test]
+    fn positive_spin_follows_the_right_hand() {
+        let y = tool_orientation(Vector3::x_axis(), FRAC_PI_2) * Vector3::y();
+        assert!((y - Vector3::z()).norm() < 1e-15);
+    }
+}

@@ -1,0 +1,37 @@
+//! What is asked at every point.
+
+use nalgebra::{Unit, Vector3};
+
+use crate::frame::Isometry;
+use crate::robot::inverse::OrthoParallel;
+use crate::robot::joint::JointCompliance;
+use crate::robot::{BranchPattern, Robot};
+use crate::spatial::Wrench;
+
+/// Which posture stands for a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BranchChoice {
+    /// Of the branches that match, the one with the most room to its joint limits, inside them or not.
+    Of(BranchPattern),
+    /// Of all branches inside the joint limits, the one with the least envelope of in-plane deviation.
+    Best,
+}
+
+/// One question for many tool poses.
+#[derive(Clone, Copy, Debug)]
+pub struct Question<'a> {
+    /// The robot.
+    pub robot: &'a Robot,
+    /// Its closed-form inverse.
+    pub arm: &'a OrthoParallel,
+    /// Compliance of each of its joints.
+    pub compliance: &'a [JointCompliance],
+    /// Flange to tool centre point.
+    pub flange_from_tool: &'a Isometry,
+    /// Load cases on the tool at the TCP, base basis; at least one.
+    pub cases: &'a [Wrench],
+    /// Outward normal of the plane that deviations are split on, base basis.
+    pub normal: Unit<Vector3<f64>>,
+    /// Which posture stands for a point.
+    pub choice: BranchChoice,
+}

@@ -1,0 +1,108 @@
+//! Deviation over a workpiece plane.
+
+use crate::kernel::{Answers, Question, evaluate};
+use crate::robot::Unreachable;
+use crate::watch::{Cancelled, Watch};
+use crate::workpiece::{Grid, Plane};
+
+use super::region::{Region, region_within};
+
+/// Answers on a grid over a plane.
+#[derive(Clone, Debug)]
+pub struct PlaneMap {
+    /// The plane.
+    pub plane: Plane,
+    /// Its points.
+    pub grid: Grid,
+    /// What came out at each, in the grid's order.
+    pub answers: Answers,
+}
+
+/// How many points hold the limit, and why the rest does not. The first five add up to all points.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// In-plane deviation within the limit.
+    pub within: usize,
+    /// In-plane deviation over the limit.
+    pub over_limit: usize,
+    /// No posture reaches.
+    pub out_of_reach: usize,
+    /// Postures reach, but none inside the joint limits (only where the best branch is asked for).
+    pub no_posture_inside_limits: usize,
+    /// The inverse kinematics failed its own check.
+    pub unverified: usize,
+    /// Of the points with a posture: some joint stands outside its limits.
+    pub outside_joint_limits: usize,
+    /// Of the points within the limit: every joint stands inside its limits.
+    pub within_and_inside_joint_limits: usize,
+    /// Of the points with a posture: near a singularity.
+    pub near_singularity: usize,
+}
+
+impl Counts {
+    /// Counts the points of `answers` against `limit` (m).
+    pub fn of(answers: &Answers, limit: f64) -> Counts {
+        let mut counts = Counts::default();
+        for point in &answers.points {
+            match point {
+                Ok(held) => {
+                    let within = held.in_plane <= limit;
+                    counts.within += usize::from(within);
+                    counts.over_limit += usize::from(!within);
+                    counts.outside_joint_limits += usize::from(!held.within_limits());
+                    counts.within_and_inside_joint_limits += usize::from(within && held.within_limits());
+                    counts.near_singularity += usize::from(held.singularity.is_some());
+                }
+                Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
+                Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
+                Err(
+                    Unreachable::TooFar { .. }
+                    | Unreachable::TooNear { .. }
+                    | Unreachable::InsideLateralOffset { .. },
+                ) => counts.out_of_reach += 1,
+            }
+        }
+        counts
+    }
+
+    /// All points.
+    pub fn points(&self) -> usize {
+        self.within + self.over_limit + self.out_of_reach + self.no_posture_inside_limits + self.unverified
+    }
+
+    /// Points within the limit over all points; 0 where there is none.
+    pub fn fraction_within(&self) -> f64 {
+        self.within as f64 / self.points().max(1) as f64
+    }
+
+    /// Points within the limit and inside the joint limits over all points.
+    pub fn fraction_within_and_inside_joint_limits(&self) -> f64 {
+        self.within_and_inside_joint_limits as f64 / self.points().max(1) as f64
+    }
+}
+
+impl PlaneMap {
+    /// In-plane deviation (m) of each point, `None` without posture.
+    pub fn in_plane(&self) -> Vec<Option<f64>> {
+        self.answers.points.iter().map(|point| point.as_ref().ok().map(|held| held.in_plane)).collect()
+    }
+
+    /// The region within `limit` (m).
+    pub fn region(&self, limit: f64) -> Region {
+        region_within(&self.grid, &self.in_plane(), limit)
+    }
+}
+
+/// The map of `plane` on `grid`. The question's normal and load cases are those of the plane.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+pub fn plane_map(
+    question: &Question<'_>,
+    plane: Plane,
+    grid: Grid,
+    watch: Watch<'_>,
+) -> Result<PlaneMap, Cancelled> {
+    let answers = evaluate(question, grid.len(), |i| plane.base_from_tool(grid.point(i), 0.0), watch)?;
+    Ok(PlaneMap { plane, grid, answers })
+}

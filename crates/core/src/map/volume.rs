@@ -1,0 +1,99 @@
+//! Deviation in space: a box of points, the tool held as for a plane.
+
+use nalgebra::{Point3, Vector3};
+
+use super::plane::Counts;
+use crate::frame::Isometry;
+use crate::kernel::{Answers, Question, evaluate};
+use crate::watch::{Cancelled, Watch};
+use crate::workpiece::Plane;
+
+/// A regular box of points along the base axes; x runs first, then y, then z.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoxGrid {
+    /// The corner with the least coordinates, m, base.
+    pub origin: Point3<f64>,
+    /// Points along base x, y, z.
+    pub counts: [usize; 3],
+    /// Pitch, m.
+    pub step: f64,
+}
+
+impl BoxGrid {
+    /// The box of pitch `step` (m) centred at `centre` that reaches as far as it can within `half_size` (m).
+    pub fn within(centre: Point3<f64>, half_size: [f64; 3], step: f64) -> BoxGrid {
+        let steps = half_size.map(|half| (half / step + 1e-9).floor());
+        let corner = Vector3::from(steps) * step;
+        BoxGrid { origin: centre - corner, counts: steps.map(|n| 2 * n as usize + 1), step }
+    }
+
+    /// How many points.
+    pub fn len(&self) -> usize {
+        self.counts.iter().product()
+    }
+
+    /// Whether it has no point at all.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Point `index`, m, base.
+    pub fn point(&self, index: usize) -> Point3<f64> {
+        let [nx, ny, _] = self.counts;
+        let (x, y, z) = (index % nx, index / nx % ny, index / (nx * ny));
+        self.origin + Vector3::new(x as f64, y as f64, z as f64) * self.step
+    }
+}
+
+/// Answers in a box.
+#[derive(Clone, Debug)]
+pub struct VolumeMap {
+    /// The box.
+    pub grid: BoxGrid,
+    /// How the plane lies at every point: orientation only.
+    pub plane: Plane,
+    /// What came out at each point, in the grid's order.
+    pub answers: Answers,
+}
+
+impl VolumeMap {
+    /// Points against `limit` (m).
+    pub fn counts(&self, limit: f64) -> Counts {
+        Counts::of(&self.answers, limit)
+    }
+
+    /// Volume of the points within `limit` (m), m^3: each stands for one cell of the pitch.
+    pub fn volume_within(&self, limit: f64) -> f64 {
+        self.counts(limit).within as f64 * self.grid.step.powi(3)
+    }
+}
+
+/// The map of the box `grid` with the tool held as on `plane`.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+pub fn volume_map(
+    question: &Question<'_>,
+    plane: Plane,
+    grid: BoxGrid,
+    watch: Watch<'_>,
+) -> Result<VolumeMap, Cancelled> {
+    let held = plane.base_from_tool(nalgebra::Point2::origin(), 0.0);
+    let pose = |i: usize| Isometry::from_parts(grid.point(i).coords.into(), held.rotation);
+    let answers = evaluate(question, grid.len(), pose, watch)?;
+    Ok(VolumeMap { grid, plane, answers })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn box_points_run_along_x_first_from_the_least_corner() {
+        let grid = BoxGrid::within(Point3::new(1.0, 0.0, 0.5), [0.2, 0.1, 0.1], 0.1);
+        assert_eq!(grid.counts, [5, 3, 3]);
+        assert!((grid.point(0) - Point3::new(0.8, -0.1, 0.4)).norm() < 1e-15);
+        assert!((grid.point(1) - Point3::new(0.9, -0.1, 0.4)).norm() < 1e-15);
+        assert!((grid.point(44) - Point3::new(1.2, 0.1, 0.6)).norm() < 1e-15);
+    }
+}

@@ -1,0 +1,57 @@
+//! **The main idea.** Posture and load in, deviation of the tool out, with its parts.
+//!
+//! An arm that holds a tool at a pose stands in some posture (`robot::inverse`). Its joints lie on lines in
+//! space; seen from the tool each is a screw. The load is a wrench on the tool. Each source of error answers
+//! with a small displacement of the tool, and these add:
+//!
+//! ```text
+//! pose -> posture -> screws s_i        load -> wrench w
+//! deviation = elastic(s_i, c_i, w)     [+ backlash + geometric + ... as they come]
+//! ```
+//!
+//! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
+
+use nalgebra::Matrix3;
+
+use crate::robot::Posture;
+use crate::robot::joint::JointCompliance;
+use crate::source::elastic;
+use crate::spatial::{Twist, Wrench};
+
+/// How far the tool is from where it was asked to be, and why.
+#[derive(Clone, Debug)]
+pub struct Deviation {
+    /// Displacement (m) and rotation (rad) of the tool.
+    pub twist: Twist,
+    /// Share of each joint, base to flange; they add up to `twist`.
+    pub joint_shares: Vec<Twist>,
+    /// Covariance of the displacement, m^2, from the uncertainties of the inputs.
+    pub covariance: Matrix3<f64>,
+}
+
+/// The deviation of a tool held in `posture` by joints of these compliances under `wrench`.
+///
+/// Not checked: that `joints` are as many as the posture's.
+///
+/// ```
+/// use armill_core::predict::predict;
+/// use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Motion, Robot, inverse::posture_at};
+/// use armill_core::{frame::Isometry, spatial::Wrench};
+///
+/// // One joint, a lever of 1 m, 2 urad/(N m), pushed sideways with 10 N: 20 um.
+/// let motions = vec![Motion::About(Axis::Z, Amount::Joint(0)), Motion::Along(Axis::X, Amount::Constant(1.0))];
+/// let lever = Robot::new("lever", motions, vec![Joint::plain("A")])?;
+/// let posture = posture_at(&lever, &[0.0], &Isometry::identity());
+/// let joint = JointCompliance { value: 2e-6, standard_uncertainty: 0.0 };
+/// let push = Wrench::from_force(nalgebra::Vector3::new(0.0, 10.0, 0.0));
+/// assert!((predict(&posture, &[joint], &push).twist.linear.y - 20e-6).abs() < 1e-18);
+/// # Ok::<(), armill_core::robot::RobotError>(())
+/// ```
+pub fn predict(posture: &Posture, joints: &[JointCompliance], wrench: &Wrench) -> Deviation {
+    let elastic = elastic::shares(&posture.screws, joints, wrench);
+    Deviation {
+        twist: elastic.iter().copied().sum(),
+        covariance: elastic::covariance(&posture.screws, joints, wrench),
+        joint_shares: elastic,
+    }
+}

@@ -1,0 +1,283 @@
+//! The chain of elementary motions (form-shaping function, FSF).
+//!
+//! A robot is an ordered product of elementary motions, `A = A_1 A_2 ... A_m`, each along or about one
+//! coordinate axis of the frame reached so far, each a constant or one joint variable. The same product
+//! serves three kinds of object:
+//!
+//! | object | components in frame n | transform |
+//! |---|---|---|
+//! | position `r` | `[x, y, z, 1]`, m | [`Chain::position`] |
+//! | direction `c` | `[x, y, z, 0]`, unit | [`Chain::direction`] |
+//! | screw (twist about the origin) | `[linear; angular]` | [`Chain::screw`], 6 x 6 |
+//!
+//! For speed all reduce to one inner form: a fixed isometry before each joint, the joint's axis, and a fixed
+//! isometry after the last joint. Lengths m, angles rad.
+//!
+//! Source: Shneor & Chapsky 2021, eqs (1)-(6) and Table 2; `docs/theory/chain.md`.
+
+use nalgebra::{Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
+
+use crate::frame::Isometry;
+use crate::spatial::{Twist, adjoint};
+
+/// A coordinate axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// (1, 0, 0)
+    X,
+    /// (0, 1, 0)
+    Y,
+    /// (0, 0, 1)
+    Z,
+}
+
+impl Axis {
+    /// The unit vector of this axis.
+    pub fn unit(self) -> Vector3<f64> {
+        match self {
+            Axis::X => Vector3::x(),
+            Axis::Y => Vector3::y(),
+            Axis::Z => Vector3::z(),
+        }
+    }
+}
+
+/// How far an elementary motion goes: m for a translation, rad for a rotation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Amount {
+    /// A length or angle of the arm's geometry.
+    Constant(f64),
+    /// The position of the joint with this index.
+    Joint(usize),
+}
+
+/// One elementary motion.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Motion {
+    /// A translation: A1, A2, A3 of the paper.
+    Along(Axis, Amount),
+    /// A rotation by the right hand: A4, A5, A6 of the paper.
+    About(Axis, Amount),
+}
+
+impl Motion {
+    /// How far this motion goes.
+    pub fn amount(&self) -> Amount {
+        match *self {
+            Motion::Along(_, amount) | Motion::About(_, amount) => amount,
+        }
+    }
+
+    /// The displacement by `distance` (m or rad) along or about the axis of this motion.
+    pub fn displacement(&self, distance: f64) -> Isometry {
+        match *self {
+            Motion::Along(axis, _) => Isometry::from_parts(
+                Translation3::from(axis.unit() * distance),
+                UnitQuaternion::identity(),
+            ),
+            Motion::About(axis, _) => Isometry::from_parts(
+                Translation3::identity(),
+                UnitQuaternion::new(axis.unit() * distance),
+            ),
+        }
+    }
+}
+
+/// A joint in the inner form: what stands before it, and the motion it makes.
+#[derive(Clone, Copy, Debug)]
+pub struct Link {
+    /// From the frame of the joint before, after its motion, to this joint at zero.
+    pub before: Isometry,
+    /// The motion of this joint, in its own frame.
+    pub motion: Motion,
+}
+
+/// An ordered product of elementary motions, with its inner form.
+#[derive(Clone, Debug)]
+pub struct Chain {
+    motions: Vec<Motion>,
+    links: Vec<Link>,
+    flange: Isometry,
+}
+
+/// Why a list of elementary motions is no robot.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ChainError {
+    /// Nothing moves.
+    #[error("the chain of {0} elementary motions has no joint")]
+    NoJoint(usize),
+    /// Joint variables must appear once each, in the order of the joints.
+    #[error("motion {motion} uses joint {found}, but joint {expected} comes next: joints appear once each, in order")]
+    JointOrder {
+        /// Index of the motion in the chain, from 0.
+        motion: usize,
+        /// Index of the joint found there, from 0.
+        found: usize,
+        /// Index of the joint that should come next, from 0.
+        expected: usize,
+    },
+    /// A length or angle is NaN or infinite.
+    #[error("motion {0} is not finite")]
+    NotFinite(usize),
+}
+
+impl Chain {
+    /// The chain of these motions, base to flange.
+    ///
+    /// # Errors
+    /// No joint at all, a joint out of order or used twice, a constant that is not finite.
+    pub fn new(motions: Vec<Motion>) -> Result<Chain, ChainError> {
+        let mut links = Vec::new();
+        let mut fixed = Isometry::identity();
+        for (index, motion) in motions.iter().enumerate() {
+            match motion.amount() {
+                Amount::Constant(value) if !value.is_finite() => return Err(ChainError::NotFinite(index)),
+                Amount::Constant(value) => fixed *= motion.displacement(value),
+                Amount::Joint(found) if found != links.len() => {
+                    return Err(ChainError::JointOrder { motion: index, found, expected: links.len() });
+                }
+                Amount::Joint(_) => {
+                    links.push(Link { before: fixed, motion: *motion });
+                    fixed = Isometry::identity();
+                }
+            }
+        }
+        if links.is_empty() {
+            return Err(ChainError::NoJoint(motions.len()));
+        }
+        Ok(Chain { motions, links, flange: fixed })
+    }
+
+    /// The elementary motions, base to flange.
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    /// The joints in inner form, base to flange.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// From the frame of the last joint, after its motion, to the flange.
+    pub fn last_joint_from_flange(&self) -> &Isometry {
+        &self.flange
+    }
+
+    /// `A(theta)`: from the base to the flange, straight from the product of elementary motions.
+    ///
+    /// `theta` are chain positions (m, rad), without sign, zero offset or coupling of the joints.
+    pub fn base_from_flange(&self, theta: &[f64]) -> Isometry {
+        self.motions.iter().fold(Isometry::identity(), |base_from_here, motion| {
+            base_from_here
+                * match motion.amount() {
+                    Amount::Constant(value) => motion.displacement(value),
+                    Amount::Joint(joint) => motion.displacement(theta[joint]),
+                }
+        })
+    }
+
+    /// Position form of the FSF, eq. (1): `r` (m) of the flange frame, told in base.
+    pub fn position(&self, theta: &[f64], r: &Point3<f64>) -> Point3<f64> {
+        self.base_from_flange(theta) * r
+    }
+
+    /// Direction form of the FSF, eq. (3): `c` of the flange frame, told in base.
+    pub fn direction(&self, theta: &[f64], c: &Vector3<f64>) -> Vector3<f64> {
+        self.base_from_flange(theta) * c
+    }
+
+    /// Screw form of the FSF: the 6 x 6 matrix that takes a twist told at the flange (its origin, its axes)
+    /// to the twist of the same motion told at the base origin in base axes.
+    pub fn screw(&self, theta: &[f64]) -> Matrix6<f64> {
+        adjoint(&self.base_from_flange(theta), &Point3::origin())
+    }
+
+    /// [`Chain::screw`] applied to one twist.
+    pub fn transform_twist(&self, theta: &[f64], twist: &Twist) -> Twist {
+        let moved = self.screw(theta) * twist.to_vector();
+        Twist { linear: moved.fixed_rows::<3>(0).into(), angular: moved.fixed_rows::<3>(3).into() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn elbow() -> Chain {
+        Chain::new(vec![
+            Motion::Along(Axis::Z, Amount::Constant(0.5)),
+            Motion::About(Axis::Z, Amount::Joint(0)),
+            Motion::Along(Axis::X, Amount::Constant(0.2)),
+            Motion::About(Axis::Y, Amount::Joint(1)),
+            Motion::Along(Axis::X, Amount::Joint(2)),
+            Motion::About(Axis::X, Amount::Constant(0.3)),
+        ])
+        .unwrap()
+    }
+
+    #[test]
+    fn inner_form_gives_the_same_flange_as_the_product() {
+        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
+        let mut inner = Isometry::identity();
+        for (link, value) in chain.links().iter().zip(theta) {
+            inner *= link.before * link.motion.displacement(value);
+        }
+        inner *= chain.last_joint_from_flange();
+        let product = chain.base_from_flange(&theta);
+        assert!((inner.to_homogeneous() - product.to_homogeneous()).norm() < 1e-15);
+    }
+
+    #[test]
+    fn screw_form_is_the_product_of_the_elementary_screw_matrices() {
+        // Table 2 of the paper: translation [[I, [p]], [0, I]], rotation diag(R, R).
+        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
+        let mut product = Matrix6::identity();
+        for motion in chain.motions() {
+            let distance = match motion.amount() {
+                Amount::Constant(value) => value,
+                Amount::Joint(joint) => theta[joint],
+            };
+            let step = motion.displacement(distance);
+            let mut elementary = Matrix6::zeros();
+            let r = step.rotation.to_rotation_matrix().into_inner();
+            elementary.fixed_view_mut::<3, 3>(0, 0).copy_from(&r);
+            elementary.fixed_view_mut::<3, 3>(3, 3).copy_from(&r);
+            elementary.fixed_view_mut::<3, 3>(0, 3).copy_from(&(step.translation.vector.cross_matrix() * r));
+            product *= elementary;
+        }
+        assert!((product - chain.screw(&theta)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn position_moves_and_direction_only_turns() {
+        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
+        let tip = chain.position(&theta, &Point3::new(0.0, 0.0, 0.1));
+        let origin = chain.position(&theta, &Point3::origin());
+        let axis = chain.direction(&theta, &Vector3::z());
+        assert!((tip - origin - axis * 0.1).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_chain_without_joint_is_refused() {
+        let rigid = Chain::new(vec![Motion::Along(Axis::Z, Amount::Constant(1.0))]);
+        assert_eq!(rigid.unwrap_err(), ChainError::NoJoint(1));
+    }
+
+    #[test]
+    fn a_joint_used_twice_is_refused() {
+        let twice = Chain::new(vec![
+            Motion::About(Axis::Z, Amount::Joint(0)),
+            Motion::About(Axis::Y, Amount::Joint(0)),
+        ]);
+        assert_eq!(twice.unwrap_err(), ChainError::JointOrder { motion: 1, found: 0, expected: 1 });
+    }
+
+    #[test]
+    fn a_length_that_is_not_finite_is_refused() {
+        let broken = Chain::new(vec![
+            Motion::About(Axis::Z, Amount::Joint(0)),
+            Motion::Along(Axis::X, Amount::Constant(f64::NAN)),
+        ]);
+        assert_eq!(broken.unwrap_err(), ChainError::NotFinite(1));
+    }
+}

@@ -1,0 +1,103 @@
+//! Which joint positions hold this tool pose?
+//!
+//! [`ortho_parallel`] is the closed form; [`postures`] gives every posture of a pose, each checked by
+//! forward kinematics before it leaves. Chains without closed form work in forward direction only.
+
+pub mod ortho_parallel;
+
+pub use ortho_parallel::{OrthoParallel, Solution};
+
+use super::forward::{Frames, forward, forward_into};
+use super::jacobian::screws_at;
+use super::model::Robot;
+use super::posture::{Branch, Posture, Unreachable};
+use crate::frame::Isometry;
+
+/// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.
+///
+/// The closed form reaches 1e-15 of the arm's length; a thousand times its worst is a broken geometry.
+const VERIFIED: f64 = 1e-9;
+
+/// Every posture that holds the tool at `base_from_tool`; at the wrist singularity joint 4 stays as in
+/// `near` (joint positions of the point before), or joints 4 and 6 share the turn evenly.
+///
+/// Outside joint limits counts as a posture: ask [`Robot::limit_margin`].
+///
+/// # Errors
+/// The reason of the branch that misses by least, if no branch reaches.
+pub fn postures(
+    robot: &Robot,
+    arm: &OrthoParallel,
+    base_from_tool: &Isometry,
+    tool: ToolAt<'_>,
+) -> Result<Vec<Posture>, Unreachable> {
+    let base_from_flange = base_from_tool * tool.flange_from_tool.inverse();
+    let mut found = Vec::with_capacity(8);
+    let mut nearest_miss: Option<Unreachable> = None;
+    for branch in Branch::all() {
+        match arm.solve(robot, &base_from_flange, branch, tool.near) {
+            Ok(solution) => found.push(solution),
+            Err(miss) => nearest_miss = Some(nearest_miss.map_or(miss, |other| nearer(other, miss))),
+        }
+    }
+    let mut frames = Frames::for_robot(robot);
+    let postures: Vec<Posture> = found
+        .into_iter()
+        .filter(|solution| {
+            forward_into(robot, &solution.joints, &mut frames);
+            holds(&frames, &base_from_flange)
+        })
+        .map(|solution| solution.into_posture(robot, tool.flange_from_tool))
+        .collect();
+    match nearest_miss {
+        Some(miss) if postures.is_empty() => Err(miss),
+        _ => Ok(postures),
+    }
+}
+
+/// The tool on the flange, and where the arm stood before.
+#[derive(Clone, Copy, Debug)]
+pub struct ToolAt<'a> {
+    /// Flange to tool centre point.
+    pub flange_from_tool: &'a Isometry,
+    /// Joint positions of the point before, if there is one.
+    pub near: Option<&'a [f64]>,
+}
+
+/// Whether these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
+pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> bool {
+    let away = base_from_flange.inv_mul(&frames.base_from_flange);
+    // For small angles the vector part of the quaternion is half the angle; angle() itself would lose
+    // half the digits.
+    away.translation.vector.norm() < VERIFIED && 2.0 * away.rotation.imag().norm() < VERIFIED
+}
+
+/// The posture of a robot at these joint positions, whatever its chain.
+pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Posture {
+    let frames = forward(robot, q);
+    let base_from_tool = frames.base_from_flange * flange_from_tool;
+    let screws = screws_at(robot, &frames, &base_from_tool.translation.vector.into());
+    let named = robot.ortho_parallel().map(|arm| arm.name(robot, q));
+    Posture {
+        branch: named.map(|(branch, _)| branch),
+        joints: q.to_vec(),
+        base_from_tool,
+        screws,
+        singularity: named.and_then(|(_, singularity)| singularity),
+    }
+}
+
+/// The miss that is smaller.
+fn nearer(a: Unreachable, b: Unreachable) -> Unreachable {
+    if amount(b) < amount(a) { b } else { a }
+}
+
+fn amount(miss: Unreachable) -> f64 {
+    match miss {
+        Unreachable::TooFar { by }
+        | Unreachable::TooNear { by }
+        | Unreachable::InsideLateralOffset { by }
+        | Unreachable::Unverified { by }
+        | Unreachable::OutsideLimits { by, .. } => by,
+    }
+}

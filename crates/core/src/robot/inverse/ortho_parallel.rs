@@ -1,0 +1,325 @@
+//! Closed-form inverse for ortho-parallel arms with spherical wrist.
+//!
+//! Any six turning joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axis 3, and whose
+//! axes 4, 5, 6 meet in one point with 4 perpendicular to 5 and 5 to 6, wherever the zeros lie. All angles
+//! below are about axes turned to a common sense: 1 up, 2 and 3 along the arm's +y, 4 out along the forearm,
+//! 5 along +y, 6 out of the flange.
+//!
+//! With `r` the distance of the wrist centre from axis 1 in the arm's plane, and `psi` the angle of the upper
+//! arm from the vertical towards the front:
+//!
+//! ```text
+//! phi1 = atan2(py, px) - atan2(b, +-r)             r^2 = px^2 + py^2 - b^2
+//! u = +-r - a1,  v = pz,  d^2 = u^2 + v^2
+//! eps = +-2 atan(sqrt(((l2 + l3)^2 - d^2) / (d^2 - (l2 - l3)^2)))     angle forearm - upper arm
+//! psi = atan2(u, v) - atan2(l3 sin eps, l2 + l3 cos eps)
+//! R4 R5 R6 = (R1 R2 R3)^T R                        wrist, bend psi3 = +-atan2(|.|, .)
+//! ```
+//!
+//! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
+
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+
+use super::super::chain::{Chain, Motion};
+use super::super::forward::{Frames, forward, forward_into};
+use super::super::jacobian::screws_at;
+use super::super::model::Robot;
+use super::super::posture::{Branch, Elbow, Posture, Shoulder, Singularity, Unreachable, Wrist};
+use crate::frame::Isometry;
+
+/// How far (rad, m) a geometry may stray from the ideal and still be solved by the closed form.
+const IDEAL: f64 = 1e-9;
+/// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
+const NEAR_SINGULAR: f64 = 0.017_452_406;
+/// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
+const WRIST_SINGULAR: f64 = 1e-9;
+
+/// The geometry of an ortho-parallel arm with spherical wrist, read off its chain.
+#[derive(Clone, Debug)]
+pub struct OrthoParallel {
+    /// x to the front, y along axis 2, z along axis 1; origin on axis 1 at the height of axis 2.
+    arm_from_base: Isometry,
+    a1: f64,
+    b: f64,
+    l2: f64,
+    l3: f64,
+    /// Angles of upper arm and forearm from the vertical at chain zero.
+    upper_arm_at_zero: f64,
+    forearm_at_zero: f64,
+    /// Wrist bend at chain zero.
+    bend_at_zero: f64,
+    /// Sense of each axis against the common one, 1 or -1.
+    sense: [f64; 6],
+    /// Axes at chain zero in base, turned to the common sense.
+    axis: [Vector3<f64>; 6],
+    /// Flange orientation at chain zero.
+    flange_at_zero: UnitQuaternion<f64>,
+    flange_from_wrist: Point3<f64>,
+}
+
+/// Joint positions of one branch.
+#[derive(Clone, Copy, Debug)]
+pub struct Solution {
+    /// Which branch.
+    pub branch: Branch,
+    /// Joint positions `q`, rad, each as near as possible to the middle of its range.
+    pub joints: [f64; 6],
+    /// Near which singularity, if any.
+    pub singularity: Option<Singularity>,
+}
+
+impl Solution {
+    /// The posture of this solution with its screws.
+    pub fn into_posture(self, robot: &Robot, flange_from_tool: &Isometry) -> Posture {
+        let frames = forward(robot, &self.joints);
+        let base_from_tool = frames.base_from_flange * flange_from_tool;
+        Posture {
+            branch: Some(self.branch),
+            joints: self.joints.to_vec(),
+            screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
+            base_from_tool,
+            singularity: self.singularity,
+        }
+    }
+}
+
+impl OrthoParallel {
+    /// The geometry of `chain`, or `None` if it is of another kind.
+    pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
+        let lines = lines_at_zero(chain)?;
+        let [(o1, z1), (o2, z2), (o3, z3), (o4, z4), (o5, z5), (o6, z6)] = lines;
+        let wrist = meeting_point((o4, z4), (o5, z5))?;
+        let on_axis_6 = (wrist - o6).cross(&z6).norm() < IDEAL;
+        let perpendicular = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < IDEAL;
+        let ideal = on_axis_6
+            && perpendicular(&z1, &z2)
+            && z2.cross(&z3).norm() < IDEAL
+            && perpendicular(&z4, &z5)
+            && perpendicular(&z5, &z6);
+        if !ideal {
+            return None;
+        }
+        let base_from_flange = chain.base_from_flange(&[0.0; 6]);
+        let up = z1 * sense_of(z1.z);
+        let centre = o1 + up * (o2 - o1).dot(&up);
+        // The front is where base x points; if it points along axis 2, where the wrist is.
+        let front = up_to_noise(z2.cross(&up).x).or_else(|| up_to_noise((wrist - centre).dot(&z2.cross(&up))));
+        let y = z2 * sense_of(front.unwrap_or(1.0));
+        let x = y.cross(&up);
+        let base_from_arm = Isometry::from_parts(
+            centre.into(),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
+                x, y, up,
+            ]))),
+        );
+        let arm_from_base = base_from_arm.inverse();
+        let (shoulder, elbow, w) = (arm_from_base * o2, arm_from_base * o3, arm_from_base * wrist);
+        let (upper_arm, forearm) = (elbow - shoulder, w - elbow);
+        let flange = Point3::from(base_from_flange.translation.vector);
+        let out_of_flange =
+            up_to_noise((flange - wrist).dot(&z6)).unwrap_or((base_from_flange * Vector3::z()).dot(&z6));
+        let sense = [
+            sense_of(z1.dot(&up)),
+            sense_of(z2.dot(&y)),
+            sense_of(z3.dot(&y)),
+            sense_of(z4.dot(&(base_from_arm * forearm))),
+            sense_of(z5.dot(&y)),
+            sense_of(out_of_flange),
+        ];
+        let axis = [z1 * sense[0], y, y, z4 * sense[3], z5 * sense[4], z6 * sense[5]];
+        Some(OrthoParallel {
+            arm_from_base,
+            a1: shoulder.x,
+            b: w.y,
+            l2: upper_arm.xz().norm(),
+            l3: forearm.xz().norm(),
+            upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
+            forearm_at_zero: forearm.x.atan2(forearm.z),
+            bend_at_zero: axis[4].dot(&axis[3].cross(&axis[5])).atan2(axis[3].dot(&axis[5])),
+            sense,
+            axis,
+            flange_at_zero: base_from_flange.rotation,
+            flange_from_wrist: base_from_flange.inverse() * wrist,
+        })
+        .filter(|arm| arm.l2 > IDEAL && arm.l3 > IDEAL)
+    }
+
+    /// Joint positions of one branch that bring the flange to `base_from_flange`.
+    ///
+    /// At the wrist singularity joint 4 stays as in `near`, or joints 4 and 6 share the turn evenly.
+    /// Not checked: joint limits; forward kinematics (see [`super::holds`]).
+    ///
+    /// # Errors
+    /// The wrist centre is out of reach of this branch.
+    pub fn solve(
+        &self,
+        robot: &Robot,
+        base_from_flange: &Isometry,
+        branch: Branch,
+        near: Option<&[f64]>,
+    ) -> Result<Solution, Unreachable> {
+        let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
+        let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
+        if r_squared < 0.0 {
+            return Err(Unreachable::InsideLateralOffset { by: self.b.abs() - p.x.hypot(p.y) });
+        }
+        let r = match branch.shoulder {
+            Shoulder::Front => r_squared.sqrt(),
+            Shoulder::Back => -r_squared.sqrt(),
+        };
+        let phi1 = p.y.atan2(p.x) - self.b.atan2(r);
+        let (u, v) = (r - self.a1, p.z);
+        let (psi, eps) = self.two_link(u, v, branch.elbow)?;
+
+        let mut theta = [0.0; 6];
+        theta[0] = self.sense[0] * phi1;
+        theta[1] = self.sense[1] * (psi - self.upper_arm_at_zero);
+        theta[2] = self.sense[2] * (psi + eps - self.forearm_at_zero) - self.sense[2] * self.sense[1] * theta[1];
+        let kept = near.map(|q| robot.theta(3, q));
+        let bend = self.wrist(&mut theta, base_from_flange, branch.wrist, kept);
+        let singularity = self.singularity(bend.sin(), eps.sin(), r);
+        Ok(Solution { branch, joints: self.joint_positions(robot, &theta), singularity })
+    }
+
+    /// Branch of joint positions, and the singularity they stand near, if any.
+    pub fn name(&self, robot: &Robot, q: &[f64]) -> (Branch, Option<Singularity>) {
+        let mut frames = Frames::for_robot(robot);
+        forward_into(robot, q, &mut frames);
+        let phi = |i: usize| self.sense[i] * robot.theta(i, q);
+        let psi = self.upper_arm_at_zero + phi(1);
+        let forearm = self.forearm_at_zero + phi(1) + phi(2);
+        let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
+        let u = self.l2 * psi.sin() + self.l3 * forearm.sin();
+        let branch = Branch {
+            shoulder: if u + self.a1 >= 0.0 { Shoulder::Front } else { Shoulder::Back },
+            elbow: if (eps.sin() >= 0.0) == (u >= 0.0) { Elbow::Up } else { Elbow::Down },
+            wrist: if bend.sin() >= 0.0 { Wrist::NoFlip } else { Wrist::Flip },
+        };
+        (branch, self.singularity(bend.sin(), eps.sin(), u + self.a1))
+    }
+
+    /// Angle of the upper arm from the vertical, and of the forearm from the upper arm.
+    fn two_link(&self, u: f64, v: f64, elbow: Elbow) -> Result<(f64, f64), Unreachable> {
+        let d = u.hypot(v);
+        let (reach, fold) = (self.l2 + self.l3, (self.l2 - self.l3).abs());
+        let (stretched, folded) = ((reach - d) * (reach + d), (d - fold) * (d + fold));
+        if stretched < 0.0 {
+            return Err(Unreachable::TooFar { by: d - reach });
+        }
+        if folded < 0.0 {
+            return Err(Unreachable::TooNear { by: fold - d });
+        }
+        let bent = 2.0 * stretched.sqrt().atan2(folded.sqrt());
+        // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
+        let eps = if (elbow == Elbow::Up) == (u >= 0.0) { bent } else { -bent };
+        let (sin, cos) = eps.sin_cos();
+        Ok((u.atan2(v) - (self.l3 * sin).atan2(self.l2 + self.l3 * cos), eps))
+    }
+
+    /// Fills joints 4 to 6 of `theta` and gives the bend; at the singularity joint 4 is `kept`.
+    fn wrist(
+        &self,
+        theta: &mut [f64; 6],
+        base_from_flange: &Isometry,
+        wrist: Wrist,
+        kept: Option<f64>,
+    ) -> f64 {
+        let [_, _, _, a4, a5, a6] = self.axis;
+        let turn = |i: usize, angle: f64| UnitQuaternion::new(self.axis[i] * angle);
+        let arm = turn(0, self.sense[0] * theta[0])
+            * turn(1, self.sense[1] * theta[1] + self.sense[2] * theta[2]);
+        let target = arm.inverse() * base_from_flange.rotation * self.flange_at_zero.inverse();
+
+        let a3 = a4.cross(&a5);
+        let out = target * a6;
+        let (along, up, side) = (out.dot(&a4), out.dot(&a3), out.dot(&a5));
+        let bent = up.hypot(side);
+        let flip = if wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
+        let bend = (flip * bent).atan2(along);
+        let rest = |phi4: f64| {
+            let m = (turn(3, phi4) * turn(4, bend - self.bend_at_zero)).inverse() * target * a5;
+            m.dot(&a6.cross(&a5)).atan2(m.dot(&a5))
+        };
+        let (phi4, phi6) = if bent < WRIST_SINGULAR {
+            // Only the sum (or difference) of joints 4 and 6 counts here.
+            let even = 0.5 * rest(0.0) * along.signum();
+            let phi4 = kept.map_or(even, |theta4| self.sense[3] * theta4);
+            (phi4, rest(phi4))
+        } else {
+            let phi4 = (flip * side).atan2(-flip * up);
+            (phi4, rest(phi4))
+        };
+        theta[3] = self.sense[3] * phi4;
+        theta[4] = self.sense[4] * (bend - self.bend_at_zero);
+        theta[5] = self.sense[5] * phi6;
+        bend
+    }
+
+    fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
+        if sin_bend.abs() < NEAR_SINGULAR {
+            Some(Singularity::Wrist)
+        } else if sin_elbow.abs() < NEAR_SINGULAR {
+            Some(Singularity::Elbow)
+        } else if r.abs() < NEAR_SINGULAR * (self.l2 + self.l3) {
+            Some(Singularity::Shoulder)
+        } else {
+            None
+        }
+    }
+
+    fn joint_positions(&self, robot: &Robot, theta: &[f64; 6]) -> [f64; 6] {
+        let mut q = [0.0; 6];
+        for index in 0..6 {
+            let middle = robot.joints()[index].limits.map_or(0.0, |limits| limits.middle());
+            q[index] = nearest_turn(robot.joint_position(index, theta[index], &q), middle);
+        }
+        q
+    }
+}
+
+/// `angle` plus whole turns, in (middle - pi, middle + pi].
+fn nearest_turn(angle: f64, middle: f64) -> f64 {
+    use std::f64::consts::TAU;
+    let away = (angle - middle) / TAU;
+    // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
+    angle - TAU * (away - 0.5 - 1e-12).ceil()
+}
+
+fn sense_of(value: f64) -> f64 {
+    if value < 0.0 { -1.0 } else { 1.0 }
+}
+
+fn up_to_noise(value: f64) -> Option<f64> {
+    (value.abs() > IDEAL).then_some(value)
+}
+
+/// Point and unit axis of six turning joints at chain zero, in base.
+fn lines_at_zero(chain: &Chain) -> Option<[(Point3<f64>, Vector3<f64>); 6]> {
+    let mut base_from_here = Isometry::identity();
+    let mut lines = Vec::with_capacity(6);
+    for link in chain.links() {
+        base_from_here *= link.before;
+        match link.motion {
+            Motion::About(axis, _) => {
+                lines.push((base_from_here.translation.vector.into(), base_from_here * axis.unit()));
+            }
+            Motion::Along(..) => return None,
+        }
+    }
+    lines.try_into().ok()
+}
+
+/// Where two lines meet, if they do within 1e-9 m.
+fn meeting_point(
+    (o1, z1): (Point3<f64>, Vector3<f64>),
+    (o2, z2): (Point3<f64>, Vector3<f64>),
+) -> Option<Point3<f64>> {
+    let normal = z1.cross(&z2);
+    let n2 = normal.norm_squared();
+    if n2 < IDEAL {
+        return None;
+    }
+    let between = o2 - o1;
+    let on_first = o1 + z1 * (between.cross(&z2).dot(&normal) / n2);
+    ((on_first - o2).cross(&z2).norm() < IDEAL).then_some(on_first)
+}

@@ -1,0 +1,47 @@
+//! Screws and Jacobian at the tool centre point.
+//!
+//! Joint `i` with unit axis `z` through `o`, TCP `p`, all in base: `s_i = [z x (p - o); z]` for a turning
+//! joint, `s_i = [z; 0]` for a sliding one. The screws belong to the chain positions `theta`; the Jacobian
+//! to the joint positions `q` that a user types: `J = S dtheta/dq`.
+//!
+//! Reference point: the TCP. Basis: base. m/rad and rad/rad. Source: `docs/notation.md`, section 3 there.
+
+use nalgebra::{Matrix6xX, Point3, Vector3};
+
+use super::chain::Motion;
+use super::forward::{Frames, joint_axis};
+use super::model::Robot;
+use crate::spatial::Twist;
+
+/// Screw of every joint at `tcp` (m, base), per unit of chain position.
+pub fn screws_at(robot: &Robot, frames: &Frames, tcp: &Point3<f64>) -> Vec<Twist> {
+    let mut screws = vec![Twist::ZERO; robot.joints().len()];
+    screws_into(robot, frames, tcp, &mut screws);
+    screws
+}
+
+/// [`screws_at`] into screws that exist already, one a joint.
+pub fn screws_into(robot: &Robot, frames: &Frames, tcp: &Point3<f64>, screws: &mut [Twist]) {
+    for (index, screw) in screws.iter_mut().enumerate() {
+        let z = joint_axis(robot, frames, index);
+        *screw = match robot.chain().links()[index].motion {
+            Motion::About(..) => Twist { linear: z.cross(&(tcp - frames.origin(index))), angular: z },
+            Motion::Along(..) => Twist { linear: z, angular: Vector3::zeros() },
+        };
+    }
+}
+
+/// The Jacobian, 6 x n, translation first: TCP twist per unit of joint position `q`.
+pub fn jacobian(robot: &Robot, screws: &[Twist]) -> Matrix6xX<f64> {
+    let mut jacobian = Matrix6xX::zeros(screws.len());
+    for (index, (joint, screw)) in robot.joints().iter().zip(screws).enumerate() {
+        let column = screw.to_vector() * joint.sign.factor();
+        let mut own = jacobian.column_mut(index);
+        own += column;
+        for coupling in &joint.coupling {
+            let mut other = jacobian.column_mut(coupling.joint);
+            other += column * coupling.factor;
+        }
+    }
+    jacobian
+}

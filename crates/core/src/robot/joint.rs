@@ -1,0 +1,114 @@
+//! One joint: how the controller counts it, how far and fast it goes, how much it yields.
+//!
+//! The controller's (or URDF's) position `q` and the chain's position `theta` are tied by
+//!
+//! `theta_i = sign_i (q_i + sum_j k_ij q_j) + offset_i`
+//!
+//! with `k_ij` the coupling to earlier joints (FANUC counts joint 3 from the horizontal: `k_32 = 1`).
+//! Limits and speeds are of `q`; the compliance is of the joint itself and so of `theta`.
+//!
+//! | symbol | unit | range |
+//! |---|---|---|
+//! | `q`, `theta`, `offset`, limits | rad (m for a sliding joint) | finite |
+//! | compliance `c` and its standard uncertainty | rad/(N m) (m/N) | >= 0 |
+
+/// The range of a joint in the controller's counting, rad or m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Least position.
+    pub lower: f64,
+    /// Greatest position.
+    pub upper: f64,
+}
+
+impl Limits {
+    /// Distance to the nearer limit, negative outside.
+    pub fn margin(&self, q: f64) -> f64 {
+        (q - self.lower).min(self.upper - q)
+    }
+
+    /// The middle of the range.
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.lower + self.upper)
+    }
+}
+
+/// How much a joint turns for a moment about its axis; drive and control loop included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointCompliance {
+    /// `c`, rad/(N m) or m/N.
+    pub value: f64,
+    /// Standard uncertainty of `c`, same unit.
+    pub standard_uncertainty: f64,
+}
+
+/// Position of another joint that adds to this one's count.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupling {
+    /// Index of the other joint: an earlier one.
+    pub joint: usize,
+    /// Factor `k_ij`.
+    pub factor: f64,
+}
+
+/// Which way a joint counts against the right hand about its axis in the chain.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// With the right hand.
+    Positive,
+    /// Against it.
+    Negative,
+}
+
+impl Sign {
+    /// 1 or -1.
+    pub fn factor(self) -> f64 {
+        match self {
+            Sign::Positive => 1.0,
+            Sign::Negative => -1.0,
+        }
+    }
+}
+
+/// A joint as its controller knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// The maker's name, such as `S` or `A1`.
+    pub name: String,
+    /// Counting direction.
+    pub sign: Sign,
+    /// Chain position at the controller's zero, rad or m.
+    pub zero_offset: f64,
+    /// Earlier joints that add to this one's count.
+    pub coupling: Vec<Coupling>,
+    /// Range, if known.
+    pub limits: Option<Limits>,
+    /// Greatest speed, rad/s or m/s, if known.
+    pub max_speed: Option<f64>,
+}
+
+impl Joint {
+    /// A joint that counts like the chain, with no known limits or speed.
+    pub fn plain(name: impl Into<String>) -> Joint {
+        Joint {
+            name: name.into(),
+            sign: Sign::Positive,
+            zero_offset: 0.0,
+            coupling: Vec::new(),
+            limits: None,
+            max_speed: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn margin_is_the_distance_to_the_nearer_limit_and_negative_outside() {
+        let limits = Limits { lower: -1.0, upper: 2.0 };
+        assert_eq!(limits.margin(1.5), 0.5);
+        assert_eq!(limits.margin(-1.25), -0.25);
+    }
+}

@@ -1,0 +1,236 @@
+//! The robot: chain, joints, compliance, frames. Immutable and shareable once made.
+
+use super::chain::{Amount, Chain, ChainError, Motion};
+use super::inverse::OrthoParallel;
+use super::joint::{Joint, JointCompliance};
+use super::posture::BranchPattern;
+use crate::frame::Isometry;
+
+/// A frame that the maker or user counts positions from, beside the base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedFrame {
+    /// Its name, such as `controller`.
+    pub name: String,
+    /// Where it lies in base.
+    pub base_from_frame: Isometry,
+}
+
+/// A serial robot. Made by [`Robot::new`], which checks it; never changes afterwards.
+#[derive(Clone, Debug)]
+pub struct Robot {
+    name: String,
+    chain: Chain,
+    joints: Vec<Joint>,
+    compliance: Option<Vec<JointCompliance>>,
+    frames: Vec<NamedFrame>,
+    nominal: BranchPattern,
+    ortho_parallel: Option<OrthoParallel>,
+}
+
+/// Why a robot description contradicts itself. Joint positions are in rad (m for sliding joints).
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RobotError {
+    /// The chain is wrong by itself.
+    #[error(transparent)]
+    Chain(#[from] ChainError),
+    /// Chain and joint list disagree.
+    #[error("the chain moves {in_chain} joints, but {described} are described")]
+    JointCount {
+        /// Joints that the chain uses.
+        in_chain: usize,
+        /// Joints described.
+        described: usize,
+    },
+    /// A number of a joint is NaN or infinite.
+    #[error("joint {joint}: its {what} is not finite")]
+    NotFinite {
+        /// Name of the joint.
+        joint: String,
+        /// Which number.
+        what: &'static str,
+    },
+    /// Lower limit not below the upper.
+    #[error("joint {joint}: lower limit {lower} is not below upper limit {upper} (rad or m)")]
+    LimitsReversed {
+        /// Name of the joint.
+        joint: String,
+        /// As given.
+        lower: f64,
+        /// As given.
+        upper: f64,
+    },
+    /// A compliance or its uncertainty below zero, or not finite.
+    #[error("joint {joint}: {what} {value} rad/(N m) is not a number >= 0")]
+    Compliance {
+        /// Name of the joint.
+        joint: String,
+        /// Which of the two.
+        what: &'static str,
+        /// As given.
+        value: f64,
+    },
+    /// A list of compliances of another length than the joints.
+    #[error("{given} compliances for {joints} joints")]
+    ComplianceCount {
+        /// Compliances given.
+        given: usize,
+        /// Joints of the chain.
+        joints: usize,
+    },
+    /// A joint coupled to itself or to a later joint.
+    #[error("joint {joint} is coupled to joint number {other}: only an earlier joint can add to its count")]
+    Coupling {
+        /// Name of the joint.
+        joint: String,
+        /// Index of the joint it names, from 0.
+        other: usize,
+    },
+}
+
+impl Robot {
+    /// The robot of this chain and these joints, without compliance; nominal branch front, elbow up.
+    ///
+    /// # Errors
+    /// See [`RobotError`].
+    pub fn new(
+        name: impl Into<String>,
+        motions: Vec<Motion>,
+        joints: Vec<Joint>,
+    ) -> Result<Robot, RobotError> {
+        let chain = Chain::new(motions)?;
+        if chain.links().len() != joints.len() {
+            return Err(RobotError::JointCount { in_chain: chain.links().len(), described: joints.len() });
+        }
+        for (index, joint) in joints.iter().enumerate() {
+            check_joint(index, joint)?;
+        }
+        let ortho_parallel = OrthoParallel::recognise(&chain);
+        Ok(Robot {
+            name: name.into(),
+            chain,
+            joints,
+            compliance: None,
+            frames: Vec::new(),
+            nominal: BranchPattern::FRONT_ELBOW_UP,
+            ortho_parallel,
+        })
+    }
+
+    /// This robot with these joint compliances, one a joint.
+    ///
+    /// # Errors
+    /// Another count than joints; a value or uncertainty that is negative or not finite.
+    pub fn with_compliance(mut self, compliance: Vec<JointCompliance>) -> Result<Robot, RobotError> {
+        if compliance.len() != self.joints.len() {
+            return Err(RobotError::ComplianceCount { given: compliance.len(), joints: self.joints.len() });
+        }
+        for (joint, c) in self.joints.iter().zip(&compliance) {
+            for (what, value) in
+                [("compliance", c.value), ("standard uncertainty of compliance", c.standard_uncertainty)]
+            {
+                if !(value.is_finite() && value >= 0.0) {
+                    return Err(RobotError::Compliance { joint: joint.name.clone(), what, value });
+                }
+            }
+        }
+        self.compliance = Some(compliance);
+        Ok(self)
+    }
+
+    /// This robot with frames that positions may be counted from.
+    #[must_use]
+    pub fn with_frames(mut self, frames: Vec<NamedFrame>) -> Robot {
+        self.frames = frames;
+        self
+    }
+
+    /// This robot with another nominal branch.
+    #[must_use]
+    pub fn with_nominal_branch(mut self, nominal: BranchPattern) -> Robot {
+        self.nominal = nominal;
+        self
+    }
+
+    /// The name given.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The chain of elementary motions.
+    pub fn chain(&self) -> &Chain {
+        &self.chain
+    }
+
+    /// The joints, base to flange.
+    pub fn joints(&self) -> &[Joint] {
+        &self.joints
+    }
+
+    /// Joint compliances, one a joint, if known.
+    pub fn compliance(&self) -> Option<&[JointCompliance]> {
+        self.compliance.as_deref()
+    }
+
+    /// Frames that positions may be counted from, beside the base.
+    pub fn frames(&self) -> &[NamedFrame] {
+        &self.frames
+    }
+
+    /// The branch that stands for this robot where none is asked for.
+    pub fn nominal_branch(&self) -> BranchPattern {
+        self.nominal
+    }
+
+    /// The closed-form inverse, where the geometry has one.
+    pub fn ortho_parallel(&self) -> Option<&OrthoParallel> {
+        self.ortho_parallel.as_ref()
+    }
+
+    /// Whether joint `index` slides instead of turning.
+    pub fn slides(&self, index: usize) -> bool {
+        matches!(self.chain.links()[index].motion, Motion::Along(_, Amount::Joint(_)))
+    }
+
+    /// Chain position `theta` of joint `index` at the joint positions `q`.
+    pub fn theta(&self, index: usize, q: &[f64]) -> f64 {
+        let joint = &self.joints[index];
+        let coupled: f64 = joint.coupling.iter().map(|c| c.factor * q[c.joint]).sum();
+        joint.sign.factor() * (q[index] + coupled) + joint.zero_offset
+    }
+
+    /// Joint position `q` of joint `index` from its chain position; `q` must hold the earlier joints.
+    pub fn joint_position(&self, index: usize, theta: f64, q: &[f64]) -> f64 {
+        let joint = &self.joints[index];
+        let coupled: f64 = joint.coupling.iter().map(|c| c.factor * q[c.joint]).sum();
+        joint.sign.factor() * (theta - joint.zero_offset) - coupled
+    }
+
+    /// Joint positions outside which no joint may stand: the least margin over all joints with limits, with
+    /// the joint that has it. `None` where no joint has limits.
+    pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {
+        let margins = self.joints.iter().enumerate().filter_map(|(i, j)| Some((i, j.limits?.margin(q[i]))));
+        margins.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
+    let finite = |what, value: f64| {
+        if value.is_finite() { Ok(()) } else { Err(RobotError::NotFinite { joint: joint.name.clone(), what }) }
+    };
+    finite("zero offset", joint.zero_offset)?;
+    for coupling in &joint.coupling {
+        finite("coupling factor", coupling.factor)?;
+        if coupling.joint >= index {
+            return Err(RobotError::Coupling { joint: joint.name.clone(), other: coupling.joint });
+        }
+    }
+    if let Some(limits) = joint.limits {
+        finite("lower limit", limits.lower)?;
+        finite("upper limit", limits.upper)?;
+        if limits.lower >= limits.upper {
+            let (lower, upper) = (limits.lower, limits.upper);
+            return Err(RobotError::LimitsReversed { joint: joint.name.clone(), lower, upper });
+        }
+    }
+    joint.max_speed.map_or(Ok(()), |speed| finite("maximal speed", speed))
+}

@@ -1,0 +1,170 @@
+//! Arms for tests and benches, typed from their sources.
+#![allow(dead_code, missing_docs)]
+
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::joint::Sign;
+use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Limits, Motion, Robot};
+
+use Amount::{Constant, Joint as Var};
+use Axis::{X, Y, Z};
+use Motion::{About, Along};
+
+/// A joint counted against the right hand, with limits in degrees.
+fn joint(name: &str, sign: Sign, limits_deg: [f64; 2]) -> Joint {
+    let [lower, upper] = limits_deg.map(f64::to_radians);
+    Joint { sign, limits: Some(Limits { lower, upper }), ..Joint::plain(name) }
+}
+
+pub fn compliance(values: [f64; 6]) -> Vec<JointCompliance> {
+    values.map(|value| JointCompliance { value, standard_uncertainty: 0.2 * value }).to_vec()
+}
+
+/// Yaskawa MH12: ros-industrial/motoman, Apache-2.0; compliances of Shneor & Chapsky 2021, section 3.4.
+pub fn mh12() -> Robot {
+    use Sign::{Negative, Positive};
+    let motions = vec![
+        Along(Z, Constant(0.450)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.155)),
+        About(Y, Var(1)),
+        Along(Z, Constant(0.614)),
+        About(Y, Var(2)),
+        Along(Z, Constant(0.200)),
+        About(X, Var(3)),
+        Along(X, Constant(0.640)),
+        About(Y, Var(4)),
+        Along(X, Constant(0.100)),
+        About(X, Var(5)),
+        About(Y, Constant(-std::f64::consts::FRAC_PI_2)),
+        About(X, Constant(std::f64::consts::PI)),
+    ];
+    let joints = vec![
+        joint("S", Positive, [-170.0, 170.0]),
+        joint("L", Positive, [-90.0, 155.0]),
+        joint("U", Negative, [-85.0, 150.0]),
+        joint("R", Negative, [-180.0, 180.0]),
+        joint("B", Negative, [-135.0, 135.0]),
+        joint("T", Negative, [-360.0, 360.0]),
+    ];
+    let robot = Robot::new("yaskawa/mh12", motions, joints).unwrap();
+    robot.with_compliance(compliance([2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5])).unwrap()
+}
+
+/// KUKA KR120 R2500 pro, whose first axis counts downwards: ros-industrial/kuka_experimental, Apache-2.0.
+pub fn kr120() -> Robot {
+    use Sign::{Negative, Positive};
+    let motions = vec![
+        Along(Z, Constant(0.675)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.350)),
+        About(Y, Var(1)),
+        Along(X, Constant(1.150)),
+        About(Y, Var(2)),
+        Along(X, Constant(1.000)),
+        Along(Z, Constant(-0.041)),
+        About(X, Var(3)),
+        About(Y, Var(4)),
+        About(X, Var(5)),
+        Along(X, Constant(0.215)),
+        About(Y, Constant(std::f64::consts::FRAC_PI_2)),
+    ];
+    let joints = vec![
+        joint("A1", Negative, [-185.0, 185.0]),
+        joint("A2", Positive, [-140.0, -5.0]),
+        joint("A3", Positive, [-120.0, 155.0]),
+        joint("A4", Negative, [-350.0, 350.0]),
+        joint("A5", Positive, [-125.0, 125.0]),
+        joint("A6", Negative, [-350.0, 350.0]),
+    ];
+    Robot::new("kuka/kr120r2500pro", motions, joints)
+        .unwrap()
+        .with_compliance(compliance([4.5e-7, 3.0e-7, 3.6e-7, 4.3e-7, 4.6e-7, 2.1e-6]))
+        .unwrap()
+}
+
+/// Staubli TX2-90, with a lateral offset of 50 mm: ros-industrial/staubli_experimental, Apache-2.0.
+pub fn tx2_90() -> Robot {
+    use Sign::Positive;
+    let motions = vec![
+        Along(Z, Constant(0.478)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.050)),
+        Along(Y, Constant(0.050)),
+        About(Y, Var(1)),
+        Along(Z, Constant(0.425)),
+        About(Y, Var(2)),
+        Along(Z, Constant(0.425)),
+        About(Z, Var(3)),
+        About(Y, Var(4)),
+        About(Z, Var(5)),
+        Along(Z, Constant(0.100)),
+    ];
+    let joints = vec![
+        joint("1", Positive, [-180.0, 180.0]),
+        joint("2", Positive, [-130.0, 147.5]),
+        joint("3", Positive, [-145.0, 145.0]),
+        joint("4", Positive, [-270.0, 270.0]),
+        joint("5", Positive, [-115.0, 140.0]),
+        joint("6", Positive, [-270.0, 270.0]),
+    ];
+    Robot::new("staubli/tx2-90", motions, joints)
+        .unwrap()
+        .with_compliance(compliance([1e-6, 1.2e-6, 2e-6, 1e-5, 1.5e-5, 3e-5]))
+        .unwrap()
+}
+
+/// FANUC R-2000iC, whose joint 3 counts from the horizontal: Liu et al. 2026, MIT.
+pub fn r2000ic() -> Robot {
+    use Sign::{Negative, Positive};
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let mut motions = Vec::new();
+    let rows = [
+        (0.0, 0.0, 0.0, 0.670),
+        (-quarter, 0.312, -quarter, 0.0),
+        (0.0, 1.075, 0.0, 0.0),
+        (-quarter, 0.225, 0.0, 1.280),
+        (quarter, 0.0, 0.0, 0.0),
+        (-quarter, 0.0, 0.0, 0.215),
+    ];
+    for (index, (alpha, a, theta0, d)) in rows.into_iter().enumerate() {
+        motions.extend([
+            About(X, Constant(alpha)),
+            Along(X, Constant(a)),
+            About(Z, Constant(theta0)),
+            About(Z, Var(index)),
+            Along(Z, Constant(d)),
+        ]);
+    }
+    let mut joints = vec![
+        joint("J1", Positive, [-183.0, 183.0]),
+        joint("J2", Positive, [-57.0, 74.0]),
+        joint("J3", Negative, [-131.0, 171.0]),
+        joint("J4", Negative, [-355.0, 355.0]),
+        joint("J5", Negative, [-114.0, 114.0]),
+        joint("J6", Negative, [-355.0, 355.0]),
+    ];
+    joints[2].coupling = vec![armill_core::robot::joint::Coupling { joint: 1, factor: 1.0 }];
+    let stiffness = [
+        9.339417645122126e5,
+        4.129256136278849e6,
+        1.907534091464657e6,
+        2.3320460264753376e5,
+        4.04358827532960e5,
+        7.961815940385307e4,
+    ];
+    Robot::new("fanuc/r2000ic", motions, joints)
+        .unwrap()
+        .with_compliance(compliance(stiffness.map(|k| 1.0 / k)))
+        .unwrap()
+}
+
+/// All of them.
+pub fn all() -> [Robot; 4] {
+    [mh12(), kr120(), tx2_90(), r2000ic()]
+}
+
+/// A tool that is bent and turned against the flange.
+pub fn bent_tool() -> Isometry {
+    from_xyz_and_fixed_angles(Vector3::new(0.03, -0.02, 0.21), Vector3::new(0.2, -0.5, 0.9))
+}

@@ -1,0 +1,159 @@
+//! Forward, Jacobian and inverse kinematics against each other and against finite differences.
+
+mod arms;
+
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::{Vector3, Vector6};
+use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::jacobian::jacobian;
+use armill_core::robot::{Robot, Singularity, Unreachable};
+use proptest::prelude::*;
+
+/// Joint positions inside the limits from six numbers in 0..1.
+fn inside_limits(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
+    let span = |(joint, t): (&armill_core::robot::Joint, &f64)| {
+        let limits = joint.limits.unwrap();
+        limits.lower + t * (limits.upper - limits.lower)
+    };
+    robot.joints().iter().zip(unit).map(span).collect()
+}
+
+fn six_numbers() -> impl Strategy<Value = [f64; 6]> {
+    prop::array::uniform6(0.0..1.0_f64)
+}
+
+fn twist_between(from: &Isometry, to: &Isometry) -> Vector6<f64> {
+    let linear = to.translation.vector - from.translation.vector;
+    let angular = (to.rotation * from.rotation.inverse()).scaled_axis();
+    Vector6::new(linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn jacobian_matches_finite_differences(arm in 0..4usize, unit in six_numbers()) {
+        let robot = &arms::all()[arm];
+        let q = inside_limits(robot, &unit);
+        let tool = arms::bent_tool();
+        let posture = posture_at(robot, &q, &tool);
+        let analytic = jacobian(robot, &posture.screws);
+        // Central differences: error h^2 / 6 of the third derivative (below 10 m) plus eps / h.
+        let h = 1e-5;
+        for i in 0..6 {
+            let moved = |by: f64| {
+                let mut q = q.clone();
+                q[i] += by;
+                posture_at(robot, &q, &tool).base_from_tool
+            };
+            let numeric = twist_between(&moved(-h), &moved(h)) / (2.0 * h);
+            let away = (analytic.column(i) - numeric).norm();
+            prop_assert!(away < 1e-9, "{}, joint {i}: {away}", robot.name());
+        }
+    }
+
+    #[test]
+    fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..4usize, unit in six_numbers()) {
+        let robot = &arms::all()[arm];
+        let closed_form = robot.ortho_parallel().expect("all test arms have a closed form");
+        let q = inside_limits(robot, &unit);
+        let tool = arms::bent_tool();
+        let made = posture_at(robot, &q, &tool);
+        let found = postures(robot, closed_form, &made.base_from_tool, ToolAt { flange_from_tool: &tool, near: None })
+            .expect("a pose made by forward kinematics is reachable");
+        let same = found.iter().find(|posture| posture.branch == made.branch).expect("its own branch is found");
+        // Near a singularity the joints are worse known than the pose, by about 1 / sine.
+        prop_assume!(made.singularity.is_none());
+        for (index, (a, b)) in same.joints.iter().zip(&q).enumerate() {
+            let turns = (a - b) / std::f64::consts::TAU;
+            let away = (turns - turns.round()).abs() * std::f64::consts::TAU;
+            prop_assert!(away < 1e-9, "{} {index}: {a} rad against {b} rad", robot.name());
+        }
+    }
+
+    #[test]
+    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..4usize, unit in six_numbers()) {
+        let robot = &arms::all()[arm];
+        let tool = arms::bent_tool();
+        let target = posture_at(robot, &inside_limits(robot, &unit), &tool).base_from_tool;
+        let found = postures(robot, robot.ortho_parallel().unwrap(), &target, ToolAt { flange_from_tool: &tool, near: None }).unwrap();
+        prop_assert!(found.len() >= 2);
+        for posture in &found {
+            let reached = posture_at(robot, &posture.joints, &tool);
+            prop_assert!(twist_between(&target, &reached.base_from_tool).norm() < 1e-9);
+            // The name found from the joints is the name it was solved for.
+            if posture.singularity.is_none() {
+                prop_assert_eq!(posture.branch, reached.branch);
+            }
+        }
+    }
+}
+
+#[test]
+fn mh12_flange_at_zero_is_where_its_urdf_puts_it() {
+    let at_zero = posture_at(&arms::mh12(), &[0.0; 6], &Isometry::identity()).base_from_tool;
+    assert!((at_zero.translation.vector - Vector3::new(0.895, 0.0, 1.264)).norm() < 1e-15);
+    // tool0: z out of the flange along base x (rpy pi, -pi/2, 0).
+    assert!((at_zero * Vector3::z() - Vector3::x()).norm() < 1e-15);
+    assert!((at_zero * Vector3::y() + Vector3::y()).norm() < 1e-15);
+}
+
+#[test]
+fn mh12_has_eight_postures_in_the_middle_of_its_space() {
+    let robot = arms::mh12();
+    let tool = Isometry::identity();
+    let target = posture_at(&robot, &[0.3, 0.2, -0.4, 0.5, 0.6, -0.2], &tool).base_from_tool;
+    let found =
+        postures(&robot, robot.ortho_parallel().unwrap(), &target, ToolAt { flange_from_tool: &tool, near: None });
+    assert_eq!(found.unwrap().len(), 8);
+}
+
+#[test]
+fn a_pose_beyond_the_stretched_arm_says_by_how_much() {
+    let robot = arms::mh12();
+    let tool = Isometry::identity();
+    // Shoulder at (155, 0, 450) mm; wrist centre 100 mm behind the flange, tool along +x.
+    let target = armill_core::workpiece::Plane::tilted([3.0, 0.0, 0.45].into(), 0.0).base_from_tool([0.0, 0.0].into(), 0.0);
+    let miss = postures(&robot, robot.ortho_parallel().unwrap(), &target, ToolAt { flange_from_tool: &tool, near: None });
+    let reach = 0.614 + 0.640_f64.hypot(0.200);
+    let Err(Unreachable::TooFar { by }) = miss else { panic!("{miss:?}") };
+    assert!((by - (2.9 - 0.155 - reach)).abs() < 1e-12, "{by} m");
+}
+
+#[test]
+fn at_the_wrist_singularity_joint_4_stays_or_shares_the_turn() {
+    let robot = arms::mh12();
+    let (arm, tool) = (robot.ortho_parallel().unwrap(), Isometry::identity());
+    let q = [0.1, 0.2, -0.3, 0.7, 0.0, 0.5];
+    let target = posture_at(&robot, &q, &tool).base_from_tool;
+    let kept = postures(&robot, arm, &target, ToolAt { flange_from_tool: &tool, near: Some(&q) }).unwrap();
+    let shared = postures(&robot, arm, &target, ToolAt { flange_from_tool: &tool, near: None }).unwrap();
+    let front_up = |found: &[armill_core::robot::Posture]| {
+        found
+            .iter()
+            .find(|p| p.branch.unwrap().to_string() == "front elbow-up no-flip")
+            .expect("the branch of q")
+            .clone()
+    };
+    let (kept, shared) = (front_up(&kept), front_up(&shared));
+    assert_eq!(kept.singularity, Some(Singularity::Wrist));
+    assert!((kept.joints[3] - 0.7).abs() < 1e-9 && (kept.joints[5] - 0.5).abs() < 1e-9, "{:?}", kept.joints);
+    assert!((shared.joints[3] - 0.6).abs() < 1e-9 && (shared.joints[5] - 0.6).abs() < 1e-9, "{:?}", shared.joints);
+}
+
+#[test]
+fn a_chain_of_another_kind_has_no_closed_form_but_goes_forward() {
+    use armill_core::robot::{Amount, Axis, Joint, Motion};
+    let motions = vec![
+        Motion::Along(Axis::X, Amount::Joint(0)),
+        Motion::About(Axis::Z, Amount::Joint(1)),
+        Motion::Along(Axis::X, Amount::Constant(0.4)),
+        Motion::About(Axis::Y, Amount::Joint(2)),
+        Motion::Along(Axis::Z, Amount::Constant(0.3)),
+    ];
+    let robot = Robot::new("railed", motions, ["rail", "A", "B"].map(Joint::plain).to_vec()).unwrap();
+    assert!(robot.ortho_parallel().is_none());
+    let posture = posture_at(&robot, &[0.5, 0.0, 0.0], &Isometry::identity());
+    assert!((posture.base_from_tool.translation.vector - Vector3::new(0.9, 0.0, 0.3)).norm() < 1e-15);
+    assert!(posture.branch.is_none() && robot.slides(0) && !robot.slides(1));
+}

@@ -1,0 +1,166 @@
+//! A TOML document that is checked completely: every problem is told, all at once, at its place.
+//!
+//! Reading has three steps. [`Document::parse`] finds what is not TOML. [`Document::read`] compares the tree with the JSON
+//! schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its plane) the
+//! caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
+//!
+//! ```
+//! use armill_formats::document::Document;
+//!
+//! #[derive(serde::Deserialize, schemars::JsonSchema, Debug)]
+//! #[serde(deny_unknown_fields)]
+//! struct Plane {
+//!     step_mm: f64,
+//! }
+//!
+//! let document = Document::parse("plane.toml", "step = 5.0\n")?;
+//! let problems = document.read::<Plane>().unwrap_err();
+//! assert!(problems.to_string().contains("plane.toml:1:1: unknown field `step`"));
+//! assert!(problems.to_string().contains("lengths carry their unit: write `step_mm`"));
+//! # Ok::<(), armill_formats::document::Problems>(())
+//! ```
+
+mod check;
+mod limits;
+mod path;
+mod problem;
+mod shape;
+mod source;
+mod unit;
+
+use std::ops::Range;
+
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, Deserializer};
+
+pub use self::problem::{Problem, Problems};
+pub use self::source::Source;
+
+/// More syntax problems than this are not listed: after the first few, one mistake begets the next.
+const MOST_SYNTAX_PROBLEMS: usize = 20;
+
+/// A TOML file as text and as a tree in which every key and value knows its place.
+///
+/// Not checked: whether the tree is what anybody wants; that is [`Document::read`].
+#[derive(Debug, Clone)]
+pub struct Document {
+    source: Source,
+    root: DeTable<'static>,
+}
+
+impl Document {
+    /// The tree of a TOML text; `name` is the path that problems show.
+    ///
+    /// A byte order mark and Windows line ends are accepted.
+    ///
+    /// # Errors
+    /// What is not TOML, one problem a line, at most 20; and nesting deeper than 64 levels.
+    pub fn parse(name: &str, text: &str) -> Result<Self, Problems> {
+        let source = Source::new(name, text);
+        if let Some(problem) = limits::too_deep(&source) {
+            return Err(Problems::from(vec![problem]));
+        }
+        let (root, errors) = DeTable::parse_recoverable(source.text());
+        if !errors.is_empty() {
+            return Err(syntax_problems(&source, &errors));
+        }
+        let mut root = root.into_inner();
+        root.make_owned();
+        Ok(Self { source, root })
+    }
+
+    /// The tree of a TOML file as it was read from disk, see [`Document::parse`].
+    ///
+    /// # Errors
+    /// Those of [`Document::parse`], and bytes that are not UTF-8.
+    pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Problems> {
+        match std::str::from_utf8(bytes) {
+            Ok(text) => Self::parse(name, text),
+            Err(error) => Err(Problems::from(vec![source::not_utf8(name, bytes, &error)])),
+        }
+    }
+
+    /// The value this document describes.
+    ///
+    /// Understood of the schema: structs, maps, lists, tuples, options, and enums of any tagging.
+    /// Not checked before serde does: `pattern`, `format`, `multipleOf`, `uniqueItems`; serde's `alias` is not known here.
+    ///
+    /// # Errors
+    /// Every unknown or missing field, wrong type, wrong number of entries, number out of range and number that is not
+    /// finite (at most 1000); only when there is none, the first thing serde refuses.
+    pub fn read<T: DeserializeOwned + JsonSchema>(&self) -> Result<T, Problems> {
+        let shapes = shape::Shapes::of(&schemars::schema_for!(T).to_value());
+        let problems = check::all_problems(&self.source, &self.root, &shapes);
+        if !problems.is_empty() {
+            return Err(Problems::from(problems));
+        }
+        let whole = 0..self.source.text().len();
+        let tree = Deserializer::from(Spanned::new(whole.clone(), self.root.clone()));
+        T::deserialize(tree).map_err(|error| {
+            let span = error.span().filter(|span| *span != whole).unwrap_or(0..0);
+            Problems::from(vec![self.source.problem(span, error.message().trim(), None)])
+        })
+    }
+
+    /// A problem at the value that `path` names, such as `plane.step_mm` or `ask[2].distances_mm[0]`.
+    ///
+    /// Where the path does not exist, the problem stands at the nearest parent that does. Keys that are not bare are
+    /// written in quotes, as in TOML: `material."EN AW-6082"`.
+    pub fn problem(&self, path: &str, message: impl Into<String>, hint: Option<&str>) -> Problem {
+        self.source.problem(self.span(path), message, hint.map(str::to_owned))
+    }
+
+    /// Where the value that `path` names stands, in bytes of [`Source::text`]; of its nearest parent if there is none.
+    pub fn span(&self, path: &str) -> Range<usize> {
+        path::nearest_span(&self.root, path)
+    }
+
+    /// Whether the file itself gives a value at `path`, rather than leaving it to a default.
+    pub fn contains(&self, path: &str) -> bool {
+        path::exists(&self.root, path)
+    }
+
+    /// The text and the path it was read from.
+    pub fn source(&self) -> &Source {
+        &self.source
+    }
+}
+
+/// The JSON schema of a document type, for editors: indented, with a newline at its end.
+pub fn schema_json<T: JsonSchema>() -> String {
+    format!("{:#}\n", schemars::schema_for!(T).to_value())
+}
+
+/// One problem a line: what follows on the same line is most often the echo of the first.
+fn syntax_problems(source: &Source, errors: &[toml::de::Error]) -> Problems {
+    let mut problems: Vec<Problem> = Vec::new();
+    for error in errors {
+        let span = error.span().unwrap_or(0..0);
+        let line = source.position(span.start).0;
+        if problems.iter().any(|known| known.line() == line) {
+            continue;
+        }
+        let message = format!("not valid TOML: {}", error.message().trim());
+        problems.push(source.problem(span, message, syntax_hint(error.message())));
+        if problems.len() == MOST_SYNTAX_PROBLEMS {
+            break;
+        }
+    }
+    Problems::from(problems)
+}
+
+fn syntax_hint(message: &str) -> Option<String> {
+    let hint = if message.contains("string values must be quoted") {
+        "write text in quotes, and numbers with a point and without a unit: `step_mm = 2.5`"
+    } else if message.contains("duplicate key") {
+        "keep one of the two; tables that repeat are written `[[name]]`"
+    } else {
+        return None;
+    };
+    Some(hint.to_owned())
+}
+
+#[cfg(test)]
+mod tests;

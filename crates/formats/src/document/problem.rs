@@ -1,0 +1,172 @@
+//! What is wrong in a file and where, shown as rustc shows it.
+
+use std::fmt;
+use std::ops::Range;
+
+use annotate_snippets::renderer::DecorStyle;
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use serde::Serialize;
+
+/// More problems than this are counted, not shown; `--json` has them all.
+const MOST_SHOWN: usize = 100;
+
+/// The columns a line of source may take before it is cut around its problem.
+const SHOWN_WIDTH: usize = 140;
+
+/// One thing that is wrong, with its place in the file.
+///
+/// Serialised it has `file`, `line`, `column`, `span` (bytes), `message` and `hint`.
+/// `Display` gives one line: `path:line:column: message`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Problem {
+    pub(super) file: String,
+    pub(super) line: usize,
+    pub(super) column: usize,
+    pub(super) span: Range<usize>,
+    pub(super) message: String,
+    pub(super) hint: Option<String>,
+    #[serde(skip)]
+    pub(super) excerpt: Option<Excerpt>,
+}
+
+/// The line a problem begins on; `span` is in bytes of `text`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Excerpt {
+    pub(super) text: String,
+    pub(super) span: Range<usize>,
+}
+
+impl Problem {
+    /// The path of the file, as it was given.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// The line, from 1.
+    pub fn line(&self) -> usize {
+        self.line
+    }
+
+    /// The column, from 1, in characters.
+    pub fn column(&self) -> usize {
+        self.column
+    }
+
+    /// The offending bytes of the text.
+    pub fn span(&self) -> Range<usize> {
+        self.span.clone()
+    }
+
+    /// The thing, its value, the limit and the unit.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+
+    /// What to do about it, where that is known.
+    pub fn hint(&self) -> Option<&str> {
+        self.hint.as_deref()
+    }
+
+    fn rendered(&self, renderer: &Renderer) -> String {
+        let title = Level::ERROR.primary_title(self.to_string());
+        let mut group = match &self.excerpt {
+            Some(excerpt) => Group::with_title(title).element(
+                Snippet::source(excerpt.text.as_str())
+                    .line_start(self.line)
+                    .path(self.file.as_str())
+                    .annotation(AnnotationKind::Primary.span(excerpt.span.clone())),
+            ),
+            None => Group::with_title(title)
+                .element(Origin::path(self.file.as_str()).line(self.line).char_column(self.column)),
+        };
+        if let Some(hint) = &self.hint {
+            group = group.element(Level::HELP.message(hint.as_str()));
+        }
+        renderer.render(&[group])
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{}:{}:{}: {}", self.file, self.line, self.column, self.message)
+    }
+}
+
+/// Everything that is wrong in a file, in the order of the text.
+///
+/// `Display` is the plain text for a terminal: source, caret and hint of the first 100 problems.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[serde(transparent)]
+pub struct Problems(Vec<Problem>);
+
+impl Problems {
+    /// The problems, in the order of the text.
+    pub fn as_slice(&self) -> &[Problem] {
+        &self.0
+    }
+
+    /// Success if nothing is wrong.
+    ///
+    /// # Errors
+    /// The problems themselves, if there is one.
+    pub fn into_result(self) -> Result<(), Self> {
+        if self.0.is_empty() { Ok(()) } else { Err(self) }
+    }
+
+    /// The text of `Display` with terminal colours.
+    pub fn in_colour(&self) -> String {
+        self.rendered(&Renderer::styled())
+    }
+
+    /// A list of objects with `file`, `line`, `column`, `span`, `message` and `hint`: all problems, for `--json`.
+    pub fn to_json(&self) -> serde_json::Value {
+        serde_json::to_value(self).expect("strings, numbers and lists of them always serialise")
+    }
+
+    fn rendered(&self, renderer: &Renderer) -> String {
+        let renderer = renderer.clone().decor_style(DecorStyle::Ascii).term_width(SHOWN_WIDTH);
+        let mut parts: Vec<String> =
+            self.0.iter().take(MOST_SHOWN).map(|problem| problem.rendered(&renderer)).collect();
+        if let Some(hidden) = self.0.len().checked_sub(MOST_SHOWN).filter(|hidden| *hidden > 0) {
+            parts.push(format!("... and {hidden} more problems in this file"));
+        }
+        parts.join("\n\n")
+    }
+}
+
+impl fmt::Display for Problems {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(&self.rendered(&Renderer::plain()))
+    }
+}
+
+impl std::error::Error for Problems {}
+
+impl From<Vec<Problem>> for Problems {
+    fn from(mut problems: Vec<Problem>) -> Self {
+        let place = |problem: &Problem| (problem.file.clone(), problem.span.start, problem.span.end);
+        problems.sort_by_cached_key(place);
+        Self(problems)
+    }
+}
+
+impl From<Problem> for Problems {
+    fn from(problem: Problem) -> Self {
+        Self(vec![problem])
+    }
+}
+
+impl FromIterator<Problem> for Problems {
+    fn from_iter<I: IntoIterator<Item = Problem>>(problems: I) -> Self {
+        Self::from(problems.into_iter().collect::<Vec<_>>())
+    }
+}
+
+impl IntoIterator for Problems {
+    type Item = Problem;
+    type IntoIter = std::vec::IntoIter<Problem>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.0.into_iter()
+    }
+}

@@ -1,0 +1,139 @@
+//! The unit a field's name ends with, and the name a misspelled field was meant to be.
+
+/// A unit as names carry it and as people read it.
+///
+/// | name ends with | shown | kind of quantity |
+/// |---|---|---|
+/// | `_mm` | mm | lengths |
+/// | `_nm` | N m | torques (nanometres do not occur here) |
+/// | `_rad_per_nm` | rad/(N m) | |
+const ATOMS: &[(&str, &str, Option<&str>)] = &[
+    ("m", "m", Some("lengths")),
+    ("mm", "mm", Some("lengths")),
+    ("um", "um", Some("lengths")),
+    ("mm2", "mm^2", Some("areas")),
+    ("mm3", "mm^3", Some("volumes")),
+    ("m2", "m^2", Some("areas")),
+    ("m3", "m^3", Some("volumes")),
+    ("deg", "deg", Some("angles")),
+    ("rad", "rad", Some("angles")),
+    ("n", "N", Some("forces")),
+    ("kn", "kN", Some("forces")),
+    ("nm", "N m", Some("torques")),
+    ("kg", "kg", Some("masses")),
+    ("kgm2", "kg m^2", Some("inertias")),
+    ("s", "s", Some("times")),
+    ("ms", "ms", Some("times")),
+    ("min", "min", Some("times")),
+    ("h", "h", Some("times")),
+    ("rpm", "rpm", Some("speeds")),
+    ("hz", "Hz", Some("frequencies")),
+    ("w", "W", Some("powers")),
+    ("kw", "kW", Some("powers")),
+    ("pa", "Pa", None),
+    ("mpa", "MPa", None),
+    ("gpa", "GPa", None),
+    ("k", "K", Some("temperatures")),
+    ("c", "deg C", Some("temperatures")),
+    ("percent", "%", Some("shares")),
+    ("tooth", "tooth", None),
+    ("rev", "rev", None),
+];
+
+/// A unit with the name it was cut from.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Unit {
+    /// As people read it: `mm/min`.
+    pub(super) shown: String,
+    /// What it measures, in the plural, where one word says it.
+    pub(super) quantity: Option<&'static str>,
+}
+
+/// A field's name without its unit, and the unit; `None` if the name ends with no unit.
+pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
+    let (before, last) = name.rsplit_once('_')?;
+    let (_, shown, quantity) = ATOMS.iter().find(|(suffix, ..)| *suffix == last)?;
+    if let Some((above, top)) = before.strip_suffix("_per").and_then(split) {
+        let below = if shown.contains(' ') { format!("({shown})") } else { (*shown).to_owned() };
+        return Some((above, Unit { shown: format!("{}/{below}", top.shown), quantity: None }));
+    }
+    let whole = !before.is_empty() && before != "per" && !before.ends_with("_per");
+    whole.then(|| (before, Unit { shown: (*shown).to_owned(), quantity: *quantity }))
+}
+
+/// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
+pub(super) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
+    let plain = |name: &str| name.to_lowercase().replace('-', "_");
+    let wanted = plain(unknown);
+    let base = split(&wanted).map_or(wanted.as_str(), |(base, _)| base);
+    for name in known {
+        let Some((known_base, unit)) = split(name) else { continue };
+        if known_base == wanted {
+            let rule = match unit.quantity {
+                Some(quantity) => format!("{quantity} carry their unit"),
+                None => "numbers carry their unit".to_owned(),
+            };
+            return Some((name, format!("{rule}: write `{name}`")));
+        }
+        if known_base == base && *name != wanted {
+            return Some((name, format!("give the value in {}: write `{name}`", unit.shown)));
+        }
+    }
+    // One slip in a short name, a third of a long one.
+    let allowed = |name: &str| (name.chars().count() / 3).max(1);
+    known
+        .iter()
+        .map(|name| (strsim::damerau_levenshtein(&wanted, &plain(name)), *name))
+        .filter(|(distance, name)| *distance <= allowed(name))
+        .min()
+        .map(|(_, name)| (name, format!("did you mean `{name}`?")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(name: &str) -> Option<(&str, String)> {
+        split(name).map(|(base, unit)| (base, unit.shown))
+    }
+
+    #[test]
+    fn a_name_ends_with_its_unit() {
+        assert_eq!(shown("step_mm"), Some(("step", "mm".to_owned())));
+        assert_eq!(shown("feed_mm_per_min"), Some(("feed", "mm/min".to_owned())));
+        assert_eq!(shown("compliance_rad_per_nm"), Some(("compliance", "rad/(N m)".to_owned())));
+        assert_eq!(shown("blend_radius_m"), Some(("blend_radius", "m".to_owned())));
+    }
+
+    #[test]
+    fn a_name_that_is_only_a_unit_has_none() {
+        for name in ["mm", "_mm", "per_mm", "_per_mm", "n", "steps_per_mm", "name", ""] {
+            assert_eq!(shown(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn a_field_without_its_unit_is_told_to_carry_it() {
+        let known = ["step_mm", "tilt_deg", "stiffness_n_per_um"];
+        assert_eq!(suggestion("step", &known).unwrap().1, "lengths carry their unit: write `step_mm`");
+        assert_eq!(suggestion("tilt", &known).unwrap().1, "angles carry their unit: write `tilt_deg`");
+        assert_eq!(
+            suggestion("stiffness", &known).unwrap().1,
+            "numbers carry their unit: write `stiffness_n_per_um`"
+        );
+    }
+
+    #[test]
+    fn a_field_in_another_unit_is_not_just_renamed() {
+        let advice = suggestion("step_m", &["step_mm"]).unwrap().1;
+        assert_eq!(advice, "give the value in mm: write `step_mm`");
+    }
+
+    #[test]
+    fn a_slip_of_the_pen_is_recognised_and_a_different_word_is_not() {
+        assert_eq!(suggestion("toleranec", &["tool", "tolerance"]).unwrap().0, "tolerance");
+        assert_eq!(suggestion("Tool", &["tool", "tolerance"]).unwrap().0, "tool");
+        assert_eq!(suggestion("banana", &["tool", "tolerance"]), None);
+        assert_eq!(suggestion("x", &[]), None);
+    }
+}

@@ -1,0 +1,141 @@
+//! Nice numbers: tick positions and their labels.
+//!
+//! A step is 1, 2, 2.5 or 5 times a power of ten; labels carry the decimals that the step needs and a true minus sign.
+
+/// Longest list of ticks; more cannot be read.
+const MOST_TICKS: usize = 60;
+
+/// The nice step nearest above `span / count`.
+pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
+    let raw = span.abs() / count.max(1.0);
+    if !raw.is_finite() || raw <= f64::MIN_POSITIVE {
+        return 1.0;
+    }
+    let decade = 10f64.powf(raw.log10().floor());
+    let fraction = raw / decade;
+    // A hair of slack: 0.2 / 0.1 may come out as 2.0000000000000004.
+    let nice = [1.0, 2.0, 2.5, 5.0].into_iter().find(|n| fraction <= n * (1.0 + 1e-9)).unwrap_or(10.0);
+    nice * decade
+}
+
+/// The nice number (1, 2 or 5 times a power of ten) nearest below `value`.
+pub(crate) fn nice_below(value: f64) -> f64 {
+    if !value.is_finite() || value <= f64::MIN_POSITIVE {
+        return 1.0;
+    }
+    let decade = 10f64.powf(value.log10().floor());
+    let fraction = value / decade * (1.0 + 1e-9);
+    let nice = [5.0, 2.0].into_iter().find(|n| fraction >= *n).unwrap_or(1.0);
+    nice * decade
+}
+
+/// Multiples of `step` from `low` to `high`, both included, whichever is larger.
+pub(crate) fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
+    let (low, high) = (low.min(high), low.max(high));
+    if !(low.is_finite() && high.is_finite() && step > 0.0) {
+        return Vec::new();
+    }
+    let slack = 1e-6;
+    let first = (low / step - slack).ceil();
+    let last = (high / step + slack).floor();
+    let count = (last - first).max(-1.0) + 1.0;
+    if count > MOST_TICKS as f64 {
+        return Vec::new();
+    }
+    (0..count as usize).map(|k| (first + k as f64) * step).collect()
+}
+
+/// About `count` nice ticks between `low` and `high`, with their step.
+pub(crate) fn ticks(low: f64, high: f64, count: f64) -> (Vec<f64>, f64) {
+    let step = nice_step(high - low, count);
+    (multiples(low, high, step), step)
+}
+
+/// `value` with the decimals that `step` needs.
+pub(crate) fn tick_label(value: f64, step: f64) -> String {
+    let decimals = (0..6).find(|d| {
+        let scaled = step.abs() * 10f64.powi(*d);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled.max(1e-300)
+    });
+    number(value, decimals.unwrap_or(6).unsigned_abs() as usize)
+}
+
+/// `value` with three significant digits, for labels next to a drawing.
+pub(crate) fn three_digits(value: f64) -> String {
+    let size = value.abs();
+    let decimals = if size == 0.0 || size >= 100.0 {
+        0
+    } else if size >= 10.0 {
+        1
+    } else if size >= 1.0 {
+        2
+    } else {
+        3
+    };
+    number(value, decimals)
+}
+
+/// `value` without trailing zeros after the decimal point, four significant digits.
+pub(crate) fn plain(value: f64) -> String {
+    let size = value.abs();
+    let decimals = if size >= 1000.0 { 0 } else { (3.0 - size.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize };
+    let text = number(value, decimals);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// `value` with `decimals` decimals and a true minus sign.
+pub(crate) fn number(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "–".to_owned();
+    }
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(rest) if rest.bytes().all(|b| b == b'0' || b == b'.') => rest.to_owned(),
+        Some(rest) => format!("\u{2212}{rest}"),
+        None => text,
+    }
+}
+
+/// Smallest and largest finite value.
+pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
+    values.into_iter().filter(|v| v.is_finite()).fold(None, |range, v| match range {
+        None => Some((v, v)),
+        Some((low, high)) => Some((v.min(low), v.max(high))),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_multiples_of_a_nice_step_inside_the_range() {
+        let (at, step) = ticks(-430.0, 410.0, 6.0);
+        assert!((step - 200.0).abs() < 1e-9);
+        assert_eq!(at, [-400.0, -200.0, 0.0, 200.0, 400.0]);
+    }
+
+    #[test]
+    fn labels_carry_the_decimals_of_the_step() {
+        assert_eq!(tick_label(-2.5, 2.5), "\u{2212}2.5");
+        assert_eq!(tick_label(100.0, 50.0), "100");
+        assert_eq!(tick_label(-1e-12, 0.1), "0.0");
+        assert_eq!(tick_label(0.25, 0.05), "0.25");
+    }
+
+    #[test]
+    fn nothing_loops_on_ranges_without_sense() {
+        assert!(multiples(f64::NAN, 1.0, 1.0).is_empty());
+        assert!(multiples(0.0, 1e300, 1.0).is_empty());
+        assert!(ticks(3.0, 3.0, 5.0).0.len() <= 1);
+        assert!(ticks(f64::NEG_INFINITY, f64::INFINITY, 5.0).0.is_empty());
+    }
+
+    #[test]
+    fn nice_below_is_not_above() {
+        for v in [0.3, 1.0, 4.9, 5.0, 73.0, 1999.0] {
+            let n = nice_below(v);
+            assert!(n <= v * (1.0 + 1e-9) && n > v / 2.6, "{v} {n}");
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Colours: one scale for fields, one colour-blind-safe set for cases, and the greys of axes.
+//!
+//! Fields use viridis (perceptually even, readable in grey); cases use the set of Okabe and Ito (2008).
+
+/// Text and axes.
+pub(crate) const INK: &str = "#1b1b1b";
+/// Secondary text.
+pub(crate) const MUTED: &str = "#5a5a5a";
+/// Grid lines inside charts.
+pub(crate) const GRID: &str = "#e3e3e3";
+/// The limit, on every picture.
+pub(crate) const LIMIT: &str = "#c8102e";
+/// Permissible region.
+pub(crate) const WITHIN: &str = "#b7dcc9";
+/// Over the limit.
+pub(crate) const OVER: &str = "#d9d9d9";
+
+/// Share of white mixed into the field colours, so that dark labels stay readable on them.
+const SOFTENING: f64 = 0.12;
+
+const CATEGORIES: [&str; 8] =
+    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5a5a5a", "#b5a900"];
+
+/// Which colour scale a field is drawn in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ColourScale {
+    /// Dark violet over green to yellow.
+    #[default]
+    Viridis,
+    /// Dark blue over grey to yellow; looks the same to almost everybody.
+    Cividis,
+}
+
+impl ColourScale {
+    /// Colour at `t` from 0 (low) to 1 (high).
+    pub(crate) fn at(self, t: f64) -> String {
+        let gradient = match self {
+            Self::Viridis => colorous::VIRIDIS,
+            Self::Cividis => colorous::CIVIDIS,
+        };
+        let t = if t.is_finite() { t.clamp(0.0, 1.0) } else { 0.0 };
+        let c = gradient.eval_continuous(t);
+        mix([c.r, c.g, c.b], [255, 255, 255], SOFTENING)
+    }
+}
+
+/// Colour of the `index`-th case, joint or series.
+pub(crate) fn category(index: usize) -> &'static str {
+    CATEGORIES[index % CATEGORIES.len()]
+}
+
+/// `#rrggbb` between `a` and `b`, at `share` of the way to `b`.
+pub(crate) fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
+    let channel = |k: usize| (f64::from(a[k]) * (1.0 - share) + f64::from(b[k]) * share).round();
+    format!("#{:02x}{:02x}{:02x}", channel(0) as u8, channel(1) as u8, channel(2) as u8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_grow_lighter() {
+        for scale in [ColourScale::Viridis, ColourScale::Cividis] {
+            let lightness = |t: f64| {
+                let c = scale.at(t);
+                (0..3).map(|k| u32::from_str_radix(&c[1 + 2 * k..3 + 2 * k], 16).unwrap_or(0)).sum::<u32>()
+            };
+            assert!(lightness(0.0) < lightness(0.5) && lightness(0.5) < lightness(1.0));
+        }
+    }
+
+    #[test]
+    fn a_position_that_is_no_number_has_a_colour() {
+        assert_eq!(ColourScale::Viridis.at(f64::NAN), ColourScale::Viridis.at(0.0));
+    }
+}

@@ -1,0 +1,137 @@
+//! Level lines of a fine lattice, as closed areas and as open lines, in mm.
+//!
+//! The crate `contour` places a sample at the centre of its cell and closes areas half a cell outside the lattice:
+//! taking half a step off and cutting at the lattice's edge puts every sample where it belongs.
+
+/// A point in mm.
+pub(crate) type Mm = [f64; 2];
+
+/// One closed line around an area, or around a hole in it.
+pub(crate) type Ring = Vec<Mm>;
+
+/// A lattice of samples, row by row.
+pub(crate) struct Lattice<'a> {
+    pub(crate) horizontal_mm: &'a [f64],
+    pub(crate) vertical_mm: &'a [f64],
+    pub(crate) samples: &'a [f64],
+}
+
+impl Lattice<'_> {
+    /// For each level, the rings of the area where the samples are at least that level (even-odd rule).
+    pub(crate) fn areas_from(&self, levels: &[f64]) -> Vec<Vec<Ring>> {
+        let index_rings = self.index_rings(levels);
+        let to_mm = |ring: Vec<Mm>| ring.into_iter().map(|p| self.mm(p)).collect();
+        index_rings.into_iter().map(|rings| rings.into_iter().map(to_mm).collect()).collect()
+    }
+
+    /// For each level, the lines along which the samples equal it; the edge of the lattice is not part of them.
+    pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Mm>>> {
+        let index_rings = self.index_rings(levels);
+        index_rings
+            .into_iter()
+            .map(|rings| {
+                let lines = rings.iter().flat_map(|ring| self.inner_lines(ring));
+                lines.map(|line| line.into_iter().map(|p| self.mm(p)).collect()).collect()
+            })
+            .collect()
+    }
+
+    fn index_rings(&self, levels: &[f64]) -> Vec<Vec<Vec<Mm>>> {
+        let (nx, ny) = (self.horizontal_mm.len(), self.vertical_mm.len());
+        if nx < 2 || ny < 2 || self.samples.len() != nx * ny || self.samples.iter().any(|s| !s.is_finite()) {
+            return vec![Vec::new(); levels.len()];
+        }
+        let builder = contour::ContourBuilder::new(nx, ny, true);
+        let edge = [(nx - 1) as f64, (ny - 1) as f64];
+        let mut all = vec![Vec::new(); levels.len()];
+        let Ok(contours) = builder.contours(self.samples, levels) else { return all };
+        for (rings, contour) in all.iter_mut().zip(contours) {
+            for polygon in contour.geometry() {
+                for line in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
+                    let ring: Vec<Mm> = line
+                        .coords()
+                        .map(|c| [(c.x - 0.5).clamp(0.0, edge[0]), (c.y - 0.5).clamp(0.0, edge[1])])
+                        .collect();
+                    rings.push(ring);
+                }
+            }
+        }
+        all
+    }
+
+    /// The parts of a ring that do not run along the edge.
+    fn inner_lines(&self, ring: &[Mm]) -> Vec<Vec<Mm>> {
+        let edge = [(self.horizontal_mm.len() - 1) as f64, (self.vertical_mm.len() - 1) as f64];
+        let along_edge = |a: Mm, b: Mm| {
+            a == b || (0..2).any(|k| a[k] == b[k] && (a[k] == 0.0 || a[k] == edge[k]))
+        };
+        let mut lines: Vec<Vec<Mm>> = Vec::new();
+        let mut open = false;
+        for w in ring.windows(2) {
+            if along_edge(w[0], w[1]) {
+                open = open && w[0] == w[1];
+                continue;
+            }
+            match lines.last_mut() {
+                Some(line) if open => line.push(w[1]),
+                _ => lines.push(vec![w[0], w[1]]),
+            }
+            open = true;
+        }
+        // A ring cut by the edge starts anywhere: its last part runs on into its first.
+        if lines.len() > 1
+            && lines.last().and_then(|l| l.last()) == lines.first().and_then(|l| l.first())
+            && let Some(mut tail) = lines.pop()
+        {
+            tail.extend_from_slice(&lines[0][1..]);
+            lines[0] = tail;
+        }
+        lines
+    }
+
+    fn mm(&self, index: Mm) -> Mm {
+        [between(self.horizontal_mm, index[0]), between(self.vertical_mm, index[1])]
+    }
+}
+
+fn between(values: &[f64], index: f64) -> f64 {
+    let k = (index.floor() as usize).min(values.len().saturating_sub(2));
+    let t = index - k as f64;
+    values[k] + (values[k + 1] - values[k]) * t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const X: [f64; 3] = [0.0, 10.0, 30.0];
+    const Y: [f64; 2] = [0.0, 5.0];
+
+    fn lattice(samples: &[f64]) -> Lattice<'_> {
+        Lattice { horizontal_mm: &X, vertical_mm: &Y, samples }
+    }
+
+    #[test]
+    fn a_line_passes_where_the_samples_equal_the_level() {
+        // 0, 1, 3 at 0, 10, 30 mm: level 2 lies half-way between 10 and 30 mm.
+        let lines = lattice(&[0.0, 1.0, 3.0, 0.0, 1.0, 3.0]).lines_at(&[2.0]);
+        assert_eq!(lines[0].len(), 1);
+        assert!(lines[0][0].iter().all(|p| (p[0] - 20.0).abs() < 1e-9));
+        let ys: Vec<f64> = lines[0][0].iter().map(|p| p[1]).collect();
+        assert!(ys.contains(&0.0) && ys.contains(&5.0), "from edge to edge: {ys:?}");
+    }
+
+    #[test]
+    fn an_area_reaches_the_edge_and_not_beyond() {
+        let areas = lattice(&[1.0; 6]).areas_from(&[0.5]);
+        let xs = crate::axis::extent(areas[0].iter().flatten().map(|p| p[0]));
+        assert_eq!(xs, Some((0.0, 30.0)));
+        assert!(lattice(&[1.0; 6]).lines_at(&[0.5])[0].is_empty());
+    }
+
+    #[test]
+    fn samples_without_sense_give_nothing() {
+        assert!(lattice(&[f64::NAN; 6]).areas_from(&[0.5])[0].is_empty());
+        assert!(lattice(&[1.0]).lines_at(&[0.5])[0].is_empty());
+    }
+}

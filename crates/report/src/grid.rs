@@ -1,0 +1,88 @@
+//! The grid of points behind every map: axis values in mm and the state of each point.
+
+/// What is known at one grid point. A point out of reach is a state, not a number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PointState {
+    /// Reached within the joint limits; the value in um.
+    Reached(f64),
+    /// Reached only beyond a joint limit; the value in um there.
+    OutsideJointLimits(f64),
+    /// Out of reach.
+    Unreachable,
+}
+
+impl PointState {
+    /// The value in um, if the point has one; a value that is not finite counts as none.
+    pub fn value_um(self) -> Option<f64> {
+        match self {
+            Self::Reached(v) | Self::OutsideJointLimits(v) => Some(v).filter(|v| v.is_finite()),
+            Self::Unreachable => None,
+        }
+    }
+}
+
+/// Points of a plane on a rectangular lattice; the steps need not be equal.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Grid {
+    /// Values of the horizontal axis in mm as drawn from left to right, rising or falling.
+    pub horizontal_mm: Vec<f64>,
+    /// Values of the vertical axis in mm as drawn from bottom to top, rising or falling.
+    pub vertical_mm: Vec<f64>,
+    /// The points, row by row from the bottom, each row from left to right.
+    pub points: Vec<PointState>,
+}
+
+impl Grid {
+    /// The point in column `i` and row `j`.
+    pub(crate) fn point(&self, i: usize, j: usize) -> PointState {
+        self.points.get(j * self.horizontal_mm.len() + i).copied().unwrap_or(PointState::Unreachable)
+    }
+
+    /// Why this grid cannot be drawn as a map, or nothing if it can.
+    pub(crate) fn obstacle(&self) -> Option<String> {
+        let (nx, ny) = (self.horizontal_mm.len(), self.vertical_mm.len());
+        if nx == 0 || ny == 0 {
+            return Some("There is nothing to draw: the grid has no points.".to_owned());
+        }
+        if self.points.len() != nx * ny {
+            let given = self.points.len();
+            return Some(format!("The grid has {nx} x {ny} points, but {given} values were given."));
+        }
+        if nx < 2 || ny < 2 {
+            let reached = self.values_um().count();
+            let range = crate::axis::extent(self.values_um()).map_or_else(String::new, |(low, high)| {
+                format!(", from {} to {} µm", crate::axis::three_digits(low), crate::axis::three_digits(high))
+            });
+            return Some(format!(
+                "A map needs at least 2 x 2 points; this grid has {nx} x {ny} ({reached} reached{range})."
+            ));
+        }
+        if !(is_steady(&self.horizontal_mm) && is_steady(&self.vertical_mm)) {
+            return Some("The axis values of the grid neither rise steadily nor fall steadily.".to_owned());
+        }
+        if self.values_um().next().is_none() {
+            return Some(format!("None of the {} points is within reach.", nx * ny));
+        }
+        None
+    }
+
+    /// The finite values in um.
+    pub(crate) fn values_um(&self) -> impl Iterator<Item = f64> + '_ {
+        self.points.iter().filter_map(|p| p.value_um())
+    }
+
+    /// Whether some point has no value.
+    pub(crate) fn has_unreachable(&self) -> bool {
+        self.points.iter().any(|p| p.value_um().is_none())
+    }
+
+    /// Whether some point is reached only beyond a joint limit.
+    pub(crate) fn has_outside_limits(&self) -> bool {
+        self.points.iter().any(|p| matches!(p, PointState::OutsideJointLimits(_)) && p.value_um().is_some())
+    }
+}
+
+fn is_steady(values: &[f64]) -> bool {
+    values.iter().all(|v| v.is_finite())
+        && (values.windows(2).all(|w| w[1] > w[0]) || values.windows(2).all(|w| w[1] < w[0]))
+}

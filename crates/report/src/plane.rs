@@ -1,0 +1,188 @@
+//! A plane in mm drawn at the same scale in both directions, with ticks and axis labels.
+//!
+//! The horizontal axis may run either way: maps are seen from the tool side, where base y grows to the left.
+
+use crate::axis::{nice_step, multiples, tick_label};
+use crate::colour::{INK, MUTED};
+use crate::font::{Weight, text_width_px};
+use crate::page::{BODY_PX, SMALL_PX};
+use crate::svg::{Point, Rect, Style, Svg, Text};
+
+/// The labels of the two axes, with units: `base y (mm)`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct AxisLabels {
+    /// Label below the drawing.
+    pub horizontal: String,
+    /// Label left of the drawing, reading upwards.
+    pub vertical: String,
+}
+
+/// The part of a plane that is drawn; `left_mm` may be greater than `right_mm`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Window {
+    pub(crate) left_mm: f64,
+    pub(crate) right_mm: f64,
+    pub(crate) bottom_mm: f64,
+    pub(crate) top_mm: f64,
+}
+
+/// A window placed on the picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plane {
+    pub(crate) window: Window,
+    pub(crate) area: Rect,
+    pub(crate) px_per_mm: f64,
+}
+
+/// How much is written around a drawing: panels of a sheet share their labels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Marks {
+    pub(crate) horizontal_numbers: bool,
+    pub(crate) vertical_numbers: bool,
+    pub(crate) font_px_tenths: u16,
+}
+
+impl Marks {
+    pub(crate) const ALL: Self =
+        Self { horizontal_numbers: true, vertical_numbers: true, font_px_tenths: (SMALL_PX * 10.0) as u16 };
+
+    fn font_px(self) -> f64 {
+        f64::from(self.font_px_tenths) / 10.0
+    }
+}
+
+/// Room below a drawing for tick labels and axis label.
+pub(crate) const BELOW_PX: f64 = 44.0;
+
+/// Thinnest drawing; a window that would be thinner shows more of the plane.
+const THINNEST_PX: f64 = 70.0;
+
+impl Plane {
+    /// The window inside a box of `most` (width, height) pixels whose top left corner stands at `at`.
+    pub(crate) fn fit(window: Window, at: Point, most: [f64; 2]) -> Self {
+        let mut window = window;
+        let spans = [(window.right_mm - window.left_mm).abs(), (window.top_mm - window.bottom_mm).abs()];
+        let spans = spans.map(|s| if s.is_finite() { s } else { 0.0 });
+        let widest = spans[0].max(spans[1]).max(1e-9);
+        let px_per_mm =
+            (most[0] / spans[0].max(widest * 1e-9)).min(most[1] / spans[1].max(widest * 1e-9));
+        let size = spans.map(|s| (s * px_per_mm).max(THINNEST_PX.min(most[0]).min(most[1])));
+        let widen = |a: &mut f64, b: &mut f64, span: f64, px: f64| {
+            let extra = (px / px_per_mm - span) / 2.0;
+            let direction = if *b >= *a { 1.0 } else { -1.0 };
+            *a -= direction * extra;
+            *b += direction * extra;
+        };
+        widen(&mut window.left_mm, &mut window.right_mm, spans[0], size[0]);
+        widen(&mut window.bottom_mm, &mut window.top_mm, spans[1], size[1]);
+        Self { window, area: Rect { x: at[0], y: at[1], w: size[0], h: size[1] }, px_per_mm }
+    }
+
+    /// Where a point of the plane stands on the picture.
+    pub(crate) fn at(&self, mm: [f64; 2]) -> Point {
+        let w = &self.window;
+        let across = if w.right_mm >= w.left_mm { self.px_per_mm } else { -self.px_per_mm };
+        let up = if w.top_mm >= w.bottom_mm { self.px_per_mm } else { -self.px_per_mm };
+        [self.area.x + (mm[0] - w.left_mm) * across, self.area.bottom() - (mm[1] - w.bottom_mm) * up]
+    }
+
+    /// Room left of the drawing for tick labels and axis label.
+    pub(crate) fn left_room_px(window: &Window) -> f64 {
+        let step = nice_step(window.top_mm - window.bottom_mm, 5.0);
+        let widest = [window.bottom_mm, window.top_mm]
+            .map(|v| text_width_px(&tick_label((v / step).round() * step, step), SMALL_PX, Weight::Regular));
+        widest[0].max(widest[1]) + 36.0
+    }
+
+    /// Frame and ticks with numbers.
+    pub(crate) fn draw_frame(&self, svg: &mut Svg, marks: Marks) {
+        let font = marks.font_px();
+        let w = &self.window;
+        let ink = Style::line(INK, 1.0);
+        let step = self.tick_step_mm(font);
+        if marks.horizontal_numbers {
+            for mm in multiples(w.left_mm, w.right_mm, step[0]) {
+                let x = self.at([mm, w.bottom_mm])[0];
+                let y = self.area.bottom();
+                svg.line([x, y], [x, y + 5.0], &ink);
+                svg.text([x, y + 6.0 + font], &tick_label(mm, step[0]), &Text::new(font).middle());
+            }
+        }
+        if marks.vertical_numbers {
+            for mm in multiples(w.bottom_mm, w.top_mm, step[1]) {
+                let y = self.at([w.left_mm, mm])[1];
+                svg.line([self.area.x - 5.0, y], [self.area.x, y], &ink);
+                svg.text([self.area.x - 8.0, y + font * 0.36], &tick_label(mm, step[1]), &Text::new(font).end());
+            }
+        }
+        svg.rect(self.area, &ink);
+    }
+
+    /// Axis labels below and left of the drawing.
+    pub(crate) fn draw_labels(&self, svg: &mut Svg, labels: &AxisLabels) {
+        let c = self.area.centre();
+        let text = Text::new(BODY_PX).middle();
+        svg.text([c[0], self.area.bottom() + 36.0], &labels.horizontal, &text);
+        let x = self.area.x - Self::left_room_px(&self.window) + 14.0;
+        svg.text([x, c[1]], &labels.vertical, &text.turned(-90.0));
+    }
+
+    /// Ticks far enough apart for their numbers; the same step both ways where that fits.
+    fn tick_step_mm(&self, font_px: f64) -> [f64; 2] {
+        let w = &self.window;
+        let spans = [(w.right_mm - w.left_mm).abs(), (w.top_mm - w.bottom_mm).abs()];
+        let mut count = (self.area.w / 70.0).clamp(2.0, 9.0);
+        let mut across = nice_step(spans[0], count);
+        for _ in 0..4 {
+            let widest = [w.left_mm, w.right_mm]
+                .map(|v| text_width_px(&tick_label((v / across).round() * across, across), font_px, Weight::Regular))
+                .into_iter()
+                .fold(0.0, f64::max);
+            if across * self.px_per_mm >= widest + 10.0 {
+                break;
+            }
+            count *= 0.6;
+            across = nice_step(spans[0], count);
+        }
+        let up = nice_step(spans[1], (self.area.h / 40.0).clamp(2.0, 8.0));
+        if across >= up && spans[1] / across >= 2.0 { [across, across] } else { [across, up] }
+    }
+}
+
+/// A bar that says how long some mm are.
+pub(crate) fn crosshair(svg: &mut Svg, at: Point, half_px: f64) {
+    let style = Style::line(MUTED, 1.0);
+    svg.line([at[0] - half_px, at[1]], [at[0] + half_px, at[1]], &style);
+    svg.line([at[0], at[1] - half_px], [at[0], at[1] + half_px], &style);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WINDOW: Window = Window { left_mm: 400.0, right_mm: -400.0, bottom_mm: 0.0, top_mm: 300.0 };
+
+    #[test]
+    fn the_scale_is_equal_both_ways() {
+        let plane = Plane::fit(WINDOW, [10.0, 20.0], [500.0, 500.0]);
+        let (a, b) = (plane.at([0.0, 0.0]), plane.at([-100.0, 100.0]));
+        assert!(((b[0] - a[0]) - (a[1] - b[1])).abs() < 1e-9);
+        assert!((plane.area.w / plane.area.h - 800.0 / 300.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_falling_axis_puts_its_first_value_left() {
+        let plane = Plane::fit(WINDOW, [10.0, 20.0], [500.0, 500.0]);
+        assert!((plane.at([400.0, 0.0])[0] - 10.0).abs() < 1e-9);
+        assert!(plane.at([-400.0, 0.0])[0] > 400.0);
+    }
+
+    #[test]
+    fn a_thin_window_is_widened_at_equal_scale() {
+        let thin = Window { left_mm: 0.0, right_mm: 2000.0, bottom_mm: 5.0, top_mm: 6.0 };
+        let plane = Plane::fit(thin, [0.0, 0.0], [500.0, 400.0]);
+        assert!((plane.area.h - THINNEST_PX).abs() < 1e-9);
+        let shown_mm = plane.window.top_mm - plane.window.bottom_mm;
+        assert!((shown_mm * plane.px_per_mm - plane.area.h).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,94 @@
+//! Other programs: how a chore names, announces and runs them.
+
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use std::env;
+use std::process::{Command, ExitCode, Stdio};
+
+/// `cargo` with `arguments`: the very cargo that runs this chore.
+pub fn cargo(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(arguments);
+    command
+}
+
+/// Whether `cargo <tool> --version` works, that is, whether this cargo extension is installed.
+pub fn has_cargo_tool(tool: &str) -> bool {
+    let mut command = cargo(&[tool, "--version"]);
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// The line a person would type for `command`, variables that differ from ours included.
+pub fn command_line(command: &Command) -> String {
+    let variables = command.get_envs().filter_map(|(name, value)| {
+        Some(format!(
+            "{}='{}'",
+            name.to_string_lossy(),
+            value?.to_string_lossy()
+        ))
+    });
+    let program = command.get_program().to_string_lossy();
+    let program = program.rsplit(['/', '\\']).next().unwrap_or_default().to_owned();
+    let arguments = command
+        .get_args()
+        .map(|argument| argument.to_string_lossy().into_owned());
+    variables
+        .chain([program])
+        .chain(arguments)
+        .collect::<Vec<_>>()
+        .join(" ")
+}
+
+/// Says what runs, runs it on our own terminal, and gives its verdict as ours.
+pub fn run_in_place(mut command: Command) -> ExitCode {
+    eprintln!("+ {}", command_line(&command));
+    match command.status() {
+        Ok(status) if status.success() => ExitCode::SUCCESS,
+        Ok(_) => ExitCode::from(FOUND_WRONG),
+        Err(problem) => {
+            eprintln!("{} does not start: {problem}", command_line(&command));
+            ExitCode::from(COULD_NOT_RUN)
+        }
+    }
+}
+
+/// Refuses arguments for a chore that takes none: one that is ignored would look obeyed.
+///
+/// # Errors
+/// The exit code to leave with, after saying what was refused.
+pub fn expect_no_arguments(chore: &str, arguments: &[String]) -> Result<(), ExitCode> {
+    if arguments.is_empty() {
+        return Ok(());
+    }
+    eprintln!(
+        "cargo xtask {chore} takes no arguments, got: {}",
+        arguments.join(" ")
+    );
+    Err(ExitCode::from(COULD_NOT_RUN))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn command_line_shows_variables_program_and_arguments() {
+        let mut command = Command::new("/usr/bin/cargo");
+        command
+            .args(["doc", "--no-deps"])
+            .env("RUSTDOCFLAGS", "-D warnings");
+        assert_eq!(
+            command_line(&command),
+            "RUSTDOCFLAGS='-D warnings' cargo doc --no-deps"
+        );
+    }
+
+    #[test]
+    fn arguments_are_refused_where_none_are_taken() {
+        assert!(expect_no_arguments("tidy", &[]).is_ok());
+        assert!(expect_no_arguments("tidy", &["--fix".to_owned()]).is_err());
+    }
+}

@@ -1,0 +1,156 @@
+//! All tests on a fresh machine: every step is said, counted and timed; a failed step does not stop the next.
+//!
+//! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
+//! says that it was skipped.
+
+mod count;
+mod step;
+
+use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use count::Count;
+use std::env;
+use std::process::{Command, ExitCode};
+use step::{Outcome, Step};
+
+/// What `--help` says.
+pub const ABOUT: &str = "Passes all tests on a fresh machine: unit, integration, documentation.";
+
+/// What makes up "all tests", in order. A new step, an installation included, is one line here.
+fn steps() -> Vec<Step> {
+    vec![
+        Step::new("unit and integration tests", test_runner()),
+        Step::new(
+            "documentation tests",
+            cargo(&["test", "--doc", "--workspace", "--no-fail-fast"]),
+        ),
+        Step::new("documentation", documentation_without_warnings()),
+    ]
+}
+
+/// Runs all steps, then says how long each took and, in the closing line, how many tests there were.
+pub fn run(arguments: &[String]) -> ExitCode {
+    if let Err(code) = expect_no_arguments("test", arguments) {
+        return code;
+    }
+    match env::var_os("ARMILL_SAMPLES") {
+        Some(folder) => {
+            eprintln!("samples: {}; a missing one fails its test", folder.display());
+        }
+        None => {
+            eprintln!("samples: ARMILL_SAMPLES is not set; tests that need them say that they are skipped");
+        }
+    }
+    let outcomes: Vec<Outcome> = steps().into_iter().map(Step::run).collect();
+    println!("\n{}", table(&outcomes));
+    let total = outcomes
+        .iter()
+        .map(|outcome| outcome.count)
+        .fold(Count::default(), Count::plus);
+    println!("tests: {total}");
+    verdict(&outcomes, total)
+}
+
+/// Nextest where it is installed (it shows progress and runs in parallel), else the runner every cargo has.
+fn test_runner() -> Command {
+    if has_cargo_tool("nextest") {
+        return cargo(&[
+            "nextest",
+            "run",
+            "--workspace",
+            "--no-fail-fast",
+            "--no-tests=pass",
+        ]);
+    }
+    eprintln!("cargo-nextest is not installed: cargo test does the same, with less to read");
+    // `--doc` has a step of its own, and these targets leave it out.
+    cargo(&[
+        "test",
+        "--workspace",
+        "--no-fail-fast",
+        "--lib",
+        "--bins",
+        "--tests",
+        "--examples",
+    ])
+}
+
+/// Builds the documentation of our crates; a broken link or a warning fails.
+fn documentation_without_warnings() -> Command {
+    let mut command = cargo(&["doc", "--no-deps", "--workspace"]);
+    command.env("RUSTDOCFLAGS", "-D warnings");
+    command
+}
+
+/// One line a step: verdict, wall time, name.
+fn table(outcomes: &[Outcome]) -> String {
+    let line = |outcome: &Outcome| {
+        let verdict = if outcome.passed { "ok" } else { "FAILED" };
+        format!(
+            "{verdict:<7}{:>7.1} s  {}\n",
+            outcome.wall_time.as_secs_f64(),
+            outcome.name
+        )
+    };
+    outcomes.iter().map(line).collect()
+}
+
+/// A run without a single test counts as one that could not run: it says nothing about the code.
+fn verdict(outcomes: &[Outcome], total: Count) -> ExitCode {
+    if outcomes.iter().any(|outcome| !outcome.passed) {
+        return ExitCode::from(FOUND_WRONG);
+    }
+    if total.passed == 0 {
+        eprintln!("no test ran: the runner's summary was not understood, or there are no tests");
+        return ExitCode::from(COULD_NOT_RUN);
+    }
+    ExitCode::SUCCESS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    fn outcome(passed: bool) -> Outcome {
+        let count = Count {
+            passed: 3,
+            failed: 0,
+            skipped: 0,
+        };
+        Outcome {
+            name: "made up",
+            passed,
+            count,
+            wall_time: Duration::from_millis(1250),
+        }
+    }
+
+    #[test]
+    fn table_names_verdict_and_wall_time() {
+        let table = table(&[outcome(true), outcome(false)]);
+        assert_eq!(table, "ok         1.2 s  made up\nFAILED     1.2 s  made up\n");
+    }
+
+    #[test]
+    fn one_failed_step_fails_the_run() {
+        let total = Count {
+            passed: 3,
+            failed: 0,
+            skipped: 0,
+        };
+        assert_eq!(
+            verdict(&[outcome(true), outcome(false)], total),
+            ExitCode::from(FOUND_WRONG)
+        );
+        assert_eq!(verdict(&[outcome(true)], total), ExitCode::SUCCESS);
+    }
+
+    #[test]
+    fn a_run_without_tests_is_no_pass() {
+        assert_eq!(
+            verdict(&[outcome(true)], Count::default()),
+            ExitCode::from(COULD_NOT_RUN)
+        );
+    }
+}

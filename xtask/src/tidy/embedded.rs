@@ -1,0 +1,61 @@
+//! Every robot, material and study of the repository is built into the command.
+
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// Why this rule is there.
+pub const REASON: &str =
+    "every command works from an empty folder: what is not embedded is not there for users";
+
+/// Where the library is embedded: this file, or a folder of that name.
+const LIBRARY: &str = "crates/study/src/library";
+
+/// The library must name each file of `robots/` and `materials/`, and each folder of `studies/`, by its path
+/// from the repository root. Pages for readers (`.md`) need not be embedded.
+pub fn check(tree: &Tree) -> Vec<Violation> {
+    let library: String = tree.texts_in(LIBRARY, ".rs").map(|(_, text)| text).collect();
+    let files = tree
+        .paths()
+        .filter(|path| path.starts_with("robots/") || path.starts_with("materials/"));
+    let files = files.filter(|path| !path.ends_with(".md")).map(str::to_owned);
+    let studies = tree
+        .folders_in("studies/")
+        .into_iter()
+        .map(|folder| format!("studies/{folder}/"));
+    let missing = files
+        .chain(studies)
+        .filter(|path| !library.contains(path.as_str()));
+    missing
+        .map(|path| {
+            let what = format!("not embedded: {LIBRARY}.rs does not name it");
+            Violation::new(&path, 1, what, "add it there, or take it out of the library")
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILES: &[(&str, &str)] = &[
+        ("robots/maker/one.toml", ""),
+        ("robots/README.md", ""),
+        ("materials/steel.toml", ""),
+        ("studies/groove/study.toml", ""),
+    ];
+
+    #[test]
+    fn what_the_library_does_not_name_is_told() {
+        let library = "include_str!(\"../../../robots/maker/one.toml\")";
+        let tree = Tree::of(&[FILES, &[("crates/study/src/library.rs", library)]].concat());
+        let paths: Vec<String> = check(&tree).into_iter().map(|violation| violation.path).collect();
+        assert_eq!(paths, ["materials/steel.toml", "studies/groove/"]);
+    }
+
+    #[test]
+    fn a_library_that_names_all_passes() {
+        let library = "robots/maker/one.toml materials/steel.toml studies/groove/study.toml";
+        let tree = Tree::of(&[FILES, &[("crates/study/src/library/mod.rs", library)]].concat());
+        assert!(check(&tree).is_empty());
+    }
+}

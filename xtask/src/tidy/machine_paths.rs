@@ -1,0 +1,73 @@
+//! No path of the machine where the project is developed.
+
+use super::rust::is_word;
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// Why this rule is there.
+pub const REASON: &str = "a path of one machine works nowhere else, and the project speaks of itself alone";
+
+/// In two parts each: this file must not break its own rule.
+const PATHS: &[&str] = &[
+    concat!("/wor", "k/"),
+    concat!("/roo", "t/"),
+    concat!("/.li", "brary"),
+    concat!(".li", "brary/"),
+];
+
+/// Looks at every text file; `/home/` and the like are not listed, as examples may show them.
+pub fn check(tree: &Tree) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    for (path, text) in tree.texts() {
+        for (index, line) in text.lines().enumerate() {
+            if let Some(found) = PATHS.iter().find(|found| begins_a_path(line, found)) {
+                let what = format!("`{found}` is a path of one machine");
+                violations.push(Violation::new(
+                    path,
+                    index + 1,
+                    what,
+                    "count from the repository, or take it out",
+                ));
+            }
+        }
+    }
+    violations
+}
+
+/// Whether `found` stands in `line` as the beginning of a path, not inside of a longer one or a method call.
+fn begins_a_path(line: &str, found: &str) -> bool {
+    let inside = |c: char| is_word(c) || matches!(c, '.' | ')' | ']' | '}' | '-');
+    // A hidden folder may lie in any other.
+    let hidden = found.starts_with("/.");
+    line.match_indices(found)
+        .any(|(at, _)| hidden || !line[..at].ends_with(inside))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(text: &str) -> Vec<usize> {
+        let text = text.replace('~', "");
+        check(&Tree::of(&[("a.md", &text)]))
+            .iter()
+            .map(|violation| violation.line)
+            .collect()
+    }
+
+    #[test]
+    fn paths_of_one_machine_are_told() {
+        assert_eq!(
+            lines("see /wo~rk/main\nfine\n\"/ro~ot/.cargo\"\n/x/.lib~rary\n"),
+            [1, 3, 4]
+        );
+    }
+
+    #[test]
+    fn longer_paths_and_method_calls_pass() {
+        assert_eq!(
+            lines("https://example.org/wo~rk/x\n../wo~rk/x\nself.lib~rary()\na.lib~rary/2\n"),
+            []
+        );
+    }
+}

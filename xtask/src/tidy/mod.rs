@@ -1,0 +1,108 @@
+//! What must hold in this repository and what a machine can see: each rule with its reason, all told at once.
+//!
+//! A rule looks at the text of the files that git knows or would take; it builds nothing. To add a rule: one
+//! file here with `REASON` and `check`, one line in [`RULES`].
+
+// The repository as the rules see it.
+mod boundary_fields;
+mod rust;
+mod toml_lines;
+mod tree;
+mod violation;
+
+// The rules.
+mod architecture_page;
+mod core_absence;
+mod crate_direction;
+mod embedded;
+mod file_length;
+mod links;
+mod machine_paths;
+mod module_order;
+mod sources;
+mod units;
+mod vague_names;
+mod validation_cases;
+
+use crate::command::expect_no_arguments;
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use std::path::Path;
+use std::process::ExitCode;
+use tree::Tree;
+use violation::Violation;
+
+/// What `--help` says.
+pub const ABOUT: &str = "Checks the architecture: directions, sizes, names, units, sources, links.";
+
+/// Something that must hold everywhere.
+struct Rule {
+    name: &'static str,
+    reason: &'static str,
+    check: fn(&Tree) -> Vec<Violation>,
+}
+
+const RULES: &[Rule] = &[
+    Rule::new(
+        "architecture page",
+        architecture_page::REASON,
+        architecture_page::check,
+    ),
+    Rule::new("crate direction", crate_direction::REASON, crate_direction::check),
+    Rule::new("module order", module_order::REASON, module_order::check),
+    Rule::new("absence in the core", core_absence::REASON, core_absence::check),
+    Rule::new("file length", file_length::REASON, file_length::check),
+    Rule::new("vague names", vague_names::REASON, vague_names::check),
+    Rule::new("units in names", units::REASON, units::check),
+    Rule::new("sources of numbers", sources::REASON, sources::check),
+    Rule::new("embedded library", embedded::REASON, embedded::check),
+    Rule::new("links", links::REASON, links::check),
+    Rule::new(
+        "validation cases",
+        validation_cases::REASON,
+        validation_cases::check,
+    ),
+    Rule::new("machine paths", machine_paths::REASON, machine_paths::check),
+];
+
+impl Rule {
+    const fn new(name: &'static str, reason: &'static str, check: fn(&Tree) -> Vec<Violation>) -> Self {
+        Self { name, reason, check }
+    }
+}
+
+/// Checks every rule and tells every violation, with the reason of each broken rule.
+pub fn run(arguments: &[String]) -> ExitCode {
+    if let Err(code) = expect_no_arguments("tidy", arguments) {
+        return code;
+    }
+    let tree = match Tree::read(Path::new(".")) {
+        Ok(tree) => tree,
+        Err(problem) => {
+            eprintln!("cannot list the files of the repository: {problem}");
+            return ExitCode::from(COULD_NOT_RUN);
+        }
+    };
+    let mut total = 0;
+    for rule in RULES {
+        let violations = (rule.check)(&tree);
+        if violations.is_empty() {
+            continue;
+        }
+        println!("{}: {}", rule.name, rule.reason);
+        for violation in &violations {
+            println!("  {violation}");
+        }
+        println!();
+        total += violations.len();
+    }
+    println!(
+        "tidy: {} rules, {} files, {total} violations",
+        RULES.len(),
+        tree.paths().count()
+    );
+    if total == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::from(FOUND_WRONG)
+    }
+}

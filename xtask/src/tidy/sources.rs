@@ -1,0 +1,142 @@
+//! Every number of a robot or a material says where it comes from.
+
+use super::toml_lines::{Table, tables};
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// Why this rule is there.
+pub const REASON: &str = "a stiffness that nobody can trace is a guess, and a prediction from it too";
+
+/// Where the numbers lie.
+const LIBRARIES: &[&str] = &["robots/", "materials/"];
+
+/// `[sources.NAME]` says what and where a source is; `source = "NAME"` or `mass_source = "NAME"` refers to it.
+pub fn check(tree: &Tree) -> Vec<Violation> {
+    let files = LIBRARIES.iter().flat_map(|folder| tree.texts_in(folder, ".toml"));
+    files
+        .flat_map(|(path, text)| check_file(path, &tables(text)))
+        .collect()
+}
+
+fn check_file(path: &str, tables: &[Table]) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    let defined: Vec<(&str, usize)> = tables
+        .iter()
+        .filter_map(|table| Some((table.name.strip_prefix("sources.")?, table.line)))
+        .collect();
+    let used: Vec<&str> = tables
+        .iter()
+        .flat_map(|table| &table.sources)
+        .map(|source| source.name.as_str())
+        .collect();
+
+    for (index, table) in tables.iter().enumerate() {
+        for source in &table.sources {
+            if !defined.iter().any(|(name, _)| *name == source.name) {
+                let what = format!("{} \"{}\" is not in [sources]", source.key, source.name);
+                let hint = format!("add [sources.{}] with what, where and licence", source.name);
+                violations.push(Violation::new(path, source.line, what, hint));
+            }
+        }
+        if let Some(line) = table
+            .first_number
+            .filter(|_| !is_about_a_source(table) && !has_source(tables, index))
+        {
+            let name = if table.name.is_empty() {
+                "the first table"
+            } else {
+                &table.name
+            };
+            let hint = "add source = \"NAME\" to it, or to the table around it";
+            violations.push(Violation::new(
+                path,
+                line,
+                format!("{name} holds numbers without a source"),
+                hint,
+            ));
+        }
+    }
+    for (name, line) in defined.iter().filter(|(name, _)| !used.contains(name)) {
+        let what = format!("source \"{name}\" is not used");
+        violations.push(Violation::new(
+            path,
+            *line,
+            what,
+            "name it where its numbers stand, or take it out",
+        ));
+    }
+    violations.sort_by_key(|violation| violation.line);
+    violations
+}
+
+/// A year or a page number in `[sources.NAME]` needs no source itself.
+fn is_about_a_source(table: &Table) -> bool {
+    table.name == "sources" || table.name.starts_with("sources.")
+}
+
+/// Whether a source is named in the table at `index`, in a table around it, or for it by name just outside.
+fn has_source(tables: &[Table], index: usize) -> bool {
+    if !tables[index].sources.is_empty() {
+        return true;
+    }
+    let mut name = tables[index].name.as_str();
+    while !name.is_empty() {
+        let (outside, own) = name.rsplit_once('.').unwrap_or(("", name));
+        // Of tables that repeat, the last one before this is the one around it.
+        let around = tables[..index].iter().rev().find(|table| table.name == outside);
+        let by_name = format!("{own}_source");
+        let covers = |key: &str| key == by_name || !outside.is_empty();
+        if around.is_some_and(|table| table.sources.iter().any(|source| covers(&source.key))) {
+            return true;
+        }
+        name = outside;
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(text: &str) -> Vec<String> {
+        let violations = check(&Tree::of(&[("robots/maker/model.toml", text)]));
+        violations
+            .into_iter()
+            .map(|violation| format!("{} {}", violation.line, violation.what))
+            .collect()
+    }
+
+    const PAPER: &str = "[sources.paper]\nwhat = \"Made up\"\nyear = 2020\n";
+
+    #[test]
+    fn numbers_without_a_source_are_told() {
+        let text = format!("{PAPER}[joints]\nsource = \"paper\"\nk = 1\n[mass]\nm_kg = 2.0\n");
+        assert_eq!(told(&text), ["8 mass holds numbers without a source"]);
+    }
+
+    #[test]
+    fn a_source_that_is_not_defined_or_not_used_is_told() {
+        let text = format!("{PAPER}[joints]\nstiffness_source = \"book\"\n");
+        assert_eq!(
+            told(&text),
+            [
+                "1 source \"paper\" is not used",
+                "5 stiffness_source \"book\" is not in [sources]"
+            ]
+        );
+    }
+
+    #[test]
+    fn the_table_around_may_name_the_source() {
+        let inside = format!("{PAPER}[a]\nsource = \"paper\"\n[a.b]\nk = 1\n[[a.c]]\nk = 1\n");
+        assert_eq!(told(&inside), Vec::<String>::new());
+        let by_name = format!("joints_source = \"paper\"\n{PAPER}[[joints]]\nk = 1\n[[joints]]\nk = 2\n");
+        assert_eq!(told(&by_name), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_source_of_another_table_does_not_help() {
+        let text = format!("mass_source = \"paper\"\n{PAPER}[[joints]]\nk = 1\n");
+        assert_eq!(told(&text), ["6 joints holds numbers without a source"]);
+    }
+}

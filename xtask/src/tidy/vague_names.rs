@@ -1,0 +1,73 @@
+//! No file, folder or module has a name that would fit anything.
+
+use super::rust::find_word;
+use super::tree::Tree;
+use super::violation::Violation;
+use std::collections::BTreeSet;
+
+/// Why this rule is there.
+pub const REASON: &str = "a name that fits anything collects anything, and nobody finds it there";
+
+const VAGUE: &[&str] = &[
+    "util", "utils", "helper", "helpers", "misc", "common", "func", "funcs", "manager", "managers",
+];
+
+const HINT: &str = "name it by the idea it holds";
+
+/// Looks at every file and folder of any kind, and at modules written inside a Rust file.
+pub fn check(tree: &Tree) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    let mut told = BTreeSet::new();
+    for path in tree.paths() {
+        let mut end = 0;
+        for part in path.split('/') {
+            end += part.len();
+            let name = part.split('.').next().unwrap_or_default();
+            // A folder is told once, not once for each file in it.
+            if VAGUE.contains(&name) && told.insert(&path[..end]) {
+                violations.push(Violation::new(path, 1, format!("`{part}` says nothing"), HINT));
+            }
+            end += 1;
+        }
+    }
+    for file in tree.rust_files("") {
+        for (index, line) in file.code.iter().enumerate() {
+            let name = find_word(line, "mod").and_then(|at| line[at + 3..].trim().strip_suffix('{'));
+            if let Some(name) = name.map(str::trim).filter(|name| VAGUE.contains(name)) {
+                violations.push(Violation::new(
+                    file.path,
+                    index + 1,
+                    format!("`mod {name}` says nothing"),
+                    HINT,
+                ));
+            }
+        }
+    }
+    violations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vague_files_folders_and_modules_are_told_once() {
+        let tree = Tree::of(&[
+            ("a/utils.rs", ""),
+            ("b/common/one.ts", ""),
+            ("b/common/two.ts", ""),
+            ("c/real.rs", "pub mod helpers {\n}\n"),
+        ]);
+        let paths: Vec<String> = check(&tree).into_iter().map(|violation| violation.path).collect();
+        assert_eq!(paths, ["a/utils.rs", "b/common/one.ts", "c/real.rs"]);
+    }
+
+    #[test]
+    fn names_that_only_contain_a_vague_word_pass() {
+        let tree = Tree::of(&[
+            ("a/uncommon.rs", "mod commonality {\n}\n"),
+            ("a/utility_function.rs", ""),
+        ]);
+        assert!(check(&tree).is_empty());
+    }
+}

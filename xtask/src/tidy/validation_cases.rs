@@ -1,0 +1,119 @@
+//! Every validation case explains itself and stands in the table of achieved errors.
+
+use super::tree::Tree;
+use super::violation::Violation;
+use std::collections::BTreeSet;
+
+/// Why this rule is there.
+pub const REASON: &str =
+    "a case without its page proves nothing, one outside the table is one nobody looks at";
+
+const FOLDER: &str = "validation/";
+const TABLE: &str = "validation/TABLE.md";
+
+/// Folders of `validation/` that are code, not cases.
+const NOT_CASES: &[&str] = &["src", "tests", "benches"];
+
+/// Compares the folders of `validation/` with the first column of its table, both ways.
+pub fn check(tree: &Tree) -> Vec<Violation> {
+    let mut cases = tree.folders_in(FOLDER);
+    cases.retain(|case| !NOT_CASES.contains(case));
+    let mut violations = Vec::new();
+    for case in &cases {
+        let page = format!("{FOLDER}{case}/README.md");
+        if !tree.has(&page) {
+            violations.push(Violation::new(
+                &page,
+                1,
+                "the page is missing",
+                "say what, from where, tolerance and why",
+            ));
+        }
+    }
+    let rows = tree.text(TABLE).map(rows).unwrap_or_default();
+    let listed: BTreeSet<&str> = rows.iter().map(|(_, case)| *case).collect();
+    for case in cases.difference(&listed) {
+        let what = format!("case `{case}` is not in the table");
+        violations.push(Violation::new(
+            TABLE,
+            1,
+            what,
+            "write it again: cargo xtask validate",
+        ));
+    }
+    for (line, case) in rows.iter().filter(|(_, case)| !cases.contains(case)) {
+        let what = format!("case `{case}` has no folder");
+        violations.push(Violation::new(
+            TABLE,
+            *line,
+            what,
+            "write it again: cargo xtask validate",
+        ));
+    }
+    violations
+}
+
+/// The first cell of each row of a Markdown table, with its line; a row that continues a case has none.
+fn rows(table: &str) -> Vec<(usize, &str)> {
+    let lines: Vec<&str> = table.lines().collect();
+    let is_rule = |line: &str| line.starts_with('|') && line.chars().all(|c| "|-: ".contains(c));
+    let mut rows = Vec::new();
+    for (index, line) in lines.iter().enumerate() {
+        let is_header = lines.get(index + 1).is_some_and(|next| is_rule(next));
+        if !line.starts_with('|') || is_rule(line) || is_header {
+            continue;
+        }
+        let cell = line.split('|').nth(1).unwrap_or_default().trim();
+        // A link shows its text; backticks are no part of the name.
+        let cell = cell
+            .strip_prefix('[')
+            .and_then(|cell| cell.split(']').next())
+            .unwrap_or(cell);
+        let case = cell.trim_matches('`');
+        if !case.is_empty() {
+            rows.push((index + 1, case));
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(files: &[(&str, &str)]) -> Vec<String> {
+        let violations = check(&Tree::of(files)).into_iter();
+        violations
+            .map(|violation| format!("{}:{} {}", violation.path, violation.line, violation.what))
+            .collect()
+    }
+
+    #[test]
+    fn a_case_without_page_or_row_and_a_row_without_case_are_told() {
+        let table = "| case | error |\n|---|---:|\n| `gone` | 1 |\n";
+        let violations = told(&[
+            ("validation/new/data.csv", ""),
+            (TABLE, table),
+            ("validation/src/main.rs", ""),
+        ]);
+        assert_eq!(
+            violations,
+            [
+                "validation/new/README.md:1 the page is missing",
+                "validation/TABLE.md:1 case `new` is not in the table",
+                "validation/TABLE.md:3 case `gone` has no folder",
+            ]
+        );
+    }
+
+    #[test]
+    fn cases_with_page_and_row_pass() {
+        let table = "| case | error |\n|---|---|\n| [circle](circle/README.md) | 1 |\n| | 2 |\n";
+        assert!(told(&[("validation/circle/README.md", ""), (TABLE, table)]).is_empty());
+    }
+
+    #[test]
+    fn no_cases_need_no_table() {
+        assert!(told(&[("validation/src/main.rs", "")]).is_empty());
+    }
+}
