@@ -1,2 +1,54 @@
-//! To come.
-fn main() {}
+//! The command `armill`.
+//!
+//! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: tolerance not held where `--strict`
+//! asks for it; 2: bad input; 3: a fault of armill itself.
+
+mod arguments;
+mod command;
+mod progress;
+mod terminal;
+
+use std::process::ExitCode;
+
+use armill_study::{ErrorKind, StudyError};
+use clap::Parser;
+
+use arguments::{Arguments, Command};
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.command {
+        Command::Run(run) => command::run::run(run),
+        Command::Check(check) => command::check::run(check),
+        Command::New(new) => command::new::run(new),
+        Command::Robots(robots) => command::robots::run(robots),
+        Command::Pose(pose) => command::pose::run(pose),
+        Command::Completions(completions) => command::completions::run(completions),
+    };
+    match outcome {
+        Ok(Outcome::Fine) => ExitCode::SUCCESS,
+        Ok(Outcome::ToleranceNotHeld) => ExitCode::from(1),
+        Err(error) => {
+            terminal::show_error(&error, arguments.command.wants_json());
+            exit_code(&error)
+        }
+    }
+}
+
+/// How a command ended that did its work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    /// Nothing to complain of.
+    Fine,
+    /// `--strict` was given and the tolerance is not held everywhere.
+    ToleranceNotHeld,
+}
+
+fn exit_code(error: &StudyError) -> ExitCode {
+    match error.kind() {
+        ErrorKind::InvalidInput => ExitCode::from(2),
+        // As a shell tells an interrupted command.
+        ErrorKind::Cancelled => ExitCode::from(130),
+        ErrorKind::Internal => ExitCode::from(3),
+    }
+}

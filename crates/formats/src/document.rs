@@ -22,18 +22,20 @@
 
 mod check;
 mod limits;
+mod merge;
 mod path;
 mod problem;
 mod shape;
 mod source;
+mod tree;
 mod unit;
+mod words;
 
 use std::ops::Range;
 
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
-use toml::Spanned;
-use toml::de::{DeTable, Deserializer};
+use toml::de::DeTable;
 
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
@@ -47,7 +49,7 @@ const MOST_SYNTAX_PROBLEMS: usize = 20;
 #[derive(Debug, Clone)]
 pub struct Document {
     source: Source,
-    root: DeTable<'static>,
+    root: tree::Node,
 }
 
 impl Document {
@@ -66,8 +68,7 @@ impl Document {
         if !errors.is_empty() {
             return Err(syntax_problems(&source, &errors));
         }
-        let mut root = root.into_inner();
-        root.make_owned();
+        let root = tree::root(root.into_inner());
         Ok(Self { source, root })
     }
 
@@ -96,10 +97,8 @@ impl Document {
         if !problems.is_empty() {
             return Err(Problems::from(problems));
         }
-        let whole = 0..self.source.text().len();
-        let tree = Deserializer::from(Spanned::new(whole.clone(), self.root.clone()));
-        T::deserialize(tree).map_err(|error| {
-            let span = error.span().filter(|span| *span != whole).unwrap_or(0..0);
+        toml::from_str(self.source.text()).map_err(|error| {
+            let span = error.span().unwrap_or(0..0);
             Problems::from(vec![self.source.problem(span, error.message().trim(), None)])
         })
     }
@@ -109,7 +108,8 @@ impl Document {
     /// Where the path does not exist, the problem stands at the nearest parent that does. Keys that are not bare are
     /// written in quotes, as in TOML: `material."EN AW-6082"`.
     pub fn problem(&self, path: &str, message: impl Into<String>, hint: Option<&str>) -> Problem {
-        self.source.problem(self.span(path), message, hint.map(str::to_owned))
+        self.source
+            .problem(self.span(path), message, hint.map(str::to_owned))
     }
 
     /// Where the value that `path` names stands, in bytes of [`Source::text`]; of its nearest parent if there is none.

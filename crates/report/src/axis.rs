@@ -14,7 +14,10 @@ pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
     let decade = 10f64.powf(raw.log10().floor());
     let fraction = raw / decade;
     // A hair of slack: 0.2 / 0.1 may come out as 2.0000000000000004.
-    let nice = [1.0, 2.0, 2.5, 5.0].into_iter().find(|n| fraction <= n * (1.0 + 1e-9)).unwrap_or(10.0);
+    let nice = [1.0, 2.0, 2.5, 5.0]
+        .into_iter()
+        .find(|n| fraction <= n * (1.0 + 1e-9))
+        .unwrap_or(10.0);
     nice * decade
 }
 
@@ -78,9 +81,17 @@ pub(crate) fn three_digits(value: f64) -> String {
 /// `value` without trailing zeros after the decimal point, four significant digits.
 pub(crate) fn plain(value: f64) -> String {
     let size = value.abs();
-    let decimals = if size >= 1000.0 { 0 } else { (3.0 - size.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize };
+    let decimals = if size >= 1000.0 {
+        0
+    } else {
+        (3.0 - size.max(1e-3).log10().floor()).clamp(0.0, 6.0) as usize
+    };
     let text = number(value, decimals);
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
 }
 
 /// `value` with `decimals` decimals and a true minus sign.
@@ -98,10 +109,13 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
 
 /// Smallest and largest finite value.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
-    values.into_iter().filter(|v| v.is_finite()).fold(None, |range, v| match range {
-        None => Some((v, v)),
-        Some((low, high)) => Some((v.min(low), v.max(high))),
-    })
+    values
+        .into_iter()
+        .filter(|v| v.is_finite())
+        .fold(None, |range, v| match range {
+            None => Some((v, v)),
+            Some((low, high)) => Some((v.min(low), v.max(high))),
+        })
 }
 
 #[cfg(test)]

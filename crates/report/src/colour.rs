@@ -18,8 +18,9 @@ pub(crate) const OVER: &str = "#d9d9d9";
 /// Share of white mixed into the field colours, so that dark labels stay readable on them.
 const SOFTENING: f64 = 0.12;
 
-const CATEGORIES: [&str; 8] =
-    ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5a5a5a", "#b5a900"];
+const CATEGORIES: [&str; 8] = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5a5a5a", "#b5a900",
+];
 
 /// Which colour scale a field is drawn in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,7 +53,12 @@ pub(crate) fn category(index: usize) -> &'static str {
 /// `#rrggbb` between `a` and `b`, at `share` of the way to `b`.
 pub(crate) fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
     let channel = |k: usize| (f64::from(a[k]) * (1.0 - share) + f64::from(b[k]) * share).round();
-    format!("#{:02x}{:02x}{:02x}", channel(0) as u8, channel(1) as u8, channel(2) as u8)
+    format!(
+        "#{:02x}{:02x}{:02x}",
+        channel(0) as u8,
+        channel(1) as u8,
+        channel(2) as u8
+    )
 }
 
 #[cfg(test)]
@@ -64,7 +70,9 @@ mod tests {
         for scale in [ColourScale::Viridis, ColourScale::Cividis] {
             let lightness = |t: f64| {
                 let c = scale.at(t);
-                (0..3).map(|k| u32::from_str_radix(&c[1 + 2 * k..3 + 2 * k], 16).unwrap_or(0)).sum::<u32>()
+                (0..3)
+                    .map(|k| u32::from_str_radix(&c[1 + 2 * k..3 + 2 * k], 16).unwrap_or(0))
+                    .sum::<u32>()
             };
             assert!(lightness(0.0) < lightness(0.5) && lightness(0.5) < lightness(1.0));
         }

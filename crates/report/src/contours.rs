@@ -21,7 +21,10 @@ impl Lattice<'_> {
     pub(crate) fn areas_from(&self, levels: &[f64]) -> Vec<Vec<Ring>> {
         let index_rings = self.index_rings(levels);
         let to_mm = |ring: Vec<Mm>| ring.into_iter().map(|p| self.mm(p)).collect();
-        index_rings.into_iter().map(|rings| rings.into_iter().map(to_mm).collect()).collect()
+        index_rings
+            .into_iter()
+            .map(|rings| rings.into_iter().map(to_mm).collect())
+            .collect()
     }
 
     /// For each level, the lines along which the samples equal it; the edge of the lattice is not part of them.
@@ -31,7 +34,9 @@ impl Lattice<'_> {
             .into_iter()
             .map(|rings| {
                 let lines = rings.iter().flat_map(|ring| self.inner_lines(ring));
-                lines.map(|line| line.into_iter().map(|p| self.mm(p)).collect()).collect()
+                lines
+                    .map(|line| line.into_iter().map(|p| self.mm(p)).collect())
+                    .collect()
             })
             .collect()
     }
@@ -44,7 +49,9 @@ impl Lattice<'_> {
         let builder = contour::ContourBuilder::new(nx, ny, true);
         let edge = [(nx - 1) as f64, (ny - 1) as f64];
         let mut all = vec![Vec::new(); levels.len()];
-        let Ok(contours) = builder.contours(self.samples, levels) else { return all };
+        let Ok(contours) = builder.contours(self.samples, levels) else {
+            return all;
+        };
         for (rings, contour) in all.iter_mut().zip(contours) {
             for polygon in contour.geometry() {
                 for line in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
@@ -61,10 +68,12 @@ impl Lattice<'_> {
 
     /// The parts of a ring that do not run along the edge.
     fn inner_lines(&self, ring: &[Mm]) -> Vec<Vec<Mm>> {
-        let edge = [(self.horizontal_mm.len() - 1) as f64, (self.vertical_mm.len() - 1) as f64];
-        let along_edge = |a: Mm, b: Mm| {
-            a == b || (0..2).any(|k| a[k] == b[k] && (a[k] == 0.0 || a[k] == edge[k]))
-        };
+        let edge = [
+            (self.horizontal_mm.len() - 1) as f64,
+            (self.vertical_mm.len() - 1) as f64,
+        ];
+        let along_edge =
+            |a: Mm, b: Mm| a == b || (0..2).any(|k| a[k] == b[k] && (a[k] == 0.0 || a[k] == edge[k]));
         let mut lines: Vec<Vec<Mm>> = Vec::new();
         let mut open = false;
         for w in ring.windows(2) {
@@ -90,7 +99,10 @@ impl Lattice<'_> {
     }
 
     fn mm(&self, index: Mm) -> Mm {
-        [between(self.horizontal_mm, index[0]), between(self.vertical_mm, index[1])]
+        [
+            between(self.horizontal_mm, index[0]),
+            between(self.vertical_mm, index[1]),
+        ]
     }
 }
 
@@ -108,7 +120,11 @@ mod tests {
     const Y: [f64; 2] = [0.0, 5.0];
 
     fn lattice(samples: &[f64]) -> Lattice<'_> {
-        Lattice { horizontal_mm: &X, vertical_mm: &Y, samples }
+        Lattice {
+            horizontal_mm: &X,
+            vertical_mm: &Y,
+            samples,
+        }
     }
 
     #[test]
@@ -118,7 +134,10 @@ mod tests {
         assert_eq!(lines[0].len(), 1);
         assert!(lines[0][0].iter().all(|p| (p[0] - 20.0).abs() < 1e-9));
         let ys: Vec<f64> = lines[0][0].iter().map(|p| p[1]).collect();
-        assert!(ys.contains(&0.0) && ys.contains(&5.0), "from edge to edge: {ys:?}");
+        assert!(
+            ys.contains(&0.0) && ys.contains(&5.0),
+            "from edge to edge: {ys:?}"
+        );
     }
 
     #[test]

@@ -68,12 +68,17 @@ mod tests {
 
     #[test]
     fn bold_is_wider_than_regular() {
-        assert!(text_width_px("deviation", 12.0, Weight::Bold) > text_width_px("deviation", 12.0, Weight::Regular));
+        assert!(
+            text_width_px("deviation", 12.0, Weight::Bold)
+                > text_width_px("deviation", 12.0, Weight::Regular)
+        );
     }
 
     #[test]
     fn micro_and_minus_are_in_the_table() {
-        for c in ['µ', 'μ', '−', '°', '±', '≤', '≥', '×', '→', '²', '‰', '–', 'α', 'δ'] {
+        for c in [
+            'µ', 'μ', '−', '°', '±', '≤', '≥', '×', '→', '²', '‰', '–', 'α', 'δ',
+        ] {
             assert_ne!(advance(c, Weight::Regular), UNKNOWN_ADVANCE, "{c}");
         }
     }
@@ -82,6 +87,10 @@ mod tests {
     fn wrapped_lines_keep_within_the_width() {
         let lines = wrap("one two three four five six seven", 12.0, Weight::Regular, 80.0);
         assert!(lines.len() > 1);
-        assert!(lines.iter().all(|l| text_width_px(l, 12.0, Weight::Regular) <= 80.0));
+        assert!(
+            lines
+                .iter()
+                .all(|l| text_width_px(l, 12.0, Weight::Regular) <= 80.0)
+        );
     }
 }

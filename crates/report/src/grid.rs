@@ -33,11 +33,6 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// The point in column `i` and row `j`.
-    pub(crate) fn point(&self, i: usize, j: usize) -> PointState {
-        self.points.get(j * self.horizontal_mm.len() + i).copied().unwrap_or(PointState::Unreachable)
-    }
-
     /// Why this grid cannot be drawn as a map, or nothing if it can.
     pub(crate) fn obstacle(&self) -> Option<String> {
         let (nx, ny) = (self.horizontal_mm.len(), self.vertical_mm.len());
@@ -46,12 +41,18 @@ impl Grid {
         }
         if self.points.len() != nx * ny {
             let given = self.points.len();
-            return Some(format!("The grid has {nx} x {ny} points, but {given} values were given."));
+            return Some(format!(
+                "The grid has {nx} x {ny} points, but {given} values were given."
+            ));
         }
         if nx < 2 || ny < 2 {
             let reached = self.values_um().count();
             let range = crate::axis::extent(self.values_um()).map_or_else(String::new, |(low, high)| {
-                format!(", from {} to {} µm", crate::axis::three_digits(low), crate::axis::three_digits(high))
+                format!(
+                    ", from {} to {} µm",
+                    crate::axis::three_digits(low),
+                    crate::axis::three_digits(high)
+                )
             });
             return Some(format!(
                 "A map needs at least 2 x 2 points; this grid has {nx} x {ny} ({reached} reached{range})."
@@ -78,7 +79,9 @@ impl Grid {
 
     /// Whether some point is reached only beyond a joint limit.
     pub(crate) fn has_outside_limits(&self) -> bool {
-        self.points.iter().any(|p| matches!(p, PointState::OutsideJointLimits(_)) && p.value_um().is_some())
+        self.points
+            .iter()
+            .any(|p| matches!(p, PointState::OutsideJointLimits(_)) && p.value_um().is_some())
     }
 }
 

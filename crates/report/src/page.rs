@@ -51,7 +51,10 @@ pub(crate) struct Entry {
 
 impl Entry {
     pub(crate) fn new(key: Key, label: impl Into<String>) -> Self {
-        Self { key, label: label.into() }
+        Self {
+            key,
+            label: label.into(),
+        }
     }
 
     fn width_px(&self) -> f64 {
@@ -73,7 +76,15 @@ pub(crate) fn legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px: f64)
         let middle = y + LEGEND_ROW_PX / 2.0;
         let centre = [x + KEY_PX / 2.0, middle];
         match &entry.key {
-            Key::Field(style) => svg.rect(Rect { x, y: middle - 6.5, w: KEY_PX, h: 13.0 }, style),
+            Key::Field(style) => svg.rect(
+                Rect {
+                    x,
+                    y: middle - 6.5,
+                    w: KEY_PX,
+                    h: 13.0,
+                },
+                style,
+            ),
             Key::Line(styles) => {
                 for style in styles {
                     svg.line([x + 2.0, middle], [x + KEY_PX - 2.0, middle], style);
@@ -82,7 +93,11 @@ pub(crate) fn legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px: f64)
             Key::Dot(style) => svg.circle(centre, 3.5, style),
             Key::Diamond(style) => svg.polygon(&diamond(centre, 5.0), style),
         }
-        svg.text([x + KEY_PX + 6.0, middle + 4.0], &entry.label, &Text::new(SMALL_PX));
+        svg.text(
+            [x + KEY_PX + 6.0, middle + 4.0],
+            &entry.label,
+            &Text::new(SMALL_PX),
+        );
         x += entry.width_px();
     }
     y + LEGEND_ROW_PX
@@ -91,7 +106,12 @@ pub(crate) fn legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px: f64)
 /// The four corners of a diamond.
 pub(crate) fn diamond(centre: Point, half_px: f64) -> [Point; 4] {
     let [x, y] = centre;
-    [[x, y - half_px], [x + half_px, y], [x, y + half_px], [x - half_px, y]]
+    [
+        [x, y - half_px],
+        [x + half_px, y],
+        [x, y + half_px],
+        [x - half_px, y],
+    ]
 }
 
 /// A picture that says why there is nothing to draw.
@@ -101,11 +121,20 @@ pub(crate) fn notice(title: &str, subtitle: &str, reason: &str) -> String {
     let top = title_block(&mut svg, title, subtitle, width);
     let lines = wrap(reason, BODY_PX, Weight::Regular, width - 2.0 * BORDER_PX - 40.0);
     let height = 60.0 + 18.0 * lines.len() as f64;
-    let card = Rect { x: BORDER_PX, y: top, w: width - 2.0 * BORDER_PX, h: height };
+    let card = Rect {
+        x: BORDER_PX,
+        y: top,
+        w: width - 2.0 * BORDER_PX,
+        h: height,
+    };
     svg.rounded(card, 4.0, &Style::fill("#f6f6f6").outlined("#c4c4c4", 1.0));
     for (k, line) in lines.iter().enumerate() {
         let y = top + 38.0 + 18.0 * k as f64;
-        svg.text([card.centre()[0], y], line, &Text::new(BODY_PX).middle().colour(INK));
+        svg.text(
+            [card.centre()[0], y],
+            line,
+            &Text::new(BODY_PX).middle().colour(INK),
+        );
     }
     svg.finish(width, top + height + BORDER_PX, title)
 }
@@ -118,7 +147,12 @@ pub(crate) fn text_box(at: Point, content: &str, size_px: f64, anchor: Anchor) -
         Anchor::Middle => at[0] - w / 2.0,
         Anchor::End => at[0] - w,
     };
-    Rect { x, y: at[1] - 0.8 * size_px, w, h: size_px }
+    Rect {
+        x,
+        y: at[1] - 0.8 * size_px,
+        w,
+        h: size_px,
+    }
 }
 
 /// Whether two rectangles share a point.

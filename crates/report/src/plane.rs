@@ -2,8 +2,8 @@
 //!
 //! The horizontal axis may run either way: maps are seen from the tool side, where base y grows to the left.
 
-use crate::axis::{nice_step, multiples, tick_label};
-use crate::colour::{INK, MUTED};
+use crate::axis::{multiples, nice_step, tick_label};
+use crate::colour::INK;
 use crate::font::{Weight, text_width_px};
 use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
@@ -43,8 +43,11 @@ pub(crate) struct Marks {
 }
 
 impl Marks {
-    pub(crate) const ALL: Self =
-        Self { horizontal_numbers: true, vertical_numbers: true, font_px_tenths: (SMALL_PX * 10.0) as u16 };
+    pub(crate) const ALL: Self = Self {
+        horizontal_numbers: true,
+        vertical_numbers: true,
+        font_px_tenths: (SMALL_PX * 10.0) as u16,
+    };
 
     fn font_px(self) -> f64 {
         f64::from(self.font_px_tenths) / 10.0
@@ -61,11 +64,13 @@ impl Plane {
     /// The window inside a box of `most` (width, height) pixels whose top left corner stands at `at`.
     pub(crate) fn fit(window: Window, at: Point, most: [f64; 2]) -> Self {
         let mut window = window;
-        let spans = [(window.right_mm - window.left_mm).abs(), (window.top_mm - window.bottom_mm).abs()];
+        let spans = [
+            (window.right_mm - window.left_mm).abs(),
+            (window.top_mm - window.bottom_mm).abs(),
+        ];
         let spans = spans.map(|s| if s.is_finite() { s } else { 0.0 });
         let widest = spans[0].max(spans[1]).max(1e-9);
-        let px_per_mm =
-            (most[0] / spans[0].max(widest * 1e-9)).min(most[1] / spans[1].max(widest * 1e-9));
+        let px_per_mm = (most[0] / spans[0].max(widest * 1e-9)).min(most[1] / spans[1].max(widest * 1e-9));
         let size = spans.map(|s| (s * px_per_mm).max(THINNEST_PX.min(most[0]).min(most[1])));
         let widen = |a: &mut f64, b: &mut f64, span: f64, px: f64| {
             let extra = (px / px_per_mm - span) / 2.0;
@@ -75,22 +80,66 @@ impl Plane {
         };
         widen(&mut window.left_mm, &mut window.right_mm, spans[0], size[0]);
         widen(&mut window.bottom_mm, &mut window.top_mm, spans[1], size[1]);
-        Self { window, area: Rect { x: at[0], y: at[1], w: size[0], h: size[1] }, px_per_mm }
+        Self {
+            window,
+            area: Rect {
+                x: at[0],
+                y: at[1],
+                w: size[0],
+                h: size[1],
+            },
+            px_per_mm,
+        }
     }
 
     /// Where a point of the plane stands on the picture.
     pub(crate) fn at(&self, mm: [f64; 2]) -> Point {
         let w = &self.window;
-        let across = if w.right_mm >= w.left_mm { self.px_per_mm } else { -self.px_per_mm };
-        let up = if w.top_mm >= w.bottom_mm { self.px_per_mm } else { -self.px_per_mm };
-        [self.area.x + (mm[0] - w.left_mm) * across, self.area.bottom() - (mm[1] - w.bottom_mm) * up]
+        let across = if w.right_mm >= w.left_mm {
+            self.px_per_mm
+        } else {
+            -self.px_per_mm
+        };
+        let up = if w.top_mm >= w.bottom_mm {
+            self.px_per_mm
+        } else {
+            -self.px_per_mm
+        };
+        [
+            self.area.x + (mm[0] - w.left_mm) * across,
+            self.area.bottom() - (mm[1] - w.bottom_mm) * up,
+        ]
+    }
+
+    /// The point of the plane that stands at a point of the picture.
+    pub(crate) fn mm(&self, at: Point) -> [f64; 2] {
+        let w = &self.window;
+        let across = if w.right_mm >= w.left_mm {
+            self.px_per_mm
+        } else {
+            -self.px_per_mm
+        };
+        let up = if w.top_mm >= w.bottom_mm {
+            self.px_per_mm
+        } else {
+            -self.px_per_mm
+        };
+        [
+            w.left_mm + (at[0] - self.area.x) / across,
+            w.bottom_mm + (self.area.bottom() - at[1]) / up,
+        ]
     }
 
     /// Room left of the drawing for tick labels and axis label.
     pub(crate) fn left_room_px(window: &Window) -> f64 {
         let step = nice_step(window.top_mm - window.bottom_mm, 5.0);
-        let widest = [window.bottom_mm, window.top_mm]
-            .map(|v| text_width_px(&tick_label((v / step).round() * step, step), SMALL_PX, Weight::Regular));
+        let widest = [window.bottom_mm, window.top_mm].map(|v| {
+            text_width_px(
+                &tick_label((v / step).round() * step, step),
+                SMALL_PX,
+                Weight::Regular,
+            )
+        });
         widest[0].max(widest[1]) + 36.0
     }
 
@@ -105,14 +154,27 @@ impl Plane {
                 let x = self.at([mm, w.bottom_mm])[0];
                 let y = self.area.bottom();
                 svg.line([x, y], [x, y + 5.0], &ink);
-                svg.text([x, y + 6.0 + font], &tick_label(mm, step[0]), &Text::new(font).middle());
+                // Panels stand close together: a number that leaves its panel runs into the next.
+                let half = text_width_px(&tick_label(mm, step[0]), font, Weight::Regular) / 2.0 - 4.0;
+                if font < SMALL_PX && (x - half < self.area.x || x + half > self.area.right()) {
+                    continue;
+                }
+                svg.text(
+                    [x, y + 6.0 + font],
+                    &tick_label(mm, step[0]),
+                    &Text::new(font).middle(),
+                );
             }
         }
         if marks.vertical_numbers {
             for mm in multiples(w.bottom_mm, w.top_mm, step[1]) {
                 let y = self.at([w.left_mm, mm])[1];
                 svg.line([self.area.x - 5.0, y], [self.area.x, y], &ink);
-                svg.text([self.area.x - 8.0, y + font * 0.36], &tick_label(mm, step[1]), &Text::new(font).end());
+                svg.text(
+                    [self.area.x - 8.0, y + font * 0.36],
+                    &tick_label(mm, step[1]),
+                    &Text::new(font).end(),
+                );
             }
         }
         svg.rect(self.area, &ink);
@@ -131,36 +193,39 @@ impl Plane {
     fn tick_step_mm(&self, font_px: f64) -> [f64; 2] {
         let w = &self.window;
         let spans = [(w.right_mm - w.left_mm).abs(), (w.top_mm - w.bottom_mm).abs()];
-        let mut count = (self.area.w / 70.0).clamp(2.0, 9.0);
+        let mut count = (self.area.w / 34.0).clamp(2.0, 6.0);
         let mut across = nice_step(spans[0], count);
         for _ in 0..4 {
-            let widest = [w.left_mm, w.right_mm]
-                .map(|v| text_width_px(&tick_label((v / across).round() * across, across), font_px, Weight::Regular))
-                .into_iter()
+            let numbers = [w.left_mm, w.right_mm].map(|v| tick_label((v / across).round() * across, across));
+            let widest = numbers
+                .iter()
+                .map(|n| text_width_px(n, font_px, Weight::Regular))
                 .fold(0.0, f64::max);
-            if across * self.px_per_mm >= widest + 10.0 {
+            if across * self.px_per_mm >= widest + 8.0 {
                 break;
             }
-            count *= 0.6;
+            count *= 0.7;
             across = nice_step(spans[0], count);
         }
         let up = nice_step(spans[1], (self.area.h / 40.0).clamp(2.0, 8.0));
-        if across >= up && spans[1] / across >= 2.0 { [across, across] } else { [across, up] }
+        if across >= up && spans[1] / across >= 2.0 {
+            [across, across]
+        } else {
+            [across, up]
+        }
     }
-}
-
-/// A bar that says how long some mm are.
-pub(crate) fn crosshair(svg: &mut Svg, at: Point, half_px: f64) {
-    let style = Style::line(MUTED, 1.0);
-    svg.line([at[0] - half_px, at[1]], [at[0] + half_px, at[1]], &style);
-    svg.line([at[0], at[1] - half_px], [at[0], at[1] + half_px], &style);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const WINDOW: Window = Window { left_mm: 400.0, right_mm: -400.0, bottom_mm: 0.0, top_mm: 300.0 };
+    const WINDOW: Window = Window {
+        left_mm: 400.0,
+        right_mm: -400.0,
+        bottom_mm: 0.0,
+        top_mm: 300.0,
+    };
 
     #[test]
     fn the_scale_is_equal_both_ways() {
@@ -179,7 +244,12 @@ mod tests {
 
     #[test]
     fn a_thin_window_is_widened_at_equal_scale() {
-        let thin = Window { left_mm: 0.0, right_mm: 2000.0, bottom_mm: 5.0, top_mm: 6.0 };
+        let thin = Window {
+            left_mm: 0.0,
+            right_mm: 2000.0,
+            bottom_mm: 5.0,
+            top_mm: 6.0,
+        };
         let plane = Plane::fit(thin, [0.0, 0.0], [500.0, 400.0]);
         assert!((plane.area.h - THINNEST_PX).abs() < 1e-9);
         let shown_mm = plane.window.top_mm - plane.window.bottom_mm;

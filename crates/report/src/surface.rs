@@ -1,8 +1,8 @@
 //! A grid made fine enough to draw: monotone cubic between the points, so that no extremum appears that the points do not have.
 //!
 //! Values: piecewise cubic Hermite along rows, then along columns, slopes after Fritsch and Butland (1984): exact at the points,
-//! and on each lattice line never outside the two neighbouring values. States: bilinear, so that a zone ends half-way between
-//! a point inside and a point outside. Points without a value are filled from their neighbours first and masked afterwards.
+//! and on each lattice line never outside the two neighbouring values. Points without a value are filled from their neighbours
+//! first and masked afterwards; what is reached is known bilinearly, half-way between a point inside and a point outside.
 
 use crate::grid::{Grid, PointState};
 
@@ -16,8 +16,6 @@ pub(crate) struct Surface {
     pub(crate) value_um: Vec<f64>,
     /// 1 where reached, 0 where not; the zone ends at one half.
     pub(crate) reached: Vec<f64>,
-    /// 1 where the joint limits are kept, 0 where not; the zone ends at one half.
-    pub(crate) in_limits: Vec<f64>,
 }
 
 impl Surface {
@@ -26,16 +24,40 @@ impl Surface {
         let (nx, ny) = (grid.horizontal_mm.len(), grid.vertical_mm.len());
         let factor = steps.div_ceil(nx.max(ny).saturating_sub(1).max(1)).clamp(1, 48);
         let state = |test: fn(PointState) -> bool| -> Vec<f64> {
-            grid.points.iter().map(|p| if test(*p) { 1.0 } else { 0.0 }).collect()
+            grid.points
+                .iter()
+                .map(|p| if test(*p) { 1.0 } else { 0.0 })
+                .collect()
         };
         let values = filled(grid);
-        let limits = state(|p| !matches!(p, PointState::OutsideJointLimits(_)));
         Self {
             horizontal_mm: subdivided(&grid.horizontal_mm, factor),
             vertical_mm: subdivided(&grid.vertical_mm, factor),
             value_um: spread(&values, grid, factor, Between::Monotone),
-            reached: spread(&state(|p| p.value_um().is_some()), grid, factor, Between::Straight),
-            in_limits: spread(&limits, grid, factor, Between::Straight),
+            reached: spread(
+                &state(|p| p.value_um().is_some()),
+                grid,
+                factor,
+                Between::Straight,
+            ),
+        }
+    }
+
+    /// Whether the sample nearest to a point in mm is reached; points outside are not.
+    pub(crate) fn is_reached_at(&self, mm: [f64; 2]) -> bool {
+        let nearest = |values: &[f64], v: f64| {
+            let falling = values.first() > values.last();
+            let after = values.partition_point(|x| if falling { *x > v } else { *x < v });
+            (after > 0 || values.first() == Some(&v))
+                .then_some(after)
+                .filter(|k| *k < values.len())
+        };
+        match (
+            nearest(&self.horizontal_mm, mm[0]),
+            nearest(&self.vertical_mm, mm[1]),
+        ) {
+            (Some(i), Some(j)) => self.reached[j * self.horizontal_mm.len() + i] > 0.5,
+            _ => false,
         }
     }
 }
@@ -46,31 +68,49 @@ enum Between {
     Monotone,
 }
 
-/// Values with the gaps closed, ring by ring, by the mean of the known neighbours.
+/// Values with the gaps closed ring by ring from the known neighbours: two rings carried on straight, the rest by their mean.
 fn filled(grid: &Grid) -> Vec<f64> {
+    const STRAIGHT_RINGS: usize = 2;
     let (nx, ny) = (grid.horizontal_mm.len(), grid.vertical_mm.len());
     let mut known: Vec<Option<f64>> = grid.points.iter().map(|p| p.value_um()).collect();
-    for _ in 0..nx.max(ny) {
+    for ring in 0..nx.max(ny) {
         if known.iter().all(Option::is_some) {
             break;
         }
         let before = known.clone();
-        for j in 0..ny {
-            for i in 0..nx {
-                if before[j * nx + i].is_some() {
-                    continue;
-                }
-                let around: Vec<f64> = (j.saturating_sub(1)..(j + 2).min(ny))
-                    .flat_map(|b| (i.saturating_sub(1)..(i + 2).min(nx)).map(move |a| b * nx + a))
-                    .filter_map(|k| before[k])
-                    .collect();
-                if !around.is_empty() {
-                    known[j * nx + i] = Some(around.iter().sum::<f64>() / around.len() as f64);
-                }
+        let at = |i: isize, j: isize| {
+            let inside = (0..nx as isize).contains(&i) && (0..ny as isize).contains(&j);
+            if inside {
+                before[j as usize * nx + i as usize]
+            } else {
+                None
             }
+        };
+        for (k, value) in known.iter_mut().enumerate().filter(|(_, v)| v.is_none()) {
+            let (i, j) = ((k % nx) as isize, (k / nx) as isize);
+            let around = [
+                (1, 0),
+                (-1, 0),
+                (0, 1),
+                (0, -1),
+                (1, 1),
+                (1, -1),
+                (-1, 1),
+                (-1, -1),
+            ];
+            let straight = around.iter().filter_map(|(a, b)| {
+                Some(2.0 * at(i + a, j + b)? - at(i + 2 * a, j + 2 * b)?).filter(|_| ring < STRAIGHT_RINGS)
+            });
+            let next = around.iter().filter_map(|(a, b)| at(i + a, j + b));
+            *value = mean(straight).or_else(|| mean(next));
         }
     }
     known.into_iter().map(|v| v.unwrap_or(0.0)).collect()
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+    let (count, sum) = values.fold((0, 0.0), |(n, s), v| (n + 1, s + v));
+    (count > 0).then(|| sum / f64::from(count))
 }
 
 fn subdivided(values: &[f64], factor: usize) -> Vec<f64> {
@@ -84,8 +124,10 @@ fn subdivided(values: &[f64], factor: usize) -> Vec<f64> {
 
 fn spread(values: &[f64], grid: &Grid, factor: usize, between: Between) -> Vec<f64> {
     let nx = grid.horizontal_mm.len();
-    let rows: Vec<Vec<f64>> =
-        values.chunks(nx).map(|row| interpolated(&grid.horizontal_mm, row, factor, between)).collect();
+    let rows: Vec<Vec<f64>> = values
+        .chunks(nx)
+        .map(|row| interpolated(&grid.horizontal_mm, row, factor, between))
+        .collect();
     let fine_nx = rows.first().map_or(0, Vec::len);
     let columns: Vec<Vec<f64>> = (0..fine_nx)
         .map(|i| {
@@ -94,7 +136,9 @@ fn spread(values: &[f64], grid: &Grid, factor: usize, between: Between) -> Vec<f
         })
         .collect();
     let fine_ny = columns.first().map_or(0, Vec::len);
-    (0..fine_ny).flat_map(|j| columns.iter().map(move |c| c[j])).collect()
+    (0..fine_ny)
+        .flat_map(|j| columns.iter().map(move |c| c[j]))
+        .collect()
 }
 
 fn interpolated(x: &[f64], y: &[f64], factor: usize, between: Between) -> Vec<f64> {
@@ -162,7 +206,13 @@ mod tests {
             vertical_mm: vec![0.0, 100.0, 300.0],
             points: values
                 .into_iter()
-                .map(|v| if v.is_nan() { PointState::Unreachable } else { PointState::Reached(v) })
+                .map(|v| {
+                    if v.is_nan() {
+                        PointState::Unreachable
+                    } else {
+                        PointState::Reached(v)
+                    }
+                })
                 .collect(),
         }
     }

@@ -43,7 +43,12 @@ impl Rect {
 
     /// The rectangle with `by` pixels taken off each side.
     pub(crate) fn shrunk(&self, by: f64) -> Self {
-        Self { x: self.x + by, y: self.y + by, w: (self.w - 2.0 * by).max(0.0), h: (self.h - 2.0 * by).max(0.0) }
+        Self {
+            x: self.x + by,
+            y: self.y + by,
+            w: (self.w - 2.0 * by).max(0.0),
+            h: (self.h - 2.0 * by).max(0.0),
+        }
     }
 }
 
@@ -58,11 +63,21 @@ pub(crate) struct Style {
 
 impl Style {
     pub(crate) fn fill(colour: impl Into<String>) -> Self {
-        Self { fill: colour.into(), stroke: None, opacity: 1.0, dash: None }
+        Self {
+            fill: colour.into(),
+            stroke: None,
+            opacity: 1.0,
+            dash: None,
+        }
     }
 
     pub(crate) fn line(colour: impl Into<String>, width_px: f64) -> Self {
-        Self { fill: "none".to_owned(), stroke: Some((colour.into(), width_px)), opacity: 1.0, dash: None }
+        Self {
+            fill: "none".to_owned(),
+            stroke: Some((colour.into(), width_px)),
+            opacity: 1.0,
+            dash: None,
+        }
     }
 
     pub(crate) fn outlined(mut self, colour: impl Into<String>, width_px: f64) -> Self {
@@ -170,7 +185,11 @@ pub(crate) struct Svg {
 
 impl Svg {
     pub(crate) fn new() -> Self {
-        Self { defs: String::new(), body: String::new(), next_id: 0 }
+        Self {
+            defs: String::new(),
+            body: String::new(),
+            next_id: 0,
+        }
     }
 
     pub(crate) fn rect(&mut self, r: Rect, style: &Style) {
@@ -178,7 +197,11 @@ impl Svg {
     }
 
     pub(crate) fn rounded(&mut self, r: Rect, radius_px: f64, style: &Style) {
-        let round = if radius_px > 0.0 { format!(" rx=\"{}\"", num(radius_px)) } else { String::new() };
+        let round = if radius_px > 0.0 {
+            format!(" rx=\"{}\"", num(radius_px))
+        } else {
+            String::new()
+        };
         let _ = writeln!(
             self.body,
             "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\"{round}{}/>",
@@ -224,12 +247,21 @@ impl Svg {
     /// Path data as it stands; overlapping rings cut holes (even-odd rule).
     pub(crate) fn path(&mut self, data: &str, style: &Style) {
         if !data.is_empty() {
-            let _ = writeln!(self.body, "<path d=\"{data}\" fill-rule=\"evenodd\"{}/>", style.attributes());
+            let _ = writeln!(
+                self.body,
+                "<path d=\"{data}\" fill-rule=\"evenodd\"{}/>",
+                style.attributes()
+            );
         }
     }
 
     pub(crate) fn text(&mut self, at: Point, content: &str, text: &Text) {
-        let mut attributes = format!(" x=\"{}\" y=\"{}\" font-size=\"{}\"", num(at[0]), num(at[1]), num(text.size_px));
+        let mut attributes = format!(
+            " x=\"{}\" y=\"{}\" font-size=\"{}\"",
+            num(at[0]),
+            num(at[1]),
+            num(text.size_px)
+        );
         match text.anchor {
             Anchor::Start => {}
             Anchor::Middle => attributes.push_str(" text-anchor=\"middle\""),
@@ -239,8 +271,13 @@ impl Svg {
             attributes.push_str(" font-weight=\"bold\"");
         }
         if text.turn_deg != 0.0 {
-            let _ =
-                write!(attributes, " transform=\"rotate({} {} {})\"", num(text.turn_deg), num(at[0]), num(at[1]));
+            let _ = write!(
+                attributes,
+                " transform=\"rotate({} {} {})\"",
+                num(text.turn_deg),
+                num(at[0]),
+                num(at[1])
+            );
         }
         let content = escape(content);
         if text.halo_px > 0.0 {
@@ -250,7 +287,11 @@ impl Svg {
                 num(text.halo_px)
             );
         }
-        let _ = writeln!(self.body, "<text{attributes} fill=\"{}\">{content}</text>", text.colour);
+        let _ = writeln!(
+            self.body,
+            "<text{attributes} fill=\"{}\">{content}</text>",
+            text.colour
+        );
     }
 
     /// Everything `draw` writes, cut to `area`.
@@ -271,7 +312,12 @@ impl Svg {
 
     /// Everything `draw` writes, as one translucent layer of class `class`.
     pub(crate) fn layer(&mut self, class: &str, opacity: f64, draw: impl FnOnce(&mut Self)) {
-        let _ = writeln!(self.body, "<g class=\"{}\" opacity=\"{}\">", escape(class), num(opacity));
+        let _ = writeln!(
+            self.body,
+            "<g class=\"{}\" opacity=\"{}\">",
+            escape(class),
+            num(opacity)
+        );
         draw(self);
         self.body.push_str("</g>\n");
     }
@@ -284,7 +330,9 @@ impl Svg {
             self.defs,
             "<pattern id=\"{id}\" width=\"{pitch}\" height=\"{pitch}\" patternUnits=\"userSpaceOnUse\" patternTransform=\"rotate({})\">{}<path d=\"M0 0V{pitch}\" stroke=\"{}\" stroke-width=\"{}\"/></pattern>",
             num(hatch.turn_deg),
-            hatch.ground.map_or_else(String::new, |c| format!("<rect width=\"{pitch}\" height=\"{pitch}\" fill=\"{c}\"/>")),
+            hatch.ground.map_or_else(String::new, |c| format!(
+                "<rect width=\"{pitch}\" height=\"{pitch}\" fill=\"{c}\"/>"
+            )),
             hatch.colour,
             num(hatch.width_px * 2.0)
         );
@@ -303,7 +351,11 @@ impl Svg {
             num(to[1])
         );
         for (offset, colour) in stops {
-            let _ = write!(self.defs, "<stop offset=\"{}\" stop-color=\"{colour}\"/>", num(*offset));
+            let _ = write!(
+                self.defs,
+                "<stop offset=\"{}\" stop-color=\"{colour}\"/>",
+                num(*offset)
+            );
         }
         self.defs.push_str("</linearGradient>\n");
         format!("url(#{id})")
@@ -366,7 +418,11 @@ pub(crate) fn num(value: f64) -> String {
     }
     let text = format!("{:.2}", value.clamp(-FAR, FAR));
     let short = text.trim_end_matches('0').trim_end_matches('.');
-    if short == "-0" { "0".to_owned() } else { short.to_owned() }
+    if short == "-0" {
+        "0".to_owned()
+    } else {
+        short.to_owned()
+    }
 }
 
 /// `text` with the five characters of XML replaced and characters that XML forbids left out.
@@ -417,7 +473,10 @@ mod tests {
 
     #[test]
     fn points_that_are_not_finite_are_left_out() {
-        assert_eq!(trace(&[[0.0, 0.0], [f64::NAN, 1.0], [2.0, 2.0]], Ends::Open), "M0 0L2 2");
+        assert_eq!(
+            trace(&[[0.0, 0.0], [f64::NAN, 1.0], [2.0, 2.0]], Ends::Open),
+            "M0 0L2 2"
+        );
         assert_eq!(trace(&[], Ends::Closed), "");
     }
 }

@@ -1,1 +1,70 @@
-//! To come.
+//! What a user asks of armill, from the file to the answer.
+//!
+//! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
+//! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`pose`] answers for a single pose.
+//! The robot library and the example studies travel inside the program ([`library`]).
+//!
+//! Everything here is the same whatever the surface: command, Python and web return these bytes.
+
+pub mod answer;
+pub mod error;
+pub mod file;
+pub mod library;
+pub mod output;
+pub mod pose;
+pub mod robots;
+pub mod run;
+
+pub use error::{ErrorKind, StudyError};
+pub use file::resolve::Study;
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::BranchChoice;
+use armill_core::robot::{BranchPattern, Robot};
+
+/// Name of the frame on the robot's floor plane, which every robot has.
+pub const BASE_LINK: &str = "base_link";
+
+/// The frame `name` that coordinates count from, in base.
+///
+/// # Errors
+/// The names that the robot knows.
+pub fn base_from_counted(robot: &Robot, name: &str) -> Result<Isometry, String> {
+    if name == BASE_LINK {
+        return Ok(Isometry::identity());
+    }
+    let found = robot.frames().iter().find(|frame| frame.name == name);
+    found.map(|frame| frame.base_from_frame).ok_or_else(|| {
+        let named = robot.frames().iter().map(|frame| format!(", {}", frame.name));
+        format!("{BASE_LINK}{}", named.collect::<String>())
+    })
+}
+
+/// The posture that `words` ask for: a branch completed by the nominal one, `nominal`, or `best`.
+///
+/// # Errors
+/// The word that names no branch.
+pub fn branch_choice(words: &str, nominal: BranchPattern) -> Result<BranchChoice, String> {
+    match words.trim() {
+        "best" => Ok(BranchChoice::Best),
+        "nominal" => Ok(BranchChoice::Of(nominal)),
+        words => {
+            let pattern: BranchPattern = words.parse().map_err(|error| format!("{error}"))?;
+            Ok(BranchChoice::Of(pattern.or(nominal)))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_left_out_come_from_the_nominal_branch() {
+        let nominal = BranchPattern::FRONT_ELBOW_UP;
+        let choice = branch_choice("elbow-down", nominal).unwrap();
+        assert_eq!(choice, BranchChoice::Of("front elbow-down".parse().unwrap()));
+        assert_eq!(branch_choice("best", nominal), Ok(BranchChoice::Best));
+        assert!(branch_choice("sideways", nominal).unwrap_err().contains("`sideways`"));
+    }
+}

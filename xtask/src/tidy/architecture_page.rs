@@ -1,15 +1,20 @@
 //! ARCHITECTURE.md names every crate and every folder of the root.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "a folder that the map leaves out is one that a stranger cannot place";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "architecture page",
+    reason: "a folder that the map leaves out is one that a stranger cannot place",
+    check,
+};
 
 const PAGE: &str = "ARCHITECTURE.md";
 
 /// Folders whose name begins with a dot are exempt: tools find them by that name, readers skip them.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let Some(page) = tree.text(PAGE) else {
         return vec![Violation::new(
             PAGE,

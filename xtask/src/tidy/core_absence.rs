@@ -1,11 +1,16 @@
 //! What the core never does: files, environment, time, printing, randomness, serialisation, hash order.
 
+use super::Rule;
 use super::rust::{RustFile, find_word};
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "same input, same result: the core computes, everything else belongs to its callers";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "absence in the core",
+    reason: "same input, same result: the core computes, everything else belongs to its callers",
+    check,
+};
 
 /// Modules of the standard library, with what to do instead.
 const STD_MODULES: &[(&str, &str)] = &[
@@ -40,7 +45,7 @@ const NAMES: &[(&str, &str)] = &[
 ];
 
 /// Looks at the core without its tests; comments and literals may name these things.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     tree.rust_files("crates/core/src/")
         .iter()
         .flat_map(check_file)

@@ -1,10 +1,15 @@
 //! Which crate may depend on which: core <- {formats, report} <- study <- {cli, web, py}.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "the mechanics must be readable and testable without files, pictures or servers";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "crate direction",
+    reason: "the mechanics must be readable and testable without files, pictures or servers",
+    check,
+};
 
 /// Each folder of `crates/` with the folders it may depend on, tests and benchmarks included.
 const MAY_USE: &[(&str, &[&str])] = &[
@@ -20,7 +25,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
 ];
 
 /// Reads the dependency tables of `crates/*/Cargo.toml`.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (path, text) in tree.texts_in("crates/", "/Cargo.toml") {
         let folder = path.split('/').nth(1).unwrap_or_default();

@@ -1,18 +1,22 @@
 //! Every robot, material and study of the repository is built into the command.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str =
-    "every command works from an empty folder: what is not embedded is not there for users";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "embedded library",
+    reason: "every command works from an empty folder: what is not embedded is not there for users",
+    check,
+};
 
 /// Where the library is embedded: this file, or a folder of that name.
 const LIBRARY: &str = "crates/study/src/library";
 
 /// The library must name each file of `robots/` and `materials/`, and each folder of `studies/`, by its path
 /// from the repository root. Pages for readers (`.md`) need not be embedded.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let library: String = tree.texts_in(LIBRARY, ".rs").map(|(_, text)| text).collect();
     let files = tree
         .paths()

@@ -1,16 +1,21 @@
 //! No Rust file is longer than a sitting, its tests not counted.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "a file is one idea, and one idea fits into one sitting";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "file length",
+    reason: "a file is one idea, and one idea fits into one sitting",
+    check,
+};
 
 /// Lines before the tests.
 const LIMIT: usize = 500;
 
 /// Looks at `crates/`, `xtask/` and `validation/`; files that are tests alone may be longer.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let files = ["crates/", "xtask/", "validation/"]
         .into_iter()
         .flat_map(|folder| tree.rust_files(folder));

@@ -1,14 +1,18 @@
 //! Every relative link of a page leads to a file.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str =
-    "a link that leads nowhere costs the reader the way there and the trust in the next one";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "links",
+    reason: "a link that leads nowhere costs the reader the way there and the trust in the next one",
+    check,
+};
 
 /// Looks at every Markdown page; anchors are not followed, addresses elsewhere are not opened.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     tree.texts_in("", ".md")
         .flat_map(|(path, text)| check_page(tree, path, text))
         .collect()

@@ -1,11 +1,16 @@
 //! No path of the machine where the project is developed.
 
+use super::Rule;
 use super::rust::is_word;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "a path of one machine works nowhere else, and the project speaks of itself alone";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "machine paths",
+    reason: "a path of one machine works nowhere else, and the project speaks of itself alone",
+    check,
+};
 
 /// In two parts each: this file must not break its own rule.
 const PATHS: &[&str] = &[
@@ -16,7 +21,7 @@ const PATHS: &[&str] = &[
 ];
 
 /// Looks at every text file; `/home/` and the like are not listed, as examples may show them.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (path, text) in tree.texts() {
         for (index, line) in text.lines().enumerate() {

@@ -1,7 +1,7 @@
 //! What must hold in this repository and what a machine can see: each rule with its reason, all told at once.
 //!
 //! A rule looks at the text of the files that git knows or would take; it builds nothing. To add a rule: one
-//! file here with `REASON` and `check`, one line in [`RULES`].
+//! file here with its `RULE`, one line in [`RULES`].
 
 // The repository as the rules see it.
 mod boundary_fields;
@@ -37,38 +37,26 @@ pub const ABOUT: &str = "Checks the architecture: directions, sizes, names, unit
 /// Something that must hold everywhere.
 struct Rule {
     name: &'static str,
+    /// Printed with the violations: what goes wrong without the rule.
     reason: &'static str,
     check: fn(&Tree) -> Vec<Violation>,
 }
 
+/// From the whole to the detail.
 const RULES: &[Rule] = &[
-    Rule::new(
-        "architecture page",
-        architecture_page::REASON,
-        architecture_page::check,
-    ),
-    Rule::new("crate direction", crate_direction::REASON, crate_direction::check),
-    Rule::new("module order", module_order::REASON, module_order::check),
-    Rule::new("absence in the core", core_absence::REASON, core_absence::check),
-    Rule::new("file length", file_length::REASON, file_length::check),
-    Rule::new("vague names", vague_names::REASON, vague_names::check),
-    Rule::new("units in names", units::REASON, units::check),
-    Rule::new("sources of numbers", sources::REASON, sources::check),
-    Rule::new("embedded library", embedded::REASON, embedded::check),
-    Rule::new("links", links::REASON, links::check),
-    Rule::new(
-        "validation cases",
-        validation_cases::REASON,
-        validation_cases::check,
-    ),
-    Rule::new("machine paths", machine_paths::REASON, machine_paths::check),
+    architecture_page::RULE,
+    crate_direction::RULE,
+    module_order::RULE,
+    core_absence::RULE,
+    file_length::RULE,
+    vague_names::RULE,
+    units::RULE,
+    sources::RULE,
+    embedded::RULE,
+    links::RULE,
+    validation_cases::RULE,
+    machine_paths::RULE,
 ];
-
-impl Rule {
-    const fn new(name: &'static str, reason: &'static str, check: fn(&Tree) -> Vec<Violation>) -> Self {
-        Self { name, reason, check }
-    }
-}
 
 /// Checks every rule and tells every violation, with the reason of each broken rule.
 pub fn run(arguments: &[String]) -> ExitCode {

@@ -1,11 +1,16 @@
 //! Inside the core a module uses only those above it in the reading order.
 
+use super::Rule;
 use super::rust::RustFile;
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "the core can be read from top to bottom: nothing is needed that was not yet told";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "module order",
+    reason: "the core can be read from top to bottom: nothing is needed that was not yet told",
+    check,
+};
 
 /// The modules of the core, file or folder, in reading order.
 const READING_ORDER: &[&str] = &[
@@ -33,7 +38,7 @@ const FOR_ALL: &[&str] = &["error", "watch", "Error", "Result", "Watch"];
 const SOURCE_FOLDER: &str = "crates/core/src/";
 
 /// Looks at every path that begins at the root of the core; tests may use everything.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     for file in tree.rust_files(SOURCE_FOLDER) {
         let Some((module, depth)) = module_and_depth(file.path) else {

@@ -1,17 +1,22 @@
 //! Every number of a robot or a material says where it comes from.
 
+use super::Rule;
 use super::toml_lines::{Table, tables};
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "a stiffness that nobody can trace is a guess, and a prediction from it too";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "sources of numbers",
+    reason: "a stiffness that nobody can trace is a guess, and a prediction from it too",
+    check,
+};
 
 /// Where the numbers lie.
 const LIBRARIES: &[&str] = &["robots/", "materials/"];
 
 /// `[sources.NAME]` says what and where a source is; `source = "NAME"` or `mass_source = "NAME"` refers to it.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let files = LIBRARIES.iter().flat_map(|folder| tree.texts_in(folder, ".toml"));
     files
         .flat_map(|(path, text)| check_file(path, &tables(text)))

@@ -1,12 +1,17 @@
 //! Every number in a file, a result or an option says its unit in its name.
 
+use super::Rule;
 use super::boundary_fields::{Field, boundary_fields};
 use super::rust::{RustFile, find_word};
 use super::tree::Tree;
 use super::violation::Violation;
 
-/// Why this rule is there.
-pub const REASON: &str = "a length in m read as mm scraps a part; a name with its unit cannot be misread";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "units in names",
+    reason: "a length in m read as mm scraps a part; a name with its unit cannot be misread",
+    check,
+};
 
 /// The crates whose types users see.
 const BOUNDARY_FOLDERS: &[&str] = &["crates/formats/src/", "crates/study/src/", "crates/cli/src/"];
@@ -66,7 +71,7 @@ const NO_UNIT_BEGINNINGS: &[&str] = &["fraction_", "share_", "ratio_"];
 const EXEMPTION: &str = "// unit:";
 
 /// Looks at every floating-point field, also inside options, lists, arrays and maps.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let files = BOUNDARY_FOLDERS.iter().flat_map(|folder| tree.rust_files(folder));
     files.flat_map(|file| check_file(&file)).collect()
 }

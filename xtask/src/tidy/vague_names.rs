@@ -1,12 +1,17 @@
 //! No file, folder or module has a name that would fit anything.
 
+use super::Rule;
 use super::rust::find_word;
 use super::tree::Tree;
 use super::violation::Violation;
 use std::collections::BTreeSet;
 
-/// Why this rule is there.
-pub const REASON: &str = "a name that fits anything collects anything, and nobody finds it there";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "vague names",
+    reason: "a name that fits anything collects anything, and nobody finds it there",
+    check,
+};
 
 const VAGUE: &[&str] = &[
     "util", "utils", "helper", "helpers", "misc", "common", "func", "funcs", "manager", "managers",
@@ -15,7 +20,7 @@ const VAGUE: &[&str] = &[
 const HINT: &str = "name it by the idea it holds";
 
 /// Looks at every file and folder of any kind, and at modules written inside a Rust file.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let mut violations = Vec::new();
     let mut told = BTreeSet::new();
     for path in tree.paths() {

@@ -1,12 +1,16 @@
 //! Every validation case explains itself and stands in the table of achieved errors.
 
+use super::Rule;
 use super::tree::Tree;
 use super::violation::Violation;
 use std::collections::BTreeSet;
 
-/// Why this rule is there.
-pub const REASON: &str =
-    "a case without its page proves nothing, one outside the table is one nobody looks at";
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "validation cases",
+    reason: "a case without its page proves nothing, one outside the table is one nobody looks at",
+    check,
+};
 
 const FOLDER: &str = "validation/";
 const TABLE: &str = "validation/TABLE.md";
@@ -15,7 +19,7 @@ const TABLE: &str = "validation/TABLE.md";
 const NOT_CASES: &[&str] = &["src", "tests", "benches"];
 
 /// Compares the folders of `validation/` with the first column of its table, both ways.
-pub fn check(tree: &Tree) -> Vec<Violation> {
+fn check(tree: &Tree) -> Vec<Violation> {
     let mut cases = tree.folders_in(FOLDER);
     cases.retain(|case| !NOT_CASES.contains(case));
     let mut violations = Vec::new();

@@ -7,7 +7,7 @@
 mod answer;
 mod question;
 
-pub use answer::{Answers, Held};
+pub use answer::{AT_LIMIT, Answers, Held};
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

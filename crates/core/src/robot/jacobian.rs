@@ -45,3 +45,35 @@ pub fn jacobian(robot: &Robot, screws: &[Twist]) -> Matrix6xX<f64> {
     }
     jacobian
 }
+
+/// Product of the singular values of the Jacobian (Yoshikawa 1985): 0 where the arm is singular. SI units, so
+/// comparable between postures of one arm only.
+pub fn manipulability(jacobian: &Matrix6xX<f64>) -> f64 {
+    jacobian.clone().svd(false, false).singular_values.product()
+}
+
+/// Largest over smallest singular value of the Jacobian with rotations weighed by `length` (m); `None` where the
+/// arm is singular.
+pub fn condition_number(jacobian: &Matrix6xX<f64>, length: f64) -> Option<f64> {
+    let mut weighed = jacobian.clone();
+    weighed.rows_mut(3, 3).scale_mut(length);
+    let values = weighed.svd(false, false).singular_values;
+    (values.min() > values.max() * 6.0 * f64::EPSILON).then(|| values.max() / values.min())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_equal_axes_are_singular_and_six_orthogonal_screws_are_not() {
+        let orthogonal = Matrix6xX::identity(6) * 2.0;
+        assert_eq!(manipulability(&orthogonal), 64.0);
+        assert_eq!(condition_number(&orthogonal, 1.0), Some(1.0));
+        let mut doubled = orthogonal;
+        let first = doubled.column(0).into_owned();
+        doubled.set_column(1, &first);
+        assert!(manipulability(&doubled) < 1e-12);
+        assert_eq!(condition_number(&doubled, 1.0), None);
+    }
+}

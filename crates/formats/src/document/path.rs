@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use toml::de::{DeTable, DeValue};
+use super::tree::{Node, Value};
 
 /// One part of a path.
 #[derive(Debug, PartialEq)]
@@ -12,39 +12,44 @@ enum Step {
 }
 
 /// The span of the value at `path`, or of the last value on the way there; the start of the file if there is none.
-pub(super) fn nearest_span(root: &DeTable<'_>, path: &str) -> Range<usize> {
+pub(super) fn nearest_span(root: &Node, path: &str) -> Range<usize> {
     walk(root, &steps(path)).0
 }
 
 /// Whether there is a value at `path`.
-pub(super) fn exists(root: &DeTable<'_>, path: &str) -> bool {
+pub(super) fn exists(root: &Node, path: &str) -> bool {
     walk(root, &steps(path)).1
 }
 
 /// A path longer by a key, which is quoted unless it is bare in TOML.
 pub(super) fn joined(path: &str, key: &str) -> String {
-    let bare = !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
+    let bare = !key.is_empty()
+        && key
+            .chars()
+            .all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
     let key = if bare { key.to_owned() } else { format!("{key:?}") };
-    if path.is_empty() { key } else { format!("{path}.{key}") }
+    if path.is_empty() {
+        key
+    } else {
+        format!("{path}.{key}")
+    }
 }
 
 /// The last span reached, and whether that is the end of the path.
-fn walk(root: &DeTable<'_>, steps: &[Step]) -> (Range<usize>, bool) {
-    let mut span = 0..0;
-    let mut steps = steps.iter();
-    let mut here: Option<&DeValue<'_>> = None;
-    for step in steps.by_ref() {
-        let next = match (step, here) {
-            (Step::Key(key), None) => root.get(key.as_str()),
-            (Step::Key(key), Some(DeValue::Table(table))) => table.get(key.as_str()),
-            (Step::Entry(index), Some(DeValue::Array(array))) => array.get(*index),
+fn walk(root: &Node, steps: &[Step]) -> (Range<usize>, bool) {
+    let mut here = root;
+    for step in steps {
+        let next = match (step, &here.value) {
+            (Step::Key(key), Value::Table(table)) => table.get(key).map(|entry| &entry.node),
+            (Step::Entry(index), Value::List(entries)) => entries.get(*index),
             _ => None,
         };
-        let Some(next) = next else { return (span, false) };
-        span = next.span();
-        here = Some(next.get_ref());
+        let Some(next) = next else {
+            return (here.span.clone(), false);
+        };
+        here = next;
     }
-    (span, true)
+    (here.span.clone(), true)
 }
 
 /// The parts of a path; what cannot be understood is taken as a key that will not be found.
@@ -54,14 +59,22 @@ fn steps(path: &str) -> Vec<Step> {
     while !rest.is_empty() {
         rest = rest.strip_prefix('.').unwrap_or(rest);
         if let Some((inside, after)) = rest.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
-            steps.push(inside.parse().map_or_else(|_| Step::Key(inside.to_owned()), Step::Entry));
+            steps.push(
+                inside
+                    .parse()
+                    .map_or_else(|_| Step::Key(inside.to_owned()), Step::Entry),
+            );
             rest = after;
         } else if let Some((key, after)) = quoted(rest) {
             steps.push(Step::Key(key));
             rest = after;
         } else {
             // At least one character is taken, so that even a stray `[` is passed.
-            let end = rest.char_indices().skip(1).find(|(_, c)| matches!(c, '.' | '[')).map_or(rest.len(), |(at, _)| at);
+            let end = rest
+                .char_indices()
+                .skip(1)
+                .find(|(_, c)| matches!(c, '.' | '['))
+                .map_or(rest.len(), |(at, _)| at);
             steps.push(Step::Key(rest[..end].to_owned()));
             rest = &rest[end..];
         }
@@ -91,15 +104,25 @@ mod tests {
     #[test]
     fn a_path_is_keys_and_entries() {
         let key = |name: &str| Step::Key(name.to_owned());
-        assert_eq!(steps("ask[2].x_mm[0]"), [key("ask"), Step::Entry(2), key("x_mm"), Step::Entry(0)]);
-        assert_eq!(steps(r#"a."b.c \"d\"".e"#), [key("a"), key("b.c \"d\""), key("e")]);
+        assert_eq!(
+            steps("ask[2].x_mm[0]"),
+            [key("ask"), Step::Entry(2), key("x_mm"), Step::Entry(0)]
+        );
+        assert_eq!(
+            steps(r#"a."b.c \"d\"".e"#),
+            [key("a"), key("b.c \"d\""), key("e")]
+        );
         assert_eq!(steps(""), []);
     }
 
     #[test]
     fn a_broken_path_is_only_a_key_that_is_not_found() {
         for path in ["[", "a[", "a[x]", "\"open", "..", "a..b", "]", "a[1", "ä[é]"] {
-            assert_eq!(nearest_span(&DeTable::new(), path), 0..0, "{path}");
+            let empty = Node {
+                span: 0..0,
+                value: Value::Table(Default::default()),
+            };
+            assert_eq!(nearest_span(&empty, path), 0..0, "{path}");
         }
     }
 

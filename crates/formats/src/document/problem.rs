@@ -76,8 +76,11 @@ impl Problem {
                     .path(self.file.as_str())
                     .annotation(AnnotationKind::Primary.span(excerpt.span.clone())),
             ),
-            None => Group::with_title(title)
-                .element(Origin::path(self.file.as_str()).line(self.line).char_column(self.column)),
+            None => Group::with_title(title).element(
+                Origin::path(self.file.as_str())
+                    .line(self.line)
+                    .char_column(self.column),
+            ),
         };
         if let Some(hint) = &self.hint {
             group = group.element(Level::HELP.message(hint.as_str()));
@@ -88,7 +91,11 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}:{}:{}: {}", self.file, self.line, self.column, self.message)
+        write!(
+            formatter,
+            "{}:{}:{}: {}",
+            self.file, self.line, self.column, self.message
+        )
     }
 }
 
@@ -124,9 +131,16 @@ impl Problems {
     }
 
     fn rendered(&self, renderer: &Renderer) -> String {
-        let renderer = renderer.clone().decor_style(DecorStyle::Ascii).term_width(SHOWN_WIDTH);
-        let mut parts: Vec<String> =
-            self.0.iter().take(MOST_SHOWN).map(|problem| problem.rendered(&renderer)).collect();
+        let renderer = renderer
+            .clone()
+            .decor_style(DecorStyle::Ascii)
+            .term_width(SHOWN_WIDTH);
+        let mut parts: Vec<String> = self
+            .0
+            .iter()
+            .take(MOST_SHOWN)
+            .map(|problem| problem.rendered(&renderer))
+            .collect();
         if let Some(hidden) = self.0.len().checked_sub(MOST_SHOWN).filter(|hidden| *hidden > 0) {
             parts.push(format!("... and {hidden} more problems in this file"));
         }

@@ -22,8 +22,16 @@ impl Source {
     /// A text to find problems in; a byte order mark at its start is dropped.
     pub fn new(name: &str, text: &str) -> Self {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let starts = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at + 1);
-        Self { name: name.to_owned(), text: text.to_owned(), line_starts: std::iter::once(0).chain(starts).collect() }
+        let starts = text
+            .bytes()
+            .enumerate()
+            .filter(|(_, byte)| *byte == b'\n')
+            .map(|(at, _)| at + 1);
+        Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            line_starts: std::iter::once(0).chain(starts).collect(),
+        }
     }
 
     /// The path that problems show.
@@ -70,8 +78,10 @@ impl Source {
         let to = self.line_starts.get(line).copied().unwrap_or(self.text.len());
         let text = self.text[from..to].trim_end_matches(['\n', '\r']);
         let within = |offset: usize| (offset - from).min(text.len());
-        (text.len() <= LONGEST_EXCERPT_BYTES)
-            .then(|| Excerpt { text: text.to_owned(), span: within(span.start)..within(span.end) })
+        (text.len() <= LONGEST_EXCERPT_BYTES).then(|| Excerpt {
+            text: text.to_owned(),
+            span: within(span.start)..within(span.end),
+        })
     }
 }
 

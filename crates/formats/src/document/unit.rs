@@ -25,16 +25,12 @@ const ATOMS: &[(&str, &str, Option<&str>)] = &[
     ("s", "s", Some("times")),
     ("ms", "ms", Some("times")),
     ("min", "min", Some("times")),
-    ("h", "h", Some("times")),
     ("rpm", "rpm", Some("speeds")),
     ("hz", "Hz", Some("frequencies")),
-    ("w", "W", Some("powers")),
     ("kw", "kW", Some("powers")),
     ("pa", "Pa", None),
     ("mpa", "MPa", None),
     ("gpa", "GPa", None),
-    ("k", "K", Some("temperatures")),
-    ("c", "deg C", Some("temperatures")),
     ("percent", "%", Some("shares")),
     ("tooth", "tooth", None),
     ("rev", "rev", None),
@@ -54,11 +50,29 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
     let (before, last) = name.rsplit_once('_')?;
     let (_, shown, quantity) = ATOMS.iter().find(|(suffix, ..)| *suffix == last)?;
     if let Some((above, top)) = before.strip_suffix("_per").and_then(split) {
-        let below = if shown.contains(' ') { format!("({shown})") } else { (*shown).to_owned() };
-        return Some((above, Unit { shown: format!("{}/{below}", top.shown), quantity: None }));
+        let below = if shown.contains(' ') {
+            format!("({shown})")
+        } else {
+            (*shown).to_owned()
+        };
+        return Some((
+            above,
+            Unit {
+                shown: format!("{}/{below}", top.shown),
+                quantity: None,
+            },
+        ));
     }
     let whole = !before.is_empty() && before != "per" && !before.ends_with("_per");
-    whole.then(|| (before, Unit { shown: (*shown).to_owned(), quantity: *quantity }))
+    whole.then(|| {
+        (
+            before,
+            Unit {
+                shown: (*shown).to_owned(),
+                quantity: *quantity,
+            },
+        )
+    })
 }
 
 /// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
@@ -67,7 +81,9 @@ pub(super) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a st
     let wanted = plain(unknown);
     let base = split(&wanted).map_or(wanted.as_str(), |(base, _)| base);
     for name in known {
-        let Some((known_base, unit)) = split(name) else { continue };
+        let Some((known_base, unit)) = split(name) else {
+            continue;
+        };
         if known_base == wanted {
             let rule = match unit.quantity {
                 Some(quantity) => format!("{quantity} carry their unit"),
@@ -101,7 +117,10 @@ mod tests {
     fn a_name_ends_with_its_unit() {
         assert_eq!(shown("step_mm"), Some(("step", "mm".to_owned())));
         assert_eq!(shown("feed_mm_per_min"), Some(("feed", "mm/min".to_owned())));
-        assert_eq!(shown("compliance_rad_per_nm"), Some(("compliance", "rad/(N m)".to_owned())));
+        assert_eq!(
+            shown("compliance_rad_per_nm"),
+            Some(("compliance", "rad/(N m)".to_owned()))
+        );
         assert_eq!(shown("blend_radius_m"), Some(("blend_radius", "m".to_owned())));
     }
 
@@ -115,8 +134,14 @@ mod tests {
     #[test]
     fn a_field_without_its_unit_is_told_to_carry_it() {
         let known = ["step_mm", "tilt_deg", "stiffness_n_per_um"];
-        assert_eq!(suggestion("step", &known).unwrap().1, "lengths carry their unit: write `step_mm`");
-        assert_eq!(suggestion("tilt", &known).unwrap().1, "angles carry their unit: write `tilt_deg`");
+        assert_eq!(
+            suggestion("step", &known).unwrap().1,
+            "lengths carry their unit: write `step_mm`"
+        );
+        assert_eq!(
+            suggestion("tilt", &known).unwrap().1,
+            "angles carry their unit: write `tilt_deg`"
+        );
         assert_eq!(
             suggestion("stiffness", &known).unwrap().1,
             "numbers carry their unit: write `stiffness_n_per_um`"
@@ -131,7 +156,10 @@ mod tests {
 
     #[test]
     fn a_slip_of_the_pen_is_recognised_and_a_different_word_is_not() {
-        assert_eq!(suggestion("toleranec", &["tool", "tolerance"]).unwrap().0, "tolerance");
+        assert_eq!(
+            suggestion("toleranec", &["tool", "tolerance"]).unwrap().0,
+            "tolerance"
+        );
         assert_eq!(suggestion("Tool", &["tool", "tolerance"]).unwrap().0, "tool");
         assert_eq!(suggestion("banana", &["tool", "tolerance"]), None);
         assert_eq!(suggestion("x", &[]), None);

@@ -1,0 +1,14 @@
+//! `armill completions`
+
+use armill_study::StudyError;
+use clap::CommandFactory;
+
+use crate::Outcome;
+use crate::arguments::{Arguments, CompletionsArguments};
+
+pub(crate) fn run(arguments: &CompletionsArguments) -> Result<Outcome, StudyError> {
+    let mut script = Vec::new();
+    clap_complete::generate(arguments.shell, &mut Arguments::command(), "armill", &mut script);
+    crate::terminal::print(&String::from_utf8_lossy(&script));
+    Ok(Outcome::Fine)
+}

@@ -1,0 +1,10 @@
+//! What each command does: one file a command.
+
+pub(crate) mod check;
+pub(crate) mod completions;
+pub(crate) mod new;
+pub(crate) mod pose;
+pub(crate) mod robots;
+pub(crate) mod run;
+
+mod study_file;

@@ -1,0 +1,127 @@
+//! `armill pose`: every posture of one pose.
+
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::robot::JointCompliance;
+use armill_core::spatial::Wrench;
+use armill_core::workpiece::Plane;
+use armill_study::file::resolve::pose_mm_deg;
+use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
+use armill_study::{StudyError, robots};
+
+use crate::Outcome;
+use crate::arguments::PoseArguments;
+use crate::terminal::print;
+
+pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
+    let mut found = robots::find(&arguments.robot, ".".as_ref())?;
+    if let Some(values) = &arguments.compliance_rad_per_n_m {
+        finite("--compliance-rad-per-n-m", values)?;
+        let given = values.iter().map(|value| JointCompliance { value: *value, standard_uncertainty: 0.0 }).collect();
+        let refused = |error: armill_core::robot::RobotError| {
+            StudyError::value(format!("--compliance-rad-per-n-m: {error}"), "one a joint, 0 or more")
+        };
+        found.robot = found.robot.with_compliance(given).map_err(refused)?;
+    }
+    let question = PoseQuestion {
+        at: at(arguments)?,
+        flange_from_tool: pose_mm_deg(&padded("--tool-mm", arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]))?),
+        wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
+        base: arguments.base.clone(),
+    };
+    let answer = answer(&found, &question)?;
+    print(&if arguments.json { as_json(&answer)? } else { as_text(&answer) });
+    Ok(Outcome::Fine)
+}
+
+fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
+    if let Some(joints) = &arguments.joints_deg {
+        finite("--joints-deg", joints)?;
+        return Ok(At::JointsDeg(joints.clone()));
+    }
+    let tcp = three("--at-mm", arguments.at_mm.as_deref().unwrap_or_default())? * 1e-3;
+    let tilt_deg = arguments.tilt_deg.unwrap_or(0.0);
+    finite("--tilt-deg", &[tilt_deg])?;
+    let axis = match &arguments.axis {
+        Some(axis) => Unit::try_new(three("--axis", axis)?, 1e-12)
+            .ok_or_else(|| StudyError::value("--axis 0,0,0 points nowhere", "such as --axis 0,0,-1"))?,
+        None => Plane::tilted(Point3::origin(), tilt_deg.to_radians()).tool_axis(),
+    };
+    let spin_deg = arguments.spin_deg.unwrap_or(0.0);
+    finite("--spin-deg", &[spin_deg])?;
+    Ok(At::Tool { tcp: tcp.into(), axis, spin: spin_deg.to_radians() })
+}
+
+fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
+    let [fx, fy, fz, mx, my, mz] = padded("--wrench-n", values)?;
+    Ok(Wrench { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) })
+}
+
+fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
+    finite(flag, values)?;
+    match values {
+        [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
+        _ => Err(StudyError::value(format!("{flag}: {} numbers", values.len()), "it takes three, such as 1000,0,800")),
+    }
+}
+
+/// Three numbers, or six; the last three are 0 if left out.
+fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
+    finite(flag, values)?;
+    match values {
+        [x, y, z] => Ok([*x, *y, *z, 0.0, 0.0, 0.0]),
+        [x, y, z, rx, ry, rz] => Ok([*x, *y, *z, *rx, *ry, *rz]),
+        _ => Err(StudyError::value(format!("{flag}: {} numbers", values.len()), "it takes three or six")),
+    }
+}
+
+fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
+    match values.iter().find(|value| !value.is_finite()) {
+        Some(value) => Err(StudyError::value(format!("{flag}: {value} is not a finite number"), "a plain number")),
+        None => Ok(()),
+    }
+}
+
+fn as_json(answer: &PoseAnswer) -> Result<String, StudyError> {
+    Ok(serde_json::to_string_pretty(answer)?)
+}
+
+fn as_text(answer: &PoseAnswer) -> String {
+    let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
+    lines.extend(answer.unreachable.iter().map(|miss| miss.message.clone()));
+    for posture in &answer.postures {
+        lines.push(String::new());
+        lines.extend(posture_text(answer, posture));
+    }
+    lines.push(String::new());
+    lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));
+    lines.join("\n")
+}
+
+fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
+    let three = |v: &[f64; 3]| format!("({:.2}, {:.2}, {:.2})", v[0], v[1], v[2]);
+    let joints = answer.joint_names.iter().zip(&posture.joints_deg).map(|(name, q)| format!("{name} {q:.3}"));
+    let joints = joints.collect::<Vec<_>>().join("  ");
+    let mut lines = vec![posture.branch.clone().unwrap_or_else(|| "posture".to_owned())];
+    let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
+        (Some(joint), Some(margin)) if posture.within_limits => format!("inside limits, {joint} nearest, by {margin:.1} deg"),
+        (Some(joint), Some(margin)) => format!("OUTSIDE LIMITS, {joint} by {:.1} deg", -margin),
+        _ => "limits not known".to_owned(),
+    };
+    lines.push(format!("  joints      {joints}   ({limits})"));
+    lines.push(format!("  TCP         {} mm", three(&posture.tool.xyz_mm)));
+    lines.extend(posture.singularity.iter().map(|s| format!("  SINGULAR    {s}")));
+    if let Some(stiffness) = &posture.stiffness {
+        let [a, b, c] = stiffness.principal_um_per_n;
+        lines.push(format!(
+            "  compliance  {a:.2}, {b:.2}, {c:.2} µm/N in its principal directions, softest along {}",
+            three(&stiffness.principal_direction[0])
+        ));
+    }
+    if let (Some(deviation), Some(u), Some(shares)) = (&posture.deviation_um, &posture.deviation_u_um, &posture.joint_share_um) {
+        let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        lines.push(format!("  deviation   {} µm, {:.2} µm long (standard uncertainty {} µm)", three(deviation), length(deviation), three(u)));
+        let shares = answer.joint_names.iter().zip(shares).map(|(name, share)| format!("{name} {:.2}", length(share)));
+        lines.push(format!("  by joint    {} µm", shares.collect::<Vec<_>>().join("  ")));
+    }
+    lines
+}

@@ -1,0 +1,39 @@
+//! A progress bar on stderr, where there is a terminal to show it.
+
+use std::sync::atomic::AtomicBool;
+
+use armill_core::watch::Watch;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Points finished, on a bar.
+pub(crate) struct Progress {
+    bar: ProgressBar,
+    cancel: AtomicBool,
+}
+
+impl Progress {
+    /// A bar for this many points; drawn only on a terminal.
+    pub(crate) fn new(points: usize) -> Progress {
+        let bar = ProgressBar::with_draw_target(Some(points as u64), ProgressDrawTarget::stderr_with_hz(10));
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left {msg}") {
+            bar.set_style(style);
+        }
+        Progress { bar, cancel: AtomicBool::new(false) }
+    }
+
+    /// Runs `work` under this bar.
+    pub(crate) fn watch<T>(&self, work: impl FnOnce(Watch<'_>) -> T) -> T {
+        let finished = |points: usize| self.bar.inc(points as u64);
+        work(Watch { finished: &finished, cancel: &self.cancel })
+    }
+
+    /// Shows what is being done besides counting.
+    pub(crate) fn tell(&self, what: &str) {
+        self.bar.set_message(what.to_owned());
+    }
+
+    /// Takes the bar away.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}

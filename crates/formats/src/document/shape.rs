@@ -1,0 +1,308 @@
+//! What a value must look like: a JSON schema, as schemars writes it, put into the few cases a TOML file knows.
+//!
+//! A part of a schema that is not understood becomes [`Shape::Any`]: it refuses nothing, and serde has the last word.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde_json::{Map, Value};
+
+use super::merge::{merged, one_of};
+use super::tree;
+
+/// Schemas merged into one another (serde's `flatten`) deeper than this are taken as [`Shape::Any`].
+const MOST_MERGES: usize = 32;
+
+/// The shape of a document and the named shapes it refers to.
+#[derive(Debug)]
+pub(super) struct Shapes {
+    pub(super) root: Shape,
+    named: BTreeMap<String, Shape>,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Shape {
+    Any,
+    Number(Limits),
+    Integer(Limits),
+    Text {
+        shortest: u64,
+        longest: Option<u64>,
+    },
+    Flag,
+    /// One of these strings, numbers or flags.
+    Choice(Vec<Value>),
+    List(Box<ListShape>),
+    Table(TableShape),
+    /// A table in which the text of one field decides what the others are.
+    Tagged {
+        tag: String,
+        variants: Vec<(String, TableShape)>,
+    },
+    OneOf(Vec<Shape>),
+    Named(String),
+}
+
+/// A list: the first entries may have their own shapes, all others have one.
+#[derive(Debug, Clone)]
+pub(super) struct ListShape {
+    pub(super) first: Vec<Shape>,
+    pub(super) others: Shape,
+    pub(super) fewest: u64,
+    pub(super) most: Option<u64>,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct TableShape {
+    pub(super) fields: BTreeMap<String, Field>,
+    pub(super) required: BTreeSet<String>,
+    pub(super) others: Others,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Field {
+    pub(super) shape: Shape,
+    /// The first line of its documentation.
+    pub(super) meaning: Option<String>,
+}
+
+/// What fields beside the known ones may be.
+#[derive(Debug, Clone, Default)]
+pub(super) enum Others {
+    #[default]
+    Any,
+    Refused,
+    Each(Box<Shape>),
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Limits {
+    pub(super) at_least: Option<f64>,
+    pub(super) above: Option<f64>,
+    pub(super) at_most: Option<f64>,
+    pub(super) below: Option<f64>,
+}
+
+impl Shapes {
+    /// The shapes of a JSON schema of draft 2020-12.
+    pub(super) fn of(schema: &Value) -> Self {
+        let no_definitions = Map::new();
+        let definitions = schema
+            .get("$defs")
+            .and_then(Value::as_object)
+            .unwrap_or(&no_definitions);
+        let reader = Reader { definitions };
+        let named = definitions
+            .iter()
+            .map(|(name, schema)| (name.clone(), reader.shape(schema, 0)))
+            .collect();
+        Self {
+            root: reader.shape(schema, 0),
+            named,
+        }
+    }
+
+    /// The shape itself where another is only named; [`Shape::Any`] for names that lead nowhere.
+    pub(super) fn resolved<'a>(&'a self, shape: &'a Shape) -> &'a Shape {
+        let mut shape = shape;
+        for _ in 0..=self.named.len() {
+            let Shape::Named(name) = shape else { return shape };
+            match self.named.get(name) {
+                Some(target) => shape = target,
+                None => break,
+            }
+        }
+        &Shape::Any
+    }
+}
+
+impl Shape {
+    /// Whether this shape is of the same kind as a value, so that its problems are worth telling.
+    pub(super) fn may_hold(&self, value: &tree::Value) -> bool {
+        match self {
+            Self::Any | Self::Named(_) | Self::OneOf(_) => true,
+            Self::Number(_) => matches!(value, tree::Value::Real(_) | tree::Value::Whole(_)),
+            Self::Integer(_) => matches!(value, tree::Value::Whole(_)),
+            Self::Text { .. } => matches!(value, tree::Value::Text(_)),
+            Self::Flag => matches!(value, tree::Value::Flag(_)),
+            Self::List(_) => matches!(value, tree::Value::List(_)),
+            Self::Table(_) | Self::Tagged { .. } => matches!(value, tree::Value::Table(_)),
+            Self::Choice(choices) => choices.iter().any(|choice| match choice {
+                Value::String(_) => matches!(value, tree::Value::Text(_)),
+                Value::Number(_) => matches!(value, tree::Value::Whole(_) | tree::Value::Real(_)),
+                _ => matches!(value, tree::Value::Flag(_)),
+            }),
+        }
+    }
+}
+
+struct Reader<'a> {
+    definitions: &'a Map<String, Value>,
+}
+
+impl Reader<'_> {
+    fn shape(&self, schema: &Value, merges: usize) -> Shape {
+        let Some(object) = schema.as_object().filter(|_| merges < MOST_MERGES) else {
+            return Shape::Any;
+        };
+        let reference = object
+            .get("$ref")
+            .and_then(Value::as_str)
+            .and_then(|path| path.strip_prefix("#/$defs/"));
+        let own_fields = object.contains_key("properties");
+        if let Some(choices) = choices(object) {
+            return Shape::Choice(choices);
+        }
+        match (reference, alternatives(object)) {
+            (Some(name), None) if !own_fields => Shape::Named(name.to_owned()),
+            (None, Some(alternatives)) if !own_fields => one_of(
+                alternatives
+                    .iter()
+                    .map(|alternative| self.shape(alternative, merges + 1))
+                    .collect(),
+            ),
+            (None, None) => self.plain(object, merges),
+            (reference, alternatives) => {
+                // serde's `flatten`: fields of its own, those of another struct, and those of one variant.
+                let mut table = self.table(object, merges);
+                if let Some(target) = reference.and_then(|name| self.definitions.get(name)) {
+                    table = match merged(&table, &self.shape(target, merges + 1)) {
+                        Some(Shape::Table(table)) => table,
+                        Some(shape) => return shape,
+                        None => return Shape::Any,
+                    };
+                }
+                let variants = alternatives.into_iter().flatten();
+                let shapes: Option<Vec<Shape>> = variants
+                    .map(|variant| merged(&table, &self.shape(variant, merges + 1)))
+                    .collect();
+                match shapes {
+                    Some(shapes) if shapes.is_empty() => Shape::Table(table),
+                    Some(shapes) => one_of(shapes),
+                    None => Shape::Any,
+                }
+            }
+        }
+    }
+
+    /// A schema that is neither a reference nor a choice among schemas.
+    fn plain(&self, object: &Map<String, Value>, merges: usize) -> Shape {
+        let number = |key: &str| object.get(key).and_then(Value::as_f64);
+        let count = |key: &str| object.get(key).and_then(Value::as_u64);
+        let limits = Limits {
+            at_least: number("minimum"),
+            above: number("exclusiveMinimum"),
+            at_most: number("maximum"),
+            below: number("exclusiveMaximum"),
+        };
+        match kind(object) {
+            Some("number") => Shape::Number(limits),
+            Some("integer") => Shape::Integer(limits),
+            Some("string") => Shape::Text {
+                shortest: count("minLength").unwrap_or(0),
+                longest: count("maxLength"),
+            },
+            Some("boolean") => Shape::Flag,
+            Some("array") => {
+                let first = object.get("prefixItems").and_then(Value::as_array);
+                Shape::List(Box::new(ListShape {
+                    first: first
+                        .into_iter()
+                        .flatten()
+                        .map(|item| self.shape(item, merges + 1))
+                        .collect(),
+                    others: object
+                        .get("items")
+                        .map_or(Shape::Any, |items| self.shape(items, merges + 1)),
+                    fewest: count("minItems").unwrap_or(0),
+                    most: count("maxItems"),
+                }))
+            }
+            Some("object") => Shape::Table(self.table(object, merges)),
+            _ => Shape::Any,
+        }
+    }
+
+    fn table(&self, object: &Map<String, Value>, merges: usize) -> TableShape {
+        let properties = object.get("properties").and_then(Value::as_object);
+        let fields = properties.into_iter().flatten().map(|(name, schema)| {
+            let field = Field {
+                shape: self.shape(schema, merges + 1),
+                meaning: meaning(schema),
+            };
+            (name.clone(), field)
+        });
+        let required = object
+            .get("required")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten();
+        // Maps with keys that are not text: their one pattern holds the shape of all values.
+        let pattern = object
+            .get("patternProperties")
+            .and_then(Value::as_object)
+            .and_then(|map| map.values().next());
+        let others = match pattern
+            .or_else(|| object.get("additionalProperties"))
+            .or_else(|| object.get("unevaluatedProperties"))
+        {
+            Some(Value::Bool(false)) => Others::Refused,
+            Some(schema @ Value::Object(_)) => Others::Each(Box::new(self.shape(schema, merges + 1))),
+            _ => Others::Any,
+        };
+        TableShape {
+            fields: fields.collect(),
+            required: required.filter_map(Value::as_str).map(str::to_owned).collect(),
+            others,
+        }
+    }
+}
+
+/// The type of a schema, leaving out null: TOML has none, a field that is not wanted is not written.
+fn kind(object: &Map<String, Value>) -> Option<&str> {
+    match object.get("type") {
+        Some(Value::String(kind)) => Some(kind),
+        Some(Value::Array(kinds)) => {
+            let mut kinds = kinds
+                .iter()
+                .filter_map(Value::as_str)
+                .filter(|kind| *kind != "null");
+            kinds.next().filter(|_| kinds.next().is_none())
+        }
+        None if object.contains_key("properties") => Some("object"),
+        _ => None,
+    }
+}
+
+fn choices(object: &Map<String, Value>) -> Option<Vec<Value>> {
+    let one = object.get("const").map(|value| vec![value.clone()]);
+    let some = || object.get("enum").and_then(Value::as_array).cloned();
+    let choices: Vec<Value> = one
+        .or_else(some)?
+        .into_iter()
+        .filter(|value| !value.is_null())
+        .collect();
+    let plain = choices
+        .iter()
+        .all(|value| value.is_string() || value.is_number() || value.is_boolean());
+    (plain && !choices.is_empty()).then_some(choices)
+}
+
+/// The alternatives of a schema without null; `None` if it offers none.
+fn alternatives(object: &Map<String, Value>) -> Option<Vec<&Value>> {
+    let list = object
+        .get("oneOf")
+        .or_else(|| object.get("anyOf"))
+        .or_else(|| object.get("allOf"))?
+        .as_array()?;
+    let is_null = |schema: &Value| schema.get("type").and_then(Value::as_str) == Some("null");
+    Some(list.iter().filter(|schema| !is_null(schema)).collect())
+}
+
+/// The first line of a schema's description.
+fn meaning(schema: &Value) -> Option<String> {
+    let text = schema.get("description")?.as_str()?;
+    text.lines()
+        .next()
+        .map(|line| line.trim().trim_end_matches('.').to_owned())
+        .filter(|line| !line.is_empty())
+}

@@ -1,0 +1,80 @@
+//! The values of a TOML text, each with its place.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// A value and the bytes it is written in; a table's are those of its header.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub(super) span: Range<usize>,
+    pub(super) value: Value,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Value {
+    Text(String),
+    /// A whole number; one beyond 128 bits is cut to them.
+    Whole(i128),
+    /// Any other number; one that cannot be held is infinite.
+    Real(f64),
+    Flag(bool),
+    Date(String),
+    List(Vec<Node>),
+    Table(Table),
+}
+
+pub(super) type Table = BTreeMap<String, Entry>;
+
+/// A field of a table: where its key stands, and its value.
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub(super) key_span: Range<usize>,
+    pub(super) node: Node,
+}
+
+/// The whole document as one node, with an empty span at its start.
+pub(super) fn root(table: DeTable<'_>) -> Node {
+    Node {
+        span: 0..0,
+        value: Value::Table(fields(table)),
+    }
+}
+
+fn fields(table: DeTable<'_>) -> Table {
+    let entry = |(key, value): (Spanned<_>, _)| {
+        let key_span = key.span();
+        let name: std::borrow::Cow<'_, str> = key.into_inner();
+        (
+            name.into_owned(),
+            Entry {
+                key_span,
+                node: node(value),
+            },
+        )
+    };
+    table.into_iter().map(entry).collect()
+}
+
+fn node(spanned: Spanned<DeValue<'_>>) -> Node {
+    let span = spanned.span();
+    let value = match spanned.into_inner() {
+        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::Integer(integer) => {
+            let beyond = if integer.as_str().starts_with('-') {
+                i128::MIN
+            } else {
+                i128::MAX
+            };
+            Value::Whole(i128::from_str_radix(integer.as_str(), integer.radix()).unwrap_or(beyond))
+        }
+        DeValue::Float(float) => Value::Real(float.as_str().parse().unwrap_or(f64::INFINITY)),
+        DeValue::Boolean(flag) => Value::Flag(flag),
+        DeValue::Datetime(date) => Value::Date(date.to_string()),
+        DeValue::Array(entries) => Value::List(entries.into_iter().map(node).collect()),
+        DeValue::Table(table) => Value::Table(fields(table)),
+    };
+    Node { span, value }
+}

@@ -1,0 +1,423 @@
+//! Files that are either written whole or not at all.
+//!
+//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in one
+//! step: whoever reads it sees the old content or the new one, also after a power cut.
+
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Why a file or folder was not written: what failed, and what to try.
+#[derive(Debug, thiserror::Error)]
+pub enum FileError {
+    /// The path has no file name.
+    #[error("`{}` names no file: give a path that ends in a file name", path.display())]
+    NoFileName {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// A folder stands where the file should be.
+    #[error("cannot write `{}`: it is a folder; give the name of a file inside it", path.display())]
+    IsFolder {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The folder the file should be in does not exist.
+    #[error("cannot write `{}`: the folder `{}` does not exist; create it first", path.display(), folder.display())]
+    FolderMissing {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The folder that is missing.
+        folder: PathBuf,
+    },
+    /// A file stands where a folder is wanted.
+    #[error("cannot use `{}` as a folder: `{}` is a file; move it away or choose another folder",
+            path.display(), file.display())]
+    FileInTheWay {
+        /// The folder that is wanted.
+        path: PathBuf,
+        /// The file that stands in the way.
+        file: PathBuf,
+    },
+    /// The user may not write there.
+    #[error("cannot write `{}`: no permission in `{}`; change its permissions or choose another folder",
+            path.display(), folder.display())]
+    NotPermitted {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The folder that refuses.
+        folder: PathBuf,
+    },
+    /// The file is there and may not be changed.
+    #[error("cannot write `{}`: it is write-protected; remove the protection or choose another name", path.display())]
+    WriteProtected {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The file system is read-only.
+    #[error("cannot write `{}`: its file system is read-only; choose another folder", path.display())]
+    ReadOnly {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The disk or the quota is full.
+    #[error("cannot write `{}` ({bytes} bytes): no space left; free some or choose another disk", path.display())]
+    NoSpace {
+        /// The path as it was given.
+        path: PathBuf,
+        /// The size that was to be written; 0 for a folder.
+        bytes: usize,
+    },
+    /// Any other refusal of the operating system, in its own words.
+    #[error("cannot write `{}`: {source}", path.display())]
+    Other {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What the operating system said.
+        source: io::Error,
+    },
+}
+
+impl FileError {
+    /// The path that could not be written, as it was given.
+    pub fn path(&self) -> &Path {
+        match self {
+            Self::NoFileName { path }
+            | Self::IsFolder { path }
+            | Self::FolderMissing { path, .. }
+            | Self::FileInTheWay { path, .. }
+            | Self::NotPermitted { path, .. }
+            | Self::WriteProtected { path }
+            | Self::ReadOnly { path }
+            | Self::NoSpace { path, .. }
+            | Self::Other { path, .. } => path,
+        }
+    }
+
+    /// The situation behind an error of the operating system.
+    fn of(path: &Path, bytes: usize, source: io::Error) -> Self {
+        let path = path.to_owned();
+        let folder = folder_of(&path);
+        match source.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+                match file_in_the_way(&folder) {
+                    Some(file) => Self::FileInTheWay { path: folder, file },
+                    None if folder.exists() => Self::Other { path, source },
+                    None => Self::FolderMissing { path, folder },
+                }
+            }
+            io::ErrorKind::PermissionDenied => {
+                let refusing = folder.ancestors().find(|part| part.exists()).map(Path::to_owned);
+                Self::NotPermitted {
+                    path,
+                    folder: refusing.unwrap_or(folder),
+                }
+            }
+            io::ErrorKind::ReadOnlyFilesystem => Self::ReadOnly { path },
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => Self::NoSpace { path, bytes },
+            _ => Self::Other { path, source },
+        }
+    }
+}
+
+/// Writes a file whole, in place of what may have been there.
+///
+/// A link is followed: the file it leads to is replaced, and keeps its permissions. Devices and pipes (`/dev/stdout`)
+/// are written directly.
+///
+/// # Errors
+/// What stood in the way; then the old content is untouched and no temporary file remains.
+pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
+    let path = path.as_ref();
+    write_beside(path, &mut |out| out.write_all(bytes)).map_err(|failure| match failure {
+        Failure::Named(error) => error,
+        Failure::System(source) => FileError::of(path, bytes.len(), source),
+    })
+}
+
+/// Creates a folder and those above it; success if it is there already.
+///
+/// # Errors
+/// What stood in the way, such as a file of that name.
+pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
+    let path = path.as_ref();
+    fs::create_dir_all(path).map_err(|source| match file_in_the_way(path) {
+        Some(file) => FileError::FileInTheWay {
+            path: path.to_owned(),
+            file,
+        },
+        None => FileError::of(path, 0, source),
+    })
+}
+
+/// Either a situation that was recognised, or what the operating system said.
+enum Failure {
+    Named(FileError),
+    System(io::Error),
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::System(error)
+    }
+}
+
+fn write_beside(path: &Path, write: &mut dyn FnMut(&mut File) -> io::Result<()>) -> Result<(), Failure> {
+    if path.file_name().is_none() {
+        let path = path.to_owned();
+        return Err(Failure::Named(if path.is_dir() {
+            FileError::IsFolder { path }
+        } else {
+            FileError::NoFileName { path }
+        }));
+    }
+    let old = fs::metadata(path).ok();
+    if old.as_ref().is_some_and(fs::Metadata::is_dir) {
+        return Err(Failure::Named(FileError::IsFolder {
+            path: path.to_owned(),
+        }));
+    }
+    if old.as_ref().is_some_and(|old| !old.is_file()) {
+        // A device or pipe must keep its place: there is nothing to replace.
+        return Ok(write(&mut File::options().write(true).open(path)?)?);
+    }
+    if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
+        // Renaming would replace it all the same: the folder alone decides about that.
+        return Err(Failure::Named(FileError::WriteProtected {
+            path: path.to_owned(),
+        }));
+    }
+    let target = if path.is_symlink() {
+        fs::canonicalize(path)?
+    } else {
+        path.to_owned()
+    };
+    let folder = folder_of(&target);
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".armill-").suffix(".part");
+    // Without this the file would be readable by its owner alone; the user's mask still applies.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut part = builder.tempfile_in(&folder)?;
+    write(part.as_file_mut())?;
+    if let Some(old) = old {
+        part.as_file().set_permissions(old.permissions())?;
+    }
+    part.as_file().sync_all()?;
+    part.persist(&target).map_err(|error| error.error)?;
+    // The new name is safe only when the folder is on the disk too; not every file system can be asked for that.
+    #[cfg(unix)]
+    let _ = File::open(&folder).and_then(|folder| folder.sync_all());
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),
+        _ => PathBuf::from("."),
+    }
+}
+
+/// The nearest part of a path that exists, if it is not a folder.
+fn file_in_the_way(path: &Path) -> Option<PathBuf> {
+    path.ancestors()
+        .find(|part| part.exists())
+        .filter(|part| !part.is_dir())
+        .map(Path::to_owned)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names_in(folder: &Path) -> Vec<String> {
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_written_and_replaced_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.csv");
+        write_atomically(&path, b"one").unwrap();
+        write_atomically(&path, b"two").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"two");
+        assert_eq!(names_in(folder.path()), ["result.csv"]);
+    }
+
+    #[test]
+    fn a_failed_write_keeps_the_old_content_and_leaves_no_temporary_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.csv");
+        write_atomically(&path, b"old").unwrap();
+        let failure = write_beside(&path, &mut |out| {
+            out.write_all(b"half of the n")?;
+            Err(io::ErrorKind::StorageFull.into())
+        });
+        assert!(matches!(failure, Err(Failure::System(error)) if error.kind() == io::ErrorKind::StorageFull));
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names_in(folder.path()), ["result.csv"]);
+    }
+
+    #[test]
+    fn a_folder_in_place_of_the_file_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = write_atomically(folder.path(), b"x").unwrap_err();
+        assert!(matches!(error, FileError::IsFolder { .. }), "{error}");
+        assert!(
+            error.to_string().contains(&*folder.path().to_string_lossy()),
+            "{error}"
+        );
+        assert!(names_in(folder.path()).is_empty());
+        for path in ["/", ".", "a/..", ""] {
+            let error = write_atomically(path, b"x").unwrap_err();
+            assert!(
+                matches!(error, FileError::IsFolder { .. } | FileError::NoFileName { .. }),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let error = write_atomically(folder.path().join("maps").join("a.csv"), b"x").unwrap_err();
+        assert!(
+            matches!(&error, FileError::FolderMissing { folder, .. } if folder.ends_with("maps")),
+            "{error}"
+        );
+        assert!(error.to_string().contains("create it first"), "{error}");
+    }
+
+    #[test]
+    fn a_file_in_place_of_a_folder_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("maps");
+        write_atomically(&file, b"a file").unwrap();
+        let errors = [
+            write_atomically(file.join("a.csv"), b"x").unwrap_err(),
+            create_folder(&file).unwrap_err(),
+            create_folder(file.join("deep").join("deeper")).unwrap_err(),
+        ];
+        for error in errors {
+            assert!(
+                matches!(&error, FileError::FileInTheWay { file: named, .. } if *named == file),
+                "{error}"
+            );
+            assert!(error.to_string().contains("is a file"), "{error}");
+        }
+        assert_eq!(fs::read(&file).unwrap(), b"a file");
+    }
+
+    #[test]
+    fn a_folder_is_created_with_those_above_it_and_twice_is_no_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a").join("b");
+        create_folder(&path).unwrap();
+        create_folder(&path).unwrap();
+        assert!(path.is_dir());
+    }
+
+    #[test]
+    fn refusals_of_the_system_become_situations_with_advice() {
+        let said = |kind: io::ErrorKind| FileError::of(Path::new("maps/a.csv"), 12, kind.into()).to_string();
+        assert_eq!(
+            said(io::ErrorKind::PermissionDenied),
+            "cannot write `maps/a.csv`: no permission in `maps`; change its permissions or choose another folder"
+        );
+        assert_eq!(
+            said(io::ErrorKind::StorageFull),
+            "cannot write `maps/a.csv` (12 bytes): no space left; free some or choose another disk"
+        );
+        assert!(said(io::ErrorKind::QuotaExceeded).contains("no space left"));
+        assert!(said(io::ErrorKind::ReadOnlyFilesystem).contains("read-only"));
+        assert!(said(io::ErrorKind::TimedOut).starts_with("cannot write `maps/a.csv`: "));
+        let error = FileError::of(Path::new("a.csv"), 12, io::ErrorKind::PermissionDenied.into());
+        assert!(error.to_string().contains("no permission in `.`"), "{error}");
+        assert_eq!(error.path(), Path::new("a.csv"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_folder_without_permission_is_named_and_stays_empty() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        fs::set_permissions(folder.path(), PermissionsExt::from_mode(0o555)).unwrap();
+        // Root may write anyway: then there is nothing to refuse.
+        let refuses = File::create(folder.path().join("probe")).is_err();
+        let result = write_atomically(folder.path().join("a.csv"), b"x");
+        if refuses {
+            assert!(matches!(result, Err(FileError::NotPermitted { .. })));
+            assert!(names_in(folder.path()).is_empty());
+        } else {
+            assert!(result.is_ok());
+        }
+        fs::set_permissions(folder.path(), PermissionsExt::from_mode(0o755)).unwrap();
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_full_device_is_told_as_no_space_and_stays_a_device() {
+        let error = write_atomically("/dev/full", b"12345").unwrap_err();
+        assert!(matches!(error, FileError::NoSpace { bytes: 5, .. }), "{error}");
+        write_atomically("/dev/null", b"12345").unwrap();
+        assert!(!fs::metadata("/dev/null").unwrap().is_file());
+    }
+
+    #[test]
+    fn a_write_protected_file_is_left_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("robot.toml");
+        fs::write(&path, "old").unwrap();
+        let mut permissions = fs::metadata(&path).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(&path, permissions).unwrap();
+        let error = write_atomically(&path, b"new").unwrap_err();
+        assert!(matches!(error, FileError::WriteProtected { .. }), "{error}");
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names_in(folder.path()), ["robot.toml"]);
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_files_is_not_called_missing() {
+        let error = write_atomically("/proc/armill.csv", b"x").unwrap_err();
+        assert!(!matches!(error, FileError::FolderMissing { .. }), "{error}");
+        assert!(error.to_string().contains("/proc/armill.csv"), "{error}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_is_followed_and_permissions_are_kept() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (file, link) = (folder.path().join("file"), folder.path().join("link"));
+        fs::write(&file, "old").unwrap();
+        fs::set_permissions(&file, PermissionsExt::from_mode(0o640)).unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        write_atomically(&link, b"new").unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_new_file_has_the_permissions_of_any_other_new_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let mode = |name: &str| {
+            fs::metadata(folder.path().join(name))
+                .unwrap()
+                .permissions()
+                .mode()
+        };
+        File::create(folder.path().join("plain")).unwrap();
+        write_atomically(folder.path().join("ours"), b"x").unwrap();
+        assert_eq!(mode("ours"), mode("plain"));
+    }
+}

@@ -1,0 +1,300 @@
+//! Fields in space for ParaView: VTK XML files, little endian, base64, `header_type="UInt64"`.
+//!
+//! - [`Image`]: a regular grid in three dimensions, `.vti`.
+//! - [`PolyData`]: points anywhere, joined to quadrilaterals and lines, `.vtp`.
+//!
+//! Lengths of the geometry are millimetres; arrays carry their unit in their name. VTK has no missing values: they are
+//! written as NaN, and a second array `<name>_valid` is 1 where there is a value and 0 where there is none.
+//!
+//! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+
+mod image;
+mod poly_data;
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+pub use self::image::{Image, write_image};
+pub use self::poly_data::{PolyData, write_poly_data};
+
+/// Values at the points of a grid or mesh, one for each point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointArray {
+    /// The name, with the unit at its end: `in_plane_um`.
+    pub name: String,
+    /// One value for each point, in the order of the points.
+    pub values: PointValues,
+}
+
+/// The values of a [`PointArray`].
+#[derive(Debug, Clone, PartialEq)]
+pub enum PointValues {
+    /// Numbers.
+    Scalar(Vec<f64>),
+    /// Numbers, some of them missing.
+    OptionalScalar(Vec<Option<f64>>),
+    /// Vectors in the frame of the points.
+    Vector(Vec<[f64; 3]>),
+    /// Vectors, some of them missing.
+    OptionalVector(Vec<Option<[f64; 3]>>),
+    /// Whole numbers, such as the code of a branch.
+    Integer(Vec<i64>),
+    /// Yes (1) or no (0).
+    Flag(Vec<bool>),
+}
+
+/// Why a grid or mesh cannot be written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum VtkError {
+    /// A grid has no points in one direction.
+    #[error("the grid has {} x {} x {} points: at least 1 is needed in each direction", counts[0], counts[1], counts[2])]
+    NoPoints {
+        /// Points in x, y and z.
+        counts: [usize; 3],
+    },
+    /// A grid has a distance between points that is not positive and finite.
+    #[error("the grid spacing is {} x {} x {} mm: each must be above 0 mm", spacing_mm[0], spacing_mm[1], spacing_mm[2])]
+    Spacing {
+        /// The distances in x, y and z.
+        spacing_mm: [f64; 3],
+    },
+    /// A position is not finite.
+    #[error("point {index} is at ({}, {}, {}) mm: must be finite", at_mm[0], at_mm[1], at_mm[2])]
+    Position {
+        /// The point, from 0.
+        index: usize,
+        /// Where it is.
+        at_mm: [f64; 3],
+    },
+    /// Points do not fill a grid.
+    #[error("{points} points do not make a grid of {} x {}", counts[0], counts[1])]
+    GridPoints {
+        /// How many points there are.
+        points: usize,
+        /// How many there should be along both directions.
+        counts: [usize; 2],
+    },
+    /// A quadrilateral or line names a point that does not exist.
+    #[error("a cell names point {index}: there are {points}")]
+    PointIndex {
+        /// The point that is named, from 0.
+        index: usize,
+        /// How many points there are.
+        points: usize,
+    },
+    /// A line has fewer than two points.
+    #[error("line {index} has {points} points: at least 2 are needed")]
+    ShortLine {
+        /// The line, from 0.
+        index: usize,
+        /// Its points.
+        points: usize,
+    },
+    /// An array has another length than there are points.
+    #[error("array `{array}` has {found} values: there are {points} points")]
+    ArrayLength {
+        /// The array.
+        array: String,
+        /// Its values.
+        found: usize,
+        /// The points.
+        points: usize,
+    },
+    /// Two arrays have the same name, or one has that of another's mask.
+    #[error("two arrays are called `{array}`")]
+    SameName {
+        /// The name.
+        array: String,
+    },
+    /// A value is nan or infinite; a value that is missing is `None`.
+    #[error("array `{array}` is not finite at point {index}")]
+    NotFinite {
+        /// The array.
+        array: String,
+        /// The point, from 0.
+        index: usize,
+    },
+}
+
+impl PointValues {
+    fn len(&self) -> usize {
+        match self {
+            Self::Scalar(values) => values.len(),
+            Self::OptionalScalar(values) => values.len(),
+            Self::Vector(values) => values.len(),
+            Self::OptionalVector(values) => values.len(),
+            Self::Integer(values) => values.len(),
+            Self::Flag(values) => values.len(),
+        }
+    }
+
+    /// The first point with a value that is not finite.
+    fn first_not_finite(&self) -> Option<usize> {
+        let strange = |vector: &[f64; 3]| vector.iter().any(|value| !value.is_finite());
+        match self {
+            Self::Scalar(values) => values.iter().position(|value| !value.is_finite()),
+            Self::OptionalScalar(values) => values
+                .iter()
+                .position(|value| value.is_some_and(|v| !v.is_finite())),
+            Self::Vector(values) => values.iter().position(strange),
+            Self::OptionalVector(values) => values
+                .iter()
+                .position(|value| value.as_ref().is_some_and(strange)),
+            Self::Integer(_) | Self::Flag(_) => None,
+        }
+    }
+
+    /// Where there are values, if some may be missing.
+    fn valid(&self) -> Option<Vec<bool>> {
+        match self {
+            Self::OptionalScalar(values) => Some(values.iter().map(Option::is_some).collect()),
+            Self::OptionalVector(values) => Some(values.iter().map(Option::is_some).collect()),
+            _ => None,
+        }
+    }
+}
+
+/// Refuses arrays of the wrong length, of one name, or with values that are not finite.
+fn check_arrays(arrays: &[PointArray], points: usize) -> Result<(), VtkError> {
+    let mut names = BTreeSet::new();
+    for PointArray { name, values } in arrays {
+        let array = name.clone();
+        if values.len() != points {
+            return Err(VtkError::ArrayLength {
+                array,
+                found: values.len(),
+                points,
+            });
+        }
+        if let Some(index) = values.first_not_finite() {
+            return Err(VtkError::NotFinite { array, index });
+        }
+        let mask = values.valid().map(|_| mask_name(name));
+        for name in std::iter::once(array).chain(mask) {
+            if !names.insert(name.clone()) {
+                return Err(VtkError::SameName { array: name });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_positions(points_mm: &[[f64; 3]]) -> Result<(), VtkError> {
+    let strange = |at: &[f64; 3]| at.iter().any(|value| !value.is_finite());
+    match points_mm.iter().position(strange) {
+        Some(index) => Err(VtkError::Position {
+            index,
+            at_mm: points_mm[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+fn mask_name(name: &str) -> String {
+    format!("{name}_valid")
+}
+
+/// The whole file around its one data set.
+fn file(kind: &str, body: &str) -> Vec<u8> {
+    format!(
+        "<?xml version=\"1.0\"?>\n\
+         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+         {body}</VTKFile>\n"
+    )
+    .into_bytes()
+}
+
+/// The `PointData` element; the first scalar is the one ParaView shows first.
+fn point_data(arrays: &[PointArray]) -> String {
+    let scalar = |array: &&PointArray| {
+        matches!(
+            array.values,
+            PointValues::Scalar(_) | PointValues::OptionalScalar(_)
+        )
+    };
+    let shown = arrays
+        .iter()
+        .find(scalar)
+        .map(|array| format!(" Scalars=\"{}\"", escaped(&array.name)));
+    let mut out = format!("<PointData{}>\n", shown.unwrap_or_default());
+    for PointArray { name, values } in arrays {
+        out += &match values {
+            PointValues::Scalar(values) => floats(name, 1, values.iter().copied()),
+            PointValues::OptionalScalar(values) => {
+                floats(name, 1, values.iter().map(|v| v.unwrap_or(f64::NAN)))
+            }
+            PointValues::Vector(values) => floats(name, 3, values.iter().flatten().copied()),
+            PointValues::OptionalVector(values) => floats(
+                name,
+                3,
+                values.iter().flat_map(|value| value.unwrap_or([f64::NAN; 3])),
+            ),
+            PointValues::Integer(values) => integers(name, values.iter().copied()),
+            PointValues::Flag(values) => flags(name, values),
+        };
+        if let Some(valid) = values.valid() {
+            out += &flags(&mask_name(name), &valid);
+        }
+    }
+    out + "</PointData>\n"
+}
+
+fn floats(name: &str, components: usize, values: impl Iterator<Item = f64>) -> String {
+    data_array(
+        "Float64",
+        name,
+        components,
+        values.flat_map(f64::to_le_bytes).collect(),
+    )
+}
+
+fn integers(name: &str, values: impl Iterator<Item = i64>) -> String {
+    data_array("Int64", name, 1, values.flat_map(i64::to_le_bytes).collect())
+}
+
+fn flags(name: &str, values: &[bool]) -> String {
+    data_array(
+        "UInt8",
+        name,
+        1,
+        values.iter().map(|value| u8::from(*value)).collect(),
+    )
+}
+
+/// One array: the count of its bytes and the bytes themselves, together in base64.
+fn data_array(kind: &str, name: &str, components: usize, bytes: Vec<u8>) -> String {
+    let mut block = (bytes.len() as u64).to_le_bytes().to_vec();
+    block.extend(bytes);
+    let name = escaped(name);
+    format!(
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">\n{}\n</DataArray>\n",
+        STANDARD.encode(block)
+    )
+}
+
+/// Text for an XML attribute; characters that XML cannot hold at all become a question mark.
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for character in text.chars() {
+        match character {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            '\t' | '\n' | '\r' => {
+                // Writing to a string does not fail.
+                let _ = write!(out, "&#{};", u32::from(character));
+            }
+            '\u{fffe}' | '\u{ffff}' => out.push('?'),
+            other if other.is_control() => out.push('?'),
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,156 @@
+//! Made-up deviations along paths, shares of joints and compliances.
+
+use armill_report::{
+    Arrangement, Arrow, ArrowCase, AxisLabels, Growth, PathPlot, PolarPlot, RadialSeries, Series, ShareBar,
+    ShareBars, StiffnessEllipse, VectorField,
+};
+
+const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
+
+/// Deviation in um at an angle of the circle under one case.
+fn deviation_um(case: usize, angle_rad: f64) -> [f64; 2] {
+    let phase = case as f64 * std::f64::consts::FRAC_PI_2;
+    let (s, c) = phase.sin_cos();
+    let soft = 1.0 + 0.25 * (angle_rad - 0.4).sin();
+    [soft * (38.0 * c + 9.0 * s), soft * (9.0 * c + 55.0 * s)]
+}
+
+/// Name and SVG of each picture.
+pub fn pictures() -> Vec<(&'static str, String)> {
+    vec![
+        ("vector_field", vector_field().to_svg()),
+        ("path_plot", path_plot().to_svg()),
+        ("polar_plot", polar_plot().to_svg()),
+        ("shares_stacked", shares(Arrangement::Stacked).to_svg()),
+        ("shares_grouped", shares(Arrangement::Grouped).to_svg()),
+        ("ellipse", ellipse().to_svg()),
+    ]
+}
+
+fn vector_field() -> VectorField {
+    let on_circle = |a: f64| [150.0 * a.cos(), 350.0 + 150.0 * a.sin()];
+    let turn = std::f64::consts::TAU;
+    let cases = CASES.iter().enumerate().map(|(k, name)| ArrowCase {
+        name: (*name).into(),
+        arrows: (0..16)
+            .map(|m| turn * f64::from(m) / 16.0)
+            .map(|a| Arrow {
+                at_mm: on_circle(a),
+                deviation_um: deviation_um(k, a),
+            })
+            .collect(),
+    });
+    VectorField {
+        title: "Deviation of the tool around a circle of 300 mm".into(),
+        subtitle: "Vertical plate at x = 900 mm, 120 N; seen from the tool side".into(),
+        axes: AxisLabels {
+            horizontal: "base y (mm)".into(),
+            vertical: "along plate z' (mm)".into(),
+        },
+        growth: Growth::Left,
+        path_mm: (0..=128)
+            .map(|k| on_circle(turn * f64::from(k) / 128.0))
+            .collect(),
+        cases: cases.collect(),
+    }
+}
+
+fn path_plot() -> PathPlot {
+    let position: Vec<f64> = (0..=180).map(|k| f64::from(k) * 2.0).collect();
+    let size = |k: usize, a: f64| {
+        let [y, z] = deviation_um(k, a.to_radians());
+        y.hypot(z) * (1.0 + 0.06 * (3.0 * a.to_radians()).sin())
+    };
+    let series: Vec<Series> = (0..3)
+        .map(|k| Series {
+            name: CASES[k].into(),
+            position: position.clone(),
+            deviation_um: position
+                .iter()
+                .map(|a| {
+                    if k == 2 && (200.0..230.0).contains(a) {
+                        f64::NAN
+                    } else {
+                        size(k, *a) - 9.0 * k as f64
+                    }
+                })
+                .collect(),
+        })
+        .collect();
+    let largest = |m: usize| series.iter().map(|s| s.deviation_um[m]).fold(f64::NAN, f64::max);
+    let envelope = Series {
+        name: "largest over the cases".into(),
+        position: position.clone(),
+        deviation_um: (0..position.len()).map(largest).collect(),
+    };
+    PathPlot {
+        title: "In-plane deviation around the circle".into(),
+        subtitle: "Vertical plate at x = 900 mm, 120 N".into(),
+        position_label: "angle on the circle (°)".into(),
+        quantity: "in-plane deviation (µm)".into(),
+        series,
+        envelope: Some(envelope),
+        limit_um: Some(50.0),
+    }
+}
+
+fn polar_plot() -> PolarPlot {
+    let series = |k: usize| RadialSeries {
+        name: CASES[k].into(),
+        angle_deg: (0..=180).map(|m| f64::from(m) * 2.0).collect(),
+        radial_um: (0..=180)
+            .map(|m| (f64::from(m) * 2.0).to_radians())
+            .map(|a| {
+                let [y, z] = deviation_um(k, a);
+                y * a.cos() + z * a.sin()
+            })
+            .collect(),
+    };
+    PolarPlot {
+        title: "Radial deviation of the circle of 300 mm".into(),
+        subtitle: "Roundness 76 µm (feed +y), 112 µm (feed +z')".into(),
+        horizontal: "y".into(),
+        vertical: "z'".into(),
+        growth: Growth::Left,
+        series: vec![series(0), series(2)],
+    }
+}
+
+fn shares(arrangement: Arrangement) -> ShareBars {
+    let bar = |label: &str, shares_um: [f64; 6]| ShareBar {
+        label: label.into(),
+        shares_um: shares_um.into(),
+        share_uncertainty_um: shares_um.iter().map(|s| 0.12 * s.abs() + 0.4).collect(),
+        total_um: Some(shares_um.iter().sum()),
+        total_uncertainty_um: Some(4.2),
+    };
+    let mut bars = vec![
+        bar("centre of the plate", [11.0, 16.5, 9.2, 2.1, -3.4, 0.6]),
+        bar("upper left corner", [24.0, 21.5, 14.0, 4.8, -9.0, 1.2]),
+        bar("lower right corner, elbow down", [8.0, -6.5, 5.2, 1.1, 2.4, 0.2]),
+    ];
+    if arrangement == Arrangement::Grouped {
+        bars.truncate(2);
+    }
+    ShareBars {
+        title: "Which joint is to blame?".into(),
+        subtitle: "Share of each joint in the in-plane deviation, feed +y, 120 N".into(),
+        quantity: "share of in-plane deviation (µm)".into(),
+        parts: ["S", "L", "U", "R", "B", "T"].map(String::from).into(),
+        bars,
+        arrangement,
+    }
+}
+
+fn ellipse() -> StiffnessEllipse {
+    StiffnessEllipse {
+        title: "Compliance in the plate".into(),
+        subtitle: "Centre of the plate, elbow up".into(),
+        axes: AxisLabels {
+            horizontal: "base y (µm/N)".into(),
+            vertical: "along plate z' (µm/N)".into(),
+        },
+        growth: Growth::Left,
+        compliance_um_per_n: [[0.42, 0.11], [0.11, 0.23]],
+    }
+}

@@ -1,0 +1,131 @@
+//! How the arm stands: a schematic drawing from joint origins and axes, seen from a chosen side.
+
+mod body;
+mod scene;
+mod shapes;
+mod view;
+
+pub use view::View;
+
+use crate::page::{BORDER_PX, SMALL_PX, notice, title_block};
+use crate::svg::{Rect, Svg, Text};
+use scene::{Scene, draw_scene, wanted_height_px};
+
+/// One joint of a posture, in the base frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ArmJoint {
+    /// Its name, written beside it: `S`.
+    pub name: String,
+    /// A point on its axis, in mm; links are drawn from origin to origin.
+    pub origin_mm: [f64; 3],
+    /// Direction of its axis; any length.
+    pub axis: [f64; 3],
+}
+
+/// The arm in one posture, in the base frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Posture {
+    /// Where the foot stands, in mm.
+    pub base_mm: [f64; 3],
+    /// The joints from base to flange.
+    pub joints: Vec<ArmJoint>,
+    /// Centre of the flange, in mm.
+    pub flange_mm: [f64; 3],
+    /// Tool centre point, in mm.
+    pub tool_mm: [f64; 3],
+}
+
+/// What an arm drawing shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ArmDrawing {
+    /// First line, bold.
+    pub title: String,
+    /// Second line.
+    pub subtitle: String,
+    /// The posture drawn in full.
+    pub posture: Posture,
+    /// Further postures, drawn faintly behind it.
+    pub ghosts: Vec<Posture>,
+    /// Corners of a plate in mm, in order around it.
+    pub plate_mm: Option<[[f64; 3]; 4]>,
+    /// Path of the tool in mm.
+    pub path_mm: Vec<[f64; 3]>,
+    /// From where the arm is seen.
+    pub view: View,
+}
+
+const SINGLE_PX: [f64; 2] = [600.0, 520.0];
+const PANEL_PX: [f64; 2] = [390.0, 340.0];
+
+impl ArmDrawing {
+    /// The drawing as a complete SVG document; an arm without joints gives a picture that says so.
+    pub fn to_svg(&self) -> String {
+        self.drawn(&[self.view], SINGLE_PX)
+    }
+
+    /// The same arm from several sides, two panels in a row.
+    pub fn to_svg_views(&self, views: &[View]) -> String {
+        self.drawn(views, PANEL_PX)
+    }
+
+    fn drawn(&self, views: &[View], panel_px: [f64; 2]) -> String {
+        if self.posture.joints.is_empty() || views.is_empty() {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "There is nothing to draw: the arm has no joints.",
+            );
+        }
+        if !is_finite(&self.posture) {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "The arm cannot be drawn: a joint stands nowhere.",
+            );
+        }
+        let scene = Scene::of(self);
+        let panel_px = match views {
+            [view] => [
+                panel_px[0],
+                wanted_height_px(&scene, *view, panel_px[0], [260.0, panel_px[1]]),
+            ],
+            _ => panel_px,
+        };
+        let columns = views.len().min(2);
+        let gap = 16.0;
+        let width = 2.0 * BORDER_PX + columns as f64 * (panel_px[0] + gap) - gap;
+        let mut svg = Svg::new();
+        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        let title_row = if views.len() > 1 { 20.0 } else { 0.0 };
+        for (k, view) in views.iter().enumerate() {
+            let x = BORDER_PX + (k % columns) as f64 * (panel_px[0] + gap);
+            let y = top + (k / columns) as f64 * (panel_px[1] + title_row + gap) + title_row;
+            if views.len() > 1 {
+                svg.text([x, y - 7.0], view.name(), &Text::new(SMALL_PX).bold());
+            }
+            draw_scene(
+                &mut svg,
+                &scene,
+                *view,
+                Rect {
+                    x,
+                    y,
+                    w: panel_px[0],
+                    h: panel_px[1],
+                },
+            );
+        }
+        let rows = views.len().div_ceil(columns) as f64;
+        let height = top + rows * (panel_px[1] + title_row + gap) - gap;
+        svg.finish(width, height + BORDER_PX, &self.title)
+    }
+}
+
+/// Whether every point of a posture is a number.
+fn is_finite(posture: &Posture) -> bool {
+    let points = posture.joints.iter().flat_map(|j| [j.origin_mm, j.axis]);
+    points
+        .chain([posture.base_mm, posture.flange_mm, posture.tool_mm])
+        .flatten()
+        .all(f64::is_finite)
+}

@@ -1,0 +1,228 @@
+//! A report as one HTML file: question, answer, pictures, tables, warnings and the sources of the inputs; nothing is loaded from elsewhere.
+
+use crate::svg::escape;
+
+const STYLE: &str = include_str!("report.css");
+
+/// How the cells of a column stand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Align {
+    /// Words: to the left.
+    #[default]
+    Left,
+    /// Numbers: to the right, digits below digits.
+    Number,
+}
+
+/// One column of a table.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Column {
+    /// What stands in it.
+    pub name: String,
+    /// Its unit, or nothing.
+    pub unit: String,
+    /// How its cells stand.
+    pub align: Align,
+}
+
+/// A table. A row shorter than the columns is filled with empty cells, a longer one is cut.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Table {
+    /// What the table shows.
+    pub caption: String,
+    /// The columns.
+    pub columns: Vec<Column>,
+    /// The cells, row by row, as they are to be read.
+    pub rows: Vec<Vec<String>>,
+}
+
+/// One number that went into the result.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Input {
+    /// What it is: `compliance of joint 2`.
+    pub name: String,
+    /// Its value as it was read.
+    pub value: String,
+    /// Its unit.
+    pub unit: String,
+    /// Where it comes from: paper, page; data sheet; measurement.
+    pub source: String,
+}
+
+/// A report being written; what is added appears in the order of adding.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    title: String,
+    question: String,
+    answer: String,
+    warnings: Vec<String>,
+    inputs: Vec<Input>,
+    body: String,
+    figures: usize,
+    tables: usize,
+}
+
+impl Report {
+    /// An empty report.
+    pub fn new(title: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// The question that the report answers.
+    #[must_use]
+    pub fn question(mut self, text: &str) -> Self {
+        text.clone_into(&mut self.question);
+        self
+    }
+
+    /// The answer in one sentence.
+    #[must_use]
+    pub fn answer(mut self, text: &str) -> Self {
+        text.clone_into(&mut self.answer);
+        self
+    }
+
+    /// Something the reader must know before using the answer.
+    #[must_use]
+    pub fn warning(mut self, text: &str) -> Self {
+        self.warnings.push(text.to_owned());
+        self
+    }
+
+    /// Numbers that went in, listed with their sources at the end.
+    #[must_use]
+    pub fn inputs(mut self, inputs: impl IntoIterator<Item = Input>) -> Self {
+        self.inputs.extend(inputs);
+        self
+    }
+
+    /// A heading; what follows belongs to it.
+    #[must_use]
+    pub fn section(mut self, heading: &str) -> Self {
+        self.body.push_str(&format!("<h2>{}</h2>\n", escape(heading)));
+        self
+    }
+
+    /// A paragraph.
+    #[must_use]
+    pub fn paragraph(mut self, text: &str) -> Self {
+        self.body.push_str(&format!("<p>{}</p>\n", escape(text)));
+        self
+    }
+
+    /// A picture of this crate with its caption. Not checked: that `svg` is one of ours; it is put in as it stands.
+    #[must_use]
+    pub fn picture(mut self, svg: &str, caption: &str) -> Self {
+        self.figures += 1;
+        self.body.push_str(&format!(
+            "<figure>\n<div class=\"card\">{}</div>\n<figcaption><b>Figure {}.</b> {}</figcaption>\n</figure>\n",
+            svg.trim(),
+            self.figures,
+            escape(caption)
+        ));
+        self
+    }
+
+    /// A table.
+    #[must_use]
+    pub fn table(mut self, table: &Table) -> Self {
+        self.tables += 1;
+        let number = self.tables;
+        self.body
+            .push_str(&table_html(table, &format!("<b>Table {number}.</b> ")));
+        self
+    }
+
+    /// The report as a complete HTML document.
+    pub fn to_html(&self) -> String {
+        let title = escape(&self.title);
+        let mut main = format!("<h1>{title}</h1>\n");
+        if !self.question.is_empty() {
+            main.push_str(&format!("<p class=\"question\">{}</p>\n", escape(&self.question)));
+        }
+        if !self.answer.is_empty() {
+            main.push_str(&format!("<p class=\"answer\">{}</p>\n", escape(&self.answer)));
+        }
+        if !self.warnings.is_empty() {
+            let items: String = self
+                .warnings
+                .iter()
+                .map(|w| format!("<li>{}</li>\n", escape(w)))
+                .collect();
+            main.push_str(&format!("<aside class=\"warnings\" role=\"note\">\n<b>Before you use this</b>\n<ul>\n{items}</ul>\n</aside>\n"));
+        }
+        main.push_str(&self.body);
+        if !self.inputs.is_empty() {
+            main.push_str("<h2>Inputs and their sources</h2>\n");
+            main.push_str(&table_html(&inputs_table(&self.inputs), ""));
+        }
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{main}</main>\n</body>\n</html>\n"
+        )
+    }
+}
+
+fn inputs_table(inputs: &[Input]) -> Table {
+    let column = |name: &str, align| Column {
+        name: name.to_owned(),
+        unit: String::new(),
+        align,
+    };
+    Table {
+        caption: String::new(),
+        columns: vec![
+            column("input", Align::Left),
+            column("value", Align::Number),
+            column("unit", Align::Left),
+            column("source", Align::Left),
+        ],
+        rows: inputs
+            .iter()
+            .map(|i| vec![i.name.clone(), i.value.clone(), i.unit.clone(), i.source.clone()])
+            .collect(),
+    }
+}
+
+fn table_html(table: &Table, number: &str) -> String {
+    let class = |align| {
+        if align == Align::Number {
+            " class=\"n\""
+        } else {
+            ""
+        }
+    };
+    let mut out = String::from("<div class=\"scroll\">\n<table>\n");
+    if !(table.caption.is_empty() && number.is_empty()) {
+        out.push_str(&format!(
+            "<caption>{number}{}</caption>\n",
+            escape(&table.caption)
+        ));
+    }
+    out.push_str("<thead><tr>");
+    for c in &table.columns {
+        let unit = if c.unit.is_empty() {
+            String::new()
+        } else {
+            format!(" <span class=\"unit\">({})</span>", escape(&c.unit))
+        };
+        out.push_str(&format!(
+            "<th scope=\"col\"{}>{}{unit}</th>",
+            class(c.align),
+            escape(&c.name)
+        ));
+    }
+    out.push_str("</tr></thead>\n<tbody>\n");
+    for row in &table.rows {
+        out.push_str("<tr>");
+        for (k, c) in table.columns.iter().enumerate() {
+            let cell = row.get(k).map_or("", String::as_str);
+            out.push_str(&format!("<td{}>{}</td>", class(c.align), escape(cell)));
+        }
+        out.push_str("</tr>\n");
+    }
+    out.push_str("</tbody>\n</table>\n</div>\n");
+    out
+}

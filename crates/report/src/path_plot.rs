@@ -1,0 +1,174 @@
+//! The deviation along a path: one line a load case, their envelope, and the limit.
+
+use crate::axis::plain;
+use crate::chart::{Chart, range, runs};
+use crate::colour::{INK, LIMIT, category};
+use crate::field::limit_style;
+use crate::font::{Weight, text_width_px};
+use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::svg::{Rect, Style, Svg, Text};
+
+const AREA_PX: [f64; 2] = [560.0, 300.0];
+
+/// One line of a chart.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name for the legend.
+    pub name: String,
+    /// Path length, angle or time at each sample.
+    pub position: Vec<f64>,
+    /// Deviation in um at each sample; a value that is not finite breaks the line.
+    pub deviation_um: Vec<f64>,
+}
+
+impl Series {
+    pub(crate) fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.position
+            .iter()
+            .zip(&self.deviation_um)
+            .map(|(x, y)| [*x, *y])
+    }
+}
+
+/// What a path plot shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathPlot {
+    /// First line, bold.
+    pub title: String,
+    /// Second line.
+    pub subtitle: String,
+    /// Label of the horizontal axis with unit: `path length (mm)`.
+    pub position_label: String,
+    /// Label of the vertical axis with unit: `in-plane deviation (µm)`.
+    pub quantity: String,
+    /// The load cases.
+    pub series: Vec<Series>,
+    /// Largest value over the cases at each position; drawn as a band from the axis.
+    pub envelope: Option<Series>,
+    /// Permissible deviation in um.
+    pub limit_um: Option<f64>,
+}
+
+impl PathPlot {
+    /// The plot as a complete SVG document; no values gives a picture that says so.
+    pub fn to_svg(&self) -> String {
+        let lines = || self.series.iter().chain(&self.envelope);
+        let finite = || {
+            lines()
+                .flat_map(Series::points)
+                .filter(|p| p.iter().all(|v| v.is_finite()))
+        };
+        let limit = self.limit_um.filter(|l| l.is_finite());
+        let x = range(finite().map(|p| p[0]), 0.0);
+        let y = range(finite().map(|p| p[1]).chain([0.0]).chain(limit), 0.06);
+        let (Some(x), Some(y), Some(_)) = (x, y, finite().next()) else {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "There is nothing to draw: the path has no values.",
+            );
+        };
+        // Values that are all positive stand on the axis.
+        let lowest = if finite().all(|p| p[1] >= 0.0) { 0.0 } else { y[0] };
+        let area = Rect {
+            x: 0.0,
+            y: 0.0,
+            w: AREA_PX[0],
+            h: AREA_PX[1],
+        };
+        let chart = Chart {
+            area,
+            low: [x[0], lowest],
+            high: [x[1], y[1]],
+        };
+        let left = BORDER_PX + chart.left_room_px();
+        let width = left + AREA_PX[0] + BORDER_PX + 8.0;
+
+        let mut svg = Svg::new();
+        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        let chart = Chart {
+            area: Rect {
+                x: left,
+                y: top + 4.0,
+                ..area
+            },
+            ..chart
+        };
+        chart.draw(&mut svg, &self.position_label, &self.quantity);
+        svg.clipped(chart.area, |svg| self.draw_lines(svg, &chart));
+        if let Some(limit) = limit {
+            self.draw_limit(&mut svg, &chart, limit);
+        }
+        let mut entries: Vec<Entry> = Vec::new();
+        for (k, series) in self.series.iter().enumerate() {
+            entries.push(Entry::new(
+                Key::Line(vec![Style::line(category(k), 1.8)]),
+                series.name.clone(),
+            ));
+        }
+        if let Some(envelope) = &self.envelope {
+            entries.push(Entry::new(
+                Key::Line(vec![Style::line(INK, 2.4).opacity(0.75)]),
+                envelope.name.clone(),
+            ));
+        }
+        let bottom = legend(&mut svg, &entries, [left, chart.area.bottom() + 50.0], AREA_PX[0]);
+        svg.finish(width, bottom + BORDER_PX, &self.title)
+    }
+
+    fn draw_lines(&self, svg: &mut Svg, chart: &Chart) {
+        if let Some(envelope) = &self.envelope {
+            let zero = chart.at([0.0, 0.0_f64.max(chart.low[1])])[1];
+            for run in runs(envelope.points().map(|p| chart.at(p))) {
+                let mut area = run.clone();
+                area.extend(run.last().map(|p| [p[0], zero]));
+                area.extend(run.first().map(|p| [p[0], zero]));
+                svg.polygon(&area, &Style::fill(INK).opacity(0.07));
+                svg.polyline(&run, &Style::line(INK, 2.4).opacity(0.75));
+            }
+        }
+        for (k, series) in self.series.iter().enumerate() {
+            for run in runs(series.points().map(|p| chart.at(p))) {
+                match run.as_slice() {
+                    [single] => svg.circle(*single, 2.5, &Style::fill(category(k))),
+                    _ => svg.polyline(&run, &Style::line(category(k), 1.8)),
+                }
+            }
+        }
+    }
+
+    /// The limit with its label at the right end, on the side with fewer lines.
+    fn draw_limit(&self, svg: &mut Svg, chart: &Chart, limit: f64) {
+        let y = chart.at([0.0, limit])[1];
+        svg.line([chart.area.x, y], [chart.area.right(), y], &limit_style());
+        let label = format!("limit {} µm", plain(limit));
+        let half = text_width_px(&label, SMALL_PX, Weight::Bold) / 2.0 + 4.0;
+        let all: Vec<_> = self
+            .series
+            .iter()
+            .chain(&self.envelope)
+            .flat_map(Series::points)
+            .map(|p| chart.at(p))
+            .collect();
+        let crowd = |x: f64, text_y: f64| {
+            all.iter()
+                .filter(|p| (p[0] - x).abs() < half && (p[1] - text_y + 4.0).abs() < 11.0)
+                .count()
+        };
+        let places = [0.9, 0.1, 0.5, 0.7, 0.3]
+            .map(|t| (chart.area.x + half + 4.0) * (1.0 - t) + (chart.area.right() - half - 4.0) * t);
+        let above = places.iter().map(|x| [*x, y - 6.0]);
+        let below = places.iter().map(|x| [*x, y + 15.0]);
+        let inside = |p: &[f64; 2]| p[1] > chart.area.y + 12.0 && p[1] < chart.area.bottom() - 4.0;
+        let best = above
+            .chain(below)
+            .filter(inside)
+            .min_by_key(|p| crowd(p[0], p[1]));
+        let at = best.unwrap_or([places[0], y - 6.0]);
+        svg.text(
+            at,
+            &label,
+            &Text::new(SMALL_PX).bold().middle().colour(LIMIT).halo(3.0),
+        );
+    }
+}

@@ -1,0 +1,274 @@
+//! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one colour bar.
+
+use crate::colour::{ColourScale, MUTED, OVER, WITHIN};
+use crate::colour_bar::ColourBar;
+use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::font::{Weight, text_width_px, wrap};
+use crate::grid::Grid;
+use crate::levels::Levels;
+use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::plane::{AxisLabels, Marks, Plane, Window};
+use crate::svg::{Rect, Style, Svg, Text};
+
+const GAP_PX: f64 = 14.0;
+/// Gap between a map and the region under it.
+const PAIR_PX: f64 = 16.0;
+const TITLE_ROW_PX: f64 = 18.0;
+/// Font size of panel numbers in tenths of a pixel.
+const PANEL_FONT: u16 = 95;
+
+/// One map of a sheet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Panel {
+    /// What distinguishes this panel: `x = 600 mm`.
+    pub title: String,
+    /// A number worth reading at once: `62 % within`; empty for none.
+    pub note: String,
+    /// The points and their values in um.
+    pub grid: Grid,
+}
+
+/// What a sheet shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// First line, bold.
+    pub title: String,
+    /// Second line: load, posture.
+    pub subtitle: String,
+    /// The maps in reading order.
+    pub panels: Vec<Panel>,
+    /// Panels in a row; 0 chooses.
+    pub columns: usize,
+    /// Axis labels with units, shared by all panels.
+    pub axes: AxisLabels,
+    /// What is drawn, with its unit.
+    pub quantity: String,
+    /// Permissible deviation in um.
+    pub limit_um: Option<f64>,
+    /// Colours of the bands.
+    pub scale: ColourScale,
+    /// Whether the permissible region stands under each map; needs a limit.
+    pub show_regions: bool,
+}
+
+impl Sheet {
+    /// The sheet as a complete SVG document; a panel that cannot be drawn says why.
+    pub fn to_svg(&self) -> String {
+        if self.panels.is_empty() {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "There is nothing to draw: the series has no maps.",
+            );
+        }
+        let drawable: Vec<&Grid> = self
+            .panels
+            .iter()
+            .map(|p| &p.grid)
+            .filter(|g| g.obstacle().is_none())
+            .collect();
+        let levels = Levels::covering(drawable.iter().flat_map(|g| g.values_um()));
+        let (Some(levels), Some(window)) = (levels, common_window(&drawable)) else {
+            let reason = self
+                .panels
+                .iter()
+                .find_map(|p| p.grid.obstacle())
+                .unwrap_or_default();
+            return notice(
+                &self.title,
+                &self.subtitle,
+                &format!("No map of this series can be drawn. {reason}"),
+            );
+        };
+        let layout = Layout::new(self, window);
+        let bar = ColourBar {
+            levels: &levels,
+            scale: self.scale,
+            quantity: &self.quantity,
+            limit_um: self.limit_um,
+        };
+        let bar_height = layout.height_px.min(420.0);
+        let bar_x = layout.left_px + layout.width_px + 18.0;
+        let width = (bar_x + bar.width_px(bar_height) + BORDER_PX).max(480.0);
+
+        let mut svg = Svg::new();
+        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        for (index, panel) in self.panels.iter().enumerate() {
+            self.draw_panel(&mut svg, panel, &layout.cell(index, top), &levels);
+        }
+        let middle_x = layout.left_px + layout.width_px / 2.0;
+        let labels_y = top + layout.height_px + 38.0;
+        svg.text(
+            [middle_x, labels_y],
+            &self.axes.horizontal,
+            &Text::new(BODY_PX).middle(),
+        );
+        let up = Text::new(BODY_PX).middle().turned(-90.0);
+        svg.text(
+            [BORDER_PX + 12.0, top + layout.height_px / 2.0],
+            &self.axes.vertical,
+            &up,
+        );
+        let bar_y = top + TITLE_ROW_PX + (layout.height_px - TITLE_ROW_PX - bar_height).max(0.0) / 2.0;
+        bar.draw(
+            &mut svg,
+            Rect {
+                x: bar_x,
+                y: bar_y,
+                w: 0.0,
+                h: bar_height - TITLE_ROW_PX,
+            },
+        );
+
+        let entries = self.entries(&mut svg, &drawable);
+        let room = width - layout.left_px - BORDER_PX;
+        let bottom = legend(&mut svg, &entries, [layout.left_px, labels_y + 12.0], room);
+        svg.finish(width, bottom + BORDER_PX, &self.title)
+    }
+
+    fn has_regions(&self) -> bool {
+        self.show_regions && self.limit_um.is_some_and(f64::is_finite)
+    }
+
+    fn draw_panel(&self, svg: &mut Svg, panel: &Panel, cell: &Cell, levels: &Levels) {
+        let area = cell.planes[0].area;
+        let room = area.w - text_width_px(&panel.note, 10.0, Weight::Regular) - 6.0;
+        let title_fits = text_width_px(&panel.title, SMALL_PX, Weight::Bold) <= room;
+        svg.text([area.x, area.y - 6.0], &panel.title, &Text::new(SMALL_PX).bold());
+        if title_fits {
+            svg.text(
+                [area.right(), area.y - 6.0],
+                &panel.note,
+                &Text::new(10.0).end().colour(MUTED),
+            );
+        }
+        let paints = [Paint::Bands(self.scale), Paint::Region];
+        for ((plane, paint), marks) in cell.planes.iter().zip(paints).zip(&cell.marks) {
+            if let Some(reason) = panel.grid.obstacle() {
+                svg.rect(plane.area, &Style::fill("#f6f6f6"));
+                let lines = wrap(&reason, 10.0, Weight::Regular, plane.area.w - 16.0);
+                for (k, line) in lines.iter().enumerate() {
+                    let c = plane.area.centre();
+                    let y = c[1] + 14.0 * (k as f64 - (lines.len() as f64 - 1.0) / 2.0) + 4.0;
+                    svg.text([c[0], y], line, &Text::new(10.0).middle().colour(MUTED));
+                }
+            } else {
+                let look = Look {
+                    levels,
+                    paint,
+                    iso_lines: IsoLines::Thin,
+                    limit_um: self.limit_um,
+                    obstacles: &[],
+                };
+                draw_field(svg, plane, &panel.grid, &look);
+            }
+            plane.draw_frame(svg, *marks);
+        }
+    }
+
+    fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
+            let limit = crate::axis::plain(limit);
+            entries.push(Entry::new(
+                Key::Line(vec![limit_style()]),
+                format!("limit {limit} µm"),
+            ));
+            if self.has_regions() {
+                let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
+                entries.push(Entry::new(field(WITHIN), format!("within {limit} µm")));
+                entries.push(Entry::new(field(OVER), format!("over {limit} µm")));
+            }
+        }
+        entries.extend(zone_entries(
+            svg,
+            drawable.iter().copied(),
+            Paint::Bands(self.scale),
+        ));
+        entries
+    }
+}
+
+/// The window that shows all grids, drawn in the direction of the first.
+fn common_window(grids: &[&Grid]) -> Option<Window> {
+    let first = window_of(grids.first()?);
+    let reach = |pick: fn(&Window) -> [f64; 2]| {
+        let (low, high) = crate::axis::extent(grids.iter().flat_map(|g| pick(&window_of(g))))?;
+        let [from, to] = pick(&first);
+        Some(if to >= from { [low, high] } else { [high, low] })
+    };
+    let [left_mm, right_mm] = reach(|w| [w.left_mm, w.right_mm])?;
+    let [bottom_mm, top_mm] = reach(|w| [w.bottom_mm, w.top_mm])?;
+    Some(Window {
+        left_mm,
+        right_mm,
+        bottom_mm,
+        top_mm,
+    })
+}
+
+/// Where the panels of a sheet stand.
+struct Layout {
+    window: Window,
+    columns: usize,
+    panels: usize,
+    planes_per_panel: usize,
+    panel_px: [f64; 2],
+    left_px: f64,
+    width_px: f64,
+    height_px: f64,
+}
+
+/// The drawings of one panel, map first.
+struct Cell {
+    planes: Vec<Plane>,
+    marks: Vec<Marks>,
+}
+
+impl Layout {
+    fn new(sheet: &Sheet, window: Window) -> Self {
+        let panels = sheet.panels.len();
+        let chosen = if panels <= 5 {
+            panels
+        } else {
+            (panels as f64).sqrt().ceil() as usize
+        };
+        let columns = if sheet.columns == 0 { chosen } else { sheet.columns }.clamp(1, panels.clamp(1, 8));
+        let planes_per_panel = if sheet.has_regions() { 2 } else { 1 };
+        let most = (900.0 - GAP_PX * (columns as f64 - 1.0)) / columns as f64;
+        let area = Plane::fit(window, [0.0, 0.0], [most.min(300.0), most.min(300.0)]).area;
+        let rows = panels.div_ceil(columns) as f64;
+        let per_row = TITLE_ROW_PX + (area.h + PAIR_PX) * planes_per_panel as f64 + GAP_PX - PAIR_PX;
+        Self {
+            window,
+            columns,
+            panels,
+            planes_per_panel,
+            panel_px: [area.w, area.h],
+            left_px: BORDER_PX + Plane::left_room_px(&window),
+            width_px: columns as f64 * (area.w + GAP_PX) - GAP_PX,
+            height_px: rows * per_row - GAP_PX,
+        }
+    }
+
+    fn cell(&self, index: usize, top_px: f64) -> Cell {
+        let (column, row) = (index % self.columns, index / self.columns);
+        let [w, h] = self.panel_px;
+        let per_row = TITLE_ROW_PX + (h + PAIR_PX) * self.planes_per_panel as f64 + GAP_PX - PAIR_PX;
+        let x = self.left_px + column as f64 * (w + GAP_PX);
+        let y = top_px + row as f64 * per_row + TITLE_ROW_PX;
+        // The lowest panel of each column carries the numbers of the horizontal axis.
+        let lowest = index + self.columns >= self.panels;
+        let planes: Vec<Plane> = (0..self.planes_per_panel)
+            .map(|k| Plane::fit(self.window, [x, y + (h + PAIR_PX) * k as f64], [w, h]))
+            .collect();
+        let marks = (0..self.planes_per_panel)
+            .map(|k| Marks {
+                horizontal_numbers: lowest && k + 1 == self.planes_per_panel,
+                vertical_numbers: column == 0,
+                font_px_tenths: PANEL_FONT,
+            })
+            .collect();
+        Cell { planes, marks }
+    }
+}

@@ -1,0 +1,191 @@
+//! A map in the answer.
+
+use armill_core::map::{Counts, PlaneMap, Region};
+use armill_core::nalgebra::Point2;
+use armill_core::robot::Unreachable;
+use serde::Serialize;
+
+use super::point::{PointAnswer, SettingAnswer, tidy};
+use crate::file::resolve::{Setting, Study};
+
+/// A map of one plane.
+#[derive(Clone, Debug, Serialize)]
+pub struct MapAnswer {
+    /// Its name: of the ask, with the label of the section.
+    pub name: String,
+    /// Posture asked for: words of a branch, or `best`.
+    pub branch: String,
+    /// Points within the limit over all points. A named branch is judged whether its joints stand inside their
+    /// limits or not; `best` only takes postures inside.
+    pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
+    /// Largest in-plane deviation of all reached points.
+    pub max_in_plane_um: Option<f64>,
+    /// Least in-plane deviation of all reached points.
+    pub min_in_plane_um: Option<f64>,
+    /// Points by reason; they add up to all points.
+    pub counts: CountsAnswer,
+    /// Points with a posture that stands outside joint limits.
+    pub outside_joint_limits: usize,
+    /// Points with a posture near a singularity.
+    pub near_singularity: usize,
+    /// The point with the largest in-plane deviation.
+    pub worst: Option<PointAnswer>,
+    /// The point with the least in-plane deviation.
+    pub best: Option<PointAnswer>,
+    /// The region within the limit.
+    pub region: RegionAnswer,
+    /// What all points share.
+    pub setting: SettingAnswer,
+    /// The points.
+    pub grid: GridAnswer,
+}
+
+/// Points by reason; they add up to all points.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CountsAnswer {
+    /// In-plane deviation within the limit.
+    pub within: usize,
+    /// In-plane deviation over the limit.
+    pub over_limit: usize,
+    /// No posture reaches.
+    pub out_of_reach: usize,
+    /// Postures reach, but none inside the joint limits (`best` only).
+    pub no_posture_inside_limits: usize,
+    /// The inverse kinematics failed its own check.
+    pub unverified: usize,
+}
+
+impl CountsAnswer {
+    pub(super) fn of(counts: &Counts) -> CountsAnswer {
+        CountsAnswer {
+            within: counts.within,
+            over_limit: counts.over_limit,
+            out_of_reach: counts.out_of_reach,
+            no_posture_inside_limits: counts.no_posture_inside_limits,
+            unverified: counts.unverified,
+        }
+    }
+}
+
+/// The region within the limit. In-plane coordinates y', z' from the plane's centre.
+#[derive(Clone, Debug, Serialize)]
+pub struct RegionAnswer {
+    /// Area, following the limit between points.
+    pub area_mm2: f64,
+    /// Its boundary: polylines, closed ones repeat their first point.
+    pub boundary_mm: Vec<Vec<[f64; 2]>>,
+    /// Largest axis-parallel rectangle inside: two opposite corners.
+    pub rectangle_mm: Option<[[f64; 2]; 2]>,
+    /// Centre of the largest circle inside.
+    pub circle_centre_mm: Option<[f64; 2]>,
+    /// Its radius.
+    pub circle_radius_mm: Option<f64>,
+}
+
+/// The points of a map, row by row along z', in each row along y'.
+#[derive(Clone, Debug, Serialize)]
+pub struct GridAnswer {
+    /// How many.
+    pub points: usize,
+    /// y' of the columns.
+    pub y_mm: Vec<f64>,
+    /// z' of the rows.
+    pub z_mm: Vec<f64>,
+    /// In-plane deviation; none without posture.
+    pub in_plane_um: Vec<Option<f64>>,
+    /// Deviation along the outward normal.
+    pub normal_um: Vec<Option<f64>>,
+    /// Length of the deviation.
+    pub full_um: Vec<Option<f64>>,
+    /// Why there is no posture, or that it stands outside joint limits, by point; points not named are fine.
+    pub remarks: Vec<Remark>,
+}
+
+/// Something about some points.
+#[derive(Clone, Debug, Serialize)]
+pub struct Remark {
+    /// One word.
+    pub reason: String,
+    /// Indices of the points it holds for.
+    pub points: Vec<usize>,
+}
+
+pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
+    let counts = Counts::of(&map.answers, setting.limit);
+    let at = |index: usize| map.plane.base_from_tool(map.grid.point(index), 0.0).translation.vector.into();
+    let point = |(index, held)| PointAnswer::of(study, setting, &map.answers, (index, held, at(index)));
+    let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
+    MapAnswer {
+        name: name.to_owned(),
+        branch: setting.branch(),
+        fraction_within: counts.fraction_within(),
+        fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        max_in_plane_um: worst.as_ref().map(|p| p.in_plane_um),
+        min_in_plane_um: best.as_ref().map(|p| p.in_plane_um),
+        counts: CountsAnswer::of(&counts),
+        outside_joint_limits: counts.outside_joint_limits,
+        near_singularity: counts.near_singularity,
+        worst,
+        best,
+        region: region_answer(&map.region(setting.limit)),
+        setting: SettingAnswer::of(setting),
+        grid: grid_answer(map),
+    }
+}
+
+fn region_answer(region: &Region) -> RegionAnswer {
+    RegionAnswer {
+        area_mm2: region.area * 1e6,
+        boundary_mm: region.boundary.iter().map(|line| line.iter().map(in_plane).collect()).collect(),
+        rectangle_mm: region.rectangle.map(|r| [in_plane(&r.lower), in_plane(&r.upper)]),
+        circle_centre_mm: region.disc.map(|d| in_plane(&d.centre)),
+        circle_radius_mm: region.disc.map(|d| tidy(d.radius * 1e3)),
+    }
+}
+
+/// Part coordinates as y', z' in mm.
+fn in_plane(at: &Point2<f64>) -> [f64; 2] {
+    [tidy(-at.x * 1e3), tidy(at.y * 1e3)]
+}
+
+fn grid_answer(map: &PlaneMap) -> GridAnswer {
+    let grid = &map.grid;
+    let um = |value: f64| (value * 1e10).round() / 1e4;
+    let of = |get: &dyn Fn(&armill_core::kernel::Held) -> f64| -> Vec<Option<f64>> {
+        map.answers.points.iter().map(|point| point.as_ref().ok().map(|held| um(get(held)))).collect()
+    };
+    GridAnswer {
+        points: grid.len(),
+        y_mm: (0..grid.columns).map(|i| tidy(-grid.coordinate(i, grid.columns) * 1e3)).collect(),
+        z_mm: (0..grid.rows).map(|i| tidy(grid.coordinate(i, grid.rows) * 1e3)).collect(),
+        in_plane_um: of(&|held| held.in_plane),
+        normal_um: of(&|held| held.normal),
+        full_um: of(&|held| held.full),
+        remarks: remarks(map),
+    }
+}
+
+fn remarks(map: &PlaneMap) -> Vec<Remark> {
+    let mut remarks: Vec<Remark> = Vec::new();
+    let mut add = |reason: &str, index: usize| match remarks.iter_mut().find(|r| r.reason == reason) {
+        Some(remark) => remark.points.push(index),
+        None => remarks.push(Remark { reason: reason.to_owned(), points: vec![index] }),
+    };
+    for (index, point) in map.answers.points.iter().enumerate() {
+        match point {
+            Ok(held) => {
+                if !held.within_limits() {
+                    add("outside_joint_limits", index);
+                }
+                if held.singularity.is_some() {
+                    add("near_singularity", index);
+                }
+            }
+            Err(Unreachable::OutsideLimits { .. }) => add("no_posture_inside_limits", index),
+            Err(miss) => add(miss.reason(), index),
+        }
+    }
+    remarks
+}

@@ -1,0 +1,186 @@
+//! The answer to a study as one JSON value: the same bytes whatever the surface.
+//!
+//! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
+//! max_in_plane_um, roundness_um` are a public contract.
+
+mod map;
+mod path;
+mod point;
+mod sentence;
+mod statement;
+mod volume;
+
+pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
+pub use path::PathResult;
+pub use point::{PointAnswer, SettingAnswer};
+pub use statement::{Reading, StatementAnswer};
+pub use volume::VolumeAnswer;
+
+use armill_formats::robot::Source;
+use serde::Serialize;
+
+use crate::file::resolve::{Study, Subject};
+use crate::run::Found;
+
+/// The whole answer.
+#[derive(Clone, Debug, Serialize)]
+pub struct StudyAnswer {
+    /// Version of this format.
+    pub format: u32,
+    /// Version of armill that gave it.
+    pub armill: &'static str,
+    /// Title of the study.
+    pub title: String,
+    /// The question in words.
+    pub question: Option<String>,
+    /// The answer in one sentence.
+    pub answer: String,
+    /// The robot and what its joints yield.
+    pub robot: RobotAnswer,
+    /// Every plane, sections included.
+    pub maps: Vec<MapAnswer>,
+    /// Every path.
+    pub paths: Vec<PathResult>,
+    /// Every box.
+    pub volumes: Vec<VolumeAnswer>,
+    /// What others state, beside what was found here.
+    pub statements: Vec<StatementAnswer>,
+    /// What a user should know before trusting it.
+    pub warnings: Vec<String>,
+    /// Where the numbers come from.
+    pub sources: Vec<Source>,
+}
+
+/// The robot and what its joints yield.
+#[derive(Clone, Debug, Serialize)]
+pub struct RobotAnswer {
+    /// Name in the library, or of the file.
+    pub name: String,
+    /// Maker and type.
+    pub title: String,
+    /// Its joints, base to flange.
+    pub joints: Vec<JointAnswer>,
+}
+
+/// What a joint yields.
+#[derive(Clone, Debug, Serialize)]
+pub struct JointAnswer {
+    /// Its name.
+    pub name: String,
+    /// Compliance.
+    pub compliance_rad_per_n_m: f64,
+    /// Its standard uncertainty.
+    pub compliance_u_rad_per_n_m: f64,
+    /// Where the compliance comes from.
+    pub compliance_source: String,
+}
+
+/// The answer to `study` from what was found for each of its asks.
+pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
+    let mut maps = Vec::new();
+    let mut paths = Vec::new();
+    let mut volumes = Vec::new();
+    for (ask, found) in study.asks.iter().zip(found) {
+        match (&ask.subject, found) {
+            (Subject::Map(sheet), Found::Map(map)) => {
+                maps.push(map::answer(study, &ask.name, &sheet.setting, map));
+            }
+            (Subject::Sections(sections), Found::Sections(found)) => {
+                for ((label, sheet), map) in sections.iter().zip(found) {
+                    maps.push(map::answer(study, &format!("{}: {label}", ask.name), &sheet.setting, map));
+                }
+            }
+            (Subject::Volume(setting, _), Found::Volume(volume)) => {
+                volumes.push(volume::answer(study, &ask.name, setting, volume));
+            }
+            (Subject::Path(setting, ..), Found::Path(path)) => {
+                paths.push(path::answer(study, &ask.name, setting, path));
+            }
+            _ => {}
+        }
+    }
+    StudyAnswer {
+        format: 1,
+        armill: env!("CARGO_PKG_VERSION"),
+        title: study.title.clone(),
+        question: study.question.clone(),
+        answer: sentence::answer(study, &maps, &paths),
+        robot: robot_answer(study),
+        statements: statement::answers(study, &maps, &paths),
+        warnings: warnings(study, &maps, &paths),
+        maps,
+        paths,
+        volumes,
+        sources: sources(study),
+    }
+}
+
+fn robot_answer(study: &Study) -> RobotAnswer {
+    let robot = &study.robot.robot;
+    let own = study.own_compliance.as_ref().map(|(source, _)| source.clone());
+    let joint = |i: usize, joint: &armill_core::robot::Joint| {
+        let compliance = robot.compliance().map(|c| c[i]);
+        JointAnswer {
+            name: joint.name.clone(),
+            compliance_rad_per_n_m: compliance.map_or(0.0, |c| c.value),
+            compliance_u_rad_per_n_m: compliance.map_or(0.0, |c| c.standard_uncertainty),
+            compliance_source: own
+                .clone()
+                .or_else(|| study.robot.joints[i].compliance_source.clone())
+                .unwrap_or_default(),
+        }
+    };
+    RobotAnswer {
+        name: robot.name().to_owned(),
+        title: study.robot.title.clone(),
+        joints: robot.joints().iter().enumerate().map(|(i, j)| joint(i, j)).collect(),
+    }
+}
+
+fn sources(study: &Study) -> Vec<Source> {
+    let own = |key: &str, place: &str| Source {
+        key: key.to_owned(),
+        what: format!("{key} of the study"),
+        place: place.to_owned(),
+        licence: "the user's".to_owned(),
+    };
+    let mut sources = study.robot.sources.clone();
+    sources.extend(study.own_compliance.iter().map(|(source, _)| own("compliance", source)));
+    sources.extend(study.load_source.iter().map(|source| own("load", source)));
+    sources
+}
+
+fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if study.own_compliance.as_ref().is_some_and(|(_, assumed)| *assumed) {
+        warnings.push("The joint compliances are assumed, not measured: every deviation here is a guess of that quality.".to_owned());
+    }
+    for (i, joint) in study.robot.joints.iter().enumerate() {
+        for ([lower, upper], source, note) in &joint.other_limits {
+            let name = &study.robot.robot.joints()[i].name;
+            let note = note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
+            warnings.push(format!("Limits of joint {name}: another source ({source}) says {lower} to {upper} deg{note}."));
+        }
+    }
+    for map in maps {
+        if map.counts.within + map.counts.over_limit == 0 {
+            warnings.push(format!(
+                "{}: no point of the plane has a posture; are its coordinates in mm, and counted from {}?",
+                map.name, map.setting.base
+            ));
+        } else if map.outside_joint_limits > 0 {
+            warnings.push(format!(
+                "{}: {} of {} points stand outside joint limits in the branch {}; they are counted as if they did not.",
+                map.name, map.outside_joint_limits, map.grid.points, map.branch
+            ));
+        }
+    }
+    for path in paths.iter().filter(|path| path.outside_joint_limits > 0) {
+        warnings.push(format!(
+            "{}: {} of {} points stand outside joint limits in the branch {}.",
+            path.name, path.outside_joint_limits, path.points, path.branch
+        ));
+    }
+    warnings.extend(study.robot.note.clone());
+    warnings
+}

@@ -1,0 +1,106 @@
+//! One point of an answer, and the setting that all points of an ask share.
+
+use armill_core::kernel::{Answers, Held};
+use armill_core::nalgebra::Point3;
+use serde::Serialize;
+
+use crate::file::resolve::{Setting, Study};
+
+/// What all points of an ask share. Positions count from the frame `base`.
+#[derive(Clone, Debug, Serialize)]
+pub struct SettingAnswer {
+    /// Frame that positions count from.
+    pub base: String,
+    /// Centre of the plane.
+    pub centre_mm: [f64; 3],
+    /// Tilt of the plane from the vertical; none where the plane was given by a frame.
+    pub tilt_deg: Option<f64>,
+    /// Outward normal of the plane, in base axes.
+    pub normal_axis: [f64; 3],
+    /// Distance of the TCP from the flange.
+    pub tool_length_mm: f64,
+    /// Forces on the tool, base axes, one a case.
+    pub cases_n: Vec<[f64; 3]>,
+    /// Moments on the tool at the TCP, base axes, one a case.
+    pub moments_n_m: Vec<[f64; 3]>,
+    /// The tolerance.
+    pub limit_um: f64,
+}
+
+impl SettingAnswer {
+    pub(super) fn of(setting: &Setting) -> SettingAnswer {
+        let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
+        SettingAnswer {
+            base: setting.base_name.clone(),
+            centre_mm: clean(centre.coords.map(|c| c * 1e3).into()),
+            tilt_deg: setting.tilt.map(f64::to_degrees).map(tidy),
+            normal_axis: clean(setting.plane.normal().into_inner().into()),
+            tool_length_mm: tidy(setting.flange_from_tool.translation.vector.norm() * 1e3),
+            cases_n: setting.cases.iter().map(|w| clean(w.force.into())).collect(),
+            moments_n_m: setting.cases.iter().map(|w| clean(w.moment.into())).collect(),
+            limit_um: tidy(setting.limit * 1e6),
+        }
+    }
+}
+
+/// A point where the arm holds the tool.
+#[derive(Clone, Debug, Serialize)]
+pub struct PointAnswer {
+    /// TCP in the frame that positions count from.
+    pub xyz_mm: [f64; 3],
+    /// In-plane coordinates y', z' from the plane's centre.
+    pub in_plane_mm: [f64; 2],
+    /// Branch of the posture.
+    pub branch: String,
+    /// Joint positions.
+    pub joints_deg: Vec<f64>,
+    /// Whether every joint stands inside its limits.
+    pub within_limits: bool,
+    /// Near which singularity, if any.
+    pub singularity: Option<String>,
+    /// Load case that decides, from 1.
+    pub deciding_case: usize,
+    /// Largest in-plane deviation of all cases.
+    pub in_plane_um: f64,
+    /// Its standard uncertainty from the compliances.
+    pub in_plane_u_um: f64,
+    /// Deviation along the outward normal, of the case where it is largest.
+    pub normal_um: f64,
+    /// Largest length of the deviation of all cases.
+    pub full_um: f64,
+    /// Share of each joint in the in-plane deviation; they add up to it.
+    pub joint_share_um: Vec<f64>,
+}
+
+impl PointAnswer {
+    pub(super) fn of(study: &Study, setting: &Setting, answers: &Answers, at: (usize, &Held, Point3<f64>)) -> PointAnswer {
+        let (index, held, tcp) = at;
+        let in_part = setting.plane.base_from_part.inverse_transform_point(&tcp);
+        let robot = &study.robot.robot;
+        let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
+        PointAnswer {
+            xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
+            in_plane_mm: [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)],
+            branch: held.branch.to_string(),
+            joints_deg: answers.joints_at(index).iter().enumerate().map(position).collect(),
+            within_limits: held.within_limits(),
+            singularity: held.singularity.map(|s| s.to_string()),
+            deciding_case: held.deciding_case + 1,
+            in_plane_um: held.in_plane * 1e6,
+            in_plane_u_um: held.in_plane_uncertainty * 1e6,
+            normal_um: held.normal * 1e6,
+            full_um: held.full * 1e6,
+            joint_share_um: answers.shares_at(index).iter().map(|share| share * 1e6).collect(),
+        }
+    }
+}
+
+/// A length, angle or force as it was meant: rounding of frame changes taken off at the tenth decimal.
+pub(super) fn tidy(value: f64) -> f64 {
+    let rounded = (value * 1e10).round() / 1e10;
+    if rounded == 0.0 { 0.0 } else { rounded }
+}
+
+fn clean(values: [f64; 3]) -> [f64; 3] {
+    values.map(tidy)
+}

@@ -1,0 +1,59 @@
+//! What others state, beside what was found here: consistent or not, never confirmed.
+
+use serde::Serialize;
+
+use super::map::MapAnswer;
+use super::path::PathResult;
+use crate::file::resolve::Study;
+
+/// A statement and every reading of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct StatementAnswer {
+    /// The statement in words.
+    pub text: String,
+    /// Where it stands.
+    pub source: String,
+    /// The stated bound of the in-plane deviation.
+    pub at_most_um: f64,
+    /// What was found under each reading.
+    pub readings: Vec<Reading>,
+}
+
+/// One reading of a statement.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reading {
+    /// Name of the map or path.
+    pub name: String,
+    /// Posture asked for.
+    pub branch: String,
+    /// Least and largest in-plane deviation; none where nothing was reached.
+    pub in_plane_um: Option<[f64; 2]>,
+    /// Whether every point stands inside joint limits.
+    pub inside_joint_limits: bool,
+    /// Whether the largest is within the stated bound.
+    pub consistent: bool,
+}
+
+pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<StatementAnswer> {
+    let of_map = |map: &MapAnswer| {
+        (map.branch.clone(), map.min_in_plane_um.zip(map.max_in_plane_um), map.outside_joint_limits == 0)
+    };
+    let of_path = |path: &PathResult| {
+        (path.branch.clone(), path.min_in_plane_um.zip(path.max_in_plane_um), path.outside_joint_limits == 0)
+    };
+    let reading = |name: &String, bound: f64| {
+        let found = paths.iter().find(|path| path.name == *name).map(of_path);
+        let found = found.or_else(|| maps.iter().find(|map| map.name == *name).map(of_map))?;
+        let (branch, range, inside_joint_limits) = found;
+        let consistent = range.is_some_and(|(_, most)| most <= bound);
+        let in_plane_um = range.map(|(least, most)| [least, most]);
+        Some(Reading { name: name.clone(), branch, in_plane_um, inside_joint_limits, consistent })
+    };
+    let answer = |statement: &crate::file::format::StatementTable| StatementAnswer {
+        text: statement.text.clone(),
+        source: statement.source.clone(),
+        at_most_um: statement.at_most_um,
+        readings: statement.of.iter().filter_map(|name| reading(name, statement.at_most_um)).collect(),
+    };
+    study.statements.iter().map(answer).collect()
+}

@@ -1,0 +1,58 @@
+//! A volume in the answer.
+
+use armill_core::map::VolumeMap;
+use serde::Serialize;
+
+use super::map::CountsAnswer;
+use super::point::{PointAnswer, SettingAnswer};
+use crate::file::resolve::{Setting, Study};
+
+/// A box of points, the tool held as on the plane.
+#[derive(Clone, Debug, Serialize)]
+pub struct VolumeAnswer {
+    /// Its name.
+    pub name: String,
+    /// Posture asked for: words of a branch, or `best`.
+    pub branch: String,
+    /// Points within the limit over all points.
+    pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
+    /// Volume of the points within, each standing for one cell.
+    pub volume_within_mm3: f64,
+    /// Points by reason; they add up to all points.
+    pub counts: CountsAnswer,
+    /// Points along base x, y, z.
+    pub point_counts: [usize; 3],
+    /// Pitch.
+    pub step_mm: f64,
+    /// The corner with the least coordinates, in the frame that positions count from.
+    pub origin_mm: [f64; 3],
+    /// The point with the least in-plane deviation.
+    pub best: Option<PointAnswer>,
+    /// The point with the largest in-plane deviation.
+    pub worst: Option<PointAnswer>,
+    /// What all points share.
+    pub setting: SettingAnswer,
+}
+
+pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
+    let counts = volume.counts(setting.limit);
+    let point = |(index, held)| {
+        PointAnswer::of(study, setting, &volume.answers, (index, held, volume.grid.point(index)))
+    };
+    VolumeAnswer {
+        name: name.to_owned(),
+        branch: setting.branch(),
+        fraction_within: counts.fraction_within(),
+        fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        volume_within_mm3: volume.volume_within(setting.limit) * 1e9,
+        counts: CountsAnswer::of(&counts),
+        point_counts: volume.grid.counts,
+        step_mm: volume.grid.step * 1e3,
+        origin_mm: setting.counted(&volume.grid.origin).coords.map(|c| super::point::tidy(c * 1e3)).into(),
+        best: volume.answers.best().map(point),
+        worst: volume.answers.worst().map(point),
+        setting: SettingAnswer::of(setting),
+    }
+}

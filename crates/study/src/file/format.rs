@@ -1,0 +1,252 @@
+//! The study file, format 1: TOML, every number with its unit in its name.
+//!
+//! In-plane coordinates are the paper's y' (along base y on a tilted plane) and z', from the plane's centre.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyFile {
+    /// Version of the format: 1.
+    #[schemars(range(min = 1, max = 1))]
+    pub format: u32,
+    /// Title of the report.
+    pub title: Option<String>,
+    /// The question in words, for the report.
+    pub question: Option<String>,
+    /// Name of a library robot (`armill robots`), or a robot file (.toml, .urdf) relative to the study.
+    pub robot: String,
+    /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
+    pub base: Option<String>,
+    /// Joint compliances in place of the robot file's, or where it has none.
+    pub compliance: Option<ComplianceTable>,
+    /// The tool; the bare flange if left out.
+    pub tool: Option<ToolTable>,
+    /// The workpiece plane.
+    pub plane: PlaneTable,
+    /// The load on the tool.
+    pub load: LoadTable,
+    /// Greatest in-plane deviation that is tolerated.
+    #[schemars(range(min = 0.0))]
+    pub limit_um: f64,
+    /// How the arm stands.
+    pub posture: Option<PostureTable>,
+    /// What is asked; one map of the plane if left out.
+    #[serde(default)]
+    pub ask: Vec<AskTable>,
+    /// Figures published by others, to stand beside ours.
+    #[serde(default)]
+    pub statement: Vec<StatementTable>,
+}
+
+/// Joint compliances brought by the study.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ComplianceTable {
+    /// One a joint, base to flange.
+    pub rad_per_n_m: Vec<f64>,
+    /// Standard uncertainty, one a joint.
+    pub u_rad_per_n_m: Option<Vec<f64>>,
+    /// Where they come from.
+    pub source: String,
+    /// Whether they are a guess: every result then says so.
+    #[serde(default)]
+    pub assumed: bool,
+}
+
+/// The tool on the flange.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToolTable {
+    /// Flange to tool centre point: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
+    pub flange_from_tool_mm_deg: [f64; 6],
+}
+
+/// The workpiece plane and its grid of points.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneTable {
+    /// Centre of the plane.
+    pub centre_mm: [f64; 3],
+    /// Tilt from the vertical about base y: 0 faces the robot, 90 faces up. 0 if left out.
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub tilt_deg: Option<f64>,
+    /// Turns of the part frame (z = outward normal) about the fixed axes x, y, z, in place of `tilt_deg`.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Half the side of the plane, or both along y' and z'.
+    pub half_size_mm: HalfSize,
+    /// Pitch of the grid.
+    pub step_mm: f64,
+}
+
+/// One half side, or two.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum HalfSize {
+    /// The same along y' and z'.
+    Square(f64),
+    /// Along y' and z'.
+    Oblong([f64; 2]),
+}
+
+/// Part of a plane that one ask changes.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaneChange {
+    /// See `plane.centre_mm`.
+    pub centre_mm: Option<[f64; 3]>,
+    /// See `plane.tilt_deg`.
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub tilt_deg: Option<f64>,
+    /// See `plane.rotation_deg`.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// See `plane.half_size_mm`.
+    pub half_size_mm: Option<HalfSize>,
+    /// See `plane.step_mm`.
+    pub step_mm: Option<f64>,
+}
+
+/// Load cases, each of which may act at every point.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadTable {
+    /// Axes of the components: `base` (default) or `part` (z = outward normal).
+    pub frame: Option<LoadFrameName>,
+    /// Force on the tool, x, y, z, one a case.
+    pub cases_n: Vec<[f64; 3]>,
+    /// Moment on the tool about the TCP, one a case.
+    pub moments_n_m: Option<Vec<[f64; 3]>>,
+    /// Where they come from.
+    pub source: Option<String>,
+}
+
+/// Axes that a load is told in.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LoadFrameName {
+    /// Base of the robot.
+    Base,
+    /// Workpiece.
+    Part,
+}
+
+/// How the arm stands.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PostureTable {
+    /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal`, or `best`.
+    pub branch: String,
+}
+
+/// What is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AskKind {
+    /// The deviation over the plane.
+    Map,
+    /// Maps over a series of distances or tilts.
+    Sections,
+    /// The deviation in a box.
+    Volume,
+    /// The deviation along a path on the plane.
+    Path,
+}
+
+/// One ask; what it does not say it takes from the study.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AskTable {
+    /// `map`, `sections`, `volume` or `path`.
+    pub kind: AskKind,
+    /// Name of the answer; made from kind and number if left out.
+    pub name: Option<String>,
+    /// Changes to the plane.
+    pub plane: Option<PlaneChange>,
+    /// Another tool.
+    pub tool: Option<ToolTable>,
+    /// Another load.
+    pub load: Option<LoadTable>,
+    /// Another frame that heights count from.
+    pub base: Option<String>,
+    /// Another tolerance.
+    #[schemars(range(min = 0.0))]
+    pub limit_um: Option<f64>,
+    /// Another posture.
+    pub posture: Option<PostureTable>,
+    /// Sections: the x coordinate of the plane's centre, one a section.
+    pub distances_mm: Option<Vec<f64>>,
+    /// Sections: the tilt of the plane, one a section.
+    pub tilts_deg: Option<Vec<f64>>,
+    /// Volume: the box of points.
+    #[serde(rename = "box")]
+    pub in_box: Option<BoxTable>,
+    /// Path: a full circle.
+    pub circle: Option<CircleTable>,
+    /// Path: a straight line.
+    pub line: Option<LineTable>,
+    /// Path: straight pieces through points (y', z').
+    pub polyline_mm: Option<Vec<[f64; 2]>>,
+    /// Path: a rectangle.
+    pub rectangle: Option<RectangleTable>,
+    /// Path: greatest distance between points along it.
+    pub step_mm: Option<f64>,
+}
+
+/// A box of points along the base axes.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoxTable {
+    /// Centre; that of the plane if left out.
+    pub centre_mm: Option<[f64; 3]>,
+    /// Half the sides along base x, y, z.
+    pub half_size_mm: [f64; 3],
+    /// Pitch.
+    pub step_mm: f64,
+}
+
+/// A full circle on the plane, starting at its +y' and turning towards z'.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CircleTable {
+    /// Centre (y', z'); the plane's centre if left out.
+    pub centre_mm: Option<[f64; 2]>,
+    /// Radius.
+    pub radius_mm: f64,
+}
+
+/// A straight line on the plane.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LineTable {
+    /// Start (y', z').
+    pub from_mm: [f64; 2],
+    /// End (y', z').
+    pub to_mm: [f64; 2],
+}
+
+/// A rectangle on the plane, walked once round.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RectangleTable {
+    /// Centre (y', z'); the plane's centre if left out.
+    pub centre_mm: Option<[f64; 2]>,
+    /// Sides along y' and z'.
+    pub size_mm: [f64; 2],
+}
+
+/// What others state about the same thing.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StatementTable {
+    /// The statement in words.
+    pub text: String,
+    /// Where it stands.
+    pub source: String,
+    /// The stated bound of the in-plane deviation.
+    #[schemars(range(min = 0.0))]
+    pub at_most_um: f64,
+    /// Names of the maps or paths that may be what it speaks of.
+    pub of: Vec<String>,
+}

@@ -1,0 +1,36 @@
+//! Where a value of an ask stands in the file: in the ask itself, or in the study it takes it from.
+
+use armill_formats::document::{Document, Problem};
+
+/// Collects problems of one ask (or of the study itself) at the place where each value stands.
+pub(super) struct Places<'a> {
+    document: &'a Document,
+    ask: Option<usize>,
+    /// What was found so far.
+    pub problems: Vec<Problem>,
+}
+
+impl<'a> Places<'a> {
+    pub(super) fn new(document: &'a Document, ask: Option<usize>) -> Places<'a> {
+        Places { document, ask, problems: Vec::new() }
+    }
+
+    /// A problem of the value `path`, such as `plane.step_mm`.
+    pub(super) fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
+        let place = self.place(path);
+        self.problems.push(self.document.problem(&place, message, Some(hint)));
+    }
+
+    /// A problem at the ask itself.
+    pub(super) fn problem_here(&mut self, message: impl Into<String>, hint: &str) {
+        let place = self.ask.map_or_else(String::new, |index| format!("ask[{index}]"));
+        self.problems.push(self.document.problem(&place, message, Some(hint)));
+    }
+
+    fn place(&self, path: &str) -> String {
+        match self.ask.map(|index| format!("ask[{index}].{path}")) {
+            Some(own) if self.document.contains(&own) || !self.document.contains(path) => own,
+            _ => path.to_owned(),
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Maps as pictures: the deviation over a plate, its permissible region, series of plates, slices of a box.
+//!
+//! Drawn as seen from the tool side: part x to the right, which is base y to the left on a tilted plane.
+
+use armill_core::map::{PlaneMap, VolumeMap};
+use armill_core::robot::Unreachable;
+use armill_report::{
+    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState, RectangleMm,
+    RegionMap, Sheet,
+};
+
+use super::pictures::{Picture, held_state};
+use crate::answer::MapAnswer;
+use crate::file::resolve::Setting;
+
+/// Slices of a box that are drawn at most.
+const SLICES: usize = 9;
+/// Panels in a row.
+const COLUMNS: usize = 4;
+const QUANTITY: &str = "in-plane deviation (µm)";
+
+pub(super) fn axes(setting: &Setting) -> AxisLabels {
+    let along_base_y = setting.tilt.is_some();
+    AxisLabels {
+        horizontal: if along_base_y { "base y (mm)" } else { "along the plane, y′ (mm)" }.to_owned(),
+        vertical: "along the plane, z′ (mm)".to_owned(),
+    }
+}
+
+/// One line under the title: posture, load, tool, tilt.
+pub(super) fn subtitle(setting: &Setting) -> String {
+    let tool = setting.flange_from_tool.translation.vector.norm() * 1e3;
+    let tilt = setting.tilt.map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
+    let cases = setting.cases.len();
+    let worst = if cases == 1 { "1 load case".to_owned() } else { format!("worst of {cases} load cases") };
+    format!("{}{tilt}, tool {tool:.0} mm, {worst}, heights from {}", setting.branch(), setting.base_name)
+}
+
+pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
+    let y0 = base_y(setting);
+    Grid {
+        horizontal_mm: (0..map.grid.columns).map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3).collect(),
+        vertical_mm: (0..map.grid.rows).map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3).collect(),
+        points: map.answers.points.iter().map(|point| state(point, setting)).collect(),
+    }
+}
+
+/// Base y of the plane's centre where the horizontal axis is base y, otherwise 0; mm.
+pub(super) fn base_y(setting: &Setting) -> f64 {
+    let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
+    if setting.tilt.is_some() { centre.y * 1e3 } else { 0.0 }
+}
+
+fn state(point: &Result<armill_core::kernel::Held, Unreachable>, setting: &Setting) -> PointState {
+    match point {
+        Ok(held) => held_state(held, setting),
+        Err(_) => PointState::Unreachable,
+    }
+}
+
+pub(super) fn map_pictures(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Overlay>) -> [Picture; 2] {
+    let y0 = base_y(setting);
+    let at = |in_plane: [f64; 2]| [y0 + in_plane[0], in_plane[1]];
+    let marker = |label: &str, kind, at_mm| Marker { at_mm, label: label.to_owned(), kind };
+    let markers = [
+        answer.best.as_ref().map(|p| marker("least", MarkerKind::Best, at(p.in_plane_mm))),
+        answer.worst.as_ref().map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
+    ];
+    let limit_um = setting.limit * 1e6;
+    let deviation = DeviationMap {
+        title: answer.name.clone(),
+        subtitle: subtitle(setting),
+        grid: grid(map, setting),
+        axes: axes(setting),
+        quantity: QUANTITY.to_owned(),
+        limit_um: Some(limit_um),
+        scale: ColourScale::Viridis,
+        overlays,
+        markers: markers.into_iter().flatten().collect(),
+        // A coarse lattice is part of the question; a fine one would hide the answer.
+        show_grid_points: map.grid.len() <= 200,
+    };
+    let region = RegionMap {
+        title: format!("{}: where {limit_um:.0} µm hold", answer.name),
+        subtitle: subtitle(setting),
+        grid: grid(map, setting),
+        axes: axes(setting),
+        limit_um,
+        show_iso_lines: true,
+        rectangle: answer
+            .region
+            .rectangle_mm
+            .filter(|[a, b]| a != b)
+            .map(|[a, b]| RectangleMm { corner_mm: at(a), opposite_mm: at(b) }),
+        circle: answer
+            .region
+            .circle_centre_mm
+            .zip(answer.region.circle_radius_mm)
+            .filter(|(_, radius)| *radius > 0.0)
+            .map(|(centre, radius_mm)| CircleMm { centre_mm: at(centre), radius_mm }),
+    };
+    let slug = super::slug(&answer.name);
+    [
+        Picture {
+            name: slug.clone(),
+            caption: format!("{}: in-plane deviation, {}.", answer.name, subtitle(setting)),
+            svg: deviation.to_svg(),
+        },
+        Picture {
+            name: format!("{slug}-region"),
+            caption: format!("{}: {:.1} % of the points hold {limit_um:.0} µm.", answer.name, answer.fraction_within * 100.0),
+            svg: region.to_svg(),
+        },
+    ]
+}
+
+/// A series of plates on one sheet, each above its permissible region.
+pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting) -> Picture {
+    let sheet = Sheet {
+        title: name.to_owned(),
+        subtitle: subtitle_without_tilt(setting),
+        columns: COLUMNS.min(panels.len()),
+        panels,
+        axes: axes(setting),
+        quantity: QUANTITY.to_owned(),
+        limit_um: Some(setting.limit * 1e6),
+        scale: ColourScale::Viridis,
+        show_regions: true,
+    };
+    Picture {
+        name: super::slug(name),
+        caption: format!("{name}: in-plane deviation above, the region within {:.0} µm below.", setting.limit * 1e6),
+        svg: sheet.to_svg(),
+    }
+}
+
+fn subtitle_without_tilt(setting: &Setting) -> String {
+    subtitle(&Setting { tilt: None, ..setting.clone() })
+}
+
+pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, fraction: f64) -> Panel {
+    Panel { title: label.to_owned(), note: format!("{:.0} % within", fraction * 100.0), grid: grid(map, setting) }
+}
+
+/// Slices of a box across base x, as seen from the robot.
+pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
+    let [nx, ny, nz] = volume.grid.counts;
+    let count = nx.min(SLICES);
+    let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
+    let origin = setting.counted(&volume.grid.origin) * 1e3;
+    let step = volume.grid.step * 1e3;
+    let panels = chosen.map(|i| {
+        let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
+        let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index], setting)).collect();
+        let within = points.iter().filter(|p| p.value_um().is_some_and(|v| v <= setting.limit * 1e6)).count();
+        Panel {
+            title: format!("x = {:.0} mm", origin.x + i as f64 * step),
+            note: format!("{:.0} % within", within as f64 / points.len().max(1) as f64 * 100.0),
+            grid: Grid {
+                horizontal_mm: (0..ny).rev().map(|j| origin.y + j as f64 * step).collect(),
+                vertical_mm: (0..nz).map(|k| origin.z + k as f64 * step).collect(),
+                points,
+            },
+        }
+    });
+    let mut picture = sheet(name, panels.collect(), setting);
+    picture.caption = format!(
+        "{name}: slices of the box across base x; above the in-plane deviation, below the region within {:.0} µm.",
+        setting.limit * 1e6
+    );
+    picture
+}

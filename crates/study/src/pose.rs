@@ -1,0 +1,267 @@
+//! One pose: every posture there, its compliance, and what a load does to it.
+
+use armill_core::compliance::{
+    compliance_at_tool, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
+};
+use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::kernel::AT_LIMIT;
+use armill_core::nalgebra::{DMatrix, Matrix6, Point3, Unit, Vector3};
+use armill_core::predict::predict;
+use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
+use armill_core::robot::{Posture, Unreachable};
+use armill_core::spatial::Wrench;
+use armill_formats::robot::RobotDescription;
+use serde::Serialize;
+
+use crate::StudyError;
+
+/// What is asked of one pose.
+#[derive(Clone, Debug)]
+pub struct PoseQuestion {
+    /// Joints, or where the tool should be.
+    pub at: At,
+    /// Flange to tool centre point.
+    pub flange_from_tool: Isometry,
+    /// Load on the tool at the TCP, base axes.
+    pub wrench: Option<Wrench>,
+    /// Frame that positions count from.
+    pub base: String,
+}
+
+/// Joints, or where the tool should be.
+#[derive(Clone, Debug)]
+pub enum At {
+    /// Joint positions, deg (mm for sliding joints), in the robot file's own signs and zeros.
+    JointsDeg(Vec<f64>),
+    /// Position of the TCP (m), tool axis and spin (rad), in the frame that positions count from.
+    Tool {
+        /// TCP, m.
+        tcp: Point3<f64>,
+        /// Tool axis, from the spindle towards the part.
+        axis: Unit<Vector3<f64>>,
+        /// Turn about the axis, rad.
+        spin: f64,
+    },
+}
+
+/// Every posture of a pose. Positions in the frame `base`, everything else about the TCP in base axes.
+#[derive(Clone, Debug, Serialize)]
+pub struct PoseAnswer {
+    /// Name of the robot.
+    pub robot: String,
+    /// Frame that positions count from.
+    pub base: String,
+    /// Names of the joints.
+    pub joint_names: Vec<String>,
+    /// Every posture; empty where unreachable.
+    pub postures: Vec<PostureAnswer>,
+    /// Why there is no posture.
+    pub unreachable: Option<UnreachableAnswer>,
+    /// Where the numbers come from, and what is missing.
+    pub notes: Vec<String>,
+}
+
+/// One posture.
+#[derive(Clone, Debug, Serialize)]
+pub struct PostureAnswer {
+    /// Its name; none for chains without named branches.
+    pub branch: Option<String>,
+    /// Joint positions (mm for sliding joints), in the robot file's own signs and zeros.
+    pub joints_deg: Vec<f64>,
+    /// Whether every joint stands inside its limits.
+    pub within_limits: bool,
+    /// Least distance of a joint to its limit, negative outside; none where no joint has limits.
+    pub limit_margin_deg: Option<f64>,
+    /// The joint that has it.
+    pub limit_joint: Option<String>,
+    /// Where the tool is.
+    pub tool: ToolAnswer,
+    /// Near which singularity, if any.
+    pub singularity: Option<String>,
+    /// Product of the singular values of the Jacobian, SI.
+    pub manipulability: f64,
+    /// Of the Jacobian, with rotations weighed by a length of 1 m; none where singular.
+    pub condition_number: Option<f64>,
+    /// 6 x n: TCP twist per unit of joint position, translation first, base axes, SI.
+    pub jacobian: Vec<Vec<f64>>,
+    /// 6 x 6 at the TCP, translation first, base axes, SI; none where joint compliances are not known.
+    pub compliance: Option<[[f64; 6]; 6]>,
+    /// What follows from the compliance.
+    pub stiffness: Option<StiffnessAnswer>,
+    /// Displacement of the TCP under the load; none without load or compliance.
+    pub deviation_um: Option<[f64; 3]>,
+    /// Rotation of the tool under the load.
+    pub rotation_urad: Option<[f64; 3]>,
+    /// Share of each joint in the displacement.
+    pub joint_share_um: Option<Vec<[f64; 3]>>,
+    /// Standard uncertainty of the displacement from those of the compliances.
+    pub deviation_u_um: Option<[f64; 3]>,
+}
+
+/// Where the tool is.
+#[derive(Clone, Debug, Serialize)]
+pub struct ToolAnswer {
+    /// TCP in the frame that positions count from.
+    pub xyz_mm: [f64; 3],
+    /// Orientation in that frame, unit quaternion.
+    pub quaternion_wxyz: [f64; 4],
+}
+
+/// What follows from the compliance of a posture.
+#[derive(Clone, Debug, Serialize)]
+pub struct StiffnessAnswer {
+    /// 6 x 6, the (pseudo-)inverse of the compliance, SI. // unit: SI matrix
+    pub stiffness: [[f64; 6]; 6],
+    /// Directions in which the arm yields: 6 where the stiffness is a true inverse.
+    pub rank: usize,
+    /// Of the compliance, with rotations weighed by a length of 1 m; none below rank 6.
+    pub condition_number: Option<f64>,
+    /// Principal compliances of the translational block, softest first.
+    pub principal_um_per_n: [f64; 3],
+    /// Their directions in base.
+    pub principal_direction: [[f64; 3]; 3],
+    /// Force across the tool axis that every direction permits per micrometre.
+    pub permissible_n_per_um: f64,
+}
+
+/// Why there is no posture, and by how much.
+#[derive(Clone, Debug, Serialize)]
+pub struct UnreachableAnswer {
+    /// One word.
+    pub reason: String,
+    /// By how much the wrist centre misses.
+    pub amount_mm: f64,
+    /// In words.
+    pub message: String,
+}
+
+/// A length (m) that makes rotations comparable with translations: an arm's reach.
+const WEIGHING_LENGTH: f64 = 1.0;
+
+/// The answer for one pose of one robot.
+///
+/// # Errors
+/// A wrong number of joints, an unknown frame, a pose asked of a chain without closed-form inverse.
+pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
+    let robot = &described.robot;
+    let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
+        StudyError::value(format!("robot `{}` has no frame `{}`", robot.name(), question.base), format!("it has: {known}"))
+    })?;
+    let mut unreachable = None;
+    let found = match &question.at {
+        At::JointsDeg(joints) => vec![posture_at(robot, &joint_positions(described, joints)?, &question.flange_from_tool)],
+        At::Tool { tcp, axis, spin } => {
+            let arm = robot.ortho_parallel().ok_or_else(|| {
+                let message = format!("robot `{}` has no closed-form inverse", robot.name());
+                StudyError::value(message, "give its joints with --joints-deg")
+            })?;
+            let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
+            let tool = ToolAt { flange_from_tool: &question.flange_from_tool, near: None };
+            match postures(robot, arm, &(base_from_counted * counted_from_tool), tool) {
+                Ok(found) => found,
+                Err(miss) => {
+                    unreachable = Some(unreachable_answer(miss));
+                    Vec::new()
+                }
+            }
+        }
+    };
+    Ok(PoseAnswer {
+        robot: robot.name().to_owned(),
+        base: question.base.clone(),
+        joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        postures: found.iter().map(|p| posture_answer(described, question, &base_from_counted, p)).collect(),
+        unreachable,
+        notes: notes(described),
+    })
+}
+
+fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+    let robot = &described.robot;
+    let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
+    if given.len() != names.len() {
+        let message = format!("{} joint positions for the {} joints of `{}`", given.len(), names.len(), robot.name());
+        return Err(StudyError::value(message, format!("one each for {}", names.join(", "))));
+    }
+    let to_si = |(i, value): (usize, &f64)| if robot.slides(i) { value * 1e-3 } else { value.to_radians() };
+    Ok(given.iter().enumerate().map(to_si).collect())
+}
+
+fn posture_answer(
+    described: &RobotDescription,
+    question: &PoseQuestion,
+    base_from_counted: &Isometry,
+    posture: &Posture,
+) -> PostureAnswer {
+    let robot = &described.robot;
+    let from_si = |i: usize, value: f64| if robot.slides(i) { value * 1e3 } else { value.to_degrees() };
+    let margin = robot.limit_margin(&posture.joints);
+    let j = jacobian(robot, &posture.screws);
+    let compliance = robot.compliance().map(|c| compliance_at_tool(&posture.screws, c));
+    let deviation = robot.compliance().zip(question.wrench).map(|(c, wrench)| predict(posture, c, &wrench));
+    let counted_from_tool = base_from_counted.inv_mul(&posture.base_from_tool);
+    let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
+    let rotation = counted_from_tool.rotation.quaternion();
+    let um = |v: Vector3<f64>| [v.x * 1e6, v.y * 1e6, v.z * 1e6];
+    PostureAnswer {
+        branch: posture.branch.map(|branch| branch.to_string()),
+        joints_deg: posture.joints.iter().enumerate().map(|(i, q)| from_si(i, *q)).collect(),
+        within_limits: margin.is_none_or(|(_, margin)| margin >= -AT_LIMIT),
+        limit_margin_deg: margin.map(|(i, margin)| from_si(i, margin)),
+        limit_joint: margin.map(|(i, _)| robot.joints()[i].name.clone()),
+        tool: ToolAnswer {
+            xyz_mm: (counted_from_tool.translation.vector * 1e3).into(),
+            quaternion_wxyz: [rotation.w, rotation.i, rotation.j, rotation.k],
+        },
+        singularity: posture.singularity.map(|s| s.to_string()),
+        manipulability: manipulability(&j),
+        condition_number: condition_number(&j, WEIGHING_LENGTH),
+        jacobian: rows(&DMatrix::from_iterator(6, j.ncols(), j.iter().copied())),
+        compliance: compliance.map(|c| six_rows(&c)),
+        stiffness: compliance.map(|c| stiffness_answer(&c, axis)),
+        deviation_um: deviation.as_ref().map(|d| um(d.twist.linear)),
+        rotation_urad: deviation.as_ref().map(|d| um(d.twist.angular)),
+        joint_share_um: deviation.as_ref().map(|d| d.joint_shares.iter().map(|s| um(s.linear)).collect()),
+        deviation_u_um: deviation.as_ref().map(|d| um(d.covariance.diagonal().map(f64::sqrt))),
+    }
+}
+
+fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> StiffnessAnswer {
+    let stiffness = stiffness_at_tool(compliance, WEIGHING_LENGTH);
+    let principal = principal_compliances(compliance);
+    StiffnessAnswer {
+        stiffness: six_rows(&stiffness.matrix),
+        rank: stiffness.rank,
+        condition_number: stiffness.condition_number.is_finite().then_some(stiffness.condition_number),
+        principal_um_per_n: principal.map(|p| p.value * 1e6),
+        principal_direction: principal.map(|p| p.direction.into()),
+        permissible_n_per_um: permissible_force_in_worst_direction(compliance, axis, 1e-6).0,
+    }
+}
+
+fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
+    let (Unreachable::TooFar { by }
+    | Unreachable::TooNear { by }
+    | Unreachable::InsideLateralOffset { by }
+    | Unreachable::Unverified { by }
+    | Unreachable::OutsideLimits { by, .. }) = miss;
+    UnreachableAnswer { reason: miss.reason().to_owned(), amount_mm: by * 1e3, message: miss.to_string() }
+}
+
+fn notes(described: &RobotDescription) -> Vec<String> {
+    let mut notes: Vec<String> = described.note.iter().cloned().collect();
+    if described.robot.compliance().is_none() {
+        notes.push("no joint compliance is known: give one with --compliance-rad-per-n-m".to_owned());
+    }
+    notes.extend(described.sources.iter().map(|s| format!("{}: {} ({})", s.key, s.what, s.place)));
+    notes
+}
+
+fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
+    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+}
+
+fn six_rows(matrix: &Matrix6<f64>) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+}

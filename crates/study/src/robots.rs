@@ -1,0 +1,58 @@
+//! Finding a robot: by library name, or by the path of a robot file.
+
+use std::path::Path;
+
+use armill_formats::document::Document;
+use armill_formats::robot::{RobotDescription, armill, urdf};
+
+use crate::error::StudyError;
+use crate::library;
+
+/// The robot `name`: of the library, or a `.toml` or `.urdf` file (relative to `folder`).
+///
+/// # Errors
+/// An unknown name, a file that cannot be read, the problems of the file.
+pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
+    if let Some(found) = library::robot(name) {
+        return Ok(found?);
+    }
+    let lower = name.to_lowercase();
+    let (is_urdf, is_toml) = (lower.ends_with(".urdf"), lower.ends_with(".toml"));
+    if !is_urdf && !is_toml {
+        let message = format!("robot `{name}` is neither in the library nor a .toml or .urdf file");
+        let hint = match library::most_like(name) {
+            Some(like) => format!("did you mean `{like}`? `armill robots` lists all"),
+            None => "`armill robots` lists the library".to_owned(),
+        };
+        return Err(StudyError::value(message, hint));
+    }
+    let path = folder.join(name);
+    let shown = path.display().to_string();
+    let bytes = std::fs::read(&path).map_err(|error| {
+        StudyError::value(format!("cannot read robot file {shown}: {error}"), "paths are relative to the study file")
+    })?;
+    let id = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    if is_toml {
+        // Only to refuse bytes that are no text with their place.
+        Document::from_bytes(&shown, &bytes)?;
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(if is_urdf { urdf::read(&shown, &id, &text)? } else { armill::read(&shown, &id, &text)? })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unknown_robot_is_told_with_the_one_most_like_it() {
+        let error = find("yaskawa/mh21", Path::new(".")).unwrap_err().to_string();
+        assert!(error.contains("`yaskawa/mh21`") && error.contains("`yaskawa/mh12`"), "{error}");
+    }
+
+    #[test]
+    fn a_missing_file_is_told_with_its_path() {
+        let error = find("no-such.urdf", Path::new("/nowhere")).unwrap_err().to_string();
+        assert!(error.contains("/nowhere/no-such.urdf"), "{error}");
+    }
+}
