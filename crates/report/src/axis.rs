@@ -34,10 +34,10 @@ pub(crate) fn nice_below(value: f64) -> f64 {
 
 /// Multiples of `step` from `low` to `high`, both included, whichever is larger.
 pub(crate) fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
-    let (low, high) = (low.min(high), low.max(high));
     if !(low.is_finite() && high.is_finite() && step > 0.0) {
         return Vec::new();
     }
+    let (low, high) = (low.min(high), low.max(high));
     let slack = 1e-6;
     let first = (low / step - slack).ceil();
     let last = (high / step + slack).floor();

@@ -151,7 +151,7 @@ fn label_place(plane: &Plane, [size, angle]: [f64; 2], label: &str, taken: &[cra
         let away = 10.0 + half * ux.abs();
         let mut at = [
             tip[0] + away * ux,
-            tip[1] + 4.0 + (12.0 + 0.35 * half * ux.abs()) * uy,
+            tip[1] + 4.0 + (12.0 + 0.55 * half * ux.abs()) * uy,
         ];
         at[0] = at[0].clamp(inner.x + half, (inner.right() - half).max(inner.x + half));
         at[1] = at[1].clamp(inner.y + 12.0, inner.bottom() - 4.0);

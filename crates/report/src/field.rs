@@ -242,7 +242,7 @@ fn labels_of(
     let limit_label = |points: &Vec<Point>| Labelled {
         points: points.clone(),
         text: format!("limit {} µm", crate::axis::plain(limit_um)),
-        look: Text::new(11.0).bold().colour(LIMIT).halo(3.5),
+        look: Text::new(11.0).bold().colour(LIMIT),
     };
     let mut labels: Vec<Labelled> = limit.iter().map(limit_label).collect();
     for (lines, level) in iso.iter().zip(levels) {

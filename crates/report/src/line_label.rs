@@ -2,7 +2,7 @@
 
 use crate::font::{Weight, text_width_px};
 use crate::page::text_box;
-use crate::svg::{Anchor, Point, Rect, Svg, Text};
+use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
 /// Distance of trial places along a line.
 const TRIAL_STEP_PX: f64 = 6.0;
@@ -89,6 +89,14 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
             for k in 0..=2 * count {
                 let d = half[0] * (k as f64 / count as f64 - 1.0);
                 taken.push(([at[0] + d * cos, at[1] + d * sin], half[1] * 1.5));
+            }
+            // A thick line shows between the letters: a plate under the text hides it.
+            if line.look.weight == Weight::Bold {
+                let plate = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(u, v)| {
+                    let (u, v) = (u * half[0], v * half[1]);
+                    [at[0] + u * cos - v * sin, at[1] + u * sin + v * cos]
+                });
+                svg.polygon(&plate, &Style::fill("#fff").opacity(0.9));
             }
             // The text stands on its baseline: a third of the size below the middle.
             let down = line.look.size_px * 0.36;

@@ -139,14 +139,14 @@ impl RegionMap {
             let ([a, b], [c, d]) = (r.corner_mm, r.opposite_mm);
             let corners = [[a, b], [c, b], [c, d], [a, d]].map(|p| plane.at(p));
             svg.layer("inscribed-rectangle", 1.0, |svg| {
-                svg.polygon(&corners, &rectangle_style())
+                svg.polygon(&corners, &rectangle_style());
             });
         }
         if let Some(c) = circle {
             let radius_px = c.radius_mm * plane.px_per_mm;
             let at = plane.at(c.centre_mm);
             svg.layer("inscribed-circle", 1.0, |svg| {
-                svg.circle(at, radius_px, &circle_style())
+                svg.circle(at, radius_px, &circle_style());
             });
         }
     }

@@ -4,6 +4,7 @@
 //! and on each lattice line never outside the two neighbouring values. Points without a value are filled from their neighbours
 //! first and masked afterwards; what is reached is known bilinearly, half-way between a point inside and a point outside.
 
+use crate::axis::extent;
 use crate::grid::{Grid, PointState};
 
 /// Fine steps wanted along the longer side of a picture.
@@ -102,7 +103,9 @@ fn filled(grid: &Grid) -> Vec<f64> {
                 Some(2.0 * at(i + a, j + b)? - at(i + 2 * a, j + 2 * b)?).filter(|_| ring < STRAIGHT_RINGS)
             });
             let next = around.iter().filter_map(|(a, b)| at(i + a, j + b));
-            *value = mean(straight).or_else(|| mean(next));
+            // Carried on, but not beyond the neighbours: no limit is crossed where no point crosses it.
+            let (low, high) = extent(next.clone()).unwrap_or((0.0, 0.0));
+            *value = mean(straight).map(|v| v.clamp(low, high)).or_else(|| mean(next));
         }
     }
     known.into_iter().map(|v| v.unwrap_or(0.0)).collect()
@@ -250,6 +253,13 @@ mod tests {
             let expected = 0.1 * s.horizontal_mm[k % n] - 0.3 * s.vertical_mm[k / n];
             assert!((v - expected).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn filling_a_gap_does_not_leave_the_range_of_the_points() {
+        let values = [9.0, 6.0, 3.0, 9.0, 6.0, f64::NAN, 9.0, f64::NAN, f64::NAN];
+        let s = Surface::refine(&grid(values), 60);
+        assert!(s.value_um.iter().all(|v| (3.0 - 1e-9..=9.0 + 1e-9).contains(v)));
     }
 
     #[test]

@@ -98,8 +98,11 @@ fn as_text(answer: &PoseAnswer) -> String {
 }
 
 fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
-    let three = |v: &[f64; 3]| format!("({:.2}, {:.2}, {:.2})", v[0], v[1], v[2]);
-    let joints = answer.joint_names.iter().zip(&posture.joints_deg).map(|(name, q)| format!("{name} {q:.3}"));
+    let three = |v: &[f64; 3]| {
+        let [x, y, z] = v.map(without_minus_zero);
+        format!("({x:.2}, {y:.2}, {z:.2})")
+    };
+    let joints = answer.joint_names.iter().zip(&posture.joints_deg).map(|(name, q)| format!("{name} {:.3}", without_minus_zero(*q)));
     let joints = joints.collect::<Vec<_>>().join("  ");
     let mut lines = vec![posture.branch.clone().unwrap_or_else(|| "posture".to_owned())];
     let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
@@ -124,4 +127,9 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
         lines.push(format!("  by joint    {} µm", shares.collect::<Vec<_>>().join("  ")));
     }
     lines
+}
+
+/// What prints as -0.000 prints as 0.000.
+fn without_minus_zero(value: f64) -> f64 {
+    if value.abs() < 5e-4 { 0.0 } else { value }
 }

@@ -98,18 +98,18 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     };
     let region = RegionMap {
         title: "Permissible region on the plate at x = 900 mm".into(),
-        subtitle: "61 % of the points keep within 50 µm; 0.39 m²".into(),
+        subtitle: "Made-up field; rectangle and circle lie inside the region".into(),
         grid: grid(41, 900.0),
         axes: axes(),
         limit_um: 50.0,
         show_iso_lines: true,
         rectangle: Some(RectangleMm {
-            corner_mm: [-300.0, 20.0],
-            opposite_mm: [140.0, 190.0],
+            corner_mm: [-180.0, 20.0],
+            opposite_mm: [90.0, 230.0],
         }),
         circle: Some(CircleMm {
-            centre_mm: [-80.0, 655.0],
-            radius_mm: 140.0,
+            centre_mm: [-50.0, 140.0],
+            radius_mm: 135.0,
         }),
     };
     let panel = |x: f64, n: usize| Panel {

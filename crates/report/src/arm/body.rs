@@ -52,6 +52,8 @@ pub(crate) struct Body {
 
 /// Half the height of the foot as a share of the arm's length.
 const FOOT: f64 = 0.022;
+/// Half the length of a collar as a share of its link's radius.
+const COLLAR: f64 = 0.42;
 /// Where a collar stands on the link above its joint.
 const COLLAR_ABOVE: f64 = 0.45;
 /// Radius of the first and of the last link as shares of the arm's length.
@@ -93,9 +95,9 @@ impl Body {
         for (k, joint) in posture.joints.iter().enumerate() {
             let axis = unit(joint.axis);
             let r = radius(k as f64);
-            let collar = collar_of(&routes, k, axis);
+            let collar = collar_of(&routes, k, axis, COLLAR * r);
             let (centre, drawn_radius, half_length, part) = match &collar {
-                Some(collar) => (collar.at, 1.22 * r, 0.42 * r, Part::Collar),
+                Some(collar) => (collar.at, 1.22 * r, COLLAR * r, Part::Collar),
                 None => (joint.origin_mm, 1.25 * r, 1.3 * r, Part::Joint),
             };
             solids.push(Solid::Cylinder {
@@ -156,10 +158,11 @@ struct Collar {
     /// Which link, and which straight part of it.
     link: [usize; 2],
     at: Vec3,
+    half_length: f64,
 }
 
 /// The collar of joint `k`, if its axis lies along the link before it or after it; the better fit of the two.
-fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3) -> Option<Collar> {
+fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3, half_length: f64) -> Option<Collar> {
     let before = (0..k)
         .rev()
         .find(|r| routes[*r].len() > 1)
@@ -180,6 +183,7 @@ fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3) -> Option<Collar> {
         Collar {
             link,
             at: along(from, between(from, to), share),
+            half_length,
         }
     })
 }
@@ -194,19 +198,27 @@ fn link(ends: [Vec3; 2], radii: [f64; 2], collars: &[&Collar]) -> Vec<Solid> {
         }];
     }
     let axis = unit(between(ends[0], ends[1]));
-    let mut stops: Vec<f64> = collars
+    let total = length(between(ends[0], ends[1]));
+    let mut gaps: Vec<[f64; 2]> = collars
         .iter()
-        .map(|c| dot(between(ends[0], c.at), axis))
+        .map(|c| {
+            let middle = dot(between(ends[0], c.at), axis);
+            [middle - c.half_length, middle + c.half_length]
+        })
         .collect();
-    stops.extend([0.0, length(between(ends[0], ends[1]))]);
-    stops.sort_by(f64::total_cmp);
-    let pieces = stops.windows(2).map(|w| Solid::Cylinder {
-        centre: along(ends[0], axis, (w[0] + w[1]) / 2.0),
-        axis,
-        radius: (radii[0] + radii[1]) / 2.0,
-        half_length: (w[1] - w[0]) / 2.0,
-        part: Part::Link,
-    });
+    gaps.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let starts = std::iter::once(0.0).chain(gaps.iter().map(|g| g[1]));
+    let stops = gaps.iter().map(|g| g[0]).chain([total]);
+    let pieces = starts
+        .zip(stops)
+        .filter(|(from, to)| to > from)
+        .map(|(from, to)| Solid::Cylinder {
+            centre: along(ends[0], axis, (from + to) / 2.0),
+            axis,
+            radius: (radii[0] + radii[1]) / 2.0,
+            half_length: (to - from) / 2.0,
+            part: Part::Link,
+        });
     pieces.collect()
 }
 

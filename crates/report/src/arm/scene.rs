@@ -98,7 +98,7 @@ impl Scene {
 /// Blank border inside a drawing.
 const INSET_PX: f64 = 26.0;
 /// Strip below it for the base directions.
-const DIRECTIONS_PX: f64 = 34.0;
+const DIRECTIONS_PX: f64 = 46.0;
 
 /// A projection placed on the picture.
 struct Placed {

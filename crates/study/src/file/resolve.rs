@@ -391,7 +391,7 @@ impl Resolver<'_> {
             (None, Some(tilts)) if !tilts.is_empty() => {
                 for tilt in tilts {
                     let plane = PlaneTable { tilt_deg: Some(*tilt), rotation_deg: None, ..self.plane_table() };
-                    add(places, format!("tilt {tilt}°"), plane)?;
+                    add(places, format!("tilt {tilt}°").replace('-', "−"), plane)?;
                 }
             }
             _ => {

@@ -1,12 +1,12 @@
 //! Every picture of a study.
 
 use armill_core::compliance::compliance_at_tool;
-use armill_core::kernel::{Answers, Held};
+use armill_core::kernel::Answers;
 use armill_core::map::{PathAnswer, PlaneMap};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::inverse::posture_at;
 use armill_report::{
-    ArmDrawing, Arrow, ArrowCase, Growth, Overlay, PathPlot, PointState, PolarPlot, RadialSeries, Series, ShareBar,
+    ArmDrawing, Arrow, ArrowCase, Growth, Overlay, PathPlot, PolarPlot, RadialSeries, Series, ShareBar,
     ShareBars, StiffnessEllipse, VectorField, View,
 };
 
@@ -32,12 +32,6 @@ const ARROWS: usize = 72;
 /// Postures that are drawn faintly along a path.
 const GHOSTS: usize = 5;
 
-/// Whether the value of a point counts, for pictures.
-pub(super) fn held_state(held: &Held, _: &Setting) -> PointState {
-    let um = held.in_plane * 1e6;
-    if held.within_limits() { PointState::Reached(um) } else { PointState::OutsideJointLimits(um) }
-}
-
 /// The pictures of every ask, in order.
 pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<Picture> {
     let mut pictures = Vec::new();
@@ -54,7 +48,7 @@ pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<
                     maps.next().map(|told| section_panel(label, map, &plate.setting, told.fraction_within))
                 });
                 let panels: Vec<_> = panels.collect();
-                pictures.extend(sections.first().map(|(_, first)| sheet(&ask.name, panels, &first.setting)));
+                pictures.extend(sections.first().map(|(_, first)| sheet(&ask.name, panels, &first.setting, axes(&first.setting))));
             }
             (Subject::Volume(setting, _), Found::Volume(volume)) => pictures.push(slices(&ask.name, volume, setting)),
             (Subject::Path(setting, ..), Found::Path(path)) => {

@@ -2,6 +2,7 @@
 //!
 //! Drawn as seen from the tool side: part x to the right, which is base y to the left on a tilted plane.
 
+use armill_core::kernel::Held;
 use armill_core::map::{PlaneMap, VolumeMap};
 use armill_core::robot::Unreachable;
 use armill_report::{
@@ -9,13 +10,13 @@ use armill_report::{
     RegionMap, Sheet,
 };
 
-use super::pictures::{Picture, held_state};
+use super::pictures::Picture;
 use crate::answer::MapAnswer;
 use crate::file::resolve::Setting;
 
 /// Slices of a box that are drawn at most.
-const SLICES: usize = 9;
-/// Panels in a row.
+const SLICES: usize = 8;
+/// Panels in a row at most.
 const COLUMNS: usize = 4;
 const QUANTITY: &str = "in-plane deviation (µm)";
 
@@ -29,11 +30,14 @@ pub(super) fn axes(setting: &Setting) -> AxisLabels {
 
 /// One line under the title: posture, load, tool, tilt.
 pub(super) fn subtitle(setting: &Setting) -> String {
-    let tool = setting.flange_from_tool.translation.vector.norm() * 1e3;
+    let tool = match setting.flange_from_tool.translation.vector.norm() * 1e3 {
+        0.0 => "bare flange".to_owned(),
+        length => format!("TCP {length:.0} mm from the flange"),
+    };
     let tilt = setting.tilt.map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
     let cases = setting.cases.len();
     let worst = if cases == 1 { "1 load case".to_owned() } else { format!("worst of {cases} load cases") };
-    format!("{}{tilt}, tool {tool:.0} mm, {worst}, heights from {}", setting.branch(), setting.base_name)
+    format!("{}{tilt}, {tool}, {worst}, heights from {}", setting.branch(), setting.base_name)
 }
 
 pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
@@ -41,7 +45,7 @@ pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     Grid {
         horizontal_mm: (0..map.grid.columns).map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3).collect(),
         vertical_mm: (0..map.grid.rows).map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3).collect(),
-        points: map.answers.points.iter().map(|point| state(point, setting)).collect(),
+        points: map.answers.points.iter().map(state).collect(),
     }
 }
 
@@ -51,9 +55,10 @@ pub(super) fn base_y(setting: &Setting) -> f64 {
     if setting.tilt.is_some() { centre.y * 1e3 } else { 0.0 }
 }
 
-fn state(point: &Result<armill_core::kernel::Held, Unreachable>, setting: &Setting) -> PointState {
+fn state(point: &Result<Held, Unreachable>) -> PointState {
     match point {
-        Ok(held) => held_state(held, setting),
+        Ok(held) if held.within_limits() => PointState::Reached(held.in_plane * 1e6),
+        Ok(held) => PointState::OutsideJointLimits(held.in_plane * 1e6),
         Err(_) => PointState::Unreachable,
     }
 }
@@ -115,13 +120,14 @@ pub(super) fn map_pictures(answer: &MapAnswer, setting: &Setting, map: &PlaneMap
 }
 
 /// A series of plates on one sheet, each above its permissible region.
-pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting) -> Picture {
+pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: AxisLabels) -> Picture {
+    let rows = panels.len().div_ceil(COLUMNS).max(1);
     let sheet = Sheet {
         title: name.to_owned(),
         subtitle: subtitle_without_tilt(setting),
-        columns: COLUMNS.min(panels.len()),
+        columns: panels.len().div_ceil(rows),
         panels,
-        axes: axes(setting),
+        axes,
         quantity: QUANTITY.to_owned(),
         limit_um: Some(setting.limit * 1e6),
         scale: ColourScale::Viridis,
@@ -151,7 +157,7 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
     let step = volume.grid.step * 1e3;
     let panels = chosen.map(|i| {
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
-        let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index], setting)).collect();
+        let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
         let within = points.iter().filter(|p| p.value_um().is_some_and(|v| v <= setting.limit * 1e6)).count();
         Panel {
             title: format!("x = {:.0} mm", origin.x + i as f64 * step),
@@ -163,7 +169,8 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
             },
         }
     });
-    let mut picture = sheet(name, panels.collect(), setting);
+    let axes = AxisLabels { horizontal: "base y (mm)".to_owned(), vertical: "base z (mm)".to_owned() };
+    let mut picture = sheet(name, panels.collect(), setting, axes);
     picture.caption = format!(
         "{name}: slices of the box across base x; above the in-plane deviation, below the region within {:.0} µm.",
         setting.limit * 1e6

@@ -70,7 +70,7 @@ fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
 }
 
 fn points_mm(rows: &Rows<'_>) -> Vec<[f64; 3]> {
-    rows.tcp.iter().map(|tcp| rows.setting.counted(tcp).coords.map(|c| c * 1e3).into()).collect()
+    rows.tcp.iter().map(|tcp| rows.setting.counted(tcp).coords.map(|c| rounded(c * 1e3)).into()).collect()
 }
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
@@ -126,7 +126,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         })
     }));
     let mut number = |name: &str, unit: Option<&str>, text: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| {
-        let values = series.iter().flat_map(value).collect();
+        let values = series.iter().flat_map(value).map(|value| value.map(rounded)).collect();
         columns.push(column(name, unit, text, ColumnData::OptionalFloat(values)));
     };
     number("limit_margin_deg", Some("deg"), "least distance of a joint to its limit, negative outside", &|rows| {
@@ -168,6 +168,12 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         }
     }
     Ok(Table::new(name, columns)?)
+}
+
+/// To the digits that mean something: 1e-6 um, mm or deg; the rest is rounding.
+fn rounded(value: f64) -> f64 {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 { 0.0 } else { rounded }
 }
 
 fn column(name: &str, unit: Option<&str>, description: &str, data: ColumnData) -> Column {

@@ -1,0 +1,166 @@
+//! What must hold of compliance and deviation whatever the arm, the posture and the load.
+
+mod arms;
+
+use armill_core::compliance::{compliance_at_tool, stiffness_at_tool};
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::nalgebra::{Matrix6, Point3, Vector3};
+use armill_core::predict::predict;
+use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::{Amount, Axis, Motion, Posture, Robot};
+use armill_core::spatial::{Wrench, adjoint};
+use proptest::prelude::*;
+
+fn arm() -> impl Strategy<Value = (usize, [f64; 6])> {
+    (0..4usize, prop::array::uniform6(0.0..1.0_f64))
+}
+
+fn wrench() -> impl Strategy<Value = Wrench> {
+    prop::array::uniform6(-1.0..1.0_f64).prop_map(|[a, b, c, d, e, f]| Wrench {
+        force: Vector3::new(a, b, c) * 100.0,
+        moment: Vector3::new(d, e, f) * 10.0,
+    })
+}
+
+fn stand(robot: &Robot, unit: &[f64; 6]) -> Posture {
+    let q: Vec<f64> = robot
+        .joints()
+        .iter()
+        .zip(unit)
+        .map(|(joint, t)| {
+            let limits = joint.limits.unwrap();
+            limits.lower + t * (limits.upper - limits.lower)
+        })
+        .collect();
+    posture_at(robot, &q, &arms::bent_tool())
+}
+
+fn compliance(robot: &Robot, posture: &Posture) -> Matrix6<f64> {
+    compliance_at_tool(&posture.screws, robot.compliance().unwrap())
+}
+
+/// Rounding of six products of three factors each.
+const ROUNDING: f64 = 100.0 * f64::EPSILON;
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1000))]
+
+    #[test]
+    fn compliance_is_symmetric_and_positive_semidefinite((arm, unit) in arm()) {
+        let robot = &arms::all()[arm];
+        let c = compliance(robot, &stand(robot, &unit));
+        prop_assert!((c - c.transpose()).norm() <= ROUNDING * c.norm());
+        let least = c.symmetric_eigenvalues().min();
+        prop_assert!(least > -ROUNDING * c.norm(), "eigenvalue {least}");
+    }
+
+    #[test]
+    fn deviation_is_compliance_times_wrench((arm, unit) in arm(), load in wrench()) {
+        let robot = &arms::all()[arm];
+        let posture = stand(robot, &unit);
+        let told = predict(&posture, robot.compliance().unwrap(), &load).twist.to_vector();
+        let c = compliance(robot, &posture);
+        let product = c * load.to_vector();
+        prop_assert!((told - product).norm() <= ROUNDING * c.norm() * load.to_vector().norm());
+    }
+
+    #[test]
+    fn deviation_is_linear_in_force_and_in_compliance((arm, unit) in arm(), load in wrench(), factor in 0.1..10.0_f64) {
+        let robot = &arms::all()[arm];
+        let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
+        let once = predict(&posture, joints, &load);
+        let scaled = Wrench { force: load.force * factor, moment: load.moment * factor };
+        let softer: Vec<_> = joints
+            .iter()
+            .map(|c| armill_core::robot::JointCompliance { value: c.value * factor, ..*c })
+            .collect();
+        for other in [predict(&posture, joints, &scaled), predict(&posture, &softer, &load)] {
+            let away = other.twist.to_vector() - once.twist.to_vector() * factor;
+            let size: f64 = once.joint_shares.iter().map(|s| s.to_vector().norm()).sum();
+            prop_assert!(away.norm() <= ROUNDING * size * factor);
+        }
+    }
+
+    #[test]
+    fn shares_of_the_joints_add_up_to_the_deviation((arm, unit) in arm(), load in wrench()) {
+        let robot = &arms::all()[arm];
+        let told = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
+        let sum: armill_core::spatial::Twist = told.joint_shares.iter().copied().sum();
+        prop_assert_eq!(sum, told.twist);
+    }
+
+    #[test]
+    fn uncertainty_agrees_with_moving_each_compliance_by_its_own((arm, unit) in arm(), load in wrench()) {
+        let robot = &arms::all()[arm];
+        let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
+        let told = predict(&posture, joints, &load);
+        let mut variance = Vector3::zeros();
+        for i in 0..joints.len() {
+            let mut moved = joints.to_vec();
+            moved[i].value += moved[i].standard_uncertainty;
+            let by = predict(&posture, &moved, &load).twist.linear - told.twist.linear;
+            variance += by.component_mul(&by);
+        }
+        let size: f64 = told.joint_shares.iter().map(|s| s.linear.norm_squared()).sum();
+        // The difference of two nearly equal numbers keeps half the digits that matter here.
+        prop_assert!((variance - told.covariance.diagonal()).amax() <= 1e-9 * size);
+    }
+
+    /// Turning and moving the whole cell changes nothing but the names of the axes.
+    #[test]
+    fn compliance_follows_the_base_frame((arm, unit) in arm(), angles in prop::array::uniform3(-3.0..3.0_f64)) {
+        let robot = &arms::all()[arm];
+        let here = stand(robot, &unit);
+        let shift = Vector3::new(0.7, -1.1, 0.4);
+        let mut motions = vec![
+            Motion::Along(Axis::X, Amount::Constant(shift.x)),
+            Motion::Along(Axis::Y, Amount::Constant(shift.y)),
+            Motion::Along(Axis::Z, Amount::Constant(shift.z)),
+            Motion::About(Axis::Z, Amount::Constant(angles[2])),
+            Motion::About(Axis::Y, Amount::Constant(angles[1])),
+            Motion::About(Axis::X, Amount::Constant(angles[0])),
+        ];
+        motions.extend_from_slice(robot.chain().motions());
+        let moved = Robot::new("moved", motions, robot.joints().to_vec())
+            .unwrap()
+            .with_compliance(robot.compliance().unwrap().to_vec())
+            .unwrap();
+        let there = posture_at(&moved, &here.joints, &arms::bent_tool());
+        let world_from_base = from_xyz_and_fixed_angles(shift, Vector3::from(angles));
+        let turned = Isometry::from_parts(here.base_from_tool.translation, world_from_base.rotation);
+        let ad = adjoint(&turned, &Point3::from(here.base_from_tool.translation.vector));
+        let expected = ad * compliance(robot, &here) * ad.transpose();
+        let found = compliance(&moved, &there);
+        prop_assert!((found - expected).norm() <= 1e-12 * expected.norm());
+    }
+
+    #[test]
+    fn the_wrist_flip_leaves_the_compliance_unchanged((arm, unit) in arm()) {
+        let robot = &arms::all()[arm];
+        let here = stand(robot, &unit);
+        prop_assume!(here.singularity.is_none());
+        let tool = arms::bent_tool();
+        let found = postures(robot, robot.ortho_parallel().unwrap(), &here.base_from_tool, ToolAt { flange_from_tool: &tool, near: None }).unwrap();
+        for pair in found.chunks(2) {
+            let [a, b] = pair else { continue };
+            let (a, b) = (compliance(robot, a), compliance(robot, b));
+            prop_assert!((a - b).norm() <= 1e-9 * a.norm());
+        }
+    }
+
+    #[test]
+    fn a_rigid_arm_with_one_soft_joint_turns_about_that_joint((arm, unit) in arm(), soft in 0..6usize, load in wrench()) {
+        let robot = &arms::all()[arm];
+        let posture = stand(robot, &unit);
+        let mut joints = robot.compliance().unwrap().to_vec();
+        for (i, joint) in joints.iter_mut().enumerate() {
+            joint.value = if i == soft { 1e-6 } else { 0.0 };
+        }
+        let told = predict(&posture, &joints, &load);
+        let stiffness = stiffness_at_tool(&compliance_at_tool(&posture.screws, &joints), 1.0);
+        prop_assert!(stiffness.rank <= 1);
+        let along = posture.screws[soft].scaled(1e-6 * posture.screws[soft].dot(&load));
+        let away = told.twist.to_vector() - along.to_vector();
+        prop_assert!(away.norm() <= ROUNDING * along.to_vector().norm());
+    }
+}

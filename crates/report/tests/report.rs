@@ -1,0 +1,74 @@
+//! The HTML report: complete, escaped, and alone.
+
+use armill_report::html::{Align, Column, Input, Report, Table};
+
+fn report() -> Report {
+    let column = |name: &str, unit: &str, align| Column {
+        name: name.into(),
+        unit: unit.into(),
+        align,
+    };
+    let table = Table {
+        caption: "<caption>".into(),
+        columns: vec![column("a & b", "mm", Align::Left), column("n", "", Align::Number)],
+        rows: vec![
+            vec!["<td>".into()],
+            vec!["1".into(), "2".into(), "too many".into()],
+        ],
+    };
+    let input = Input {
+        name: "k <2>".into(),
+        value: "3".into(),
+        unit: "µm".into(),
+        source: "paper & page".into(),
+    };
+    Report::new("T <script>")
+        .question("q \"?\"")
+        .answer("a < b")
+        .warning("w & w")
+        .section("s <h2>")
+        .paragraph("p > p")
+        .table(&table)
+        .picture("<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "c & d")
+        .inputs([input])
+}
+
+#[test]
+fn every_text_is_escaped() {
+    let html = report().to_html();
+    for raw in [
+        "<script>",
+        "a < b",
+        "w & w",
+        "s <h2>",
+        "p > p",
+        "<2>",
+        "c & d",
+        "<td><td>",
+        "paper & page",
+    ] {
+        assert!(!html.contains(raw), "{raw}");
+    }
+    assert!(html.contains("T &lt;script&gt;") && html.contains("a &amp; b"));
+}
+
+#[test]
+fn nothing_is_loaded_from_elsewhere() {
+    let html = report().to_html().replace("http://www.w3.org/2000/svg", "");
+    for outside in ["http:", "https:", "src=", "href=", "@import", "<script", "url("] {
+        assert!(!html.contains(outside), "{outside}");
+    }
+}
+
+#[test]
+fn rows_have_as_many_cells_as_there_are_columns() {
+    let html = report().to_html();
+    assert!(!html.contains("too many"));
+    assert!(html.contains("<td>&lt;td&gt;</td><td class=\"n\"></td>"));
+}
+
+#[test]
+fn figures_and_tables_are_numbered() {
+    let html = report().picture("<svg/>", "second").to_html();
+    assert!(html.contains("<b>Figure 2.</b> second") && html.contains("<b>Table 1.</b>"));
+}
