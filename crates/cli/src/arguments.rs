@@ -100,8 +100,8 @@ Examples:
 pub(crate) struct NewArguments {
     /// Folder to make
     pub dir: PathBuf,
-    /// Robot of the library
-    #[arg(long, default_value = "yaskawa/mh12")]
+    /// Library name, or a robot file (.toml, .urdf)
+    #[arg(long, value_name = "NAME", default_value = "yaskawa/mh12")]
     pub robot: String,
     /// Print what was made as JSON on stdout
     #[arg(long)]
@@ -164,7 +164,7 @@ pub(crate) struct PoseArguments {
     #[arg(long, value_name = "FX,FY,FZ[,MX,MY,MZ]", value_delimiter = ',', allow_hyphen_values = true)]
     pub wrench_n: Option<Vec<f64>>,
     /// Joint compliances in place of the robot file's
-    #[arg(long, value_name = "C1,...", value_delimiter = ',')]
+    #[arg(long, value_name = "C1,...", value_delimiter = ',', allow_hyphen_values = true)]
     pub compliance_rad_per_n_m: Option<Vec<f64>>,
     /// Frame that positions count from
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]

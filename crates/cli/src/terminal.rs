@@ -1,13 +1,23 @@
 //! What the command says: data on stdout, talk on stderr.
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 
+use armill_formats::file::FileError;
 use armill_study::StudyError;
 
 /// Prints `text` and a line end on stdout. A reader that went away (`| head`) is no error.
-pub(crate) fn print(text: &str) {
+///
+/// # Errors
+/// Stdout leads to a file that takes no more.
+pub(crate) fn print(text: &str) -> Result<(), StudyError> {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.write_all(b"\n"));
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
+    match written {
+        Err(source) if source.kind() != ErrorKind::BrokenPipe => {
+            Err(FileError::Other { path: "standard output".into(), source }.into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Says `text` on stderr.
@@ -25,9 +35,11 @@ pub(crate) fn show_error(error: &StudyError, json: bool) {
     if json {
         let problems = match error {
             StudyError::Problems(problems) => problems.to_json(),
+            StudyError::Value { message, hint } => serde_json::json!([{ "message": message, "hint": hint }]),
             other => serde_json::json!([{ "message": other.to_string() }]),
         };
-        print(&serde_json::json!({ "problems": problems }).to_string());
+        // What went wrong is said on stderr in any case.
+        let _ = print(&serde_json::json!({ "problems": problems }).to_string());
     }
     match error {
         StudyError::Problems(problems) if coloured() => say(&problems.in_colour()),

@@ -10,7 +10,8 @@ use std::hint::black_box;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, evaluate};
+use armill_core::kernel::{BranchChoice, Question};
+use armill_core::map::plane_map;
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
@@ -70,7 +71,7 @@ fn one_map(c: &mut Criterion) {
         };
         group.bench_function(name, |b| {
             one_thread.install(|| {
-                b.iter(|| evaluate(&question, grid.len(), |i| plane.base_from_tool(grid.point(i), 0.0), Watch::NONE));
+                b.iter(|| plane_map(&question, plane, grid, Watch::NONE));
             });
         });
     }

@@ -44,10 +44,14 @@ impl Plane {
         -self.normal()
     }
 
+    /// The point of base at in-plane coordinates `at` (m, part x and y).
+    pub fn at(&self, at: Point2<f64>) -> Point3<f64> {
+        self.base_from_part * Point3::new(at.x, at.y, 0.0)
+    }
+
     /// The tool pose at in-plane coordinates `at` (m, part x and y) with `spin` (rad) about the tool axis.
     pub fn base_from_tool(&self, at: Point2<f64>, spin: f64) -> Isometry {
-        let tcp = self.base_from_part * Point3::new(at.x, at.y, 0.0);
-        Isometry::from_parts(tcp.coords.into(), tool_orientation(self.tool_axis(), spin))
+        Isometry::from_parts(self.at(at).coords.into(), tool_orientation(self.tool_axis(), spin))
     }
 
     /// A base vector (a deviation, say) told in the part: in-plane x and y, then along the normal.

@@ -26,10 +26,12 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
         };
         return Err(StudyError::value(message, hint));
     }
-    let path = folder.join(name);
+    // A file of the current folder is called as the user called it.
+    let path = if folder == Path::new(".") { Path::new(name).to_owned() } else { folder.join(name) };
     let shown = path.display().to_string();
     let bytes = std::fs::read(&path).map_err(|error| {
-        StudyError::value(format!("cannot read robot file {shown}: {error}"), "paths are relative to the study file")
+        let hint = "in a study, paths count from the folder of the study file";
+        StudyError::value(format!("cannot read robot file {shown}: {error}"), hint)
     })?;
     let id = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
     if is_toml {

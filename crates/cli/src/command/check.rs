@@ -12,14 +12,16 @@ use crate::terminal::{print, say};
 
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     if arguments.schema {
-        print(schema_json::<StudyFile>().trim_end());
+        print(schema_json::<StudyFile>().trim_end())?;
         return Ok(Outcome::Fine);
     }
     let found = find(arguments.study.as_deref().unwrap_or_else(|| ".".as_ref()))?;
     let study = found.read()?;
     if arguments.json {
-        print(r#"{"problems":[]}"#);
+        print(r#"{"problems":[]}"#)?;
     }
-    say(&format!("{}: fine; {} asks, {} points", found.shown, study.asks.len(), point_count(&study)));
+    let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
+    let (asks, points) = (counted(study.asks.len(), "ask"), counted(point_count(&study), "point"));
+    say(&format!("{}: fine; {asks}, {points}", found.shown));
     Ok(Outcome::Fine)
 }

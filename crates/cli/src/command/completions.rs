@@ -9,6 +9,6 @@ use crate::arguments::{Arguments, CompletionsArguments};
 pub(crate) fn run(arguments: &CompletionsArguments) -> Result<Outcome, StudyError> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "armill", &mut script);
-    crate::terminal::print(&String::from_utf8_lossy(&script));
+    crate::terminal::print(String::from_utf8_lossy(&script).trim_end())?;
     Ok(Outcome::Fine)
 }

@@ -1,7 +1,7 @@
 //! `armill new`: a commented study that runs.
 
 use armill_formats::file::{create_folder, write_atomically};
-use armill_study::{StudyError, robots};
+use armill_study::{StudyError, library, robots};
 
 use crate::Outcome;
 use crate::arguments::NewArguments;
@@ -19,6 +19,10 @@ assumed = true
 
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
+    if found.robot.ortho_parallel().is_none() {
+        let message = format!("robot `{}` has no closed-form inverse: no study of it would run", arguments.robot);
+        return Err(StudyError::value(message, "`armill pose` takes its joints; `armill robots` lists robots for studies"));
+    }
     let path = arguments.dir.join("study.toml");
     if path.exists() {
         let message = format!("{} exists already", path.display());
@@ -30,16 +34,26 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
         Some(_) => String::new(),
         None => COMPLIANCE.replace("COMPLIANCES", &guess),
     };
-    let robot = toml_string(&arguments.robot);
+    let robot = toml_string(&robot_for(&arguments.robot)?);
     let text = TEMPLATE.replace("\"ROBOT\"", &robot).replace("# COMPLIANCE\n", &compliance);
     create_folder(&arguments.dir)?;
     write_atomically(&path, text.as_bytes())?;
     let shown = path.display().to_string();
     if arguments.json {
-        print(&serde_json::json!({ "study": shown }).to_string());
+        print(&serde_json::json!({ "study": shown }).to_string())?;
     }
     say(&format!("made {shown}; edit it, then: armill run {}", arguments.dir.display()));
     Ok(Outcome::Fine)
+}
+
+/// The robot as the study names it: paths there count from its folder, not from the current one.
+fn robot_for(given: &str) -> Result<String, StudyError> {
+    if library::robot(given).is_some() {
+        return Ok(given.to_owned());
+    }
+    let path = std::path::absolute(given)
+        .map_err(|error| StudyError::value(format!("cannot tell where {given} is: {error}"), "give its whole path"))?;
+    Ok(path.display().to_string())
 }
 
 /// A TOML basic string.

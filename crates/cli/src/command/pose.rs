@@ -4,7 +4,7 @@ use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::robot::JointCompliance;
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
-use armill_study::file::resolve::pose_mm_deg;
+use armill_study::file::quantities::pose_mm_deg;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
 use armill_study::{StudyError, robots};
 
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         base: arguments.base.clone(),
     };
     let answer = answer(&found, &question)?;
-    print(&if arguments.json { as_json(&answer)? } else { as_text(&answer) });
+    print(&if arguments.json { as_json(&answer)? } else { as_text(&answer) })?;
     Ok(Outcome::Fine)
 }
 

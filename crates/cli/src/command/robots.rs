@@ -23,7 +23,7 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
         write_atomically(file, &bytes)?;
         say(&format!("drawing in {}", file.display()));
     }
-    print(&if arguments.json { as_json(&found).to_string() } else { as_text(&found) });
+    print(&if arguments.json { as_json(&found).to_string() } else { as_text(&found) })?;
     Ok(Outcome::Fine)
 }
 
@@ -36,7 +36,7 @@ fn list(json: bool) -> Result<Outcome, StudyError> {
         lines.push(format!("{:<24} {:<28} joint compliance {known}", entry.name, found.title));
         values.push(json!({ "name": entry.name, "title": found.title, "compliance": found.robot.compliance().is_some() }));
     }
-    print(&if json { Value::from(values).to_string() } else { lines.join("\n") });
+    print(&if json { Value::from(values).to_string() } else { lines.join("\n") })?;
     Ok(Outcome::Fine)
 }
 

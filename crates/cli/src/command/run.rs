@@ -20,13 +20,14 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     output::prepare(&out)?;
     let answer = in_pool(arguments.threads, || work(&study, &out, arguments))??;
     if arguments.json {
-        print(output::json(&answer)?.trim_end());
+        print(output::json(&answer)?.trim_end())?;
     } else {
-        print(&summary(&answer));
+        print(&summary(&answer))?;
     }
     say(&format!("results in {}", out.display()));
     let held = answer.maps.iter().all(|map| map.fraction_within == 1.0)
-        && answer.paths.iter().all(|path| path.fraction_within == 1.0);
+        && answer.paths.iter().all(|path| path.fraction_within == 1.0)
+        && answer.volumes.iter().all(|volume| volume.fraction_within == 1.0);
     Ok(if arguments.strict && !held { Outcome::ToleranceNotHeld } else { Outcome::Fine })
 }
 

@@ -114,6 +114,7 @@ impl Answers {
 
 /// Room for one point, reused from point to point.
 pub(super) struct Scratch {
+    tool_from_flange: Isometry,
     frames: Frames,
     screws: Vec<Twist>,
     joints: [f64; 6],
@@ -127,6 +128,7 @@ impl Scratch {
     pub(super) fn new(question: &Question<'_>) -> Scratch {
         let (joints, cases) = (question.robot.joints().len(), question.cases.len());
         Scratch {
+            tool_from_flange: question.flange_from_tool.inverse(),
             frames: Frames::for_robot(question.robot),
             screws: vec![Twist::ZERO; joints],
             joints: [0.0; 6],
@@ -143,10 +145,10 @@ impl Scratch {
         base_from_tool: &Isometry,
         near: Option<&[f64]>,
     ) -> Result<Held, Unreachable> {
-        let base_from_flange = base_from_tool * question.flange_from_tool.inverse();
+        let base_from_flange = base_from_tool * self.tool_from_flange;
         match question.choice {
             BranchChoice::Of(pattern) => {
-                let candidates = Branch::all().filter(|branch| pattern.matches(*branch));
+                let candidates = Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch));
                 let roomiest = self.roomiest(question, &base_from_flange, candidates, near)?;
                 let held = self.judge(question, &base_from_flange, base_from_tool, &roomiest)?;
                 self.keep();
@@ -204,7 +206,7 @@ impl Scratch {
         let mut best: Option<Held> = None;
         let mut miss: Option<Unreachable> = None;
         // The flip leaves the deviation unchanged: of the two the one with more room stands for both.
-        for pair in Branch::all().collect::<Vec<_>>().chunks(2) {
+        for pair in Branch::ALL.chunks(2) {
             match self.roomiest(question, base_from_flange, pair.iter().copied(), near) {
                 Err(reason) => miss = miss.or(Some(reason)),
                 Ok(solution) => {
@@ -237,8 +239,8 @@ impl Scratch {
         self.joints = solution.joints;
         forward_into(question.robot, &solution.joints, &mut self.frames);
         if !holds(&self.frames, base_from_flange) {
-            let away = base_from_flange.inv_mul(&self.frames.base_from_flange).translation.vector.norm();
-            return Err(Unreachable::Unverified { by: away });
+            let away = self.frames.base_from_flange.translation.vector - base_from_flange.translation.vector;
+            return Err(Unreachable::Unverified { by: away.norm() });
         }
         screws_into(
             question.robot,
@@ -259,7 +261,7 @@ impl Scratch {
             full: 0.0,
         };
         for (case, wrench) in question.cases.iter().enumerate() {
-            let deviation = elastic::deviation(&self.screws, question.compliance, wrench).linear;
+            let deviation = elastic::displacement(&self.screws, question.compliance, wrench);
             self.deviations[case] = deviation;
             let split = Split::of(&deviation, question.normal);
             if split.in_plane > held.in_plane {

@@ -1,5 +1,8 @@
 //! Deviation over a workpiece plane.
 
+use nalgebra::Point2;
+
+use crate::frame::Isometry;
 use crate::kernel::{Answers, Question, evaluate};
 use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
@@ -103,6 +106,8 @@ pub fn plane_map(
     grid: Grid,
     watch: Watch<'_>,
 ) -> Result<PlaneMap, Cancelled> {
-    let answers = evaluate(question, grid.len(), |i| plane.base_from_tool(grid.point(i), 0.0), watch)?;
+    let rotation = plane.base_from_tool(Point2::origin(), 0.0).rotation;
+    let pose = |i| Isometry::from_parts(plane.at(grid.point(i)).coords.into(), rotation);
+    let answers = evaluate(question, grid.len(), pose, watch)?;
     Ok(PlaneMap { plane, grid, answers })
 }

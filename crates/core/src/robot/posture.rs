@@ -53,14 +53,25 @@ pub struct Branch {
 }
 
 impl Branch {
-    /// All eight, front elbow-up no-flip first.
-    pub fn all() -> impl Iterator<Item = Branch> {
-        [Shoulder::Front, Shoulder::Back].into_iter().flat_map(|shoulder| {
-            [Elbow::Up, Elbow::Down].into_iter().flat_map(move |elbow| {
-                [Wrist::NoFlip, Wrist::Flip].into_iter().map(move |wrist| Branch { shoulder, elbow, wrist })
-            })
-        })
-    }
+    /// All eight, front elbow-up no-flip first; each is followed by its flip.
+    pub const ALL: [Branch; 8] = {
+        use Elbow::{Down, Up};
+        use Shoulder::{Back, Front};
+        use Wrist::{Flip, NoFlip};
+        const fn branch(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Branch {
+            Branch { shoulder, elbow, wrist }
+        }
+        [
+            branch(Front, Up, NoFlip),
+            branch(Front, Up, Flip),
+            branch(Front, Down, NoFlip),
+            branch(Front, Down, Flip),
+            branch(Back, Up, NoFlip),
+            branch(Back, Up, Flip),
+            branch(Back, Down, NoFlip),
+            branch(Back, Down, Flip),
+        ]
+    };
 }
 
 impl fmt::Display for Branch {
@@ -283,16 +294,16 @@ mod tests {
 
     #[test]
     fn names_of_branches_read_back() {
-        for branch in Branch::all() {
+        for branch in Branch::ALL {
             let pattern: BranchPattern = branch.to_string().parse().unwrap();
-            assert_eq!(Branch::all().filter(|b| pattern.matches(*b)).collect::<Vec<_>>(), [branch]);
+            assert_eq!(Branch::ALL.into_iter().filter(|b| pattern.matches(*b)).collect::<Vec<_>>(), [branch]);
         }
     }
 
     #[test]
     fn open_words_match_both() {
         let pattern: BranchPattern = "elbow-down".parse().unwrap();
-        assert_eq!(Branch::all().filter(|b| pattern.matches(*b)).count(), 4);
+        assert_eq!(Branch::ALL.into_iter().filter(|b| pattern.matches(*b)).count(), 4);
         let completed = pattern.or(BranchPattern::FRONT_ELBOW_UP);
         assert_eq!(completed.to_string(), "front elbow-down");
     }

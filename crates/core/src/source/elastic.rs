@@ -15,7 +15,7 @@
 //! Valid for deflections small against the arm (below about 1 mm on a metre). Source: Shneor & Chapsky 2021,
 //! eq. (10), with the reference point moved to the TCP.
 
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::robot::joint::JointCompliance;
 use crate::spatial::{Twist, Wrench};
@@ -28,6 +28,11 @@ pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
 /// Deviation of the tool by all joints.
 pub fn deviation(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Twist {
     screws.iter().zip(joints).map(|(s, c)| sensitivity(s, wrench).scaled(c.value)).sum()
+}
+
+/// Translational part of [`deviation`], m: what a map needs of it.
+pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vector3<f64> {
+    screws.iter().zip(joints).map(|(s, c)| s.linear * (c.value * s.dot(wrench))).sum()
 }
 
 /// Share of each joint in the deviation; they add up to [`deviation`].
@@ -48,7 +53,6 @@ pub fn covariance(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::Vector3;
 
     fn arm() -> ([Twist; 2], [JointCompliance; 2]) {
         let screw = |o: Vector3<f64>, z: Vector3<f64>| Twist { linear: z.cross(&-o), angular: z };
@@ -68,6 +72,7 @@ mod tests {
         let delta = deviation(&screws[..1], &joints[..1], &push);
         assert!((delta.linear - Vector3::new(0.0, 20e-6, 0.0)).norm() < 1e-18);
         assert!((delta.angular - Vector3::new(0.0, 0.0, 20e-6)).norm() < 1e-18);
+        assert_eq!(displacement(&screws[..1], &joints[..1], &push), delta.linear);
     }
 
     #[test]

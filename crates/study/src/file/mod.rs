@@ -1,8 +1,13 @@
 //! What a user writes: the study file, format 1.
 //!
-//! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means.
+//! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what
+//! each ask means, its [`quantities`] in SI.
 
 pub mod format;
+pub mod quantities;
 pub mod resolve;
 
+mod ask;
+mod memory;
+mod names;
 mod places;

@@ -4,13 +4,14 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
+use armill_core::robot::inverse::tool_on;
 use armill_report::{ArmDrawing, ArmJoint, Posture, View};
 
 /// The arm at these joint positions (rad, m), base frame.
 pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> Posture {
     let frames = forward(robot, joints);
     let mm = |v: &Vector3<f64>| -> [f64; 3] { (v * 1e3).into() };
-    let base_from_tool = frames.base_from_flange * flange_from_tool;
+    let base_from_tool = tool_on(&frames, flange_from_tool);
     Posture {
         base_mm: [0.0; 3],
         joints: (0..robot.joints().len())

@@ -11,6 +11,8 @@ use super::forward::{Frames, forward, forward_into};
 use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::{Branch, Posture, Unreachable};
+use nalgebra::{UnitQuaternion, Vector3};
+
 use crate::frame::Isometry;
 
 /// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.
@@ -34,7 +36,7 @@ pub fn postures(
     let base_from_flange = base_from_tool * tool.flange_from_tool.inverse();
     let mut found = Vec::with_capacity(8);
     let mut nearest_miss: Option<Unreachable> = None;
-    for branch in Branch::all() {
+    for branch in Branch::ALL {
         match arm.solve(robot, &base_from_flange, branch, tool.near) {
             Ok(solution) => found.push(solution),
             Err(miss) => nearest_miss = Some(nearest_miss.map_or(miss, |other| nearer(other, miss))),
@@ -66,16 +68,18 @@ pub struct ToolAt<'a> {
 
 /// Whether these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
 pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> bool {
-    let away = base_from_flange.inv_mul(&frames.base_from_flange);
-    // For small angles the vector part of the quaternion is half the angle; angle() itself would lose
-    // half the digits.
-    away.translation.vector.norm() < VERIFIED && 2.0 * away.rotation.imag().norm() < VERIFIED
+    let reached = &frames.base_from_flange;
+    let away = reached.translation.vector - base_from_flange.translation.vector;
+    let (a, b) = (reached.rotation.matrix(), base_from_flange.rotation.to_rotation_matrix());
+    // Each pair of axes spans the sine of the angle between them; an angle above pi/2 shows in the trace.
+    let turned: Vector3<f64> = (0..3).map(|i| a.column(i).cross(&b.matrix().column(i))).sum::<Vector3<f64>>() * 0.5;
+    away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.
 pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Posture {
     let frames = forward(robot, q);
-    let base_from_tool = frames.base_from_flange * flange_from_tool;
+    let base_from_tool = tool_on(&frames, flange_from_tool);
     let screws = screws_at(robot, &frames, &base_from_tool.translation.vector.into());
     let named = robot.ortho_parallel().map(|arm| arm.name(robot, q));
     Posture {
@@ -85,6 +89,13 @@ pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Post
         screws,
         singularity: named.and_then(|(_, singularity)| singularity),
     }
+}
+
+/// The tool pose of these frames.
+pub fn tool_on(frames: &Frames, flange_from_tool: &Isometry) -> Isometry {
+    let flange = &frames.base_from_flange;
+    let rotation = UnitQuaternion::from_rotation_matrix(&flange.rotation);
+    Isometry::from_parts(flange.translation, rotation) * flange_from_tool
 }
 
 /// The miss that is smaller.

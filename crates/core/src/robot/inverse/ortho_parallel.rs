@@ -5,16 +5,17 @@
 //! below are about axes turned to a common sense: 1 up, 2 and 3 along the arm's +y, 4 out along the forearm,
 //! 5 along +y, 6 out of the flange.
 //!
-//! With `r` the distance of the wrist centre from axis 1 in the arm's plane, and `psi` the angle of the upper
-//! arm from the vertical towards the front:
+//! With `r` the distance of the wrist centre from axis 1 in the arm's plane, `psi` and `chi` the angles of upper
+//! arm and forearm from the vertical towards the front, and `eps = chi - psi` their bend:
 //!
 //! ```text
-//! phi1 = atan2(py, px) - atan2(b, +-r)             r^2 = px^2 + py^2 - b^2
-//! u = +-r - a1,  v = pz,  d^2 = u^2 + v^2
-//! eps = +-2 atan(sqrt(((l2 + l3)^2 - d^2) / (d^2 - (l2 - l3)^2)))     angle forearm - upper arm
-//! psi = atan2(u, v) - atan2(l3 sin eps, l2 + l3 cos eps)
-//! R4 R5 R6 = (R1 R2 R3)^T R                        wrist, bend psi3 = +-atan2(|.|, .)
+//! phi1:  (cos, sin) = ((r px + b py), (r py - b px)) / (r^2 + b^2)          r = +-sqrt(px^2 + py^2 - b^2)
+//! eps:   cos = (d^2 - l2^2 - l3^2) / (2 l2 l3), sin = +-sqrt(...)           d^2 = u^2 + v^2, u = r - a1, v = pz
+//! psi:   (cos, sin) = (v k1 + u k2, u k1 - v k2) / d^2                       k1 = l2 + l3 cos eps, k2 = l3 sin eps
+//! wrist: R4 R5 R6 = (R1 R2 R3)^T R, bend psi3 = +-atan2(|across|, along) of axis 6 seen from axis 4
 //! ```
+//!
+//! Everything is carried as (cos, sin); each joint costs one atan2 at the end.
 //!
 //! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
 
@@ -46,14 +47,16 @@ pub struct OrthoParallel {
     /// Angles of upper arm and forearm from the vertical at chain zero.
     upper_arm_at_zero: f64,
     forearm_at_zero: f64,
+    forearm_turn_at_zero: Turn,
     /// Wrist bend at chain zero.
     bend_at_zero: f64,
     /// Sense of each axis against the common one, 1 or -1.
     sense: [f64; 6],
-    /// Axes at chain zero in base, turned to the common sense.
-    axis: [Vector3<f64>; 6],
-    /// Flange orientation at chain zero.
-    flange_at_zero: UnitQuaternion<f64>,
+    /// Axes 4 and 5 at chain zero, in the arm's axes, in the common sense.
+    wrist_axes: [Vector3<f64>; 2],
+    /// Axes 5 and 6 at chain zero, in the flange's axes, in the common sense.
+    flange_from_axis_5: Vector3<f64>,
+    flange_from_axis_6: Vector3<f64>,
     flange_from_wrist: Point3<f64>,
 }
 
@@ -72,7 +75,7 @@ impl Solution {
     /// The posture of this solution with its screws.
     pub fn into_posture(self, robot: &Robot, flange_from_tool: &Isometry) -> Posture {
         let frames = forward(robot, &self.joints);
-        let base_from_tool = frames.base_from_flange * flange_from_tool;
+        let base_from_tool = super::tool_on(&frames, flange_from_tool);
         Posture {
             branch: Some(self.branch),
             joints: self.joints.to_vec(),
@@ -126,20 +129,24 @@ impl OrthoParallel {
             sense_of(z5.dot(&y)),
             sense_of(out_of_flange),
         ];
-        let axis = [z1 * sense[0], y, y, z4 * sense[3], z5 * sense[4], z6 * sense[5]];
+        let (a4, a5, a6) = (z4 * sense[3], z5 * sense[4], z6 * sense[5]);
+        let forearm_at_zero = forearm.x.atan2(forearm.z);
+        let flange_from_base = base_from_flange.inverse();
         Some(OrthoParallel {
-            arm_from_base,
             a1: shoulder.x,
             b: w.y,
             l2: upper_arm.xz().norm(),
             l3: forearm.xz().norm(),
             upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
-            forearm_at_zero: forearm.x.atan2(forearm.z),
-            bend_at_zero: axis[4].dot(&axis[3].cross(&axis[5])).atan2(axis[3].dot(&axis[5])),
+            forearm_at_zero,
+            forearm_turn_at_zero: Turn { cos: forearm_at_zero.cos(), sin: forearm_at_zero.sin() },
+            bend_at_zero: a5.dot(&a4.cross(&a6)).atan2(a4.dot(&a6)),
             sense,
-            axis,
-            flange_at_zero: base_from_flange.rotation,
-            flange_from_wrist: base_from_flange.inverse() * wrist,
+            wrist_axes: [arm_from_base * a4, arm_from_base * a5],
+            flange_from_axis_5: flange_from_base * a5,
+            flange_from_axis_6: flange_from_base * a6,
+            flange_from_wrist: flange_from_base * wrist,
+            arm_from_base,
         })
         .filter(|arm| arm.l2 > IDEAL && arm.l3 > IDEAL)
     }
@@ -167,18 +174,27 @@ impl OrthoParallel {
             Shoulder::Front => r_squared.sqrt(),
             Shoulder::Back => -r_squared.sqrt(),
         };
-        let phi1 = p.y.atan2(p.x) - self.b.atan2(r);
+        let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
         let (u, v) = (r - self.a1, p.z);
-        let (psi, eps) = self.two_link(u, v, branch.elbow)?;
+        let (psi, chi) = self.two_link(u, v, branch.elbow)?;
+        let kept = near.map(|q| self.sense[3] * robot.theta(3, q));
+        let [phi4, bend, phi6] = self.wrist(base_from_flange, phi1, chi, (branch.wrist, kept));
 
-        let mut theta = [0.0; 6];
-        theta[0] = self.sense[0] * phi1;
-        theta[1] = self.sense[1] * (psi - self.upper_arm_at_zero);
-        theta[2] = self.sense[2] * (psi + eps - self.forearm_at_zero) - self.sense[2] * self.sense[1] * theta[1];
-        let kept = near.map(|q| robot.theta(3, q));
-        let bend = self.wrist(&mut theta, base_from_flange, branch.wrist, kept);
-        let singularity = self.singularity(bend.sin(), eps.sin(), r);
-        Ok(Solution { branch, joints: self.joint_positions(robot, &theta), singularity })
+        let (psi_angle, chi_angle, bend_angle) = (psi.angle(), chi.angle(), bend.angle());
+        let phi = [
+            phi1.angle(),
+            psi_angle - self.upper_arm_at_zero,
+            chi_angle - psi_angle - (self.forearm_at_zero - self.upper_arm_at_zero),
+            phi4.angle(),
+            bend_angle - self.bend_at_zero,
+            phi6.angle(),
+        ];
+        let sin_elbow = chi.sin * psi.cos - chi.cos * psi.sin;
+        Ok(Solution {
+            branch,
+            joints: self.joint_positions(robot, &phi),
+            singularity: self.singularity(bend.sin, sin_elbow, r),
+        })
     }
 
     /// Branch of joint positions, and the singularity they stand near, if any.
@@ -198,61 +214,66 @@ impl OrthoParallel {
         (branch, self.singularity(bend.sin(), eps.sin(), u + self.a1))
     }
 
-    /// Angle of the upper arm from the vertical, and of the forearm from the upper arm.
-    fn two_link(&self, u: f64, v: f64, elbow: Elbow) -> Result<(f64, f64), Unreachable> {
-        let d = u.hypot(v);
-        let (reach, fold) = (self.l2 + self.l3, (self.l2 - self.l3).abs());
-        let (stretched, folded) = ((reach - d) * (reach + d), (d - fold) * (d + fold));
+    /// Angles of upper arm and forearm from the vertical.
+    fn two_link(&self, u: f64, v: f64, elbow: Elbow) -> Result<(Turn, Turn), Unreachable> {
+        let d_squared = u * u + v * v;
+        let (reach, fold) = (self.l2 + self.l3, self.l2 - self.l3);
+        let (stretched, folded) = (reach * reach - d_squared, d_squared - fold * fold);
         if stretched < 0.0 {
-            return Err(Unreachable::TooFar { by: d - reach });
+            return Err(Unreachable::TooFar { by: d_squared.sqrt() - reach });
         }
         if folded < 0.0 {
-            return Err(Unreachable::TooNear { by: fold - d });
+            return Err(Unreachable::TooNear { by: fold.abs() - d_squared.sqrt() });
         }
-        let bent = 2.0 * stretched.sqrt().atan2(folded.sqrt());
-        // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
-        let eps = if (elbow == Elbow::Up) == (u >= 0.0) { bent } else { -bent };
-        let (sin, cos) = eps.sin_cos();
-        Ok((u.atan2(v) - (self.l3 * sin).atan2(self.l2 + self.l3 * cos), eps))
+        // l3 (cos, sin) of the elbow's bend; bending the forearm forwards lifts the elbow if the wrist is
+        // before the shoulder.
+        let along = 0.5 * (d_squared - self.l2 * self.l2 - self.l3 * self.l3) / self.l2;
+        let across = 0.5 * (stretched * folded).sqrt() / self.l2;
+        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) { across } else { -across };
+        let k1 = self.l2 + along;
+        let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
+        let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
+        Ok((psi, chi))
     }
 
-    /// Fills joints 4 to 6 of `theta` and gives the bend; at the singularity joint 4 is `kept`.
+    /// Joint 4, bend and joint 6; at the singularity joint 4 is `kept`.
     fn wrist(
         &self,
-        theta: &mut [f64; 6],
         base_from_flange: &Isometry,
-        wrist: Wrist,
-        kept: Option<f64>,
-    ) -> f64 {
-        let [_, _, _, a4, a5, a6] = self.axis;
-        let turn = |i: usize, angle: f64| UnitQuaternion::new(self.axis[i] * angle);
-        let arm = turn(0, self.sense[0] * theta[0])
-            * turn(1, self.sense[1] * theta[1] + self.sense[2] * theta[2]);
-        let target = arm.inverse() * base_from_flange.rotation * self.flange_at_zero.inverse();
-
+        phi1: Turn,
+        chi: Turn,
+        (wrist, kept): (Wrist, Option<f64>),
+    ) -> [Turn; 3] {
+        // The forearm has turned by phi1 about z and by chi - chi0 about y; seen from it, the flange's own
+        // directions of axes 6 and 5 at zero:
+        let forearm = chi.less(self.forearm_turn_at_zero);
+        let seen = |in_flange: &Vector3<f64>| {
+            let v = self.arm_from_base * (base_from_flange * in_flange);
+            let x = phi1.cos * v.x + phi1.sin * v.y;
+            let y = phi1.cos * v.y - phi1.sin * v.x;
+            Vector3::new(forearm.cos * x - forearm.sin * v.z, y, forearm.sin * x + forearm.cos * v.z)
+        };
+        let [a4, a5] = self.wrist_axes;
         let a3 = a4.cross(&a5);
-        let out = target * a6;
+        let (out, second) = (seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5));
         let (along, up, side) = (out.dot(&a4), out.dot(&a3), out.dot(&a5));
         let bent = up.hypot(side);
         let flip = if wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
-        let bend = (flip * bent).atan2(along);
-        let rest = |phi4: f64| {
-            let m = (turn(3, phi4) * turn(4, bend - self.bend_at_zero)).inverse() * target * a5;
-            m.dot(&a6.cross(&a5)).atan2(m.dot(&a5))
+        let bend = Turn::new(along, flip * bent);
+        // Joint 6 turns axis 5, as joint 4 left it, to where the flange has it.
+        let rest = |phi4: Turn| {
+            let left = a5 * phi4.cos + a3 * phi4.sin;
+            Turn::new(left.dot(&second), out.dot(&left.cross(&second)))
         };
-        let (phi4, phi6) = if bent < WRIST_SINGULAR {
+        let phi4 = if bent < WRIST_SINGULAR {
             // Only the sum (or difference) of joints 4 and 6 counts here.
-            let even = 0.5 * rest(0.0) * along.signum();
-            let phi4 = kept.map_or(even, |theta4| self.sense[3] * theta4);
-            (phi4, rest(phi4))
+            let even = 0.5 * rest(Turn::ZERO).angle() * along.signum();
+            let (sin, cos) = kept.unwrap_or(even).sin_cos();
+            Turn { cos, sin }
         } else {
-            let phi4 = (flip * side).atan2(-flip * up);
-            (phi4, rest(phi4))
+            Turn::new(-flip * up, flip * side)
         };
-        theta[3] = self.sense[3] * phi4;
-        theta[4] = self.sense[4] * (bend - self.bend_at_zero);
-        theta[5] = self.sense[5] * phi6;
-        bend
+        [phi4, bend, rest(phi4)]
     }
 
     fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
@@ -267,13 +288,40 @@ impl OrthoParallel {
         }
     }
 
-    fn joint_positions(&self, robot: &Robot, theta: &[f64; 6]) -> [f64; 6] {
+    /// Joint positions from angles in the common sense, each as near as possible to the middle of its range.
+    fn joint_positions(&self, robot: &Robot, phi: &[f64; 6]) -> [f64; 6] {
         let mut q = [0.0; 6];
         for index in 0..6 {
             let middle = robot.joints()[index].limits.map_or(0.0, |limits| limits.middle());
-            q[index] = nearest_turn(robot.joint_position(index, theta[index], &q), middle);
+            q[index] = nearest_turn(robot.joint_position(index, self.sense[index] * phi[index], &q), middle);
         }
         q
+    }
+}
+
+/// An angle as its cosine and sine.
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    cos: f64,
+    sin: f64,
+}
+
+impl Turn {
+    const ZERO: Turn = Turn { cos: 1.0, sin: 0.0 };
+
+    /// The angle of the vector (`x`, `y`); zero where it has no length.
+    fn new(x: f64, y: f64) -> Turn {
+        let length = (x * x + y * y).sqrt();
+        if length > 0.0 { Turn { cos: x / length, sin: y / length } } else { Turn::ZERO }
+    }
+
+    fn angle(self) -> f64 {
+        self.sin.atan2(self.cos)
+    }
+
+    /// This angle minus another.
+    fn less(self, other: Turn) -> Turn {
+        Turn { cos: self.cos * other.cos + self.sin * other.sin, sin: self.sin * other.cos - self.cos * other.sin }
     }
 }
 
@@ -295,14 +343,12 @@ fn up_to_noise(value: f64) -> Option<f64> {
 
 /// Point and unit axis of six turning joints at chain zero, in base.
 fn lines_at_zero(chain: &Chain) -> Option<[(Point3<f64>, Vector3<f64>); 6]> {
-    let mut base_from_here = Isometry::identity();
+    let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
     let mut lines = Vec::with_capacity(6);
     for link in chain.links() {
-        base_from_here *= link.before;
+        link.before.advance(&mut axes, &mut origin);
         match link.motion {
-            Motion::About(axis, _) => {
-                lines.push((base_from_here.translation.vector.into(), base_from_here * axis.unit()));
-            }
+            Motion::About(axis, _) => lines.push((origin.into(), axes.column(axis.index()).into_owned())),
             Motion::Along(..) => return None,
         }
     }

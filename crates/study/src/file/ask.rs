@@ -1,0 +1,268 @@
+//! One ask against its study: what it does not say it takes from there.
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::BranchChoice;
+use armill_core::map::BoxGrid;
+use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
+use armill_core::path::Shape;
+use armill_core::robot::BranchPattern;
+use armill_core::workpiece::Grid;
+use armill_formats::robot::RobotDescription;
+
+use super::format::{AskKind, AskTable, HalfSize, PlaneTable, StudyFile};
+use super::memory;
+use super::places::Places;
+use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
+use super::resolve::{Setting, Sheet, Subject};
+
+/// No length, angle, force or moment of a real cell is larger, in the units of the file; products of larger ones
+/// leave the range of numbers.
+const LARGEST: f64 = 1e9;
+/// A circle is sampled every degree where the ask says nothing.
+const CIRCLE_SAMPLES: f64 = 360.0;
+
+/// The word for a kind of ask.
+pub(super) fn kind_name(kind: AskKind) -> &'static str {
+    match kind {
+        AskKind::Map => "map",
+        AskKind::Sections => "sections",
+        AskKind::Volume => "volume",
+        AskKind::Path => "path",
+    }
+}
+
+/// One ask against its study.
+pub(super) struct Resolver<'a> {
+    pub file: &'a StudyFile,
+    pub robot: Option<&'a RobotDescription>,
+    pub table: &'a AskTable,
+}
+
+impl Resolver<'_> {
+    /// What the ask is about; `None` where it has problems.
+    pub(super) fn subject(&self, places: &mut Places<'_>) -> Option<Subject> {
+        self.refuse_keys_of_other_kinds(places);
+        self.refuse_what_no_cell_has(places);
+        let plane = self.plane_table();
+        let grid = grid(places, &plane);
+        let setting = self.setting(places, &plane);
+        // Each is checked whether the others are fine or not: all problems are told at once.
+        match self.table.kind {
+            AskKind::Map => Some(Subject::Map(self.sheet(places, setting?, grid?)?)),
+            AskKind::Sections => self.sections(places, setting, grid),
+            AskKind::Volume => self.volume(places, setting),
+            AskKind::Path => self.path(places, setting),
+        }
+    }
+
+    /// Lengths, angles, forces and moments beyond all reason.
+    fn refuse_what_no_cell_has(&self, places: &mut Places<'_>) {
+        let t = self.table;
+        let plane = self.plane_table();
+        let load = t.load.as_ref().unwrap_or(&self.file.load);
+        let tool = t.tool.as_ref().or(self.file.tool.as_ref());
+        let half_size = match plane.half_size_mm {
+            HalfSize::Square(half) => vec![half],
+            HalfSize::Oblong(halves) => halves.to_vec(),
+        };
+        let in_box = t.in_box.as_ref();
+        let numbers = [
+            ("plane.centre_mm", "mm", plane.centre_mm.to_vec()),
+            ("plane.tilt_deg", "deg", plane.tilt_deg.into_iter().collect()),
+            ("plane.rotation_deg", "deg", plane.rotation_deg.iter().flatten().copied().collect()),
+            ("plane.half_size_mm", "mm", half_size),
+            ("plane.step_mm", "mm", vec![plane.step_mm]),
+            ("load.cases_n", "N", load.cases_n.iter().flatten().copied().collect()),
+            ("load.moments_n_m", "N m", load.moments_n_m.iter().flatten().flatten().copied().collect()),
+            (
+                "tool.flange_from_tool_mm_deg",
+                "mm or deg",
+                tool.map_or_else(Vec::new, |tool| tool.flange_from_tool_mm_deg.to_vec()),
+            ),
+            ("distances_mm", "mm", t.distances_mm.clone().unwrap_or_default()),
+            ("tilts_deg", "deg", t.tilts_deg.clone().unwrap_or_default()),
+            ("box.centre_mm", "mm", in_box.and_then(|b| b.centre_mm).map_or_else(Vec::new, Vec::from)),
+            ("box.half_size_mm", "mm", in_box.map_or_else(Vec::new, |b| b.half_size_mm.to_vec())),
+            ("box.step_mm", "mm", in_box.map_or_else(Vec::new, |b| vec![b.step_mm])),
+            ("circle.centre_mm", "mm", t.circle.iter().filter_map(|c| c.centre_mm).flatten().collect()),
+            ("circle.radius_mm", "mm", t.circle.iter().map(|c| c.radius_mm).collect()),
+            ("line", "mm", t.line.iter().flat_map(|l| [l.from_mm, l.to_mm]).flatten().collect()),
+            ("polyline_mm", "mm", t.polyline_mm.iter().flatten().flatten().copied().collect()),
+            ("rectangle.centre_mm", "mm", t.rectangle.iter().filter_map(|r| r.centre_mm).flatten().collect()),
+            ("rectangle.size_mm", "mm", t.rectangle.iter().flat_map(|r| r.size_mm).collect()),
+            ("step_mm", "mm", t.step_mm.into_iter().collect()),
+        ];
+        for (path, unit, values) in numbers {
+            if let Some(value) = values.iter().find(|value| value.abs() > LARGEST) {
+                let message = format!("`{path}`: {value:e} {unit} is beyond {LARGEST:e} {unit}");
+                places.problem(path, message, "is the unit right?");
+            }
+        }
+    }
+
+    fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {
+        let t = self.table;
+        let given = [
+            ("distances_mm", AskKind::Sections, t.distances_mm.is_some()),
+            ("tilts_deg", AskKind::Sections, t.tilts_deg.is_some()),
+            ("box", AskKind::Volume, t.in_box.is_some()),
+            ("circle", AskKind::Path, t.circle.is_some()),
+            ("line", AskKind::Path, t.line.is_some()),
+            ("polyline_mm", AskKind::Path, t.polyline_mm.is_some()),
+            ("rectangle", AskKind::Path, t.rectangle.is_some()),
+            ("step_mm", AskKind::Path, t.step_mm.is_some()),
+        ];
+        for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
+            let message = format!("`{key}` means nothing to a {}", kind_name(t.kind));
+            let hint = format!("it belongs to kind = \"{}\"; the grid of a map is plane.step_mm", kind_name(*kind));
+            places.problem(key, message, &hint);
+        }
+    }
+
+    fn plane_table(&self) -> PlaneTable {
+        let mut plane = self.file.plane.clone();
+        if let Some(change) = &self.table.plane {
+            plane.centre_mm = change.centre_mm.unwrap_or(plane.centre_mm);
+            if change.tilt_deg.is_some() || change.rotation_deg.is_some() {
+                (plane.tilt_deg, plane.rotation_deg) = (change.tilt_deg, change.rotation_deg);
+            }
+            plane.half_size_mm = change.half_size_mm.unwrap_or(plane.half_size_mm);
+            plane.step_mm = change.step_mm.unwrap_or(plane.step_mm);
+        }
+        plane
+    }
+
+    fn setting(&self, places: &mut Places<'_>, plane: &PlaneTable) -> Option<Setting> {
+        let base_name = self.table.base.clone().or_else(|| self.file.base.clone());
+        let base_name = base_name.unwrap_or_else(|| crate::BASE_LINK.to_owned());
+        let base_from_counted = self.base_from_counted(places, &base_name);
+        let choice = self.choice(places);
+        let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
+        let plane = plane_at(places, plane, &base_from_counted.unwrap_or_else(Isometry::identity));
+        let load = self.table.load.as_ref().unwrap_or(&self.file.load);
+        let cases = load_cases(places, load);
+        let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
+        let cases = cases?.in_base(&plane.base_from_part);
+        let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
+        let flange_from_tool = tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
+        let limit = limit_um * 1e-6;
+        Some(Setting { base_name, base_from_counted, flange_from_tool, plane, tilt, cases, limit, choice })
+    }
+
+    fn base_from_counted(&self, places: &mut Places<'_>, name: &str) -> Option<Isometry> {
+        let robot = &self.robot?.robot;
+        let found = crate::base_from_counted(robot, name);
+        let tell = |known: String| {
+            let message = format!("robot `{}` has no frame `{name}`", robot.name());
+            places.problem("base", message, &format!("it has: {known}"));
+        };
+        found.map_err(tell).ok()
+    }
+
+    fn choice(&self, places: &mut Places<'_>) -> Option<BranchChoice> {
+        let nominal = self.robot.map_or(BranchPattern::FRONT_ELBOW_UP, |found| found.robot.nominal_branch());
+        let posture = self.table.posture.as_ref().or(self.file.posture.as_ref());
+        match crate::branch_choice(posture.map_or("nominal", |p| p.branch.as_str()), nominal) {
+            Ok(choice) => Some(choice),
+            Err(message) => {
+                places.problem("posture.branch", message, "or write `nominal` or `best`");
+                None
+            }
+        }
+    }
+
+    fn sheet(&self, places: &mut Places<'_>, setting: Setting, grid: Grid) -> Option<Sheet> {
+        let points = grid.columns as f64 * grid.rows as f64;
+        self.enough_memory(places, "plane.step_mm", points, &setting)?;
+        Some(Sheet { setting, grid })
+    }
+
+    fn sections(&self, places: &mut Places<'_>, setting: Option<Setting>, grid: Option<Grid>) -> Option<Subject> {
+        let given = |list: &Option<Vec<f64>>| list.as_ref().is_some_and(|list| !list.is_empty());
+        if given(&self.table.distances_mm) == given(&self.table.tilts_deg) {
+            let hint = "distances_mm = [600, 800, 1000] or tilts_deg = [-60, 0, 60]";
+            places.problem_here("sections vary either `distances_mm` or `tilts_deg`", hint);
+            return None;
+        }
+        let (setting, grid) = (setting?, grid?);
+        let mut sections = Vec::new();
+        let mut add = |places: &mut Places<'_>, label: String, plane: PlaneTable| {
+            let (plane, tilt) = plane_at(places, &plane, &setting.base_from_counted)?;
+            let setting = Setting { plane, tilt, ..setting.clone() };
+            sections.push((label, self.sheet(places, setting, grid)?));
+            Some(())
+        };
+        for distance in self.table.distances_mm.iter().flatten() {
+            let mut plane = self.plane_table();
+            plane.centre_mm[0] = *distance;
+            add(places, format!("x = {distance} mm"), plane)?;
+        }
+        for tilt in self.table.tilts_deg.iter().flatten() {
+            let plane = PlaneTable { tilt_deg: Some(*tilt), rotation_deg: None, ..self.plane_table() };
+            add(places, format!("tilt {tilt}°").replace('-', "−"), plane)?;
+        }
+        Some(Subject::Sections(sections))
+    }
+
+    fn volume(&self, places: &mut Places<'_>, setting: Option<Setting>) -> Option<Subject> {
+        let Some(table) = &self.table.in_box else {
+            let hint = "box = { half_size_mm = [400, 400, 400], step_mm = 20 }";
+            places.problem_here("a volume needs its `box`", hint);
+            return None;
+        };
+        let half_size = sizes(places, "box.half_size_mm", &table.half_size_mm);
+        let step = positive(places, "box.step_mm", table.step_mm);
+        let (half_size, step, setting) = (half_size?, step?, setting?);
+        let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
+        let centre = setting.base_from_counted * Point3::from(Vector3::from(centre) * 1e-3);
+        let points: f64 = half_size.iter().map(|half| 2.0 * (half / step).floor() + 1.0).product();
+        self.enough_memory(places, "box.step_mm", points, &setting)?;
+        let grid = BoxGrid::within(centre, [half_size[0], half_size[1], half_size[2]], step);
+        Some(Subject::Volume(setting, grid))
+    }
+
+    fn path(&self, places: &mut Places<'_>, setting: Option<Setting>) -> Option<Subject> {
+        let t = self.table;
+        let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);
+        let shapes: Vec<Shape> = [
+            t.circle.as_ref().map(|c| {
+                let radius = c.radius_mm * 1e-3;
+                Shape::Circle { centre: at(c.centre_mm.unwrap_or_default()), radius }
+            }),
+            t.line.as_ref().map(|l| Shape::Polyline(vec![at(l.from_mm), at(l.to_mm)])),
+            t.polyline_mm.as_ref().map(|points| Shape::Polyline(points.iter().copied().map(at).collect())),
+            t.rectangle.as_ref().map(|r| {
+                let size = Vector2::from(r.size_mm) * 1e-3;
+                Shape::rectangle(at(r.centre_mm.unwrap_or_default()), size)
+            }),
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
+        let [shape] = &shapes[..] else {
+            let hint = "circle = { radius_mm = 100 }, line, polyline_mm or rectangle";
+            places.problem_here("a path has exactly one shape", hint);
+            return None;
+        };
+        if let Some(circle) = &t.circle {
+            positive(places, "circle.radius_mm", circle.radius_mm)?;
+        }
+        let length = shape.length();
+        if length <= 0.0 {
+            places.problem_here("the path has length 0 mm", "give it at least two different points");
+            return None;
+        }
+        let step = match (t.step_mm, shape) {
+            (Some(step), _) => positive(places, "step_mm", step)?,
+            (None, Shape::Circle { .. }) => length / CIRCLE_SAMPLES,
+            (None, Shape::Polyline(_)) => positive(places, "plane.step_mm", self.plane_table().step_mm)?,
+        };
+        let setting = setting?;
+        self.enough_memory(places, "step_mm", length / step, &setting)?;
+        Some(Subject::Path(setting, shape.clone(), step))
+    }
+
+    fn enough_memory(&self, places: &mut Places<'_>, path: &str, points: f64, setting: &Setting) -> Option<()> {
+        memory::check_points(places, path, points, (self.robot?, setting))
+    }
+}

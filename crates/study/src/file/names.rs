@@ -1,0 +1,73 @@
+//! Names of asks: fit to name files by, told apart, and found by the statements that speak of them.
+
+use armill_formats::document::{Document, Problem};
+
+use super::ask::kind_name;
+use super::format::{AskKind, AskTable, StudyFile};
+use super::places::Places;
+use super::resolve::{Ask, Subject};
+
+/// Longest part of a file name that an ask may give, bytes: systems take 255, sections and pictures add to it.
+const LONGEST_SLUG: usize = 160;
+
+/// The name of an ask; of its kind and number where it gives none.
+pub(super) fn name_of(table: &AskTable, index: usize) -> String {
+    table.name.clone().unwrap_or_else(|| format!("{} {}", kind_name(table.kind), index + 1))
+}
+
+/// Problems of statements that speak of no map, section or path.
+pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: &[Ask]) {
+    let named = |kinds: &[AskKind], name: &str| {
+        let of_kind = file.ask.iter().enumerate().filter(|(_, ask)| kinds.contains(&ask.kind));
+        of_kind.map(|(index, ask)| name_of(ask, index)).any(|ask| ask == name)
+    };
+    // Sections are named by their labels; those of an ask with problems are not known.
+    let sections = |ask: &Ask| match &ask.subject {
+        Subject::Sections(sections) => sections.iter().map(|(label, _)| format!("{}: {label}", ask.name)).collect(),
+        _ => Vec::new(),
+    };
+    let sections: Vec<String> = asks.iter().flat_map(sections).collect();
+    let all_asks_known = asks.len() == file.ask.len().max(1);
+    for (index, statement) in file.statement.iter().enumerate() {
+        for (k, name) in statement.of.iter().enumerate() {
+            let known = named(&[AskKind::Map, AskKind::Path], name)
+                || sections.contains(name)
+                || (file.ask.is_empty() && name == "map")
+                || (!all_asks_known && name.contains(": "));
+            if known {
+                continue;
+            }
+            let (message, hint) = if named(&[AskKind::Sections], name) {
+                let first = sections.iter().find(|section| section.starts_with(name.as_str()));
+                let hint = format!("name one section, such as `{}`", first.map_or("name: x = 800 mm", String::as_str));
+                (format!("`{name}` is a series of sections"), hint)
+            } else if named(&[AskKind::Volume], name) {
+                (format!("`{name}` is a volume"), "a statement speaks of maps, sections and paths".to_owned())
+            } else {
+                (format!("no ask is called `{name}`"), "give an ask this `name`".to_owned())
+            };
+            places.problem(&format!("statement[{index}].of[{k}]"), message, &hint);
+        }
+    }
+}
+
+/// Problems of names that give no file name, too long a one, or that of an earlier ask.
+pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem> {
+    let names: Vec<String> = file.ask.iter().enumerate().map(|(index, ask)| name_of(ask, index)).collect();
+    let slugs: Vec<String> = names.iter().map(|name| crate::output::slug(name)).collect();
+    let problem = |i: usize| {
+        let (message, hint) = if slugs[i].is_empty() {
+            (format!("`{}` has no letter and no digit to name files by", names[i]), "such as name = "plate"")
+        } else if slugs[i].len() > LONGEST_SLUG {
+            let message = format!("file names of {} bytes would come of this name, more than {LONGEST_SLUG}", slugs[i].len());
+            (message, "a shorter name; `title` and `question` may be as long as you like")
+        } else if let Some(earlier) = (0..i).find(|j| slugs[*j] == slugs[i]) {
+            let message = format!("`{}` and `{}` would write the same files", names[earlier], names[i]);
+            (message, "each ask needs a name of its own; case and punctuation do not tell names apart")
+        } else {
+            return None;
+        };
+        Some(document.problem(&format!("ask[{i}].name"), message, Some(hint)))
+    };
+    (0..names.len()).filter_map(problem).collect()
+}

@@ -1,0 +1,98 @@
+//! Quantities of a study file, checked and told in SI.
+
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::load::{LoadCases, LoadFrame};
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::spatial::Wrench;
+use armill_core::workpiece::{Grid, Plane};
+
+use super::format::{HalfSize, LoadFrameName, LoadTable, PlaneTable};
+use super::memory::{BYTES_BESIDE, GIB, MOST_BYTES};
+use super::places::Places;
+
+/// A length above 0, m.
+pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Option<f64> {
+    if value_mm > 0.0 {
+        return Some(value_mm * 1e-3);
+    }
+    places.problem(path, format!("`{path}` is {value_mm} mm: must be above 0 mm"), "a length above 0");
+    None
+}
+
+/// Half sizes of 0 or more, m.
+pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -> Option<Vec<f64>> {
+    let Some(wrong) = half_size_mm.iter().find(|half| **half < 0.0) else {
+        return Some(half_size_mm.iter().map(|half| half * 1e-3).collect());
+    };
+    let message = format!("`{path}` is {wrong} mm: must be at least 0 mm");
+    places.problem(path, message, "0 (a single line of points) or more");
+    None
+}
+
+/// The grid of a plane.
+pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> {
+    let step = positive(places, "plane.step_mm", plane.step_mm);
+    let half_mm = match plane.half_size_mm {
+        HalfSize::Square(half) => [half, half],
+        HalfSize::Oblong(halves) => halves,
+    };
+    let half = sizes(places, "plane.half_size_mm", &half_mm);
+    let (step, half) = (step?, half?);
+    // Counted as numbers first: a grid too large for memory must not overflow an index.
+    if half.iter().any(|h| h / step > 1e8) {
+        // Bounded so that it can still be told; at least what a point takes beside its answers.
+        let points = half.iter().map(|h| 2.0 * h / step + 1.0).product::<f64>().min(1e300);
+        let (gib, most) = (points * BYTES_BESIDE as f64 / GIB, MOST_BYTES / GIB);
+        let message = format!("{points:.0e} points would take {gib:.0e} GiB of memory, more than {most:.0} GiB");
+        places.problem("plane.step_mm", message, "a larger step, or a smaller plane");
+        return None;
+    }
+    Some(Grid::within([half[0], half[1]], step))
+}
+
+/// The plane in base, and its tilt (rad) where it was given by one.
+pub(super) fn plane_at(places: &mut Places<'_>, table: &PlaneTable, base_from_counted: &Isometry) -> Option<(Plane, Option<f64>)> {
+    let centre = Point3::from(Vector3::from(table.centre_mm) * 1e-3);
+    let (counted_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
+        (Some(_), Some(_)) => {
+            places.problem("plane.rotation_deg", "a plane has either `tilt_deg` or `rotation_deg`", "remove one");
+            return None;
+        }
+        (None, Some(angles)) => {
+            let rotation = Vector3::from(angles).map(f64::to_radians);
+            (from_xyz_and_fixed_angles(centre.coords, rotation), None)
+        }
+        (tilt, None) => {
+            let tilt = tilt.unwrap_or(0.0).to_radians();
+            (Plane::tilted(centre, tilt).base_from_part, Some(tilt))
+        }
+    };
+    Some((Plane { base_from_part: base_from_counted * counted_from_part }, tilt))
+}
+
+/// The load cases in their own frame.
+pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<LoadCases> {
+    if table.cases_n.is_empty() {
+        places.problem("load.cases_n", "the load has no case", "cases_n = [[3, 5, 5]]: force on the tool, x, y, z");
+        return None;
+    }
+    let moments = table.moments_n_m.clone().unwrap_or_else(|| vec![[0.0; 3]; table.cases_n.len()]);
+    if moments.len() != table.cases_n.len() {
+        let message = format!("{} moments for {} cases", moments.len(), table.cases_n.len());
+        places.problem("load.moments_n_m", message, "one a case, in the same order");
+        return None;
+    }
+    let cases = table.cases_n.iter().zip(moments).map(|(f, m)| Wrench { force: (*f).into(), moment: m.into() });
+    let frame = match table.frame {
+        None | Some(LoadFrameName::Base) => LoadFrame::Base,
+        Some(LoadFrameName::Part) => LoadFrame::Part,
+    };
+    Some(LoadCases { frame, cases: cases.collect() })
+}
+
+/// The pose of six numbers: x, y, z in mm, turns about fixed x, y, z in degrees.
+pub fn pose_mm_deg(values: &[f64; 6]) -> Isometry {
+    let [x, y, z, rx, ry, rz] = *values;
+    let angles = Vector3::new(rx, ry, rz).map(f64::to_radians);
+    from_xyz_and_fixed_angles(Vector3::new(x, y, z) * 1e-3, angles)
+}

@@ -1,0 +1,149 @@
+//! `J diag(c) J^T` against equations (7) to (9) of the paper, moved to the TCP. See README.md.
+
+use nalgebra::{Matrix6, Point3, Vector3};
+
+use armill_core::compliance::{compliance_at_tool, stiffness_at_tool};
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::{Axis, BranchPattern, Chain, JointCompliance, Motion, Posture, Robot};
+use armill_core::workpiece::{Plane, Split};
+
+use crate::arms;
+use crate::check::{Check, Gap, worst};
+use crate::random::Random;
+
+const PAPER: &str = "equations (7) to (9), Shneor & Chapsky 2021";
+const SEED: u64 = 2;
+/// Postures an arm.
+const POSTURES: usize = 2000;
+/// Postures whose stiffness is known worse than this are left out of the comparison of stiffness.
+const MOST_CONDITION: f64 = 1e6;
+/// Points on the circle of the paper, one every 5 deg.
+const CIRCLE_POINTS: usize = 72;
+const CASES_N: [[f64; 3]; 4] = [[3.0, -5.0, -5.0], [3.0, -5.0, 5.0], [3.0, 5.0, -5.0], [3.0, 5.0, 5.0]];
+
+/// Compliance of the whole arm told at the base origin: the sum (7) of what each joint gives by (8).
+///
+/// The joint matrix holds one number, the compliance about (or along) the joint's axis. It is moved by the screw
+/// transform (9), the product of the elementary motions from the base to the joint.
+fn compliance_at_base(robot: &Robot, q: &[f64]) -> Matrix6<f64> {
+    let theta: Vec<f64> = (0..q.len()).map(|joint| robot.theta(joint, q)).collect();
+    let joints = robot.compliance().expect("arms of this case have compliance");
+    joints.iter().enumerate().map(|(joint, c)| joint_compliance_at_base(robot.chain(), &theta, (joint, c))).sum()
+}
+
+fn joint_compliance_at_base(chain: &Chain, theta: &[f64], (joint, c): (usize, &JointCompliance)) -> Matrix6<f64> {
+    let motion = chain.links()[joint].motion;
+    let last = chain.motions().iter().position(|m| *m == motion).expect("the motion of a joint is in its chain");
+    let to_joint = Chain::new(chain.motions()[..=last].to_vec()).expect("it ends with a joint");
+    let (axis, first) = match motion {
+        Motion::Along(axis, _) => (axis, 0),
+        Motion::About(axis, _) => (axis, 3),
+    };
+    let place = first + [Axis::X, Axis::Y, Axis::Z].iter().position(|a| *a == axis).expect("one of three");
+    let mut in_joint = Matrix6::zeros();
+    in_joint[(place, place)] = c.value;
+    // The paper's T moves wrenches, the inverse transpose of this one; so (T^T)^-1 C T^-1 reads A C A^T.
+    let base_from_joint = to_joint.screw(theta);
+    base_from_joint * in_joint * base_from_joint.transpose()
+}
+
+/// What the paper leaves out: the compliance at the base origin told at the TCP.
+fn moved_to(tcp: &Vector3<f64>, at_base: &Matrix6<f64>) -> Matrix6<f64> {
+    let mut shift = Matrix6::identity();
+    shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-tcp.cross_matrix());
+    shift * at_base * shift.transpose()
+}
+
+pub fn checks() -> Vec<Check> {
+    let mut random = Random::seeded(SEED);
+    let (mut compliance, mut stiffness) = (Vec::new(), Vec::new());
+    for robot in [arms::mh12(), arms::r2000ic(), arms::tx200([2.3e6, 8.6e6, 2.8e6, 3.0e6, 0.2e6, 0.9e6])] {
+        for _ in 0..POSTURES {
+            let q: [f64; 6] = random.joints();
+            let tool = from_xyz_and_fixed_angles(random.vector(0.3), random.vector(3.0));
+            let posture = posture_at(&robot, &q, &tool);
+            let ours = compliance_at_tool(&posture.screws, robot.compliance().expect("given above"));
+            let theirs = moved_to(&posture.base_from_tool.translation.vector, &compliance_at_base(&robot, &q));
+            compliance.push((ours - theirs).norm() / ours.norm());
+            if let Some(e) = stiffness_error(&ours, &theirs) { if e > 1e-12 {
+                let k = stiffness_at_tool(&ours, 1.0); let s = Matrix6::identity();
+                eprintln!("PROBE {} {q:?} e {e:e} cond {:e} rank {} KC-1 ours {:e} lu {:e}\nCOMP {:?}", robot.name(), k.condition_number, k.rank,
+                  (k.matrix*ours - s).norm(), (theirs.lu().try_inverse().unwrap()*theirs - s).norm(), ours.as_slice()); } }
+            stiffness.extend(stiffness_error(&ours, &theirs));
+        }
+    }
+    let [least, greatest] = literal_range_mm();
+    vec![
+        Check::computed(
+            format!("compliance at the TCP, 6 x 6, {} random postures of three arms, relative", compliance.len()),
+            PAPER,
+            Gap { worst: worst(compliance), tolerance: 1e-12, unit: "" },
+        ),
+        Check::computed(
+            format!("stiffness as its inverse, {} of them, relative, over the condition number", stiffness.len()),
+            PAPER,
+            Gap { worst: worst(stiffness), tolerance: 1e-12, unit: "" },
+        ),
+        Check::printed(
+            format!("the paper's literal reading, reference at the base: {least:.2} to {greatest:.2} mm in plane, outside of 0.5 to 1.2 mm by"),
+            "independent computation",
+            Gap { worst: worst([(0.5 - least).max(greatest - 1.2).max(0.0)]), tolerance: 0.05, unit: "mm" },
+            2,
+        ),
+    ]
+}
+
+/// Distance of our stiffness from the inverse of the other compliance, relative to the condition.
+fn stiffness_error(ours: &Matrix6<f64>, theirs: &Matrix6<f64>) -> Option<f64> {
+    let stiffness = stiffness_at_tool(ours, 1.0);
+    let inverse = theirs.lu().try_inverse()?;
+    (stiffness.condition_number < MOST_CONDITION)
+        .then(|| (stiffness.matrix - inverse).norm() / inverse.norm() / stiffness.condition_number)
+}
+
+/// Least and greatest in-plane envelope (mm) over the circle and its readings if compliance and force are taken as
+/// both told at the base origin.
+fn literal_range_mm() -> [f64; 2] {
+    let robot = arms::mh12();
+    let values: Vec<f64> = ["front elbow-up", "front elbow-down"]
+        .iter()
+        .flat_map(|branch| {
+            let branch: BranchPattern = branch.parse().expect("names of branches");
+            let robot = &robot;
+            (0..CIRCLE_POINTS).map(move |index| literal_in_plane_mm(robot, branch, index))
+        })
+        .collect();
+    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
+    [least, worst(values)]
+}
+
+/// In-plane envelope (mm) at one point of the paper's circle on a vertical plate, bare flange.
+fn literal_in_plane_mm(robot: &Robot, branch: BranchPattern, index: usize) -> f64 {
+    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
+    let phi = std::f64::consts::TAU * index as f64 / CIRCLE_POINTS as f64;
+    let base_from_tool = plane.base_from_tool([0.1 * phi.cos(), 0.1 * phi.sin()].into(), 0.0);
+    let posture = posture_of(robot, branch, &base_from_tool);
+    let at_base = compliance_at_base(robot, &posture.joints);
+    let in_plane = CASES_N.map(|force| {
+        let deviation = at_base.fixed_view::<3, 3>(0, 0) * Vector3::from(force);
+        Split::of(&deviation, plane.normal()).in_plane * 1e3
+    });
+    worst(in_plane)
+}
+
+fn posture_of(robot: &Robot, branch: BranchPattern, base_from_tool: &Isometry) -> Posture {
+    let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
+    let tool = ToolAt { flange_from_tool: &Isometry::identity(), near: None };
+    let found = postures(robot, arm, base_from_tool, tool).expect("the circle lies in reach");
+    let mut named = found.into_iter().filter(|posture| posture.branch.is_some_and(|b| branch.matches(b)));
+    named.next().expect("both branches reach the circle")
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn compliance_two_ways_holds() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}

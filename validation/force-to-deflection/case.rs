@@ -1,0 +1,56 @@
+//! From a milling force to a static deflection, TX200. See README.md.
+
+use nalgebra::Vector3;
+
+use armill_core::predict::predict;
+use armill_core::spatial::Wrench;
+
+use crate::arms;
+use crate::check::{Check, Gap, worst_difference};
+use crate::tx200_compliance::{COMPLIANCE_IN_PART, OLDER_SPRINGS, posture, workpiece};
+
+const WITNESS: &str = "independent computation";
+
+/// Mean force of up-milling on the tool, workpiece frame, N.
+const FORCE: Vector3<f64> = Vector3::new(-150.7929, 35.6771, 14.3684);
+/// Deflection with the printed matrix, um.
+const DEFLECTION_UM: [f64; 3] = [-107.7, 78.6, -104.1];
+const LENGTH_PRINTED_MATRIX_UM: f64 = 169.13;
+const LENGTH_UM: f64 = 169.19;
+
+pub fn checks() -> Vec<Check> {
+    let printed = COMPLIANCE_IN_PART * FORCE;
+    let robot = arms::tx200(OLDER_SPRINGS);
+    let joints = robot.compliance().expect("the arm was made with springs");
+    let load = Wrench::from_force(workpiece() * FORCE);
+    let deviation = predict(&posture(&robot), joints, &load).twist.linear;
+    let in_part_um = workpiece().inverse_transform_vector(&deviation) * 1e6;
+    vec![
+        Check::printed(
+            "length of the deflection, printed compliance matrix: 169.13 um",
+            WITNESS,
+            Gap { worst: (printed.norm() - LENGTH_PRINTED_MATRIX_UM).abs(), tolerance: 0.01, unit: "um" },
+            4,
+        ),
+        Check::printed(
+            "its components, printed compliance matrix",
+            WITNESS,
+            Gap { worst: worst_difference(printed.as_slice(), &DEFLECTION_UM), tolerance: 0.05, unit: "um" },
+            4,
+        ),
+        Check::printed(
+            "length of the deflection as armill predicts it: 169.19 um",
+            WITNESS,
+            Gap { worst: (in_part_um.norm() - LENGTH_UM).abs(), tolerance: 0.01, unit: "um" },
+            4,
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn force_to_deflection_holds() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}

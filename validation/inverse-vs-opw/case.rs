@@ -1,0 +1,200 @@
+//! Every posture of random poses against rs-opw-kinematics. See README.md.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use rs_opw_kinematics::glam::{DQuat, DVec3};
+use rs_opw_kinematics::kinematic_traits::{Kinematics, Pose};
+use rs_opw_kinematics::kinematics_impl::OPWKinematics;
+use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
+
+use armill_core::frame::Isometry;
+use armill_core::robot::inverse::{ToolAt, postures};
+use armill_core::robot::jacobian::{jacobian, manipulability};
+use armill_core::robot::{Posture, Robot};
+
+use crate::arms;
+use crate::check::{Check, Gap, worst};
+use crate::random::Random;
+
+const WITNESS: &str = "rs-opw-kinematics 3.0.0";
+const SEED: u64 = 1;
+/// Poses an arm: two thirds made from joint positions, one third placed freely.
+const POSES: usize = 33_400;
+/// Poses with a posture nearer to a singularity than this are left out: product of the sines of elbow and wrist
+/// bend and of the distance of the wrist centre from the first axis over the arm's length.
+const SINGULAR: f64 = 1e-4;
+
+struct Arm {
+    title: &'static str,
+    robot: Robot,
+    witness: OPWKinematics,
+    /// Upper arm and forearm, m.
+    links: [f64; 2],
+}
+
+fn arm(title: &'static str, robot: Robot, parameters: Parameters) -> Arm {
+    let links = [parameters.c2, parameters.a2.hypot(parameters.c3)];
+    Arm { title, robot, witness: OPWKinematics::new(parameters), links }
+}
+
+fn arms() -> [Arm; 3] {
+    // opw_parameters_mh12.yaml of ros-industrial/motoman (433be15f).
+    let mh12 = Parameters {
+        a1: 0.155,
+        a2: -0.200,
+        b: 0.0,
+        c1: 0.450,
+        c2: 0.614,
+        c3: 0.640,
+        c4: 0.100,
+        offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, PI],
+        sign_corrections: [1, 1, -1, -1, -1, -1],
+        dof: 6,
+    };
+    // opw_parameters_kr150r3100_2.yaml of ros-industrial/kuka_experimental (e78bbd15).
+    let kr150 = Parameters {
+        a1: 0.330,
+        a2: -0.115,
+        b: 0.0,
+        c1: 0.645,
+        c2: 1.350,
+        c3: 1.420,
+        c4: 0.215,
+        offsets: [0.0, -FRAC_PI_2, 0.0, 0.0, 0.0, 0.0],
+        sign_corrections: [-1, 1, 1, -1, 1, -1],
+        dof: 6,
+    };
+    // opw_parameters_tx2_90.yaml of ros-industrial/staubli_experimental (256a71ac).
+    let tx2_90 = Parameters {
+        a1: 0.050,
+        a2: 0.0,
+        b: 0.050,
+        c1: 0.478,
+        c2: 0.425,
+        c3: 0.425,
+        c4: 0.100,
+        offsets: [0.0; 6],
+        sign_corrections: [1; 6],
+        dof: 6,
+    };
+    [
+        arm("Yaskawa MH12", arms::mh12(), mh12),
+        arm("KUKA KR 150 R3100-2", arms::kr150(), kr150),
+        arm("Staubli TX2-90", arms::tx2_90(), tx2_90),
+    ]
+}
+
+/// What came out of many poses.
+#[derive(Default)]
+struct Tally {
+    /// Poses compared, those of them with no posture on either side, and those left out.
+    compared: usize,
+    unreachable: usize,
+    singular: usize,
+    /// Postures compared.
+    postures: usize,
+    /// Postures that only one side finds.
+    alone: usize,
+    /// Greatest distance between two joints, rad.
+    distances: Vec<f64>,
+}
+
+impl Arm {
+    fn tally(&self) -> Tally {
+        let mut random = Random::seeded(SEED);
+        let mut tally = Tally::default();
+        for index in 0..POSES {
+            let pose = if index % 3 < 2 {
+                self.witness.forward(&random.joints())
+            } else {
+                let reach = self.links[0] + self.links[1];
+                let [i, j, k, w] = <[f64; 4]>::from(random.orientation().coords);
+                let at = <[f64; 3]>::from(random.vector(reach));
+                Pose::from_parts(DVec3::from(at), DQuat::from_xyzw(i, j, k, w))
+            };
+            self.compare(&pose, &mut tally);
+        }
+        tally
+    }
+
+    fn compare(&self, pose: &Pose, tally: &mut Tally) {
+        let arm = self.robot.ortho_parallel().expect("every arm here has a closed form");
+        let tool = ToolAt { flange_from_tool: &Isometry::identity(), near: None };
+        let mine = postures(&self.robot, arm, &isometry(pose), tool).unwrap_or_default();
+        if mine.iter().any(|posture| self.away_from_singularity(posture) < SINGULAR) {
+            tally.singular += 1;
+            return;
+        }
+        let mut theirs = self.witness.inverse(pose);
+        tally.compared += 1;
+        tally.unreachable += usize::from(mine.is_empty() && theirs.is_empty());
+        for posture in &mine {
+            let nearest = theirs
+                .iter()
+                .map(|other| apart(&posture.joints, other))
+                .enumerate()
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                // A posture on another branch is no partner.
+                .filter(|(_, away)| *away < 1e-3);
+            match nearest {
+                Some((index, away)) => {
+                    theirs.swap_remove(index);
+                    tally.postures += 1;
+                    tally.distances.push(away);
+                }
+                None => tally.alone += 1,
+            }
+        }
+        tally.alone += theirs.len();
+    }
+
+    /// `|det J| / (l2 l3 (l2 + l3))`.
+    fn away_from_singularity(&self, posture: &Posture) -> f64 {
+        let [l2, l3] = self.links;
+        manipulability(&jacobian(&self.robot, &posture.screws)) / (l2 * l3 * (l2 + l3))
+    }
+}
+
+fn isometry(pose: &Pose) -> Isometry {
+    let (t, q) = (pose.translation, pose.rotation);
+    let rotation = nalgebra::Quaternion::new(q.w, q.x, q.y, q.z);
+    Isometry::from_parts([t.x, t.y, t.z].into(), nalgebra::UnitQuaternion::from_quaternion(rotation))
+}
+
+/// Greatest distance between two joints, whole turns apart, rad.
+fn apart(a: &[f64], b: &[f64; 6]) -> f64 {
+    worst(a.iter().zip(b).map(|(a, b)| {
+        let turns = (a - b) / TAU;
+        (turns - turns.round()) * TAU
+    }))
+}
+
+pub fn checks() -> Vec<Check> {
+    arms().iter().flat_map(|arm| rows(arm, &arm.tally())).collect()
+}
+
+fn rows(arm: &Arm, tally: &Tally) -> [Check; 2] {
+    let Tally { compared, unreachable, singular, postures, alone, distances } = tally;
+    let title = arm.title;
+    [
+        Check::computed(
+            format!("{title}: joints of {postures} postures of {compared} poses, modulo a turn ({singular} singular poses left out)"),
+            WITNESS,
+            // A joint is known to rounding over the distance from the singularity: 1e-15 / 1e-4, and two programs.
+            Gap { worst: worst(distances.iter().copied()), tolerance: 1e-9, unit: "rad" },
+        ),
+        Check::none_wrong(
+            format!("{title}: postures that only one side finds ({unreachable} of the poses have none)"),
+            WITNESS,
+            *alone,
+        ),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn inverse_vs_opw_holds() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}

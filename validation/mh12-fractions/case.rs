@@ -1,0 +1,43 @@
+//! How much of a tilted plane holds 0.05 mm. See README.md.
+
+use crate::check::{Check, Gap};
+use crate::studies::answer_to;
+
+const STUDY: &str = include_str!("study.toml");
+/// Points of a plane.
+const POINTS: usize = 21 * 21;
+
+/// Branch and tilt (deg) in the order of `study.toml`, fraction of points within the limit.
+const FRACTIONS: [(&str, i32, f64); 4] = [
+    ("front elbow-up", 90, 0.977),
+    ("front elbow-up", -60, 0.832),
+    ("front elbow-up", 0, 0.000),
+    ("front elbow-down", 30, 0.751),
+];
+
+pub fn checks() -> Vec<Check> {
+    let answer = answer_to("validation/mh12-fractions/study.toml", STUDY);
+    let mut checks: Vec<Check> = FRACTIONS
+        .iter()
+        .zip(&answer.maps)
+        .map(|((branch, tilt, fraction), map)| {
+            let mine = map.branch == *branch && map.grid.points == POINTS;
+            let found = if mine { map.fraction_within } else { f64::NAN };
+            // One point more or less: a point that lies on the limit.
+            let gap = Gap { worst: (found - fraction).abs(), tolerance: 0.0023, unit: "" };
+            let what = format!("{branch}, tilt {tilt} deg: {fraction:.3} of {POINTS} points within 0.05 mm");
+            Check::printed(what, "independent computation", gap, 5)
+        })
+        .collect();
+    let missing = FRACTIONS.len().abs_diff(answer.maps.len());
+    checks.push(Check::none_wrong("planes missing", "the study", missing));
+    checks
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn mh12_fractions_hold() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}

@@ -1,0 +1,154 @@
+//! The paper's groove under every reading of what the paper leaves open. See README.md.
+
+use armill_study::answer::PathResult;
+
+use crate::check::{Check, Gap, worst, worst_difference};
+use crate::studies::{answer_to, path};
+
+const WITNESS: &str = "independent computation";
+const STUDY: &str = include_str!("study.toml");
+/// Index of joint U.
+const U: usize = 2;
+
+/// What one reading gives; nothing where the witness does not say.
+struct Reading {
+    /// Name of its ask in `study.toml`.
+    name: &'static str,
+    /// Least and greatest in-plane envelope of the four cases along the circle, um.
+    in_plane: (Option<f64>, f64),
+    /// Greatest length of the deviation, um.
+    full: Option<f64>,
+    /// Range of joint U, deg.
+    u_range: Option<[f64; 2]>,
+    /// Whether every joint stays inside its limits.
+    inside: Option<bool>,
+}
+
+const READINGS: [Reading; 11] = [
+    Reading {
+        name: "(i) horizontal plate, 250 mm, elbow up",
+        in_plane: (Some(49.7), 58.7),
+        full: Some(132.2),
+        u_range: Some([-11.2, 13.8]),
+        inside: Some(true),
+    },
+    Reading {
+        name: "(i) horizontal plate, 250 mm, elbow down",
+        in_plane: (Some(48.0), 58.6),
+        full: None,
+        u_range: Some([131.5, 156.5]),
+        inside: Some(false),
+    },
+    Reading {
+        name: "horizontal plate, 100 mm, elbow up",
+        in_plane: (None, 42.7),
+        full: Some(121.0),
+        u_range: None,
+        inside: None,
+    },
+    Reading {
+        name: "horizontal plate, 350 mm, elbow up",
+        in_plane: (None, 77.6),
+        full: Some(139.6),
+        u_range: None,
+        inside: None,
+    },
+    Reading {
+        name: "(ii) vertical plate, 100 mm, elbow down",
+        in_plane: (Some(51.0), 68.8),
+        full: Some(120.4),
+        u_range: Some([167.5, 177.4]),
+        inside: Some(false),
+    },
+    Reading {
+        name: "(ii) vertical plate, 100 mm, elbow up",
+        in_plane: (Some(130.4), 139.7),
+        full: Some(146.5),
+        u_range: Some([-32.1, -22.2]),
+        inside: Some(true),
+    },
+    Reading {
+        name: "vertical plate, 250 mm, elbow up",
+        in_plane: (None, 207.2),
+        full: Some(214.5),
+        u_range: None,
+        inside: None,
+    },
+    Reading {
+        name: "vertical plate, 350 mm, elbow up",
+        in_plane: (None, 263.9),
+        full: Some(271.7),
+        u_range: None,
+        inside: None,
+    },
+    Reading {
+        name: "(iii) controller frame, 100 mm, elbow down",
+        in_plane: (Some(47.3), 61.1),
+        full: Some(123.3),
+        u_range: Some([121.8, 147.3]),
+        inside: Some(true),
+    },
+    Reading {
+        name: "(iii) controller frame, 120 mm, elbow down",
+        in_plane: (Some(48.9), 62.8),
+        full: None,
+        u_range: None,
+        inside: Some(true),
+    },
+    Reading {
+        name: "(iii) controller frame, 100 mm, elbow up",
+        in_plane: (Some(140.8), 147.4),
+        full: None,
+        u_range: None,
+        inside: None,
+    },
+];
+
+pub fn checks() -> Vec<Check> {
+    let answer = answer_to("validation/mh12-readings/study.toml", STUDY);
+    let of = |reading: &Reading| path(&answer, reading.name).clone();
+    let mut checks: Vec<Check> = READINGS.iter().map(|reading| deviations(reading, &of(reading))).collect();
+    let u_ranges = READINGS.iter().filter_map(|r| Some(worst_difference(&of(r).joint_range_deg[U], &r.u_range?)));
+    checks.push(Check::printed(
+        "range of joint U, every reading that states it",
+        WITNESS,
+        Gap { worst: worst(u_ranges), tolerance: 0.05, unit: "deg" },
+        3,
+    ));
+    let wrong = READINGS.iter().filter(|r| r.inside.is_some_and(|inside| inside != is_inside(&of(r)))).count();
+    checks.push(Check::none_wrong("readings wrongly inside or outside the joint limits", WITNESS, wrong));
+    let uneven = READINGS.iter().filter(|r| of(r).points != 72 || of(r).unreached > 0).count();
+    checks.push(Check::none_wrong("readings without 72 reached points", "360 / 5", uneven));
+    checks
+}
+
+fn deviations(reading: &Reading, path: &PathResult) -> Check {
+    let away = |found: Option<f64>, printed: f64| found.unwrap_or(f64::NAN) - printed;
+    let (least, greatest) = reading.in_plane;
+    let gaps = [
+        least.map(|printed| away(path.min_in_plane_um, printed)),
+        Some(away(path.max_in_plane_um, greatest)),
+        reading.full.map(|printed| away(path.max_full_um, printed)),
+    ];
+    // Half of the last printed digit.
+    let gap = Gap { worst: worst(gaps.into_iter().flatten()), tolerance: 0.05, unit: "um" };
+    let told = match (least, reading.full) {
+        (Some(least), Some(full)) => format!("in-plane {least:.1} to {greatest:.1}, full {full:.1} um"),
+        (Some(least), None) => format!("in-plane {least:.1} to {greatest:.1} um"),
+        (None, Some(full)) => format!("in-plane at most {greatest:.1}, full {full:.1} um"),
+        (None, None) => format!("in-plane at most {greatest:.1} um"),
+    };
+    Check::printed(format!("{}: {told}", reading.name), WITNESS, gap, 3)
+}
+
+fn is_inside(path: &PathResult) -> bool {
+    path.outside_joint_limits == 0
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn mh12_readings_hold() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}

@@ -1,0 +1,169 @@
+//! Arms of the cases, typed from their sources; those of the library come from there.
+
+use std::f64::consts::FRAC_PI_2;
+
+use armill_core::robot::joint::{Coupling, Sign};
+use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Motion, Robot};
+
+use Amount::{Constant, Joint as Var};
+use Axis::{X, Y, Z};
+use Motion::{About, Along};
+
+/// A robot of the library.
+pub fn library(name: &str) -> Robot {
+    let found = armill_study::library::robot(name).expect("the library has it");
+    found.expect("every robot of the library reads").robot
+}
+
+/// Yaskawa MH12 of the library.
+pub fn mh12() -> Robot {
+    library("yaskawa/mh12")
+}
+
+/// KUKA KR 150 R3100-2: `kr150r3100_2_macro.xacro` of ros-industrial/kuka_experimental (e78bbd15).
+pub fn kr150() -> Robot {
+    let motions = vec![
+        Along(Z, Constant(0.645)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.330)),
+        About(Y, Var(1)),
+        Along(X, Constant(1.350)),
+        About(Y, Var(2)),
+        Along(X, Constant(1.420)),
+        Along(Z, Constant(0.115)),
+        About(X, Var(3)),
+        About(Y, Var(4)),
+        Along(X, Constant(0.215)),
+        About(X, Var(5)),
+        About(Y, Constant(FRAC_PI_2)),
+    ];
+    six_joints("kr150r3100_2", motions, [-1, 1, 1, -1, 1, -1])
+}
+
+/// Staubli TX2-90, whose second axis stands 50 mm to the side: `tx2_90_macro.xacro` of
+/// ros-industrial/staubli_experimental (256a71ac).
+pub fn tx2_90() -> Robot {
+    let motions = vec![
+        Along(Z, Constant(0.478)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.050)),
+        Along(Y, Constant(0.050)),
+        About(Y, Var(1)),
+        Along(Z, Constant(0.425)),
+        About(Y, Var(2)),
+        Along(Z, Constant(0.425)),
+        About(Z, Var(3)),
+        About(Y, Var(4)),
+        About(Z, Var(5)),
+        Along(Z, Constant(0.100)),
+    ];
+    six_joints("tx2_90", motions, [1; 6])
+}
+
+/// FANUC R-2000iC with the published joint stiffness: modified DH rows of Liu et al. 2026, repository
+/// longton2001-pixel/breakthrough-surge-suppression-in-high-speed-robotic-drilling (e5c2f795), MIT.
+///
+/// Controller to chain: m1 = r1, m2 = r2, m3 = -(r2 + r3), m4 = -r4, m5 = -r5, m6 = -r6.
+pub fn r2000ic() -> Robot {
+    // alpha rad, a m, zero of theta rad, d m.
+    let rows = [
+        (0.0, 0.0, 0.0, 0.670),
+        (-FRAC_PI_2, 0.312, -FRAC_PI_2, 0.0),
+        (0.0, 1.075, 0.0, 0.0),
+        (-FRAC_PI_2, 0.225, 0.0, 1.280),
+        (FRAC_PI_2, 0.0, 0.0, 0.0),
+        (-FRAC_PI_2, 0.0, 0.0, 0.215),
+    ];
+    let motions = rows.into_iter().enumerate().flat_map(|(joint, (alpha, a, zero, d))| {
+        [
+            About(X, Constant(alpha)),
+            Along(X, Constant(a)),
+            About(Z, Constant(zero)),
+            About(Z, Var(joint)),
+            Along(Z, Constant(d)),
+        ]
+    });
+    let mut joints = joints([1, 1, -1, -1, -1, -1]);
+    joints[2].coupling = vec![Coupling { joint: 1, factor: 1.0 }];
+    let stiffness_n_m_per_rad = [
+        9.339_417_645_122_126e5,
+        4.129_256_136_278_849e6,
+        1.907_534_091_464_657e6,
+        2.332_046_025_476_337_6e5,
+        4.043_588_275_329_60e5,
+        7.961_815_940_385_307e4,
+    ];
+    let robot = Robot::new("r2000ic", motions.collect(), joints).expect("its chain is typed here");
+    with_stiffness(robot, stiffness_n_m_per_rad)
+}
+
+/// Staubli TX200 with springs about the joint axes of this stiffness (infinite where rigid): chain of
+/// `robotsim/settings.py`, repository rafisondi/sensitivity_milling_analysis (bad01384), after Huynh et al. 2020.
+pub fn tx200(stiffness_n_m_per_rad: [f64; 6]) -> Robot {
+    // Origin of each joint in the frame of the one before: xyz m, rpy rad; every axis is the local z.
+    let origins = [
+        ([0.0, 0.0, 0.344], [0.0, 0.0, 0.0]),
+        ([0.25, 0.235, 0.298], [-FRAC_PI_2, -FRAC_PI_2, 0.0]),
+        ([0.95, 0.0, 0.044], [0.0, 0.0, FRAC_PI_2]),
+        ([0.0, -0.179, -0.279], [FRAC_PI_2, 0.0, 0.0]),
+        ([0.0, 0.0, 0.621], [-FRAC_PI_2, 0.0, 0.0]),
+        ([0.0, -0.177, 0.0], [FRAC_PI_2, 0.0, 0.0]),
+    ];
+    let mut motions = Vec::new();
+    for (joint, (xyz, rpy)) in origins.into_iter().enumerate() {
+        motions.extend(origin(xyz, rpy));
+        motions.push(About(Z, Var(joint)));
+    }
+    motions.extend(origin([0.0, 0.0, 0.017], [0.0; 3]));
+    with_stiffness(six_joints("tx200", motions, [1; 6]), stiffness_n_m_per_rad)
+}
+
+/// An arm of our own on a rail, with a telescope for its fourth joint: chains with sliding joints.
+pub fn railed() -> Robot {
+    let motions = vec![
+        Along(Y, Var(0)),
+        About(Z, Var(1)),
+        Along(Z, Constant(0.5)),
+        About(Y, Var(2)),
+        About(X, Constant(0.3)),
+        Along(X, Var(3)),
+        About(Z, Var(4)),
+        Along(X, Constant(0.2)),
+        About(X, Var(5)),
+        About(Y, Var(6)),
+        Along(Z, Constant(0.15)),
+    ];
+    let mut joints: Vec<Joint> = ["rail", "A", "B", "telescope", "C", "D", "E"].map(Joint::plain).to_vec();
+    joints[4].sign = Sign::Negative;
+    joints[5].coupling = vec![Coupling { joint: 4, factor: -0.5 }];
+    Robot::new("railed", motions, joints).expect("its chain is typed here")
+}
+
+/// The elementary motions of a URDF origin: R = Rz(yaw) Ry(pitch) Rx(roll).
+fn origin([x, y, z]: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> [Motion; 6] {
+    [
+        Along(X, Constant(x)),
+        Along(Y, Constant(y)),
+        Along(Z, Constant(z)),
+        About(Z, Constant(yaw)),
+        About(Y, Constant(pitch)),
+        About(X, Constant(roll)),
+    ]
+}
+
+fn six_joints(name: &str, motions: Vec<Motion>, signs: [i8; 6]) -> Robot {
+    Robot::new(name, motions, joints(signs)).expect("its chain is typed here")
+}
+
+fn joints(signs: [i8; 6]) -> Vec<Joint> {
+    let joint = |sign| Joint {
+        sign: if sign > 0 { Sign::Positive } else { Sign::Negative },
+        ..Joint::plain("joint")
+    };
+    signs.map(joint).to_vec()
+}
+
+fn with_stiffness(robot: Robot, stiffness_n_m_per_rad: [f64; 6]) -> Robot {
+    let joints = stiffness_n_m_per_rad.map(|k| JointCompliance { value: 1.0 / k, standard_uncertainty: 0.0 });
+    robot.with_compliance(joints.to_vec()).expect("stiffness is positive")
+}

@@ -1,0 +1,66 @@
+//! Is armill right? Its numbers beside those of others.
+//!
+//! Every case is a folder of `validation/`: `README.md` says what is compared and where the witness comes from,
+//! `case.rs` holds its numbers and gives its checks. [`CASES`] lists them; the program writes [`table`], and
+//! the tests assert that every case holds and that the committed table is what the cases give.
+
+pub mod check;
+pub mod table;
+
+mod arms;
+mod random;
+mod studies;
+
+#[path = "../compliance-two-ways/case.rs"]
+mod compliance_two_ways;
+#[path = "../fanuc-rows/case.rs"]
+mod fanuc_rows;
+#[path = "../force-to-deflection/case.rs"]
+mod force_to_deflection;
+#[path = "../inverse-vs-opw/case.rs"]
+mod inverse_vs_opw;
+#[path = "../jacobian-differences/case.rs"]
+mod jacobian_differences;
+#[path = "../mh12-fractions/case.rs"]
+mod mh12_fractions;
+#[path = "../mh12-readings/case.rs"]
+mod mh12_readings;
+#[path = "../mh12-regression/case.rs"]
+mod mh12_regression;
+#[path = "../plane-split/case.rs"]
+mod plane_split;
+#[path = "../tx200-compliance/case.rs"]
+mod tx200_compliance;
+#[path = "../urdf-forward/case.rs"]
+mod urdf_forward;
+
+pub use check::Check;
+
+/// A comparison with a witness.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Its folder in `validation/`.
+    pub folder: &'static str,
+    /// Computes its checks.
+    pub checks: fn() -> Vec<Check>,
+}
+
+/// Every case: published numbers first, then independent computations, then one way against another.
+pub const CASES: &[Case] = &[
+    Case { folder: "tx200-compliance", checks: tx200_compliance::checks },
+    Case { folder: "force-to-deflection", checks: force_to_deflection::checks },
+    Case { folder: "fanuc-rows", checks: fanuc_rows::checks },
+    Case { folder: "mh12-regression", checks: mh12_regression::checks },
+    Case { folder: "mh12-readings", checks: mh12_readings::checks },
+    Case { folder: "mh12-fractions", checks: mh12_fractions::checks },
+    Case { folder: "inverse-vs-opw", checks: inverse_vs_opw::checks },
+    Case { folder: "compliance-two-ways", checks: compliance_two_ways::checks },
+    Case { folder: "jacobian-differences", checks: jacobian_differences::checks },
+    Case { folder: "plane-split", checks: plane_split::checks },
+    Case { folder: "urdf-forward", checks: urdf_forward::checks },
+];
+
+/// The checks of every case.
+pub fn results() -> Vec<(&'static Case, Vec<Check>)> {
+    CASES.iter().map(|case| (case, (case.checks)())).collect()
+}

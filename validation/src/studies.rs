@@ -1,0 +1,23 @@
+//! Studies of the cases, run as a user's study is run.
+
+use std::path::Path;
+
+use armill_core::watch::Watch;
+use armill_study::answer::{PathResult, StudyAnswer, answer};
+use armill_study::file::resolve::read;
+use armill_study::run::run;
+
+/// The answer to the study in this text, which `path` names in messages.
+pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
+    let study = match read(path, Path::new("."), text.as_bytes()) {
+        Ok(study) => study,
+        Err(problems) => unreachable!("the study of a case is sound: {problems}"),
+    };
+    let found = run(&study, Watch::NONE).expect("nobody cancels it and the arm has compliance and inverse");
+    answer(&study, &found)
+}
+
+/// The path of this name.
+pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathResult {
+    answer.paths.iter().find(|path| path.name == name).expect("the study asks for it")
+}

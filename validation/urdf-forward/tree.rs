@@ -1,0 +1,56 @@
+//! The forward kinematics of a URDF by itself: 4 x 4 products along its joints, rotations by Rodrigues' formula.
+//!
+//! Of armill it knows nothing; of `urdf-rs` it takes the parsed text alone.
+
+use nalgebra::{Matrix3, Matrix4, Vector3};
+use urdf_rs::{Joint, JointType};
+
+/// `tool0` in the root link, at these positions of the moving joints between them (rad, m).
+pub fn root_from_tool0(urdf: &urdf_rs::Robot, positions: &[f64]) -> Matrix4<f64> {
+    let mut positions = positions.iter();
+    let steps = joints_to_tool0(urdf).into_iter().map(|joint| {
+        let axis = Vector3::from(joint.axis.xyz.0).normalize();
+        let mut position = || *positions.next().expect("a position for every moving joint");
+        let moved = match joint.joint_type {
+            JointType::Revolute | JointType::Continuous => matrix(rodrigues(axis, position()), Vector3::zeros()),
+            JointType::Prismatic => matrix(Matrix3::identity(), axis * position()),
+            _ => Matrix4::identity(),
+        };
+        at(joint) * moved
+    });
+    steps.fold(Matrix4::identity(), |root_from_here, step| root_from_here * step)
+}
+
+/// How many joints between root and `tool0` move.
+pub fn moving_joints(urdf: &urdf_rs::Robot) -> usize {
+    joints_to_tool0(urdf).iter().filter(|joint| joint.joint_type != JointType::Fixed).count()
+}
+
+fn joints_to_tool0(urdf: &urdf_rs::Robot) -> Vec<&Joint> {
+    let parent_of = |link: &str| urdf.joints.iter().find(|joint| joint.child.link == link);
+    let mut joints: Vec<&Joint> =
+        std::iter::successors(parent_of("tool0"), |joint| parent_of(&joint.parent.link)).collect();
+    joints.reverse();
+    joints
+}
+
+/// The origin of a joint: `Rz(yaw) Ry(pitch) Rx(roll)`.
+fn at(joint: &Joint) -> Matrix4<f64> {
+    let [roll, pitch, yaw] = joint.origin.rpy.0;
+    let rotation =
+        rodrigues(Vector3::z(), yaw) * rodrigues(Vector3::y(), pitch) * rodrigues(Vector3::x(), roll);
+    matrix(rotation, Vector3::from(joint.origin.xyz.0))
+}
+
+/// `R = 1 + sin(a) [k] + (1 - cos(a)) [k]^2`
+fn rodrigues(k: Vector3<f64>, angle: f64) -> Matrix3<f64> {
+    let cross = Matrix3::new(0.0, -k.z, k.y, k.z, 0.0, -k.x, -k.y, k.x, 0.0);
+    Matrix3::identity() + cross * angle.sin() + cross * cross * (1.0 - angle.cos())
+}
+
+fn matrix(rotation: Matrix3<f64>, translation: Vector3<f64>) -> Matrix4<f64> {
+    let mut matrix = Matrix4::identity();
+    matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotation);
+    matrix.fixed_view_mut::<3, 1>(0, 3).copy_from(&translation);
+    matrix
+}
