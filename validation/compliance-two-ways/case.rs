@@ -66,10 +66,6 @@ pub fn checks() -> Vec<Check> {
             let ours = compliance_at_tool(&posture.screws, robot.compliance().expect("given above"));
             let theirs = moved_to(&posture.base_from_tool.translation.vector, &compliance_at_base(&robot, &q));
             compliance.push((ours - theirs).norm() / ours.norm());
-            if let Some(e) = stiffness_error(&ours, &theirs) { if e > 1e-12 {
-                let k = stiffness_at_tool(&ours, 1.0); let s = Matrix6::identity();
-                eprintln!("PROBE {} {q:?} e {e:e} cond {:e} rank {} KC-1 ours {:e} lu {:e}\nCOMP {:?}", robot.name(), k.condition_number, k.rank,
-                  (k.matrix*ours - s).norm(), (theirs.lu().try_inverse().unwrap()*theirs - s).norm(), ours.as_slice()); } }
             stiffness.extend(stiffness_error(&ours, &theirs));
         }
     }

@@ -149,13 +149,13 @@ pub(crate) struct PoseArguments {
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true, required_unless_present = "joints_deg")]
     pub at_mm: Option<Vec<f64>>,
     /// Tilt of the plane that the tool stands against
-    #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "at_mm", conflicts_with = "axis")]
+    #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "at_mm", conflicts_with_all = ["axis", "joints_deg"])]
     pub tilt_deg: Option<f64>,
     /// Tool axis, from the spindle towards the part
-    #[arg(long, value_name = "x,y,z", value_delimiter = ',', allow_hyphen_values = true, requires = "at_mm")]
+    #[arg(long, value_name = "x,y,z", value_delimiter = ',', allow_hyphen_values = true, requires = "at_mm", conflicts_with = "joints_deg")]
     pub axis: Option<Vec<f64>>,
     /// Turn of the tool about its axis; at 0 its second axis lies as near as possible to base y
-    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "at_mm")]
+    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "at_mm", conflicts_with = "joints_deg")]
     pub spin_deg: Option<f64>,
     /// Flange to TCP
     #[arg(long, value_name = "X,Y,Z[,RX,RY,RZ]", value_delimiter = ',', allow_hyphen_values = true)]
@@ -166,6 +166,9 @@ pub(crate) struct PoseArguments {
     /// Joint compliances in place of the robot file's
     #[arg(long, value_name = "C1,...", value_delimiter = ',', allow_hyphen_values = true)]
     pub compliance_rad_per_n_m: Option<Vec<f64>>,
+    /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
+    #[arg(long, value_name = "FILE")]
+    pub drawing: Option<PathBuf>,
     /// Frame that positions count from
     #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
     pub base: String,

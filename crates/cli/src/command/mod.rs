@@ -7,4 +7,5 @@ pub(crate) mod pose;
 pub(crate) mod robots;
 pub(crate) mod run;
 
+mod drawing;
 mod study_file;

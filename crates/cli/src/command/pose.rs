@@ -5,6 +5,7 @@ use armill_core::robot::JointCompliance;
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 use armill_study::file::quantities::pose_mm_deg;
+use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
 use armill_study::{StudyError, robots};
 
@@ -29,6 +30,10 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         base: arguments.base.clone(),
     };
     let answer = answer(&found, &question)?;
+    if let Some(file) = &arguments.drawing {
+        let drawing = posture_drawing(&found.robot, &question.flange_from_tool, &answer);
+        super::drawing::write(file, &drawing)?;
+    }
     print(&if arguments.json { as_json(&answer)? } else { as_text(&answer) })?;
     Ok(Outcome::Fine)
 }
@@ -74,9 +79,15 @@ fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
     }
 }
 
+/// No length, angle or force of a real cell is larger, in the units of the flags.
+const LARGEST: f64 = 1e9;
+
 fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
-    match values.iter().find(|value| !value.is_finite()) {
-        Some(value) => Err(StudyError::value(format!("{flag}: {value} is not a finite number"), "a plain number")),
+    if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+        return Err(StudyError::value(format!("{flag}: {value} is not a finite number"), "a plain number"));
+    }
+    match values.iter().find(|value| value.abs() > LARGEST) {
+        Some(value) => Err(StudyError::value(format!("{flag}: {value:e} is beyond {LARGEST:e}"), "is the unit right?")),
         None => Ok(()),
     }
 }

@@ -1,7 +1,6 @@
 //! `armill robots`: the library, or one robot with everything that is known of it.
 
 use armill_core::robot::{Amount, Axis, Motion};
-use armill_formats::file::write_atomically;
 use armill_formats::robot::RobotDescription;
 use armill_study::output::arm_drawing;
 use armill_study::{StudyError, library, robots};
@@ -9,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::Outcome;
 use crate::arguments::RobotsArguments;
-use crate::terminal::{print, say};
+use crate::terminal::print;
 
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let Some(name) = &arguments.name else {
@@ -17,11 +16,7 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     };
     let found = robots::find(name, ".".as_ref())?;
     if let Some(file) = &arguments.drawing {
-        let svg = arm_drawing(&found.robot, &found.title);
-        let png = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-        let bytes = if png { armill_report::raster::png(&svg, 2.0)? } else { svg.into_bytes() };
-        write_atomically(file, &bytes)?;
-        say(&format!("drawing in {}", file.display()));
+        super::drawing::write(file, &arm_drawing(&found.robot, &found.title))?;
     }
     print(&if arguments.json { as_json(&found).to_string() } else { as_text(&found) })?;
     Ok(Outcome::Fine)

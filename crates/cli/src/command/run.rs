@@ -24,6 +24,9 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     } else {
         print(&summary(&answer))?;
     }
+    for warning in &answer.warnings {
+        say(&format!("warning: {warning}"));
+    }
     say(&format!("results in {}", out.display()));
     let held = answer.maps.iter().all(|map| map.fraction_within == 1.0)
         && answer.paths.iter().all(|path| path.fraction_within == 1.0)

@@ -1,7 +1,9 @@
 //! One point of an answer, and the setting that all points of an ask share.
 
+use armill_core::compliance::{compliance_at_tool, permissible_force, permissible_force_in_worst_direction};
 use armill_core::kernel::{Answers, Held};
-use armill_core::nalgebra::Point3;
+use armill_core::nalgebra::{Point3, Unit};
+use armill_core::robot::inverse::posture_at;
 use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
@@ -70,6 +72,11 @@ pub struct PointAnswer {
     pub full_um: f64,
     /// Share of each joint in the in-plane deviation; they add up to it.
     pub joint_share_um: Vec<f64>,
+    /// Force that keeps the limit in the direction of the deciding case; none where that case has no force or
+    /// moves nothing in the plane.
+    pub permissible_along_load_n: Option<f64>,
+    /// Force that keeps the limit whatever its direction.
+    pub permissible_any_direction_n: Option<f64>,
 }
 
 impl PointAnswer {
@@ -78,6 +85,12 @@ impl PointAnswer {
         let in_part = setting.plane.base_from_part.inverse_transform_point(&tcp);
         let robot = &study.robot.robot;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
+        let posture = posture_at(robot, answers.joints_at(index), &setting.flange_from_tool);
+        let compliance = compliance_at_tool(&posture.screws, robot.compliance().unwrap_or_default());
+        let normal = setting.plane.normal();
+        let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
+            .map(|f| permissible_force(&compliance, normal, f, setting.limit));
+        let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;
         PointAnswer {
             xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
             in_plane_mm: [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)],
@@ -91,6 +104,8 @@ impl PointAnswer {
             normal_um: held.normal * 1e6,
             full_um: held.full * 1e6,
             joint_share_um: answers.shares_at(index).iter().map(|share| share * 1e6).collect(),
+            permissible_along_load_n: along.filter(|n| n.is_finite()),
+            permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         }
     }
 }

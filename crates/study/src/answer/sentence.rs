@@ -9,7 +9,9 @@ use crate::file::resolve::Study;
 pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> String {
     let first_is_path = study.asks.first().is_some_and(|ask| paths.first().is_some_and(|path| path.name == ask.name));
     let sentence = if first_is_path { paths.first().map(|p| of_path(study, p)) } else { maps.first().map(|m| of_map(study, m)) };
-    sentence.unwrap_or_else(|| "Nothing was asked of a plane or a path.".to_owned())
+    let sentence = sentence.unwrap_or_else(|| "Nothing was asked of a plane or a path.".to_owned());
+    let assumed = study.own_compliance.as_ref().is_some_and(|(_, assumed)| *assumed);
+    if assumed { sentence + " The joint compliances are assumed, not measured." } else { sentence }
 }
 
 fn of_map(study: &Study, map: &MapAnswer) -> String {

@@ -57,7 +57,7 @@ pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem>
     let slugs: Vec<String> = names.iter().map(|name| crate::output::slug(name)).collect();
     let problem = |i: usize| {
         let (message, hint) = if slugs[i].is_empty() {
-            (format!("`{}` has no letter and no digit to name files by", names[i]), "such as name = "plate"")
+            (format!("`{}` has no letter and no digit to name files by", names[i]), "such as `plate`")
         } else if slugs[i].len() > LONGEST_SLUG {
             let message = format!("file names of {} bytes would come of this name, more than {LONGEST_SLUG}", slugs[i].len());
             (message, "a shorter name; `title` and `question` may be as long as you like")

@@ -7,6 +7,8 @@ use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::tool_on;
 use armill_report::{ArmDrawing, ArmJoint, Posture, View};
 
+use crate::pose::{PoseAnswer, PostureAnswer};
+
 /// The arm at these joint positions (rad, m), base frame.
 pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> Posture {
     let frames = forward(robot, joints);
@@ -24,6 +26,26 @@ pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -
         flange_mm: mm(&frames.base_from_flange.translation.vector),
         tool_mm: mm(&base_from_tool.translation.vector),
     }
+}
+
+/// The arm in the first posture of an answer that stands inside limits, the others faintly.
+pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &PoseAnswer) -> String {
+    let to_si = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e-3 } else { q.to_radians() };
+    let stand = |posture: &PostureAnswer| {
+        let joints: Vec<f64> = posture.joints_deg.iter().enumerate().map(to_si).collect();
+        arm_posture(robot, &joints, flange_from_tool)
+    };
+    let chosen = answer.postures.iter().position(|posture| posture.within_limits).unwrap_or(0);
+    let others = answer.postures.iter().enumerate().filter(|(i, _)| *i != chosen);
+    let name = |posture: &PostureAnswer| posture.branch.clone().unwrap_or_else(|| "posture".to_owned());
+    let drawing = ArmDrawing {
+        title: answer.robot.clone(),
+        subtitle: answer.postures.get(chosen).map_or_else(|| "out of reach".to_owned(), name),
+        posture: answer.postures.get(chosen).map(stand).unwrap_or_default(),
+        ghosts: others.map(|(_, posture)| stand(posture)).collect(),
+        ..ArmDrawing::default()
+    };
+    drawing.to_svg_views(&[View::Iso, View::Side])
 }
 
 /// The arm alone, at its joint zeros, from four sides.

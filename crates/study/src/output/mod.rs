@@ -10,7 +10,7 @@ mod report;
 mod rows;
 mod tables;
 
-pub use arm::{arm_drawing, arm_posture};
+pub use arm::{arm_drawing, arm_posture, posture_drawing};
 pub use pictures::Picture;
 
 use std::path::{Path, PathBuf};

@@ -128,6 +128,7 @@ fn maps(answer: &StudyAnswer) -> Table {
             ("… and inside joint limits", "%"),
             ("least", "µm"),
             ("largest", "µm"),
+            ("force permitted there, any direction", "N"),
             ("out of reach", "points"),
             ("points", "points"),
         ]),
@@ -142,6 +143,7 @@ fn maps(answer: &StudyAnswer) -> Table {
                     percent(map.fraction_within_and_inside_joint_limits),
                     um(map.min_in_plane_um),
                     um(map.max_in_plane_um),
+                    um(map.worst.as_ref().and_then(|p| p.permissible_any_direction_n)),
                     (map.counts.out_of_reach + map.counts.no_posture_inside_limits).to_string(),
                     map.grid.points.to_string(),
                 ]
