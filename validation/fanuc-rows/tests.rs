@@ -16,7 +16,10 @@ fn typed_rows_are_those_of_the_data_set() {
     let folder = std::path::Path::new(&samples).join("datasets/fanuc-r2000ic-deflection");
     let numbers = |file: &str| -> Vec<Vec<f64>> {
         let text = std::fs::read_to_string(folder.join(file)).expect(file);
-        text.lines().skip(1).map(|line| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect()).collect()
+        text.lines()
+            .skip(1)
+            .map(|line| line.split(',').map(|cell| cell.trim().parse().unwrap()).collect())
+            .collect()
     };
     let (joints, forces) = (numbers("joint_angles.csv"), numbers("forces.csv"));
     for row in ROWS {

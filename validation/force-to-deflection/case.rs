@@ -29,19 +29,31 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "length of the deflection, printed compliance matrix: 169.13 um",
             WITNESS,
-            Gap { worst: (printed.norm() - LENGTH_PRINTED_MATRIX_UM).abs(), tolerance: 0.01, unit: "um" },
+            Gap {
+                worst: (printed.norm() - LENGTH_PRINTED_MATRIX_UM).abs(),
+                tolerance: 0.01,
+                unit: "um",
+            },
             4,
         ),
         Check::printed(
             "its components, printed compliance matrix",
             WITNESS,
-            Gap { worst: worst_difference(printed.as_slice(), &DEFLECTION_UM), tolerance: 0.05, unit: "um" },
+            Gap {
+                worst: worst_difference(printed.as_slice(), &DEFLECTION_UM),
+                tolerance: 0.05,
+                unit: "um",
+            },
             4,
         ),
         Check::printed(
             "length of the deflection as armill predicts it: 169.19 um",
             WITNESS,
-            Gap { worst: (in_part_um.norm() - LENGTH_UM).abs(), tolerance: 0.01, unit: "um" },
+            Gap {
+                worst: (in_part_um.norm() - LENGTH_UM).abs(),
+                tolerance: 0.01,
+                unit: "um",
+            },
             4,
         ),
     ]

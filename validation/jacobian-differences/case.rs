@@ -30,8 +30,16 @@ pub fn checks() -> Vec<Check> {
     .map(|(title, robot)| {
         let errors: Vec<f64> = (0..POSTURES).map(|_| error_at(robot, &mut random)).collect();
         // Truncation h^2/6 of a third derivative below (1 + 1)^3 times 4 m, and rounding 4 m eps / h: 1e-9 together.
-        let gap = Gap { worst: worst(errors), tolerance: 1e-9, unit: "m/rad" };
-        Check::computed(format!("{title}: {POSTURES} random postures and tools"), "central differences", gap)
+        let gap = Gap {
+            worst: worst(errors),
+            tolerance: 1e-9,
+            unit: "m/rad",
+        };
+        Check::computed(
+            format!("{title}: {POSTURES} random postures and tools"),
+            "central differences",
+            gap,
+        )
     })
     .collect()
 }
@@ -41,7 +49,11 @@ fn error_at(robot: &Robot, random: &mut Random) -> f64 {
     let mut q: Vec<f64> = random.joints::<8>()[..robot.joints().len()].to_vec();
     for (index, position) in q.iter_mut().enumerate() {
         // Sliding joints within a metre.
-        *position *= if robot.slides(index) { 1.0 / std::f64::consts::PI } else { 1.0 };
+        *position *= if robot.slides(index) {
+            1.0 / std::f64::consts::PI
+        } else {
+            1.0
+        };
     }
     let tool = from_xyz_and_fixed_angles(random.vector(0.3), random.vector(3.0));
     let analytic = jacobian(robot, &posture_at(robot, &q, &tool).screws);

@@ -24,7 +24,11 @@ pub fn checks() -> Vec<Check> {
             let mine = map.branch == *branch && map.grid.points == POINTS;
             let found = if mine { map.fraction_within } else { f64::NAN };
             // One point more or less: a point that lies on the limit.
-            let gap = Gap { worst: (found - fraction).abs(), tolerance: 0.0023, unit: "" };
+            let gap = Gap {
+                worst: (found - fraction).abs(),
+                tolerance: 0.0023,
+                unit: "",
+            };
             let what = format!("{branch}, tilt {tilt} deg: {fraction:.3} of {POINTS} points within 0.05 mm");
             Check::printed(what, "independent computation", gap, 5)
         })

@@ -107,18 +107,41 @@ const READINGS: [Reading; 11] = [
 pub fn checks() -> Vec<Check> {
     let answer = answer_to("validation/mh12-readings/study.toml", STUDY);
     let of = |reading: &Reading| path(&answer, reading.name).clone();
-    let mut checks: Vec<Check> = READINGS.iter().map(|reading| deviations(reading, &of(reading))).collect();
-    let u_ranges = READINGS.iter().filter_map(|r| Some(worst_difference(&of(r).joint_range_deg[U], &r.u_range?)));
+    let mut checks: Vec<Check> = READINGS
+        .iter()
+        .map(|reading| deviations(reading, &of(reading)))
+        .collect();
+    let u_ranges = READINGS
+        .iter()
+        .filter_map(|r| Some(worst_difference(&of(r).joint_range_deg[U], &r.u_range?)));
     checks.push(Check::printed(
         "range of joint U, every reading that states it",
         WITNESS,
-        Gap { worst: worst(u_ranges), tolerance: 0.05, unit: "deg" },
+        Gap {
+            worst: worst(u_ranges),
+            tolerance: 0.05,
+            unit: "deg",
+        },
         3,
     ));
-    let wrong = READINGS.iter().filter(|r| r.inside.is_some_and(|inside| inside != is_inside(&of(r)))).count();
-    checks.push(Check::none_wrong("readings wrongly inside or outside the joint limits", WITNESS, wrong));
-    let uneven = READINGS.iter().filter(|r| of(r).points != 72 || of(r).unreached > 0).count();
-    checks.push(Check::none_wrong("readings without 72 reached points", "360 / 5", uneven));
+    let wrong = READINGS
+        .iter()
+        .filter(|r| r.inside.is_some_and(|inside| inside != is_inside(&of(r))))
+        .count();
+    checks.push(Check::none_wrong(
+        "readings wrongly inside or outside the joint limits",
+        WITNESS,
+        wrong,
+    ));
+    let uneven = READINGS
+        .iter()
+        .filter(|r| of(r).points != 72 || of(r).unreached > 0)
+        .count();
+    checks.push(Check::none_wrong(
+        "readings without 72 reached points",
+        "360 / 5",
+        uneven,
+    ));
     checks
 }
 
@@ -131,7 +154,11 @@ fn deviations(reading: &Reading, path: &PathResult) -> Check {
         reading.full.map(|printed| away(path.max_full_um, printed)),
     ];
     // Half of the last printed digit.
-    let gap = Gap { worst: worst(gaps.into_iter().flatten()), tolerance: 0.05, unit: "um" };
+    let gap = Gap {
+        worst: worst(gaps.into_iter().flatten()),
+        tolerance: 0.05,
+        unit: "um",
+    };
     let told = match (least, reading.full) {
         (Some(least), Some(full)) => format!("in-plane {least:.1} to {greatest:.1}, full {full:.1} um"),
         (Some(least), None) => format!("in-plane {least:.1} to {greatest:.1} um"),

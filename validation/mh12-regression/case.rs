@@ -16,8 +16,7 @@ const WITNESS: &str = "independent computation";
 const TIP: Point3<f64> = Point3::new(1.0, 0.0, 0.8);
 const JOINTS_DEG: [f64; 6] = [0.0, 11.5959, -27.7845, 0.0, 39.3804, 0.0];
 /// Translational compliance there, um/N.
-const COMPLIANCE: Matrix3<f64> =
-    Matrix3::new(2.8357, 0.0, 6.5188, 0.0, 2.3415, 0.0, 6.5188, 0.0, 23.2123);
+const COMPLIANCE: Matrix3<f64> = Matrix3::new(2.8357, 0.0, 6.5188, 0.0, 2.3415, 0.0, 6.5188, 0.0, 23.2123);
 const FLANGE_AT_ZERO_MM: [f64; 3] = [895.0, 0.0, 1264.0];
 const REACH_MM: f64 = 1439.5;
 
@@ -27,7 +26,11 @@ pub fn checks() -> Vec<Check> {
     let found_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
     let compliance = compliance_at_tool(&posture.screws, robot.compliance().expect("the library gives it"));
     let found = compliance.fixed_view::<3, 3>(0, 0) * 1e6;
-    let at_zero = posture_at(&robot, &[0.0; 6], &Isometry::identity()).base_from_tool.translation.vector * 1e3;
+    let at_zero = posture_at(&robot, &[0.0; 6], &Isometry::identity())
+        .base_from_tool
+        .translation
+        .vector
+        * 1e3;
     let joints = worst_difference(&found_deg, &JOINTS_DEG);
     let matrix = worst_difference(found.as_slice(), COMPLIANCE.as_slice());
     let reach_mm = reach(&robot) * 1e3;
@@ -36,24 +39,40 @@ pub fn checks() -> Vec<Check> {
         Check::printed(
             "MH12 joints at (1, 0, 0.8) m, tool along +x, front elbow-up",
             WITNESS,
-            Gap { worst: joints, tolerance: 5e-5, unit: "deg" },
+            Gap {
+                worst: joints,
+                tolerance: 5e-5,
+                unit: "deg",
+            },
             6,
         ),
         Check::printed(
             "translational compliance there, 9 numbers",
             WITNESS,
-            Gap { worst: matrix, tolerance: 5e-5, unit: "um/N" },
+            Gap {
+                worst: matrix,
+                tolerance: 5e-5,
+                unit: "um/N",
+            },
             6,
         ),
         Check::computed(
             "flange at joint zero",
             "URDF of ROS-Industrial, added by hand",
-            Gap { worst: worst_difference(at_zero.as_slice(), &FLANGE_AT_ZERO_MM), tolerance: 1e-12, unit: "mm" },
+            Gap {
+                worst: worst_difference(at_zero.as_slice(), &FLANGE_AT_ZERO_MM),
+                tolerance: 1e-12,
+                unit: "mm",
+            },
         ),
         Check::printed(
             "reach of the wrist centre",
             "lengths of the URDF, added by hand",
-            Gap { worst: (reach_mm - REACH_MM).abs(), tolerance: 0.05, unit: "mm" },
+            Gap {
+                worst: (reach_mm - REACH_MM).abs(),
+                tolerance: 0.05,
+                unit: "mm",
+            },
             3,
         ),
     ]
@@ -65,20 +84,32 @@ fn nearest_to_printed(robot: &Robot) -> Posture {
     let orientation = tool_orientation(Vector3::x_axis(), std::f64::consts::PI);
     let base_from_tool = Isometry::from_parts(TIP.into(), orientation);
     let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
-    let tool = ToolAt { flange_from_tool: &Isometry::identity(), near: None };
+    let tool = ToolAt {
+        flange_from_tool: &Isometry::identity(),
+        near: None,
+    };
     let found = postures(robot, arm, &base_from_tool, tool).expect("the point lies in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)
     };
-    found.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).expect("there is at least one posture")
+    found
+        .into_iter()
+        .min_by(|a, b| away(a).total_cmp(&away(b)))
+        .expect("there is at least one posture")
 }
 
 /// How far (m) the wrist centre comes from the first axis at shoulder height.
 fn reach(robot: &Robot) -> f64 {
     // A pose far out: the wrist centre lies 0.1 m behind the flange.
-    let far = Isometry::from_parts(Point3::new(5.1, 0.0, 0.450).into(), tool_orientation(Vector3::x_axis(), 0.0));
-    let tool = ToolAt { flange_from_tool: &Isometry::identity(), near: None };
+    let far = Isometry::from_parts(
+        Point3::new(5.1, 0.0, 0.450).into(),
+        tool_orientation(Vector3::x_axis(), 0.0),
+    );
+    let tool = ToolAt {
+        flange_from_tool: &Isometry::identity(),
+        near: None,
+    };
     let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
     match postures(robot, arm, &far, tool) {
         Err(Unreachable::TooFar { by }) => 5.0 - by,

@@ -37,13 +37,20 @@ pub fn checks() -> Vec<Check> {
     }
     let row = |what: &str, errors: Vec<f64>| {
         // A dozen roundings of numbers of size 1; the in-plane root of a small sum of squares keeps that size.
-        let gap = Gap { worst: worst(errors), tolerance: 1e-14, unit: "of length 1" };
+        let gap = Gap {
+            worst: worst(errors),
+            tolerance: 1e-14,
+            unit: "of length 1",
+        };
         Check::computed(format!("{what}, {VECTORS} random vectors and tilts"), PAPER, gap)
     };
     vec![
         row("in-plane length, arctangent as printed", in_plane),
         row("length along the normal, arctangent as printed", normal),
-        row("signed length along the normal, arctangent of two arguments", signed),
+        row(
+            "signed length along the normal, arctangent of two arguments",
+            signed,
+        ),
     ]
 }
 

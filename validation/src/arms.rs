@@ -74,17 +74,23 @@ pub fn r2000ic() -> Robot {
         (FRAC_PI_2, 0.0, 0.0, 0.0),
         (-FRAC_PI_2, 0.0, 0.0, 0.215),
     ];
-    let motions = rows.into_iter().enumerate().flat_map(|(joint, (alpha, a, zero, d))| {
-        [
-            About(X, Constant(alpha)),
-            Along(X, Constant(a)),
-            About(Z, Constant(zero)),
-            About(Z, Var(joint)),
-            Along(Z, Constant(d)),
-        ]
-    });
+    let motions = rows
+        .into_iter()
+        .enumerate()
+        .flat_map(|(joint, (alpha, a, zero, d))| {
+            [
+                About(X, Constant(alpha)),
+                Along(X, Constant(a)),
+                About(Z, Constant(zero)),
+                About(Z, Var(joint)),
+                Along(Z, Constant(d)),
+            ]
+        });
     let mut joints = joints([1, 1, -1, -1, -1, -1]);
-    joints[2].coupling = vec![Coupling { joint: 1, factor: 1.0 }];
+    joints[2].coupling = vec![Coupling {
+        joint: 1,
+        factor: 1.0,
+    }];
     let stiffness_n_m_per_rad = [
         9.339_417_645_122_126e5,
         4.129_256_136_278_849e6,
@@ -133,9 +139,14 @@ pub fn railed() -> Robot {
         About(Y, Var(6)),
         Along(Z, Constant(0.15)),
     ];
-    let mut joints: Vec<Joint> = ["rail", "A", "B", "telescope", "C", "D", "E"].map(Joint::plain).to_vec();
+    let mut joints: Vec<Joint> = ["rail", "A", "B", "telescope", "C", "D", "E"]
+        .map(Joint::plain)
+        .to_vec();
     joints[4].sign = Sign::Negative;
-    joints[5].coupling = vec![Coupling { joint: 4, factor: -0.5 }];
+    joints[5].coupling = vec![Coupling {
+        joint: 4,
+        factor: -0.5,
+    }];
     Robot::new("railed", motions, joints).expect("its chain is typed here")
 }
 
@@ -164,6 +175,11 @@ fn joints(signs: [i8; 6]) -> Vec<Joint> {
 }
 
 fn with_stiffness(robot: Robot, stiffness_n_m_per_rad: [f64; 6]) -> Robot {
-    let joints = stiffness_n_m_per_rad.map(|k| JointCompliance { value: 1.0 / k, standard_uncertainty: 0.0 });
-    robot.with_compliance(joints.to_vec()).expect("stiffness is positive")
+    let joints = stiffness_n_m_per_rad.map(|k| JointCompliance {
+        value: 1.0 / k,
+        standard_uncertainty: 0.0,
+    });
+    robot
+        .with_compliance(joints.to_vec())
+        .expect("stiffness is positive")
 }

@@ -1,10 +1,12 @@
 //! One comparison: what was compared, with which witness, how near it must come and how near it came.
 //!
-//! The words of a check are the same on every machine: errors at the level of rounding are told as the next
-//! power of ten, errors against printed numbers with fixed decimals.
+//! The words of a check are the same on every machine: errors at the level of rounding are told as a power of ten
+//! well above them, errors against printed numbers with fixed decimals.
 
-/// Smallest exponent that is told: below it one machine finds zero where another finds one bit.
-const LEAST_EXPONENT: i32 = -15;
+/// Smallest exponent that is told: below it one machine finds zero where another finds a few bits.
+const LEAST_EXPONENT: i32 = -14;
+/// Sines of another library round otherwise: this much more error must not change what is told.
+const MORE_ERROR: f64 = 3.0;
 
 /// The greatest error found and the greatest that may be, in the same unit.
 #[derive(Clone, Copy, Debug)]
@@ -39,9 +41,9 @@ impl Check {
         Check::new(what.into(), witness, gap, reached)
     }
 
-    /// A comparison of two computations: the error is told as the next power of ten.
+    /// A comparison of two computations: the error is told as the first power of ten above three times it.
     pub fn computed(what: impl Into<String>, witness: &'static str, gap: Gap) -> Check {
-        let reached = format!("below {}", power_of_ten_above(gap.worst));
+        let reached = format!("below {}", power_of_ten_above(MORE_ERROR * gap.worst));
         Check::new(what.into(), witness, gap, reached)
     }
 
@@ -58,17 +60,37 @@ impl Check {
 
     fn new(what: String, witness: &'static str, gap: Gap, reached: String) -> Check {
         let with_unit = |number: String| format!("{number} {}", gap.unit).trim_end().to_owned();
-        let plain = gap.tolerance >= 1e-6;
-        let tolerance = if plain { gap.tolerance.to_string() } else { format!("{:e}", gap.tolerance) };
+        let plain = gap.tolerance >= 1e-5;
+        let tolerance = if plain {
+            gap.tolerance.to_string()
+        } else {
+            format!("{:e}", gap.tolerance)
+        };
         let holds = gap.worst <= gap.tolerance;
-        Check { what, witness, tolerance: with_unit(tolerance), reached: with_unit(reached), holds }
+        Check {
+            what,
+            witness,
+            tolerance: with_unit(tolerance),
+            reached: with_unit(reached),
+            holds,
+        }
     }
 }
 
 /// The greatest of these errors by size; infinite if one is not a number or there is none.
 pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
-    let size = |error: f64| if error.is_nan() { f64::INFINITY } else { error.abs() };
-    errors.into_iter().map(size).reduce(f64::max).unwrap_or(f64::INFINITY)
+    let size = |error: f64| {
+        if error.is_nan() {
+            f64::INFINITY
+        } else {
+            error.abs()
+        }
+    };
+    errors
+        .into_iter()
+        .map(size)
+        .reduce(f64::max)
+        .unwrap_or(f64::INFINITY)
 }
 
 /// The greatest difference between these numbers, one by one; infinite if there are not as many of both.
@@ -100,15 +122,22 @@ mod tests {
     use super::*;
 
     fn gap(worst: f64) -> Gap {
-        Gap { worst, tolerance: 1e-12, unit: "m" }
+        Gap {
+            worst,
+            tolerance: 1e-12,
+            unit: "m",
+        }
     }
 
     #[test]
-    fn rounding_is_told_as_the_next_power_of_ten() {
+    fn rounding_is_told_as_a_power_of_ten_above_three_times_the_error() {
         let told = |error| Check::computed("", "", gap(error)).reached;
         assert_eq!(told(3.1e-14), "below 1e-13 m");
-        assert_eq!(told(9.9e-14), "below 1e-13 m");
-        assert_eq!((told(0.0), told(1e-17)), ("below 1e-15 m".to_owned(), "below 1e-15 m".to_owned()));
+        assert_eq!(told(3.5e-14), "below 1e-12 m");
+        assert_eq!(
+            (told(0.0), told(1e-17)),
+            ("below 1e-14 m".to_owned(), "below 1e-14 m".to_owned())
+        );
         assert_eq!(told(f64::INFINITY), "below infinity m");
     }
 
@@ -127,8 +156,20 @@ mod tests {
 
     #[test]
     fn small_tolerances_are_told_as_powers() {
-        let check = Check::printed("", "", Gap { worst: 0.024, tolerance: 0.05, unit: "um" }, 3);
-        assert_eq!((check.tolerance.as_str(), check.reached.as_str()), ("0.05 um", "0.024 um"));
+        let check = Check::printed(
+            "",
+            "",
+            Gap {
+                worst: 0.024,
+                tolerance: 0.05,
+                unit: "um",
+            },
+            3,
+        );
+        assert_eq!(
+            (check.tolerance.as_str(), check.reached.as_str()),
+            ("0.05 um", "0.024 um")
+        );
         assert_eq!(Check::computed("", "", gap(0.0)).tolerance, "1e-12 m");
     }
 }

@@ -47,17 +47,50 @@ pub struct Case {
 
 /// Every case: published numbers first, then independent computations, then one way against another.
 pub const CASES: &[Case] = &[
-    Case { folder: "tx200-compliance", checks: tx200_compliance::checks },
-    Case { folder: "force-to-deflection", checks: force_to_deflection::checks },
-    Case { folder: "fanuc-rows", checks: fanuc_rows::checks },
-    Case { folder: "mh12-regression", checks: mh12_regression::checks },
-    Case { folder: "mh12-readings", checks: mh12_readings::checks },
-    Case { folder: "mh12-fractions", checks: mh12_fractions::checks },
-    Case { folder: "inverse-vs-opw", checks: inverse_vs_opw::checks },
-    Case { folder: "compliance-two-ways", checks: compliance_two_ways::checks },
-    Case { folder: "jacobian-differences", checks: jacobian_differences::checks },
-    Case { folder: "plane-split", checks: plane_split::checks },
-    Case { folder: "urdf-forward", checks: urdf_forward::checks },
+    Case {
+        folder: "tx200-compliance",
+        checks: tx200_compliance::checks,
+    },
+    Case {
+        folder: "force-to-deflection",
+        checks: force_to_deflection::checks,
+    },
+    Case {
+        folder: "fanuc-rows",
+        checks: fanuc_rows::checks,
+    },
+    Case {
+        folder: "mh12-regression",
+        checks: mh12_regression::checks,
+    },
+    Case {
+        folder: "mh12-readings",
+        checks: mh12_readings::checks,
+    },
+    Case {
+        folder: "mh12-fractions",
+        checks: mh12_fractions::checks,
+    },
+    Case {
+        folder: "inverse-vs-opw",
+        checks: inverse_vs_opw::checks,
+    },
+    Case {
+        folder: "compliance-two-ways",
+        checks: compliance_two_ways::checks,
+    },
+    Case {
+        folder: "jacobian-differences",
+        checks: jacobian_differences::checks,
+    },
+    Case {
+        folder: "plane-split",
+        checks: plane_split::checks,
+    },
+    Case {
+        folder: "urdf-forward",
+        checks: urdf_forward::checks,
+    },
 ];
 
 /// The checks of every case.

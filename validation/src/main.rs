@@ -1,5 +1,9 @@
 //! Runs every validation case, tells how near each came, and writes `validation/TABLE.md`.
-#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that tells its results")]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program that tells its results"
+)]
 
 use std::process::ExitCode;
 
@@ -11,7 +15,10 @@ fn main() -> ExitCode {
         let checks = (case.checks)();
         for check in &checks {
             let (verdict, tolerance) = (table::verdict(check), &check.tolerance);
-            println!("{verdict} {}: {}: {} (may be {tolerance})", case.folder, check.what, check.reached);
+            println!(
+                "{verdict} {}: {}: {} (may be {tolerance})",
+                case.folder, check.what, check.reached
+            );
         }
         results.push((case, checks));
     }
@@ -19,7 +26,15 @@ fn main() -> ExitCode {
         eprintln!("cannot write {}: {problem}", table::PATH);
         return ExitCode::FAILURE;
     }
-    let wrong = results.iter().flat_map(|(_, checks)| checks).filter(|check| !check.holds).count();
+    let wrong = results
+        .iter()
+        .flat_map(|(_, checks)| checks)
+        .filter(|check| !check.holds)
+        .count();
     println!("validation: {} cases, {wrong} checks fail", results.len());
-    if wrong == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if wrong == 0 {
+        ExitCode::SUCCESS
+    } else {
+        ExitCode::FAILURE
+    }
 }

@@ -56,7 +56,10 @@ mod tests {
     fn stream_is_that_of_the_published_code() {
         // First outputs of splitmix64.c for seed 1234567.
         let mut random = Random::seeded(1_234_567);
-        assert_eq!([random.bits(), random.bits()], [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]);
+        assert_eq!(
+            [random.bits(), random.bits()],
+            [6_457_827_717_110_365_317, 3_203_168_211_198_807_973]
+        );
     }
 
     #[test]

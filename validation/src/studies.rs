@@ -19,5 +19,9 @@ pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
 
 /// The path of this name.
 pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathResult {
-    answer.paths.iter().find(|path| path.name == name).expect("the study asks for it")
+    answer
+        .paths
+        .iter()
+        .find(|path| path.name == name)
+        .expect("the study asks for it")
 }

@@ -16,7 +16,14 @@ const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
 const COMPUTED: &str = "independent computation";
 
 /// Springs of the older identification, joints 4 to 6 rigid, N m/rad.
-pub const OLDER_SPRINGS: [f64; 6] = [1.15e6, 3.76e6, 1.29e6, f64::INFINITY, f64::INFINITY, f64::INFINITY];
+pub const OLDER_SPRINGS: [f64; 6] = [
+    1.15e6,
+    3.76e6,
+    1.29e6,
+    f64::INFINITY,
+    f64::INFINITY,
+    f64::INFINITY,
+];
 /// Springs about the drive axes of Huynh et al., N m/rad.
 const DRIVE_SPRINGS: [f64; 6] = [2.3e6, 8.6e6, 2.8e6, 3.0e6, 0.2e6, 0.9e6];
 
@@ -37,35 +44,61 @@ pub fn checks() -> Vec<Check> {
     let posture = posture(&robot);
     let found_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
     let joints = worst_difference(&found_deg, &JOINTS_DEG);
-    let matrix = worst_difference(compliance_in_part(&robot, &posture).as_slice(), COMPLIANCE_IN_PART.as_slice());
+    let matrix = worst_difference(
+        compliance_in_part(&robot, &posture).as_slice(),
+        COMPLIANCE_IN_PART.as_slice(),
+    );
 
     let robot = arms::tx200(DRIVE_SPRINGS);
-    let second = posture_at(&robot, &SECOND_JOINTS_DEG.map(f64::to_radians), &flange_from_tool());
+    let second = posture_at(
+        &robot,
+        &SECOND_JOINTS_DEG.map(f64::to_radians),
+        &flange_from_tool(),
+    );
     let tcp = worst_difference(second.base_from_tool.translation.vector.as_slice(), &SECOND_TCP);
-    let second_matrix = worst_difference(translational(&robot, &second).as_slice(), SECOND_COMPLIANCE.as_slice());
+    let second_matrix = worst_difference(
+        translational(&robot, &second).as_slice(),
+        SECOND_COMPLIANCE.as_slice(),
+    );
     vec![
         // Half of the last printed digit, here and below.
         Check::printed(
             "joints that hold the published TCP pose, among the postures of the closed form",
             COMPUTED,
-            Gap { worst: joints, tolerance: 5e-5, unit: "deg" },
+            Gap {
+                worst: joints,
+                tolerance: 5e-5,
+                unit: "deg",
+            },
             6,
         ),
         Check::printed(
             "translational compliance in the workpiece frame, 9 numbers",
             PUBLISHED,
-            Gap { worst: matrix, tolerance: 5e-4, unit: "um/N" },
+            Gap {
+                worst: matrix,
+                tolerance: 5e-4,
+                unit: "um/N",
+            },
             5,
         ),
         Check::computed(
             "TCP at (-90, 30, 95, 0, 0, 0) deg",
             PUBLISHED,
-            Gap { worst: tcp, tolerance: 1e-14, unit: "m" },
+            Gap {
+                worst: tcp,
+                tolerance: 1e-14,
+                unit: "m",
+            },
         ),
         Check::printed(
             "translational compliance there, six drive springs, 9 numbers",
             COMPUTED,
-            Gap { worst: second_matrix, tolerance: 5e-5, unit: "um/N" },
+            Gap {
+                worst: second_matrix,
+                tolerance: 5e-5,
+                unit: "um/N",
+            },
             6,
         ),
     ]
@@ -76,13 +109,19 @@ pub fn posture(robot: &Robot) -> Posture {
     let orientation = workpiece() * from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(PI, 0.0, PI));
     let base_from_tool = Isometry::from_parts(TCP.into(), orientation.rotation);
     let arm = robot.ortho_parallel().expect("the TX200 has a closed form");
-    let tool = ToolAt { flange_from_tool: &flange_from_tool(), near: None };
+    let tool = ToolAt {
+        flange_from_tool: &flange_from_tool(),
+        near: None,
+    };
     let found = postures(robot, arm, &base_from_tool, tool).expect("the pose lies in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)
     };
-    found.into_iter().min_by(|a, b| away(a).total_cmp(&away(b))).expect("there is at least one posture")
+    found
+        .into_iter()
+        .min_by(|a, b| away(a).total_cmp(&away(b)))
+        .expect("there is at least one posture")
 }
 
 /// Translational compliance at the TCP in the workpiece frame, um/N.
@@ -97,7 +136,10 @@ pub fn workpiece() -> Isometry {
 }
 
 fn flange_from_tool() -> Isometry {
-    from_xyz_and_fixed_angles(Vector3::new(0.277, 0.0, 0.326), Vector3::new(0.0, 1.308_996_9, 0.0))
+    from_xyz_and_fixed_angles(
+        Vector3::new(0.277, 0.0, 0.326),
+        Vector3::new(0.0, 1.308_996_9, 0.0),
+    )
 }
 
 /// Translational compliance at the TCP in base, um/N.

@@ -34,7 +34,9 @@ fn apart(robot: &Robot, text: &str) -> [f64; 2] {
         .map(|_| {
             let positions = &random.joints::<8>()[..count];
             let expected = tree::root_from_tool0(&parsed, positions);
-            let found = posture_at(robot, positions, &Isometry::identity()).base_from_tool.to_homogeneous();
+            let found = posture_at(robot, positions, &Isometry::identity())
+                .base_from_tool
+                .to_homogeneous();
             between(&found, &expected)
         })
         .unzip::<f64, f64, Vec<f64>, Vec<f64>>();
@@ -63,23 +65,59 @@ pub fn checks() -> Vec<Check> {
     for (title, text) in [
         ("Yaskawa MH12", MH12),
         ("KUKA KR 120 R2500 pro", KR120),
-        ("oblique axes, turned origins, a sliding joint, a branch that mimics", OBLIQUE),
+        (
+            "oblique axes, turned origins, a sliding joint, a branch that mimics",
+            OBLIQUE,
+        ),
     ] {
         let [metres, radians] = apart(&read(title, text), text);
         let what = format!("{title}: URDF as read, {POSTURES} random postures");
-        checks.push(Check::computed(what, WITNESS, Gap { worst: metres, tolerance: 1e-12, unit: "m" }));
+        checks.push(Check::computed(
+            what,
+            WITNESS,
+            Gap {
+                worst: metres,
+                tolerance: 1e-12,
+                unit: "m",
+            },
+        ));
         let what = "its flange orientation".to_owned();
-        checks.push(Check::computed(what, WITNESS, Gap { worst: radians, tolerance: 1e-12, unit: "rad" }));
+        checks.push(Check::computed(
+            what,
+            WITNESS,
+            Gap {
+                worst: radians,
+                tolerance: 1e-12,
+                unit: "rad",
+            },
+        ));
     }
     // The library turns by a whole quarter where the source cuts it after the eleventh decimal.
-    for (name, text, [m, rad]) in
-        [("yaskawa/mh12", MH12, [1e-12, 1e-12]), ("kuka/kr120r2500pro", KR120, [1e-9, 1e-6])]
-    {
+    for (name, text, [m, rad]) in [
+        ("yaskawa/mh12", MH12, [1e-12, 1e-12]),
+        ("kuka/kr120r2500pro", KR120, [1e-9, 1e-6]),
+    ] {
         let [metres, radians] = apart(&arms::library(name), text);
         let what = format!("library robot {name} against the URDF");
-        checks.push(Check::computed(what, WITNESS, Gap { worst: metres, tolerance: m, unit: "m" }));
+        checks.push(Check::computed(
+            what,
+            WITNESS,
+            Gap {
+                worst: metres,
+                tolerance: m,
+                unit: "m",
+            },
+        ));
         let what = "its flange orientation".to_owned();
-        checks.push(Check::computed(what, WITNESS, Gap { worst: radians, tolerance: rad, unit: "rad" }));
+        checks.push(Check::computed(
+            what,
+            WITNESS,
+            Gap {
+                worst: radians,
+                tolerance: rad,
+                unit: "rad",
+            },
+        ));
     }
     checks
 }

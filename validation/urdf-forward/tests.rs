@@ -39,7 +39,10 @@ fn files_of_the_makers_are_read_as_they_say() {
     for file in FILES {
         let text = text(&robots.join(file));
         let [metres, radians] = apart(&read(file, &text), &text);
-        assert!(metres < 1e-12 && radians < 1e-12, "{file}: {metres} m, {radians} rad");
+        assert!(
+            metres < 1e-12 && radians < 1e-12,
+            "{file}: {metres} m, {radians} rad"
+        );
     }
 }
 

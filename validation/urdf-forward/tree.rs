@@ -12,7 +12,9 @@ pub fn root_from_tool0(urdf: &urdf_rs::Robot, positions: &[f64]) -> Matrix4<f64>
         let axis = Vector3::from(joint.axis.xyz.0).normalize();
         let mut position = || *positions.next().expect("a position for every moving joint");
         let moved = match joint.joint_type {
-            JointType::Revolute | JointType::Continuous => matrix(rodrigues(axis, position()), Vector3::zeros()),
+            JointType::Revolute | JointType::Continuous => {
+                matrix(rodrigues(axis, position()), Vector3::zeros())
+            }
             JointType::Prismatic => matrix(Matrix3::identity(), axis * position()),
             _ => Matrix4::identity(),
         };
@@ -23,7 +25,10 @@ pub fn root_from_tool0(urdf: &urdf_rs::Robot, positions: &[f64]) -> Matrix4<f64>
 
 /// How many joints between root and `tool0` move.
 pub fn moving_joints(urdf: &urdf_rs::Robot) -> usize {
-    joints_to_tool0(urdf).iter().filter(|joint| joint.joint_type != JointType::Fixed).count()
+    joints_to_tool0(urdf)
+        .iter()
+        .filter(|joint| joint.joint_type != JointType::Fixed)
+        .count()
 }
 
 fn joints_to_tool0(urdf: &urdf_rs::Robot) -> Vec<&Joint> {

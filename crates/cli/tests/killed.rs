@@ -7,10 +7,23 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use cell::{ARMILL, Cell, EVERY_KIND, SMALL, files_in, what_is_half};
+use cell::{ARMILL, Cell, SMALL, files_in, what_is_half};
 
 /// Moments at which a run is killed, evenly over the time that an undisturbed one takes.
-const MOMENTS: u32 = 12;
+const MOMENTS: u32 = 8;
+
+/// Two asks: enough files to be killed among, few enough to be drawn often.
+const ASKS: &str = r#"
+[[ask]]
+kind = "map"
+name = "plate"
+
+[[ask]]
+kind = "path"
+name = "groove"
+circle.radius_mm = 60
+step_mm = 20
+"#;
 
 fn start(cell: &Cell, out: &str) -> Child {
     let mut command = Command::new(ARMILL);
@@ -26,7 +39,7 @@ fn finished_files(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
-    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    let cell = Cell::with_study(&format!("{SMALL}{ASKS}"));
     let begun = Instant::now();
     assert!(start(&cell, "undisturbed").wait().unwrap().success());
     let whole_time = begun.elapsed();
@@ -66,10 +79,10 @@ fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
 
 #[test]
 fn a_run_killed_over_an_older_answer_never_leaves_that_answer_beside_its_own_tables() {
-    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    let cell = Cell::with_study(&format!("{SMALL}{ASKS}"));
     assert!(start(&cell, "out").wait().unwrap().success());
     let older = finished_files(&cell.at("out"));
-    cell.file("study.toml", format!("{}{EVERY_KIND}", SMALL.replace("limit_um = 130", "limit_um = 10")));
+    cell.file("study.toml", format!("{}{ASKS}", SMALL.replace("limit_um = 130", "limit_um = 10")));
     let begun = Instant::now();
     assert!(start(&cell, "newer").wait().unwrap().success());
     let whole_time = begun.elapsed();

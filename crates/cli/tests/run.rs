@@ -66,7 +66,7 @@ fn folder_and_file_name_the_same_study_and_out_lies_beside_it() {
 #[test]
 fn every_file_is_the_same_on_one_thread_and_on_three_and_in_an_old_folder() {
     let cell = Cell::with_study(&every_kind());
-    for (out, threads) in [("one", "1"), ("three", "3"), ("three again", "3")] {
+    for (out, threads) in [("one", "1"), ("three", "3")] {
         cell.armill(&["run", "study.toml", "--out", out, "--threads", threads]).fine();
     }
     let one = cell.files("one");
@@ -75,7 +75,7 @@ fn every_file_is_the_same_on_one_thread_and_on_three_and_in_an_old_folder() {
         assert!(one[&name] == bytes, "{name} differs");
     }
     cell.armill(&["run", "study.toml", "--out", "three"]).fine();
-    assert!(cell.files("three") == one && cell.files("three again") == one);
+    assert!(cell.files("three") == one, "a run over an old folder differs from the first");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Forward, inverse (8 postures), compliance, deviation and one map, of an MH12 on the plane x = 1000 mm.
 //!
 //! For people: `cargo xtask bench`. Throughput counts poses (points).
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 #[path = "../tests/arms/mod.rs"]
 mod arms;

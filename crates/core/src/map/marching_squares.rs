@@ -47,10 +47,8 @@ pub(super) fn within_level(grid: &Grid, values: &[Option<f64>], level: f64) -> W
                 0 => {}
                 4 => area += grid.step * grid.step,
                 2 if within[0] == within[2] => {
-                    for corner in 0..4 {
-                        if within[corner] {
-                            area += cut(&corners, corner, corner, &place, &mut pieces);
-                        }
+                    for corner in (0..4).filter(|corner| within[*corner]) {
+                        area += cut(&corners, corner, corner, &place, &mut pieces);
                     }
                 }
                 _ => {
@@ -148,8 +146,7 @@ fn chains(pieces: Vec<(Crossing, Crossing)>) -> Vec<Vec<Crossing>> {
     let mut chains = Vec::new();
     let open: Vec<Crossing> = from.keys().filter(|k| !arriving.contains_key(k)).copied().collect();
     let mut starts = open.into_iter();
-    loop {
-        let Some(start) = starts.next().or_else(|| from.keys().next().copied()) else { break };
+    while let Some(start) = starts.next().or_else(|| from.keys().next().copied()) {
         let mut chain = vec![start];
         let mut here = start;
         while let Some(nexts) = from.get_mut(&here) {

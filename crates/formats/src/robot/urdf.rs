@@ -174,7 +174,7 @@ mod tests {
         [
             joint("j1", "revolute", "base_link", "a", &format!("{origin}{limit}")),
             joint("j2", "revolute", "a", "b", &format!("<origin xyz=\"0.3 0 0\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"0.6 0 0.8\"/>{limit}")),
-            joint("flange", "fixed", "b", "tool0", "<origin xyz=\"0.1 0 0\" rpy=\"0 1.5707963 0\"/>"),
+            joint("flange", "fixed", "b", "tool0", "<origin xyz=\"0.1 0 0\" rpy=\"0 1.57 0\"/>"),
             joint("j2p", "revolute", "a", "piston", &format!("<axis xyz=\"0 1 0\"/>{limit}<mimic joint=\"j2\" multiplier=\"-0.25\"/>")),
         ]
         .concat()
@@ -193,7 +193,7 @@ mod tests {
             * turn(Vector3::new(0.0, 0.0, -1.0), q[0])
             * origin(Vector3::new(0.3, 0.0, 0.0), Vector3::new(0.1, 0.2, 0.3))
             * turn(Vector3::new(0.6, 0.0, 0.8), q[1])
-            * origin(Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 1.5707963, 0.0));
+            * origin(Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 1.57, 0.0));
         assert!((reached.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-14);
     }
 
