@@ -203,7 +203,7 @@ fn rows(arm: &Arm, tally: &Tally) -> [Check; 2] {
         distances,
     } = tally;
     let title = arm.title;
-    
+
     [
         Check::computed(
             format!(

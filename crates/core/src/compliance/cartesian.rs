@@ -33,7 +33,7 @@ pub struct Stiffness {
     pub matrix: Matrix6<f64>,
     /// Directions in which the arm yields at all: 6 where `K` is a true inverse.
     pub rank: usize,
-    /// Largest over smallest singular value of `C` made dimensionless by `length`; infinite below rank 6.
+    /// Largest over smallest eigenvalue of `C` made dimensionless by `length`; infinite below rank 6.
     pub condition_number: f64,
     /// The length (m) that made rotations comparable with translations.
     pub length: f64,
@@ -43,15 +43,17 @@ pub struct Stiffness {
 /// the arm's reach or the tool length.
 pub fn stiffness_at_tool(compliance: &Matrix6<f64>, length: f64) -> Stiffness {
     // Twist [m, rad] -> [m, m]: with S = diag(1, 1, 1, L, L, L) the compliance is S C S, in m/N throughout.
+    // Eigenvectors, not the singular value decomposition: that of nalgebra 0.34 loses digits now and then.
     let scale = Matrix6::from_diagonal(&nalgebra::Vector6::new(1.0, 1.0, 1.0, length, length, length));
-    let svd = (scale * compliance * scale).svd(true, true);
-    let largest = svd.singular_values.max();
-    // Six products of eps each is what rounding leaves of a zero singular value; a hundred times that is zero.
-    let zero = largest * 1e2 * 6.0 * f64::EPSILON;
-    let rank = svd.singular_values.iter().filter(|value| **value > zero).count();
-    let inverse = svd.pseudo_inverse(zero).unwrap_or_else(|_| Matrix6::zeros());
-    let condition_number = if rank == 6 { largest / svd.singular_values.min() } else { f64::INFINITY };
-    Stiffness { matrix: scale * inverse * scale, rank, condition_number, length }
+    let eigen = (scale * compliance * scale).symmetric_eigen();
+    let (values, vectors) = (eigen.eigenvalues, eigen.eigenvectors);
+    // Six products of eps each is what rounding leaves of a zero eigenvalue; a hundred times that is zero.
+    let zero = values.max() * 1e2 * 6.0 * f64::EPSILON;
+    let rank = values.iter().filter(|value| **value > zero).count();
+    let inverse = values.map(|value| if value > zero { 1.0 / value } else { 0.0 });
+    let matrix = vectors * Matrix6::from_diagonal(&inverse) * vectors.transpose();
+    let condition_number = if rank == 6 { values.max() / values.min() } else { f64::INFINITY };
+    Stiffness { matrix: scale * matrix * scale, rank, condition_number, length }
 }
 
 #[cfg(test)]

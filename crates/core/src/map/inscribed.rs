@@ -63,8 +63,8 @@ pub(super) fn largest_rectangle(grid: &Grid, within: &[bool]) -> Option<Rectangl
     best
 }
 
-/// The largest circle about a grid point that reaches no grid point outside and stays on the grid; `None`
-/// without a point within. Exact distance transform (Felzenszwalb & Huttenlocher 2012), linear in the points.
+/// The largest circle about a grid point that stays on the grid and one pitch away from every grid point outside,
+/// so that the boundary between them lies outside the circle; `None` without a point within. Exact distance transform (Felzenszwalb & Huttenlocher 2012), linear in the points.
 pub(super) fn largest_disc(grid: &Grid, within: &[bool]) -> Option<Disc> {
     let (columns, rows) = (grid.columns, grid.rows);
     let far = ((columns + rows) as f64).powi(2) * 4.0;
@@ -86,7 +86,7 @@ pub(super) fn largest_disc(grid: &Grid, within: &[bool]) -> Option<Disc> {
     let steps = |index: usize| {
         let (column, row) = (index % columns, index / columns);
         let edge = column.min(columns - 1 - column).min(row).min(rows - 1 - row);
-        squared[index].sqrt().min(edge as f64)
+        (squared[index].sqrt() - 1.0).max(0.0).min(edge as f64)
     };
     let best = (0..grid.len()).filter(|i| within[*i]).max_by(|a, b| steps(*a).total_cmp(&steps(*b)))?;
     Some(Disc { centre: grid.point(best), radius: steps(best) * grid.step })
@@ -158,7 +158,8 @@ mod tests {
             let room = |i: usize| {
                 let p = grid.point(i);
                 let edge = (0.8 - p.x.abs()).min(0.6 - p.y.abs());
-                let nearest = (0..grid.len()).filter(|j| !within[*j]).map(|j| (grid.point(j) - p).norm());
+                let outside = (0..grid.len()).filter(|j| !within[*j]);
+                let nearest = outside.map(|j| ((grid.point(j) - p).norm() - 0.1).max(0.0));
                 nearest.fold(edge, f64::min)
             };
             let most = (0..grid.len()).filter(|i| within[*i]).map(room).fold(0.0, f64::max);

@@ -5,9 +5,12 @@
 /// | name ends with | shown | kind of quantity |
 /// |---|---|---|
 /// | `_mm` | mm | lengths |
-/// | `_nm` | N m | torques (nanometres do not occur here) |
-/// | `_rad_per_nm` | rad/(N m) | |
+/// | `_n_m` | N m | torques |
+/// | `_rad_per_n_m` | rad/(N m) | |
+///
+/// The first that fits counts, so units of several words come first.
 const ATOMS: &[(&str, &str, Option<&str>)] = &[
+    ("n_m", "N m", Some("torques")),
     ("m", "m", Some("lengths")),
     ("mm", "mm", Some("lengths")),
     ("um", "um", Some("lengths")),
@@ -19,7 +22,6 @@ const ATOMS: &[(&str, &str, Option<&str>)] = &[
     ("rad", "rad", Some("angles")),
     ("n", "N", Some("forces")),
     ("kn", "kN", Some("forces")),
-    ("nm", "N m", Some("torques")),
     ("kg", "kg", Some("masses")),
     ("kgm2", "kg m^2", Some("inertias")),
     ("s", "s", Some("times")),
@@ -47,8 +49,9 @@ pub(super) struct Unit {
 
 /// A field's name without its unit, and the unit; `None` if the name ends with no unit.
 pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
-    let (before, last) = name.rsplit_once('_')?;
-    let (_, shown, quantity) = ATOMS.iter().find(|(suffix, ..)| *suffix == last)?;
+    let cut = |suffix: &str| name.strip_suffix(suffix)?.strip_suffix('_');
+    let (before, shown, quantity) =
+        ATOMS.iter().find_map(|(suffix, shown, quantity)| Some((cut(suffix)?, shown, quantity)))?;
     if let Some((above, top)) = before.strip_suffix("_per").and_then(split) {
         let below = if shown.contains(' ') {
             format!("({shown})")
@@ -118,7 +121,7 @@ mod tests {
         assert_eq!(shown("step_mm"), Some(("step", "mm".to_owned())));
         assert_eq!(shown("feed_mm_per_min"), Some(("feed", "mm/min".to_owned())));
         assert_eq!(
-            shown("compliance_rad_per_nm"),
+            shown("compliance_rad_per_n_m"),
             Some(("compliance", "rad/(N m)".to_owned()))
         );
         assert_eq!(shown("blend_radius_m"), Some(("blend_radius", "m".to_owned())));

@@ -81,6 +81,17 @@ fn at_joint(file: &document::Source, name: &str, message: String) -> Problem {
 
 /// The joints from the root link to the tip with the most moving joints.
 fn chain_to_tip(urdf: &urdf_rs::Robot) -> Result<Vec<&urdf_rs::Joint>, String> {
+    for joint in &urdf.joints {
+        for link in [&joint.parent.link, &joint.child.link] {
+            if !urdf.links.iter().any(|known| known.name == *link) {
+                return Err(format!("joint `{}` names link `{link}`, which is not in the file", joint.name));
+            }
+        }
+        let parents = urdf.joints.iter().filter(|other| other.child.link == joint.child.link).count();
+        if parents > 1 {
+            return Err(format!("link `{}` is the child of {parents} joints", joint.child.link));
+        }
+    }
     let is_child = |link: &str| urdf.joints.iter().any(|joint| joint.child.link == link);
     let is_parent = |link: &str| urdf.joints.iter().any(|joint| joint.parent.link == link);
     let roots = urdf.links.iter().filter(|link| !is_child(&link.name)).count();
@@ -217,7 +228,14 @@ mod tests {
     fn a_loop_of_joints_is_refused() {
         let looped = format!("{}{}", sound(), joint("back", "fixed", "tool0", "a", ""));
         let text = read("s.urdf", "s", &urdf(&looped)).unwrap_err().to_string();
-        assert!(text.contains("s.urdf:1:1"), "{text}");
+        assert!(text.contains("s.urdf:1:1") && text.contains("link `a` is the child of 2 joints"), "{text}");
+    }
+
+    #[test]
+    fn a_joint_to_a_link_that_is_not_there_is_refused() {
+        let broken = sound().replace("<child link=\"b\"/>", "<child link=\"c\"/>");
+        let text = read("s.urdf", "s", &urdf(&broken)).unwrap_err().to_string();
+        assert!(text.contains("`j2` names link `c`"), "{text}");
     }
 
     #[test]

@@ -59,7 +59,7 @@ fn every_problem_is_told_at_once_with_its_place() {
         .replace("source = \"made-up\"\nmotions", "source = \"hearsay\"\nmotions");
     let text = read("lever.toml", "lever", &broken).unwrap_err().to_string();
     for part in [
-        "lever.toml:15:",
+        "lever.toml:16:",
         "lower limit 120 deg is not below upper limit -100 deg",
         "joint `C` stands where `B` comes next",
         "source `hearsay` is not among the sources",
@@ -71,7 +71,7 @@ fn every_problem_is_told_at_once_with_its_place() {
 #[test]
 fn a_negative_compliance_is_refused() {
     let text = problems("compliance_rad_per_n_m = 2e-6", "compliance_rad_per_n_m = -2e-6");
-    assert!(text.contains("lever.toml:17:") && text.contains("compliance_rad_per_n_m"), "{text}");
+    assert!(text.contains("lever.toml:18:") && text.contains("compliance_rad_per_n_m"), "{text}");
 }
 
 #[test]
