@@ -150,8 +150,11 @@ pub struct Chain {
     last_joint_from_flange: Fixed,
 }
 
+/// Longest constant of a chain, m (rad): a gantry is shorter, and squares of it stay far from overflow.
+pub const LONGEST: f64 = 1e3;
+
 /// Why a list of elementary motions is no robot.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChainError {
     /// Nothing moves.
     #[error("the chain of {0} elementary motions has no joint")]
@@ -166,22 +169,29 @@ pub enum ChainError {
         /// Index of the joint that should come next, from 0.
         expected: usize,
     },
-    /// A length or angle is NaN or infinite.
-    #[error("motion {0} is not finite")]
-    NotFinite(usize),
+    /// A length or angle that is not finite, or a length beyond [`LONGEST`].
+    #[error("motion number {} goes by {value} (m or rad), which is not a number within {LONGEST} m", motion + 1)]
+    Amount {
+        /// Index of the motion in the chain, from 0.
+        motion: usize,
+        /// As given.
+        value: f64,
+    },
 }
 
 impl Chain {
     /// The chain of these motions, base to flange.
     ///
     /// # Errors
-    /// No joint at all, a joint out of order or used twice, a constant that is not finite.
+    /// No joint at all, a joint out of order or used twice, a constant that is not finite or beyond [`LONGEST`].
     pub fn new(motions: Vec<Motion>) -> Result<Chain, ChainError> {
         let mut links = Vec::new();
         let mut fixed = Isometry::identity();
         for (index, motion) in motions.iter().enumerate() {
             match motion.amount() {
-                Amount::Constant(value) if !value.is_finite() => return Err(ChainError::NotFinite(index)),
+                Amount::Constant(value) if value.is_nan() || value.abs() > LONGEST => {
+                    return Err(ChainError::Amount { motion: index, value });
+                }
                 Amount::Constant(value) => fixed *= motion.displacement(value),
                 Amount::Joint(found) if found != links.len() => {
                     return Err(ChainError::JointOrder { motion: index, found, expected: links.len() });
@@ -311,11 +321,13 @@ mod tests {
     }
 
     #[test]
-    fn a_length_that_is_not_finite_is_refused() {
-        let broken = Chain::new(vec![
-            Motion::About(Axis::Z, Amount::Joint(0)),
-            Motion::Along(Axis::X, Amount::Constant(f64::NAN)),
-        ]);
-        assert_eq!(broken.unwrap_err(), ChainError::NotFinite(1));
+    fn a_length_that_is_not_finite_or_absurd_is_refused() {
+        for value in [f64::NAN, f64::INFINITY, -1e300, 1001.0] {
+            let broken = Chain::new(vec![
+                Motion::About(Axis::Z, Amount::Joint(0)),
+                Motion::Along(Axis::X, Amount::Constant(value)),
+            ]);
+            assert!(matches!(broken, Err(ChainError::Amount { motion: 1, .. })), "{value}");
+        }
     }
 }

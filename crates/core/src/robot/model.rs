@@ -27,6 +27,9 @@ pub struct Robot {
     ortho_parallel: Option<OrthoParallel>,
 }
 
+/// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.
+pub const SOFTEST: f64 = 1.0;
+
 /// Why a robot description contradicts itself. Joint positions are in rad (m for sliding joints).
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RobotError {
@@ -59,8 +62,8 @@ pub enum RobotError {
         /// As given.
         upper: f64,
     },
-    /// A compliance or its uncertainty below zero, or not finite.
-    #[error("joint {joint}: {what} {value} rad/(N m) is not a number >= 0")]
+    /// A compliance or its uncertainty below zero, beyond [`SOFTEST`], or not a number.
+    #[error("joint {joint}: {what} {value} rad/(N m) is not a number from 0 to {SOFTEST}")]
     Compliance {
         /// Name of the joint.
         joint: String,
@@ -119,7 +122,7 @@ impl Robot {
     /// This robot with these joint compliances, one a joint.
     ///
     /// # Errors
-    /// Another count than joints; a value or uncertainty that is negative or not finite.
+    /// Another count than joints; a value or uncertainty that is not a number from 0 to [`SOFTEST`].
     pub fn with_compliance(mut self, compliance: Vec<JointCompliance>) -> Result<Robot, RobotError> {
         if compliance.len() != self.joints.len() {
             return Err(RobotError::ComplianceCount { given: compliance.len(), joints: self.joints.len() });
@@ -128,7 +131,7 @@ impl Robot {
             for (what, value) in
                 [("compliance", c.value), ("standard uncertainty of compliance", c.standard_uncertainty)]
             {
-                if !(value.is_finite() && value >= 0.0) {
+                if !(0.0..=SOFTEST).contains(&value) {
                     return Err(RobotError::Compliance { joint: joint.name.clone(), what, value });
                 }
             }

@@ -60,8 +60,10 @@ struct MotionEntry {
     /// Rotation about this axis, by the right hand.
     about: Option<AxisName>,
     /// How far along.
+    #[schemars(range(min = -1e6, max = 1e6))]
     length_mm: Option<f64>,
     /// How far about.
+    #[schemars(range(min = -360.0, max = 360.0))]
     angle_deg: Option<f64>,
     /// Name of the joint that makes the motion.
     joint: Option<String>,
@@ -105,16 +107,16 @@ struct JointEntry {
     /// Key of the source of sign, zero, limits and speed.
     source: String,
     /// Compliance about the axis, drive and control loop included.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1.0))]
     compliance_rad_per_n_m: Option<f64>,
     /// Standard uncertainty of the compliance.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1.0))]
     compliance_u_rad_per_n_m: Option<f64>,
     /// Compliance along the axis, sliding joints.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e6))]
     compliance_um_per_n: Option<f64>,
     /// Standard uncertainty of the compliance, sliding joints.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e6))]
     compliance_u_um_per_n: Option<f64>,
     /// Key of the source of the compliance.
     compliance_source: Option<String>,
@@ -151,6 +153,7 @@ struct FrameEntry {
     /// Its name, such as `controller`.
     name: String,
     /// Its origin in base_link.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     origin_mm: [f64; 3],
     /// Turn about the fixed axes x, y, z of base_link.
     #[serde(default)]

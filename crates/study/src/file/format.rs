@@ -29,7 +29,7 @@ pub struct StudyFile {
     /// The load on the tool.
     pub load: LoadTable,
     /// Greatest in-plane deviation that is tolerated.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e9))]
     pub limit_um: f64,
     /// How the arm stands.
     pub posture: Option<PostureTable>,
@@ -46,8 +46,10 @@ pub struct StudyFile {
 #[serde(deny_unknown_fields)]
 pub struct ComplianceTable {
     /// One a joint, base to flange.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub rad_per_n_m: Vec<f64>,
     /// Standard uncertainty, one a joint.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub u_rad_per_n_m: Option<Vec<f64>>,
     /// Where they come from.
     pub source: String,
@@ -61,6 +63,7 @@ pub struct ComplianceTable {
 #[serde(deny_unknown_fields)]
 pub struct ToolTable {
     /// Flange to tool centre point: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub flange_from_tool_mm_deg: [f64; 6],
 }
 
@@ -69,6 +72,7 @@ pub struct ToolTable {
 #[serde(deny_unknown_fields)]
 pub struct PlaneTable {
     /// Centre of the plane.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: [f64; 3],
     /// Tilt from the vertical about base y: 0 faces the robot, 90 faces up. 0 if left out.
     #[schemars(range(min = -180.0, max = 180.0))]
@@ -78,6 +82,7 @@ pub struct PlaneTable {
     /// Half the side of the plane, or both along y' and z'.
     pub half_size_mm: HalfSize,
     /// Pitch of the grid.
+    #[schemars(range(max = 1e6))]
     pub step_mm: f64,
 }
 
@@ -96,6 +101,7 @@ pub enum HalfSize {
 #[serde(deny_unknown_fields)]
 pub struct PlaneChange {
     /// See `plane.centre_mm`.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: Option<[f64; 3]>,
     /// See `plane.tilt_deg`.
     #[schemars(range(min = -180.0, max = 180.0))]
@@ -105,6 +111,7 @@ pub struct PlaneChange {
     /// See `plane.half_size_mm`.
     pub half_size_mm: Option<HalfSize>,
     /// See `plane.step_mm`.
+    #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
 }
 
@@ -115,8 +122,10 @@ pub struct LoadTable {
     /// Axes of the components: `base` (default) or `part` (z = outward normal).
     pub frame: Option<LoadFrameName>,
     /// Force on the tool, x, y, z, one a case.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub cases_n: Vec<[f64; 3]>,
     /// Moment on the tool about the TCP, one a case.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub moments_n_m: Option<Vec<[f64; 3]>>,
     /// Where they come from.
     pub source: Option<String>,
@@ -171,13 +180,15 @@ pub struct AskTable {
     /// Another frame that heights count from.
     pub base: Option<String>,
     /// Another tolerance.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e9))]
     pub limit_um: Option<f64>,
     /// Another posture.
     pub posture: Option<PostureTable>,
     /// Sections: the x coordinate of the plane's centre, one a section.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub distances_mm: Option<Vec<f64>>,
     /// Sections: the tilt of the plane, one a section.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub tilts_deg: Option<Vec<f64>>,
     /// Volume: the box of points.
     #[serde(rename = "box")]
@@ -187,10 +198,12 @@ pub struct AskTable {
     /// Path: a straight line.
     pub line: Option<LineTable>,
     /// Path: straight pieces through points (y', z').
+    #[schemars(inner(inner(range(min = -1e6, max = 1e6))))]
     pub polyline_mm: Option<Vec<[f64; 2]>>,
     /// Path: a rectangle.
     pub rectangle: Option<RectangleTable>,
     /// Path: greatest distance between points along it.
+    #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
 }
 
@@ -199,10 +212,13 @@ pub struct AskTable {
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
     /// Centre; that of the plane if left out.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: Option<[f64; 3]>,
     /// Half the sides along base x, y, z.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub half_size_mm: [f64; 3],
     /// Pitch.
+    #[schemars(range(max = 1e6))]
     pub step_mm: f64,
 }
 
@@ -211,8 +227,10 @@ pub struct BoxTable {
 #[serde(deny_unknown_fields)]
 pub struct CircleTable {
     /// Centre (y', z'); the plane's centre if left out.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: Option<[f64; 2]>,
     /// Radius.
+    #[schemars(range(max = 1e6))]
     pub radius_mm: f64,
 }
 
@@ -221,8 +239,10 @@ pub struct CircleTable {
 #[serde(deny_unknown_fields)]
 pub struct LineTable {
     /// Start (y', z').
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub from_mm: [f64; 2],
     /// End (y', z').
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub to_mm: [f64; 2],
 }
 
@@ -231,8 +251,10 @@ pub struct LineTable {
 #[serde(deny_unknown_fields)]
 pub struct RectangleTable {
     /// Centre (y', z'); the plane's centre if left out.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: Option<[f64; 2]>,
     /// Sides along y' and z'.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub size_mm: [f64; 2],
 }
 
@@ -245,7 +267,7 @@ pub struct StatementTable {
     /// Where it stands.
     pub source: String,
     /// The stated bound of the in-plane deviation.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e9))]
     pub at_most_um: f64,
     /// Names of the maps or paths that may be what it speaks of.
     pub of: Vec<String>,

@@ -19,12 +19,15 @@ pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Op
     None
 }
 
-/// Half sizes of 0 or more, m.
+/// Largest half size, mm: 1 km.
+const LARGEST_MM: f64 = 1e6;
+
+/// Half sizes of 0 to 1 km, m.
 pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -> Option<Vec<f64>> {
-    let Some(wrong) = half_size_mm.iter().find(|half| **half < 0.0) else {
+    let Some(wrong) = half_size_mm.iter().find(|half| !(0.0..=LARGEST_MM).contains(*half)) else {
         return Some(half_size_mm.iter().map(|half| half * 1e-3).collect());
     };
-    let message = format!("`{path}` is {wrong} mm: must be at least 0 mm");
+    let message = format!("`{path}` is {wrong} mm: must be from 0 to {LARGEST_MM} mm");
     places.problem(path, message, "0 (a single line of points) or more");
     None
 }
