@@ -64,15 +64,15 @@ fn a_number_that_is_none_is_told_with_its_line() {
 
 #[test]
 fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
-    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&["study.toml:13", "1e308 N is beyond 1e9 N"]);
-    check("[1000, 0, 800]", "[1e305, 0, 800]").refused(&["study.toml:7", "1e305 mm is beyond 1e9 mm"]);
+    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&["study.toml:13:13", "1e308 N", "at most 1000000000 N"]);
+    check("[1000, 0, 800]", "[1e305, 0, 800]").refused(&["study.toml:7:14", "1e305 mm", "at most 1000000"]);
 }
 
 #[test]
 fn lengths_that_must_be_above_0_say_so() {
     check("step_mm = 50", "step_mm = 0").refused(&["study.toml:10:11", "`plane.step_mm` is 0 mm", "above 0 mm"]);
     check("step_mm = 50", "step_mm = -5").refused(&["`plane.step_mm` is -5 mm"]);
-    check("half_size_mm = 100", "half_size_mm = -1").refused(&["study.toml:9:16", "-1 mm", "at least 0 mm"]);
+    check("half_size_mm = 100", "half_size_mm = -1").refused(&["study.toml:9:16", "`plane.half_size_mm` is -1 mm", "must be"]);
     check("limit_um = 130", "limit_um = -1").refused(&["study.toml:4:12", "`limit_um` is -1 um", "at least 0 um"]);
     check("tilt_deg = 0", "tilt_deg = 200").refused(&["study.toml:8:12", "200 deg", "at most 180"]);
 }
@@ -80,7 +80,7 @@ fn lengths_that_must_be_above_0_say_so() {
 #[test]
 fn a_negative_compliance_is_told_with_its_place_and_unit() {
     let own = "\n[compliance]\nrad_per_n_m = [1e-6, 1e-6, -2e-6, 1e-6, 1e-6, 1e-6]\nsource = \"a guess\"\n";
-    check_text(format!("{SMALL}{own}")).refused(&["study.toml:16:28", "-0.000002 rad/(N m)", "below 0"]);
+    check_text(format!("{SMALL}{own}")).refused(&["study.toml:16:28", "-2e-6", "at least 0"]);
 }
 
 #[test]
@@ -339,6 +339,11 @@ fn a_chain_with_no_joint_is_told() {
 }
 
 #[test]
+fn a_length_beyond_all_reason_is_refused_in_a_robot_file() {
+    lever("= 500", "= 1e305").refused(&["lever.toml:8:30", "1e305 mm", "at most 1000000 mm"]);
+}
+
+#[test]
 fn a_broken_urdf_is_told_with_its_file() {
     let cell = Cell::new();
     let half = &MH12_URDF[..MH12_URDF.len() / 2];
@@ -348,7 +353,9 @@ fn a_broken_urdf_is_told_with_its_file() {
         ("<robot", "not a URDF"),
         (half, "not a URDF"),
         (&MH12_URDF.replace("0.450", "0,450"), "arm.urdf:"),
-        (&MH12_URDF.replace("0.450", "nan"), "not finite"),
+        (&MH12_URDF.replace("0.450", "nan"), "motion"),
+        (&MH12_URDF.replace("0.450", "1e305"), "motion"),
+        (&MH12_URDF.replace("<parent link=\"l2\"/>", "<parent link=\"gone\"/>"), "`gone`"),
         (&MH12_URDF.replace("xyz=\"0 -1 0\"", "xyz=\"0 0 0\""), "axis of length zero"),
         (&MH12_URDF.replacen("revolute", "floating", 1), "Floating"),
         (&loop_of_joints, "arm.urdf:"),

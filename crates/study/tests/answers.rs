@@ -1,5 +1,8 @@
 //! Small studies through the library: answers against each other, against counting, and against what must hold.
 
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 

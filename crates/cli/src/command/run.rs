@@ -1,6 +1,6 @@
 //! `armill run`: a study from file to report.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::output::{self, Pictures};
@@ -41,7 +41,7 @@ fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Re
     Ok(pool.install(work))
 }
 
-fn work(study: &Study, out: &PathBuf, arguments: &RunArguments) -> Result<StudyAnswer, StudyError> {
+fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
