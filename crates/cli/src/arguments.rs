@@ -143,28 +143,68 @@ pub(crate) struct PoseArguments {
     /// Library name, or a robot file (.toml, .urdf)
     pub robot: String,
     /// Joint positions A,B,... in degrees (mm for sliding joints)
-    #[arg(long, value_name = "A,B,...", value_delimiter = ',', allow_hyphen_values = true, conflicts_with = "at_mm")]
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "at_mm"
+    )]
     pub joints_deg: Option<Vec<f64>>,
     /// Position of the TCP
-    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true, required_unless_present = "joints_deg")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        required_unless_present = "joints_deg"
+    )]
     pub at_mm: Option<Vec<f64>>,
     /// Tilt of the plane that the tool stands against
     #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "at_mm", conflicts_with_all = ["axis", "joints_deg"])]
     pub tilt_deg: Option<f64>,
     /// Tool axis, from the spindle towards the part
-    #[arg(long, value_name = "x,y,z", value_delimiter = ',', allow_hyphen_values = true, requires = "at_mm", conflicts_with = "joints_deg")]
+    #[arg(
+        long,
+        value_name = "x,y,z",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
     pub axis: Option<Vec<f64>>,
     /// Turn of the tool about its axis; at 0 its second axis lies as near as possible to base y
-    #[arg(long, value_name = "S", allow_hyphen_values = true, requires = "at_mm", conflicts_with = "joints_deg")]
+    #[arg(
+        long,
+        value_name = "S",
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
     pub spin_deg: Option<f64>,
     /// Flange to TCP
-    #[arg(long, value_name = "X,Y,Z[,RX,RY,RZ]", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "X,Y,Z[,RX,RY,RZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
     pub tool_mm: Option<Vec<f64>>,
     /// Force and moment on the tool at the TCP, base axes, N and N m
-    #[arg(long, value_name = "FX,FY,FZ[,MX,MY,MZ]", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "FX,FY,FZ[,MX,MY,MZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
     pub wrench_n: Option<Vec<f64>>,
     /// Joint compliances in place of the robot file's
-    #[arg(long, value_name = "C1,...", value_delimiter = ',', allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "C1,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
     pub compliance_rad_per_n_m: Option<Vec<f64>>,
     /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
     #[arg(long, value_name = "FILE")]

@@ -18,13 +18,19 @@ impl Progress {
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left {msg}") {
             bar.set_style(style);
         }
-        Progress { bar, cancel: AtomicBool::new(false) }
+        Progress {
+            bar,
+            cancel: AtomicBool::new(false),
+        }
     }
 
     /// Runs `work` under this bar.
     pub(crate) fn watch<T>(&self, work: impl FnOnce(Watch<'_>) -> T) -> T {
         let finished = |points: usize| self.bar.inc(points as u64);
-        work(Watch { finished: &finished, cancel: &self.cancel })
+        work(Watch {
+            finished: &finished,
+            cancel: &self.cancel,
+        })
     }
 
     /// Shows what is being done besides counting.

@@ -11,11 +11,16 @@ use armill_study::StudyError;
 /// Stdout leads to a file that takes no more.
 pub(crate) fn print(text: &str) -> Result<(), StudyError> {
     let mut out = std::io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.write_all(b"\n")).and_then(|()| out.flush());
+    let written = out
+        .write_all(text.as_bytes())
+        .and_then(|()| out.write_all(b"\n"))
+        .and_then(|()| out.flush());
     match written {
-        Err(source) if source.kind() != ErrorKind::BrokenPipe => {
-            Err(FileError::Other { path: "standard output".into(), source }.into())
+        Err(source) if source.kind() != ErrorKind::BrokenPipe => Err(FileError::Other {
+            path: "standard output".into(),
+            source,
         }
+        .into()),
         _ => Ok(()),
     }
 }

@@ -18,7 +18,10 @@ fn check_text(text: impl AsRef<[u8]>) -> Said {
     let run = cell.armill(&["run", "study.toml"]).refused(&[]);
     let checked = cell.armill(&["check", "study.toml"]);
     assert_eq!(checked.err, run.err, "check and run do not say the same");
-    assert!(!cell.at("out").exists(), "a folder was made for a study that cannot run");
+    assert!(
+        !cell.at("out").exists(),
+        "a folder was made for a study that cannot run"
+    );
     assert_eq!(checked.out, "", "problems are talk, not a result");
     checked
 }
@@ -49,7 +52,11 @@ fn a_slip_in_a_field_is_told_with_the_field_meant() {
 
 #[test]
 fn a_missing_unit_suffix_is_named() {
-    check("step_mm", "step").refused(&["study.toml:10:1", "`plane.step`", "lengths carry their unit: write `step_mm`"]);
+    check("step_mm", "step").refused(&[
+        "study.toml:10:1",
+        "`plane.step`",
+        "lengths carry their unit: write `step_mm`",
+    ]);
     check("limit_um", "limit").refused(&["study.toml:4:1", "limit_um"]);
     check("cases_n", "cases").refused(&["study.toml:13:1", "cases_n"]);
 }
@@ -57,23 +64,43 @@ fn a_missing_unit_suffix_is_named() {
 #[test]
 fn a_number_that_is_none_is_told_with_its_line() {
     for none in ["nan", "-nan", "inf", "-inf", "1e400"] {
-        check("step_mm = 50", &format!("step_mm = {none}")).refused(&["study.toml:10:11", "`plane.step_mm`", "finite"]);
+        check("step_mm = 50", &format!("step_mm = {none}")).refused(&[
+            "study.toml:10:11",
+            "`plane.step_mm`",
+            "finite",
+        ]);
         check("[1000, 0, 800]", &format!("[{none}, 0, 800]")).refused(&["study.toml:7:14", "finite"]);
     }
 }
 
 #[test]
 fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
-    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&["study.toml:13:13", "1e308 N", "at most 1000000000 N"]);
+    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&[
+        "study.toml:13:13",
+        "1e308 N",
+        "at most 1000000000 N",
+    ]);
     check("[1000, 0, 800]", "[1e305, 0, 800]").refused(&["study.toml:7:14", "1e305 mm", "at most 1000000"]);
 }
 
 #[test]
 fn lengths_that_must_be_above_0_say_so() {
-    check("step_mm = 50", "step_mm = 0").refused(&["study.toml:10:11", "`plane.step_mm` is 0 mm", "above 0 mm"]);
+    check("step_mm = 50", "step_mm = 0").refused(&[
+        "study.toml:10:11",
+        "`plane.step_mm` is 0 mm",
+        "above 0 mm",
+    ]);
     check("step_mm = 50", "step_mm = -5").refused(&["`plane.step_mm` is -5 mm"]);
-    check("half_size_mm = 100", "half_size_mm = -1").refused(&["study.toml:9:16", "`plane.half_size_mm` is -1 mm", "must be"]);
-    check("limit_um = 130", "limit_um = -1").refused(&["study.toml:4:12", "`limit_um` is -1 um", "at least 0 um"]);
+    check("half_size_mm = 100", "half_size_mm = -1").refused(&[
+        "study.toml:9:16",
+        "`plane.half_size_mm` is -1 mm",
+        "must be",
+    ]);
+    check("limit_um = 130", "limit_um = -1").refused(&[
+        "study.toml:4:12",
+        "`limit_um` is -1 um",
+        "at least 0 um",
+    ]);
     check("tilt_deg = 0", "tilt_deg = 200").refused(&["study.toml:8:12", "200 deg", "at most 180"]);
 }
 
@@ -91,23 +118,40 @@ fn a_wrong_number_of_compliances_is_told_with_the_right_one() {
 
 #[test]
 fn an_empty_load_is_told() {
-    check("[[3, 5, 5], [3, -5, 5]]", "[]").refused(&["study.toml:13:11", "the load has no case", "cases_n = [[3, 5, 5]]"]);
+    check("[[3, 5, 5], [3, -5, 5]]", "[]").refused(&[
+        "study.toml:13:11",
+        "the load has no case",
+        "cases_n = [[3, 5, 5]]",
+    ]);
 }
 
 #[test]
 fn moments_are_one_a_case() {
-    check("cases_n", "moments_n_m = [[0, 0, 1]]\ncases_n").refused(&["study.toml:13", "1 moments for 2 cases"]);
+    check("cases_n", "moments_n_m = [[0, 0, 1]]\ncases_n")
+        .refused(&["study.toml:13", "1 moments for 2 cases"]);
 }
 
 #[test]
 fn an_unknown_robot_is_told_with_the_one_meant() {
-    check("yaskawa/mh12", "yaskawa/mh21").refused(&["study.toml:3:9", "`yaskawa/mh21`", "did you mean `yaskawa/mh12`?"]);
-    Cell::new().armill(&["robots", "mh12"]).refused(&["did you mean `yaskawa/mh12`?"]);
+    check("yaskawa/mh12", "yaskawa/mh21").refused(&[
+        "study.toml:3:9",
+        "`yaskawa/mh21`",
+        "did you mean `yaskawa/mh12`?",
+    ]);
+    Cell::new()
+        .armill(&["robots", "mh12"])
+        .refused(&["did you mean `yaskawa/mh12`?"]);
 }
 
 #[test]
 fn a_robot_without_compliance_is_told_what_to_add() {
-    let words = ["study.toml:3:9", "no joint compliance is known", "[compliance]", "rad_per_n_m", "assumed = true"];
+    let words = [
+        "study.toml:3:9",
+        "no joint compliance is known",
+        "[compliance]",
+        "rad_per_n_m",
+        "assumed = true",
+    ];
     check("yaskawa/mh12", "kuka/kr120r2500pro").refused(&words);
 }
 
@@ -115,28 +159,42 @@ fn a_robot_without_compliance_is_told_what_to_add() {
 fn a_robot_without_closed_form_is_told_in_a_study() {
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
     cell.file("lever.toml", LEVER);
-    cell.armill(&["run", "."]).refused(&["study.toml:3:9", "`lever.toml` has no closed-form inverse"]);
+    cell.armill(&["run", "."])
+        .refused(&["study.toml:3:9", "`lever.toml` has no closed-form inverse"]);
 }
 
 #[test]
 fn a_missing_robot_file_is_told_with_the_path_that_was_tried() {
     let cell = Cell::new();
     cell.file("deep/study.toml", SMALL.replace("yaskawa/mh12", "arm.urdf"));
-    cell.armill(&["check", "deep"]).refused(&["deep/study.toml:3:9", "deep/arm.urdf", "folder of the study"]);
+    cell.armill(&["check", "deep"])
+        .refused(&["deep/study.toml:3:9", "deep/arm.urdf", "folder of the study"]);
 }
 
 #[test]
 fn problems_of_a_robot_file_are_told_at_the_robot_file() {
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
     cell.file("lever.toml", LEVER.replace("[-100, 120]", "[120, -100]"));
-    cell.armill(&["check", "."]).refused(&["lever.toml:14:", "lower limit 120 deg is not below upper limit -100 deg"]);
+    cell.armill(&["check", "."]).refused(&[
+        "lever.toml:14:",
+        "lower limit 120 deg is not below upper limit -100 deg",
+    ]);
 }
 
 #[test]
 fn a_frame_or_branch_that_is_none_is_told_with_those_that_are() {
-    check("limit_um", "base = \"flor\"\nlimit_um").refused(&["study.toml:4:8", "no frame `flor`", "base_link, controller"]);
+    check("limit_um", "base = \"flor\"\nlimit_um").refused(&[
+        "study.toml:4:8",
+        "no frame `flor`",
+        "base_link, controller",
+    ]);
     let posture = format!("{SMALL}\n[posture]\nbranch = \"sideways\"\n");
-    check_text(posture).refused(&["study.toml:16:10", "`sideways`", "elbow-up", "`nominal` or `best`"]);
+    check_text(posture).refused(&[
+        "study.toml:16:10",
+        "`sideways`",
+        "elbow-up",
+        "`nominal` or `best`",
+    ]);
 }
 
 #[test]
@@ -147,7 +205,9 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
         ("1e-300", ["points would take", "GiB of memory, more than 4 GiB"]),
     ] {
         let start = Instant::now();
-        check("step_mm = 50", &format!("step_mm = {step}")).refused(&words).refused(&["study.toml:10:11"]);
+        check("step_mm = 50", &format!("step_mm = {step}"))
+            .refused(&words)
+            .refused(&["study.toml:10:11"]);
         // Two starts of a program; a billion points take minutes.
         assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
     }
@@ -155,7 +215,9 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
 
 #[test]
 fn boxes_paths_and_sections_are_measured_before_they_are_made() {
-    let ask = |ask: &str| check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(&["points would take", "GiB", "study.toml:"]);
+    let ask = |ask: &str| {
+        check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(&["points would take", "GiB", "study.toml:"])
+    };
     ask("kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }");
     ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-7");
     ask("kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [100, 0] }\nstep_mm = 1e-300");
@@ -174,8 +236,17 @@ fn a_grid_too_large_is_refused_without_allocating_it() {
     let cell = Cell::with_study(&SMALL.replace("step_mm = 50", "step_mm = 0.0063"));
     // The shell bounds the address space, KiB: a hundredth of what the points would take.
     let script = format!("ulimit -v 1000000; exec '{}' check study.toml", cell::ARMILL);
-    let output = std::process::Command::new("sh").args(["-c", &script]).current_dir(cell.path()).output().unwrap();
-    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    let output = std::process::Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(cell.path())
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
     assert!(String::from_utf8_lossy(&output.stderr).contains("GiB of memory"));
 }
 
@@ -199,13 +270,19 @@ fn every_problem_of_a_file_is_told_at_once() {
         "sections vary either",
         "`circle` means nothing to a map",
     ]);
-    let fields = SMALL.replace("step_mm", "step").replace("limit_um", "limit").replace("[1000, 0, 800]", "[1000, \"0\"]");
+    let fields = SMALL
+        .replace("step_mm", "step")
+        .replace("limit_um", "limit")
+        .replace("[1000, 0, 800]", "[1000, \"0\"]");
     check_text(fields).refused(&["write `step_mm`", "write `limit_um`", "study.toml:7:"]);
 }
 
 #[test]
 fn a_value_that_several_asks_take_is_wrong_once() {
-    let said = check_text(format!("{}{EVERY_KIND}", SMALL.replace("[[3, 5, 5], [3, -5, 5]]", "[]")));
+    let said = check_text(format!(
+        "{}{EVERY_KIND}",
+        SMALL.replace("[[3, 5, 5], [3, -5, 5]]", "[]")
+    ));
     assert_eq!(said.err.matches("error:").count(), 1, "{}", said.err);
 }
 
@@ -219,23 +296,37 @@ fn problems_as_json_have_file_line_and_hint() {
         assert!(problems.as_array().unwrap().len() >= 2, "{problems}");
         for problem in problems.as_array().unwrap() {
             assert_eq!(problem["file"], "study.toml");
-            assert!(problem["line"].as_u64().is_some() && problem["message"].as_str().is_some(), "{problem}");
+            assert!(
+                problem["line"].as_u64().is_some() && problem["message"].as_str().is_some(),
+                "{problem}"
+            );
         }
     }
     let said = Cell::new().armill(&["run", "nowhere", "--json"]).refused(&[]);
     let problem = said.json()["problems"][0].clone();
-    assert!(!problem["message"].as_str().unwrap().contains("help:"), "{problem}");
-    assert!(problem["hint"].as_str().unwrap().contains("armill new"), "{problem}");
+    assert!(
+        !problem["message"].as_str().unwrap().contains("help:"),
+        "{problem}"
+    );
+    assert!(
+        problem["hint"].as_str().unwrap().contains("armill new"),
+        "{problem}"
+    );
 }
 
 #[test]
 fn windows_line_ends_and_a_byte_order_mark_are_taken() {
-    for text in [SMALL.replace('\n', "\r\n"), format!("\u{feff}{SMALL}"), format!("\u{feff}{}", SMALL.replace('\n', "\r\n"))] {
+    for text in [
+        SMALL.replace('\n', "\r\n"),
+        format!("\u{feff}{SMALL}"),
+        format!("\u{feff}{}", SMALL.replace('\n', "\r\n")),
+    ] {
         Cell::with_study(&text).armill(&["check", "study.toml"]).fine();
     }
     // Lines are counted alike.
     check_text(SMALL.replace("step_mm", "step").replace('\n', "\r\n")).refused(&["study.toml:10:1"]);
-    check_text(format!("\u{feff}{}", SMALL.replace("format = 1", "formt = 1"))).refused(&["study.toml:1:1", "`format`"]);
+    check_text(format!("\u{feff}{}", SMALL.replace("format = 1", "formt = 1")))
+        .refused(&["study.toml:1:1", "`format`"]);
 }
 
 #[test]
@@ -243,12 +334,21 @@ fn bytes_that_are_no_text_are_told_with_their_place() {
     check_text([SMALL.as_bytes(), b"# \xff\n"].concat()).refused(&["study.toml:14:3", "0xff", "UTF-8"]);
     let cell = Cell::new();
     cell.file("arm.toml", [LEVER.as_bytes(), b"# \xff\n"].concat());
-    cell.armill(&["robots", "arm.toml"]).refused(&["arm.toml:", "0xff", "UTF-8"]);
+    cell.armill(&["robots", "arm.toml"])
+        .refused(&["arm.toml:", "0xff", "UTF-8"]);
 }
 
 #[test]
 fn what_is_no_toml_is_told_with_its_line() {
-    for text in ["", "format = 1", "format = ", "[[[", "\0", "{\"format\": 1}", "format = 2\n"] {
+    for text in [
+        "",
+        "format = 1",
+        "format = ",
+        "[[[",
+        "\0",
+        "{\"format\": 1}",
+        "format = 2\n",
+    ] {
         check_text(text).refused(&["study.toml:"]);
     }
     check("format = 1", "format = 2").refused(&["study.toml:1:10", "`format` is 2", "at most 1"]);
@@ -260,9 +360,12 @@ fn what_is_no_toml_is_told_with_its_line() {
 fn a_missing_study_is_told_with_what_to_do() {
     let cell = Cell::new();
     std::fs::create_dir(cell.at("empty")).unwrap();
-    cell.armill(&["run", "nowhere"]).refused(&["no study at nowhere", "armill new DIR", "mh12-groove"]);
-    cell.armill(&["run", "empty"]).refused(&["no study at empty/study.toml"]);
-    cell.armill(&["check", "empty"]).refused(&["no study at empty/study.toml"]);
+    cell.armill(&["run", "nowhere"])
+        .refused(&["no study at nowhere", "armill new DIR", "mh12-groove"]);
+    cell.armill(&["run", "empty"])
+        .refused(&["no study at empty/study.toml"]);
+    cell.armill(&["check", "empty"])
+        .refused(&["no study at empty/study.toml"]);
     std::fs::create_dir(cell.at("empty/study.toml")).unwrap();
     cell.armill(&["run", "empty"]).refused(&["empty/study.toml"]);
 }
@@ -270,10 +373,14 @@ fn a_missing_study_is_told_with_what_to_do() {
 #[test]
 fn two_asks_never_write_the_same_files() {
     let named = |names: &[&str]| {
-        let asks: String = names.iter().map(|name| format!("[[ask]]\nkind = \"map\"\n{name}\n")).collect();
+        let asks: String = names
+            .iter()
+            .map(|name| format!("[[ask]]\nkind = \"map\"\n{name}\n"))
+            .collect();
         check_text(format!("{SMALL}{asks}"))
     };
-    named(&["name = \"plate\"", "name = \"Plate!\""]).refused(&["`plate` and `Plate!` would write the same files"]);
+    named(&["name = \"plate\"", "name = \"Plate!\""])
+        .refused(&["`plate` and `Plate!` would write the same files"]);
     named(&["", "name = \"map 1\""]).refused(&["`map 1` and `map 1` would write the same files"]);
     named(&["name = \"...\""]).refused(&["`...` has no letter and no digit"]);
     named(&["name = \"\""]).refused(&["no letter and no digit"]);
@@ -298,11 +405,14 @@ fn a_folder_that_cannot_be_written_is_told_before_any_work() {
     let cell = Cell::with_study(&SMALL.replace("step_mm = 50", "step_mm = 0.2"));
     cell.file("in the way", "a file");
     let start = Instant::now();
-    cell.armill(&["run", "study.toml", "--out", "in the way"]).refused(&["`in the way`", "is a file"]);
-    cell.armill(&["run", "study.toml", "--out", "in the way/deeper"]).refused(&["`in the way`", "is a file"]);
+    cell.armill(&["run", "study.toml", "--out", "in the way"])
+        .refused(&["`in the way`", "is a file"]);
+    cell.armill(&["run", "study.toml", "--out", "in the way/deeper"])
+        .refused(&["`in the way`", "is a file"]);
     #[cfg(target_os = "linux")]
     for folder in ["/proc/armill", "/proc"] {
-        cell.armill(&["run", "study.toml", "--out", folder]).refused(&["cannot write", folder]);
+        cell.armill(&["run", "study.toml", "--out", folder])
+            .refused(&["cannot write", folder]);
     }
     // A million points take several seconds in a debug build; four starts of a program do not.
     assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
@@ -313,7 +423,11 @@ fn a_folder_that_cannot_be_written_is_told_before_any_work() {
 
 #[test]
 fn reversed_limits_of_a_joint_are_told_with_both() {
-    let words = ["lever.toml:14:14", "joint A: lower limit 120 deg is not below upper limit -100 deg", "[lower, upper]"];
+    let words = [
+        "lever.toml:14:14",
+        "joint A: lower limit 120 deg is not below upper limit -100 deg",
+        "[lower, upper]",
+    ];
     lever("[-100, 120]", "[120, -100]").refused(&words);
 }
 
@@ -332,7 +446,8 @@ fn a_chain_with_no_joint_is_told() {
         .replace("  { along = \"x\", joint = \"B\" },\n", "");
     let cell = Cell::new();
     cell.file("rod.toml", text);
-    cell.armill(&["robots", "rod.toml"]).refused(&["rod.toml:", "the chain has no joint", "[[joint]]"]);
+    cell.armill(&["robots", "rod.toml"])
+        .refused(&["rod.toml:", "the chain has no joint", "[[joint]]"]);
     let fixed = MH12_URDF.replace("type=\"revolute\"", "type=\"fixed\"");
     cell.file("rod.urdf", fixed);
     cell.armill(&["robots", "rod.urdf"]).refused(&["rod.urdf:"]);
@@ -355,20 +470,31 @@ fn a_broken_urdf_is_told_with_its_file() {
         (&MH12_URDF.replace("0.450", "0,450"), "arm.urdf:"),
         (&MH12_URDF.replace("0.450", "nan"), "motion"),
         (&MH12_URDF.replace("0.450", "1e305"), "motion"),
-        (&MH12_URDF.replace("<parent link=\"l2\"/>", "<parent link=\"gone\"/>"), "`gone`"),
-        (&MH12_URDF.replace("xyz=\"0 -1 0\"", "xyz=\"0 0 0\""), "axis of length zero"),
+        (
+            &MH12_URDF.replace("<parent link=\"l2\"/>", "<parent link=\"gone\"/>"),
+            "`gone`",
+        ),
+        (
+            &MH12_URDF.replace("xyz=\"0 -1 0\"", "xyz=\"0 0 0\""),
+            "axis of length zero",
+        ),
         (&MH12_URDF.replacen("revolute", "floating", 1), "Floating"),
         (&loop_of_joints, "arm.urdf:"),
     ] {
         cell.file("arm.urdf", text);
-        cell.armill(&["pose", "arm.urdf", "--joints-deg", "0,0,0,0,0,0"]).refused(&["arm.urdf:", word]);
+        cell.armill(&["pose", "arm.urdf", "--joints-deg", "0,0,0,0,0,0"])
+            .refused(&["arm.urdf:", word]);
     }
 }
 
 #[test]
 fn what_is_neither_library_name_nor_robot_file_is_told() {
-    Cell::new().armill(&["pose", "lathe", "--joints-deg", "0"]).refused(&["`lathe`", "`armill robots`"]);
-    Cell::new().armill(&["pose", "gone.urdf", "--joints-deg", "0"]).refused(&["cannot read robot file gone.urdf"]);
+    Cell::new()
+        .armill(&["pose", "lathe", "--joints-deg", "0"])
+        .refused(&["`lathe`", "`armill robots`"]);
+    Cell::new()
+        .armill(&["pose", "gone.urdf", "--joints-deg", "0"])
+        .refused(&["cannot read robot file gone.urdf"]);
     let cell = Cell::new();
     std::fs::create_dir(cell.at("folder.toml")).unwrap();
     cell.armill(&["robots", "folder.toml"]).refused(&["folder.toml"]);
@@ -388,8 +514,10 @@ fn a_wrong_count_of_numbers_in_a_flag_is_told() {
     pose(&["--at-mm", "1,2,3,4"]).refused(&["--at-mm: 4 numbers"]);
     pose(&["--at-mm", "900,0,800", "--axis", "1,0"]).refused(&["--axis: 2 numbers"]);
     pose(&["--at-mm", "900,0,800", "--tool-mm", "1,2"]).refused(&["--tool-mm: 2 numbers", "three or six"]);
-    pose(&["--at-mm", "900,0,800", "--wrench-n", "1,2,3,4"]).refused(&["--wrench-n: 4 numbers", "three or six"]);
-    pose(&["--at-mm", "900,0,800", "--compliance-rad-per-n-m", "1e-6,1e-6"]).refused(&["2 compliances for 6 joints"]);
+    pose(&["--at-mm", "900,0,800", "--wrench-n", "1,2,3,4"])
+        .refused(&["--wrench-n: 4 numbers", "three or six"]);
+    pose(&["--at-mm", "900,0,800", "--compliance-rad-per-n-m", "1e-6,1e-6"])
+        .refused(&["2 compliances for 6 joints"]);
 }
 
 #[test]
@@ -428,7 +556,12 @@ fn what_is_no_number_is_refused() {
 
 #[test]
 fn a_negative_compliance_in_a_flag_is_told() {
-    let flags = ["--at-mm", "900,0,800", "--compliance-rad-per-n-m", "-1e-6,1e-6,1e-6,1e-6,1e-6,1e-6"];
+    let flags = [
+        "--at-mm",
+        "900,0,800",
+        "--compliance-rad-per-n-m",
+        "-1e-6,1e-6,1e-6,1e-6,1e-6,1e-6",
+    ];
     pose(&flags).refused(&["--compliance-rad-per-n-m", "joint S", "rad/(N m)"]);
 }
 
@@ -449,9 +582,25 @@ fn an_axis_of_no_length_and_an_unknown_frame_are_told() {
 
 #[test]
 fn commands_and_flags_that_do_not_exist_are_refused() {
-    for arguments in [&["fly"][..], &["run"], &["run", "a", "--colour"], &["run", "a", "--threads", "0"], &["pose"], &[]] {
+    for arguments in [
+        &["fly"][..],
+        &["run"],
+        &["run", "a", "--colour"],
+        &["run", "a", "--threads", "0"],
+        &["pose"],
+        &[],
+    ] {
         let said = Cell::new().armill(arguments);
-        assert_eq!((said.code, said.out.as_str()), (2, ""), "{arguments:?}: {}", said.err);
-        assert!(said.err.contains("--help") || said.err.contains("Usage"), "{}", said.err);
+        assert_eq!(
+            (said.code, said.out.as_str()),
+            (2, ""),
+            "{arguments:?}: {}",
+            said.err
+        );
+        assert!(
+            said.err.contains("--help") || said.err.contains("Usage"),
+            "{}",
+            said.err
+        );
     }
 }

@@ -36,14 +36,19 @@ fn fits(shown: &[String], real: &[&str]) -> bool {
     match shown.split_first() {
         None => real.is_empty(),
         Some((first, rest)) if first == "..." => (0..=real.len()).any(|skipped| fits(rest, &real[skipped..])),
-        Some((first, rest)) => real.split_first().is_some_and(|(line, more)| line == first && fits(rest, more)),
+        Some((first, rest)) => real
+            .split_first()
+            .is_some_and(|(line, more)| line == first && fits(rest, more)),
     }
 }
 
 fn run_page(path: &str) {
     let text = std::fs::read_to_string(repository().join(path)).unwrap();
     let folder = tempfile::tempdir().unwrap();
-    let program = Path::new(assert_cmd::cargo::cargo_bin!("armill")).parent().unwrap().to_owned();
+    let program = Path::new(assert_cmd::cargo::cargo_bin!("armill"))
+        .parent()
+        .unwrap()
+        .to_owned();
     let search = std::env::join_paths(
         std::iter::once(program).chain(std::env::split_paths(&std::env::var_os("PATH").unwrap())),
     );
@@ -54,11 +59,20 @@ fn run_page(path: &str) {
             .env("PATH", search.as_ref().unwrap())
             .output()
             .unwrap();
-        let (out, err) = (String::from_utf8(ran.stdout).unwrap(), String::from_utf8(ran.stderr).unwrap());
+        let (out, err) = (
+            String::from_utf8(ran.stdout).unwrap(),
+            String::from_utf8(ran.stderr).unwrap(),
+        );
         let one = |a: &str, b: &str| format!("{a}{b}").lines().map(str::to_owned).collect::<Vec<_>>();
         let orders = [one(&out, &err), one(&err, &out)];
-        let fitting = orders.iter().any(|lines| fits(&shown, &lines.iter().map(String::as_str).collect::<Vec<_>>()));
-        assert!(fitting, "{path}: `{command}` shows\n{}\nbut gives\n{out}{err}", shown.join("\n"));
+        let fitting = orders
+            .iter()
+            .any(|lines| fits(&shown, &lines.iter().map(String::as_str).collect::<Vec<_>>()));
+        assert!(
+            fitting,
+            "{path}: `{command}` shows\n{}\nbut gives\n{out}{err}",
+            shown.join("\n")
+        );
     }
 }
 
@@ -76,7 +90,9 @@ fn guide_runs() {
 
 #[test]
 fn every_page_of_the_guide_is_run() {
-    let pages = std::fs::read_dir(repository().join("docs/guide")).unwrap().count();
+    let pages = std::fs::read_dir(repository().join("docs/guide"))
+        .unwrap()
+        .count();
     assert_eq!(pages, 4, "name the new page in `guide_runs`");
 }
 

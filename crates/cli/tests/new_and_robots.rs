@@ -13,20 +13,28 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
         let (name, folder) = (robot["name"].as_str().unwrap(), format!("cell {index}"));
         cell.armill(&["new", &folder, "--robot", name]).fine();
         let text = std::fs::read_to_string(cell.at(&folder).join("study.toml")).unwrap();
-        assert!(text.lines().filter(|line| line.contains('#')).count() > 10, "{text}");
+        assert!(
+            text.lines().filter(|line| line.contains('#')).count() > 10,
+            "{text}"
+        );
         assert!(text.contains(&format!("robot = \"{name}\"")), "{text}");
         cell.armill(&["check", &folder]).fine();
         cell.armill(&["run", &folder, "--no-pictures"]).fine();
         let result = cell.result(&format!("{folder}/out"));
         let counts = &result["maps"][0]["counts"];
-        assert_eq!(number(&counts["out_of_reach"]), 0.0, "the example plate of {name} is out of reach");
+        assert_eq!(
+            number(&counts["out_of_reach"]),
+            0.0,
+            "the example plate of {name} is out of reach"
+        );
     }
 }
 
 #[test]
 fn a_new_study_of_a_robot_without_compliance_says_that_it_is_assumed() {
     let cell = Cell::new();
-    cell.armill(&["new", "cell", "--robot", "kuka/kr120r2500pro"]).fine();
+    cell.armill(&["new", "cell", "--robot", "kuka/kr120r2500pro"])
+        .fine();
     cell.armill(&["run", "cell", "--no-pictures"]).fine();
     let warnings = cell.result("cell/out")["warnings"].to_string();
     assert!(warnings.contains("assumed, not measured"), "{warnings}");
@@ -36,7 +44,8 @@ fn a_new_study_of_a_robot_without_compliance_says_that_it_is_assumed() {
 fn a_new_study_of_a_robot_file_finds_it_from_its_own_folder() {
     let cell = Cell::new();
     cell.file("arms/by hand.urdf", MH12_URDF);
-    cell.armill(&["new", "cells/first", "--robot", "arms/by hand.urdf"]).fine();
+    cell.armill(&["new", "cells/first", "--robot", "arms/by hand.urdf"])
+        .fine();
     cell.armill(&["run", "cells/first", "--no-pictures"]).fine();
 }
 
@@ -44,9 +53,14 @@ fn a_new_study_of_a_robot_file_finds_it_from_its_own_folder() {
 fn a_new_study_of_a_robot_that_no_study_can_use_is_refused() {
     let cell = Cell::new();
     cell.file("lever.toml", LEVER);
-    cell.armill(&["new", "cell", "--robot", "lever.toml"]).refused(&["no closed-form inverse"]);
-    cell.armill(&["new", "cell", "--robot", "mh12"]).refused(&["did you mean `yaskawa/mh12`?"]);
-    assert!(!cell.at("cell").exists(), "a folder was made for a study that was refused");
+    cell.armill(&["new", "cell", "--robot", "lever.toml"])
+        .refused(&["no closed-form inverse"]);
+    cell.armill(&["new", "cell", "--robot", "mh12"])
+        .refused(&["did you mean `yaskawa/mh12`?"]);
+    assert!(
+        !cell.at("cell").exists(),
+        "a folder was made for a study that was refused"
+    );
 }
 
 #[test]
@@ -56,9 +70,11 @@ fn a_new_study_leaves_the_files_of_an_existing_folder_alone() {
     cell.armill(&["new", "cell"]).fine();
     assert_eq!(cell.files("cell")["notes.txt"], b"mine");
     let before = cell.file("cell/study.toml", "mine too");
-    cell.armill(&["new", "cell"]).refused(&["cell/study.toml exists already", "another folder"]);
+    cell.armill(&["new", "cell"])
+        .refused(&["cell/study.toml exists already", "another folder"]);
     assert_eq!(std::fs::read(before).unwrap(), b"mine too");
-    cell.armill(&["new", "cell/notes.txt"]).refused(&["notes.txt", "is a file"]);
+    cell.armill(&["new", "cell/notes.txt"])
+        .refused(&["notes.txt", "is a file"]);
 }
 
 #[test]
@@ -71,18 +87,44 @@ fn what_was_made_is_told_as_json_on_request() {
 #[test]
 fn the_library_is_listed_with_what_is_known_of_each_robot() {
     let said = Cell::new().armill(&["robots"]).fine();
-    assert!(said.out.lines().any(|line| line.starts_with("yaskawa/mh12") && line.ends_with("compliance known")), "{}", said.out);
-    assert!(said.out.lines().any(|line| line.starts_with("kuka/") && line.ends_with("not known")), "{}", said.out);
+    assert!(
+        said.out
+            .lines()
+            .any(|line| line.starts_with("yaskawa/mh12") && line.ends_with("compliance known")),
+        "{}",
+        said.out
+    );
+    assert!(
+        said.out
+            .lines()
+            .any(|line| line.starts_with("kuka/") && line.ends_with("not known")),
+        "{}",
+        said.out
+    );
 }
 
 #[test]
 fn a_robot_is_shown_with_joints_limits_frames_and_sources() {
     let said = Cell::new().armill(&["robots", "yaskawa/mh12"]).fine();
-    for words in ["along z 450 mm (H)", "-170 to 170 deg", "Frame controller: at (0, 0, 450) mm", "Sources:", "Apache-2.0"] {
+    for words in [
+        "along z 450 mm (H)",
+        "-170 to 170 deg",
+        "Frame controller: at (0, 0, 450) mm",
+        "Sources:",
+        "Apache-2.0",
+    ] {
         assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
     }
-    let robot = Cell::new().armill(&["robots", "yaskawa/mh12", "--json"]).fine().json();
-    let names: Vec<&str> = robot["joints"].as_array().unwrap().iter().map(|joint| joint["name"].as_str().unwrap()).collect();
+    let robot = Cell::new()
+        .armill(&["robots", "yaskawa/mh12", "--json"])
+        .fine()
+        .json();
+    let names: Vec<&str> = robot["joints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|joint| joint["name"].as_str().unwrap())
+        .collect();
     assert_eq!(names, ["S", "L", "U", "R", "B", "T"]);
     assert_eq!(numbers(&robot["joints"][1]["limits_deg"]), [-90.0, 155.0]);
     assert_eq!(robot["closed_form_inverse"], true);
@@ -95,7 +137,12 @@ fn a_urdf_is_shown_as_the_chain_it_is() {
     let library = cell.armill(&["robots", "yaskawa/mh12", "--json"]).fine().json();
     let by_hand = cell.armill(&["robots", "arm.urdf", "--json"]).fine().json();
     assert_eq!(by_hand["closed_form_inverse"], true);
-    for (a, b) in library["joints"].as_array().unwrap().iter().zip(by_hand["joints"].as_array().unwrap()) {
+    for (a, b) in library["joints"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(by_hand["joints"].as_array().unwrap())
+    {
         assert_eq!((&a["name"], &a["sign"]), (&b["name"], &b["sign"]));
         for (a, b) in numbers(&a["limits_deg"]).iter().zip(numbers(&b["limits_deg"])) {
             // Told to 1e-9 deg.
@@ -108,18 +155,25 @@ fn a_urdf_is_shown_as_the_chain_it_is() {
 fn an_arm_is_drawn_to_the_file_asked_for() {
     let cell = Cell::new();
     for file in ["arm.svg", "arm.png", "Großer Arm.PNG"] {
-        cell.armill(&["robots", "kuka/kr120r2500pro", "--drawing", file]).fine();
+        cell.armill(&["robots", "kuka/kr120r2500pro", "--drawing", file])
+            .fine();
         let bytes = std::fs::read(cell.at(file)).unwrap();
         assert_eq!(what_is_half(&file.to_lowercase(), &bytes), None);
     }
-    cell.armill(&["robots", "yaskawa/mh12", "--drawing", "gone/arm.svg"]).refused(&["gone"]);
+    cell.armill(&["robots", "yaskawa/mh12", "--drawing", "gone/arm.svg"])
+        .refused(&["gone"]);
 }
 
 #[test]
 fn a_sound_study_is_told_with_its_points() {
-    let said = Cell::with_study(cell::SMALL).armill(&["check", "study.toml"]).fine();
+    let said = Cell::with_study(cell::SMALL)
+        .armill(&["check", "study.toml"])
+        .fine();
     assert_eq!(said.err, "study.toml: fine; 1 ask, 25 points\n");
-    let json = Cell::with_study(cell::SMALL).armill(&["check", ".", "--json"]).fine().json();
+    let json = Cell::with_study(cell::SMALL)
+        .armill(&["check", ".", "--json"])
+        .fine()
+        .json();
     assert_eq!(json, serde_json::json!({ "problems": [] }));
 }
 
@@ -133,7 +187,19 @@ fn examples_are_checked_from_an_empty_folder() {
 #[test]
 fn the_schema_names_every_field_of_the_study() {
     let schema = Cell::new().armill(&["check", "--schema"]).fine().json();
-    for field in ["format", "robot", "base", "tool", "plane", "load", "limit_um", "posture", "ask", "compliance", "statement"] {
+    for field in [
+        "format",
+        "robot",
+        "base",
+        "tool",
+        "plane",
+        "load",
+        "limit_um",
+        "posture",
+        "ask",
+        "compliance",
+        "statement",
+    ] {
         assert!(schema["properties"][field].is_object(), "no {field}");
     }
 }
@@ -142,12 +208,25 @@ fn the_schema_names_every_field_of_the_study() {
 fn every_command_has_help_with_examples_of_its_own() {
     for command in ["run", "check", "new", "robots", "pose", "completions"] {
         let said = Cell::new().armill(&[command, "--help"]).fine();
-        assert!(said.out.contains("Examples:") && said.out.contains(&format!("armill {command}")), "{}", said.out);
-        assert!(said.out.contains("--json") || command == "completions", "{command} has no --json");
+        assert!(
+            said.out.contains("Examples:") && said.out.contains(&format!("armill {command}")),
+            "{}",
+            said.out
+        );
+        assert!(
+            said.out.contains("--json") || command == "completions",
+            "{command} has no --json"
+        );
     }
     let whole = Cell::new().armill(&["--help"]).fine();
     assert!(whole.out.contains("Examples:"), "{}", whole.out);
-    assert!(Cell::new().armill(&["--version"]).fine().out.starts_with("armill 0."));
+    assert!(
+        Cell::new()
+            .armill(&["--version"])
+            .fine()
+            .out
+            .starts_with("armill 0.")
+    );
 }
 
 #[test]
@@ -155,10 +234,14 @@ fn examples_of_the_help_work() {
     let cell = Cell::new();
     let help = cell.armill(&["pose", "--help"]).fine().out;
     cell.file("arm.urdf", MH12_URDF);
-    let examples: Vec<&str> = help.lines().filter(|line| line.starts_with("  armill pose ")).collect();
+    let examples: Vec<&str> = help
+        .lines()
+        .filter(|line| line.starts_with("  armill pose "))
+        .collect();
     assert!(examples.len() >= 3, "{help}");
     for example in examples {
-        cell.armill(&example.split_whitespace().skip(1).collect::<Vec<_>>()).fine();
+        cell.armill(&example.split_whitespace().skip(1).collect::<Vec<_>>())
+            .fine();
     }
 }
 

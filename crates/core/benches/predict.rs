@@ -22,7 +22,12 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 
 fn cases() -> Vec<Wrench> {
     let force = |y: f64, z: f64| Wrench::from_force(Vector3::new(3.0, y, z));
-    vec![force(-5.0, -5.0), force(-5.0, 5.0), force(5.0, -5.0), force(5.0, 5.0)]
+    vec![
+        force(-5.0, -5.0),
+        force(-5.0, 5.0),
+        force(5.0, -5.0),
+        force(5.0, 5.0),
+    ]
 }
 
 fn one_pose(c: &mut Criterion) {
@@ -34,9 +39,14 @@ fn one_pose(c: &mut Criterion) {
     let push = cases()[0];
     let mut group = c.benchmark_group("one pose");
     group.throughput(Throughput::Elements(1));
-    group.bench_function("forward and screws", |b| b.iter(|| posture_at(&robot, black_box(&q), &tool)));
+    group.bench_function("forward and screws", |b| {
+        b.iter(|| posture_at(&robot, black_box(&q), &tool))
+    });
     group.bench_function("inverse, 8 postures, verified", |b| {
-        let at = ToolAt { flange_from_tool: &tool, near: None };
+        let at = ToolAt {
+            flange_from_tool: &tool,
+            near: None,
+        };
         b.iter(|| postures(&robot, arm, black_box(&posture.base_from_tool), at));
     });
     group.bench_function("compliance 6x6 of a posture", |b| {
@@ -59,7 +69,11 @@ fn one_map(c: &mut Criterion) {
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let named = BranchChoice::Of("front elbow-up".parse().unwrap());
     let whole = BranchChoice::Of("front elbow-up flip".parse().unwrap());
-    for (name, choice) in [("one posture", whole), ("front elbow-up, either wrist", named), ("best of all", BranchChoice::Best)] {
+    for (name, choice) in [
+        ("one posture", whole),
+        ("front elbow-up, either wrist", named),
+        ("best of all", BranchChoice::Best),
+    ] {
         let question = Question {
             robot: &robot,
             arm: robot.ortho_parallel().unwrap(),

@@ -31,7 +31,11 @@ pub fn from_xyz_and_fixed_angles(xyz: Vector3<f64>, rx_ry_rz: Vector3<f64>) -> I
 pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f64> {
     let z = axis.into_inner();
     // Within 1e-6 rad of base y the projection of y has no direction left that could be trusted.
-    let reference = if z.cross(&Vector3::y()).norm() > 1e-6 { Vector3::y() } else { Vector3::x() };
+    let reference = if z.cross(&Vector3::y()).norm() > 1e-6 {
+        Vector3::y()
+    } else {
+        Vector3::x()
+    };
     let y = (reference - z * reference.dot(&z)).normalize();
     let unspun = Matrix3::from_columns(&[y.cross(&z), y, z]);
     let about_axis = UnitQuaternion::from_axis_angle(&axis, spin);
@@ -45,7 +49,8 @@ mod tests {
 
     #[test]
     fn fixed_angles_turn_about_x_first() {
-        let quarter_turns = from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(FRAC_PI_2, 0.0, FRAC_PI_2));
+        let quarter_turns =
+            from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(FRAC_PI_2, 0.0, FRAC_PI_2));
         // y goes to z by the turn about x; the turn about z leaves it there.
         assert!((quarter_turns.rotation * Vector3::y() - Vector3::z()).norm() < 1e-15);
     }

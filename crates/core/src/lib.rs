@@ -9,18 +9,18 @@
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
-pub mod frame;
-pub mod spatial;
-pub mod robot;
 pub mod compliance;
-pub mod load;
-pub mod source;
-pub mod predict;
-pub mod workpiece;
-pub mod path;
-pub mod watch;
+pub mod frame;
 pub mod kernel;
+pub mod load;
 pub mod map;
+pub mod path;
+pub mod predict;
+pub mod robot;
+pub mod source;
+pub mod spatial;
+pub mod watch;
+pub mod workpiece;
 
 /// The linear algebra that the public types are made of.
 pub use nalgebra;

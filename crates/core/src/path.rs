@@ -53,7 +53,10 @@ impl Shape {
                     .map(|i| {
                         let phi = TAU * i as f64 / count as f64;
                         let at = centre + Vector2::new(-phi.cos(), phi.sin()) * *radius;
-                        Sample { at, along: phi * radius }
+                        Sample {
+                            at,
+                            along: phi * radius,
+                        }
                     })
                     .collect()
             }
@@ -65,7 +68,10 @@ impl Shape {
                     let count = pieces(vector.norm(), step);
                     for i in 0..count {
                         let t = i as f64 / count as f64;
-                        samples.push(Sample { at: side[0] + vector * t, along: along + vector.norm() * t });
+                        samples.push(Sample {
+                            at: side[0] + vector * t,
+                            along: along + vector.norm() * t,
+                        });
                     }
                     along += vector.norm();
                 }
@@ -121,7 +127,10 @@ pub fn roundness(points: &[Point2<f64>]) -> Option<Roundness> {
             normal += row * row.transpose();
             right += row * (distance - radius);
         }
-        let step = normal.lu().solve(&right).filter(|s| s.iter().all(|v| v.is_finite()))?;
+        let step = normal
+            .lu()
+            .solve(&right)
+            .filter(|s| s.iter().all(|v| v.is_finite()))?;
         centre += step.xy();
         radius += step.z;
         if step.norm() <= 1e-15 * radius.abs() {
@@ -143,7 +152,10 @@ mod tests {
 
     #[test]
     fn a_circle_of_radius_100_mm_in_5_deg_steps_has_72_points() {
-        let circle = Shape::Circle { centre: Point2::origin(), radius: 0.1 };
+        let circle = Shape::Circle {
+            centre: Point2::origin(),
+            radius: 0.1,
+        };
         let samples = circle.sampled(TAU * 0.1 / 72.0);
         assert_eq!(samples.len(), 72);
         assert!((samples[0].at - Point2::new(-0.1, 0.0)).norm() < 1e-15);
@@ -159,7 +171,11 @@ mod tests {
         for pair in samples.windows(2) {
             assert!((pair[1].at - pair[0].at).norm() < 0.04 + 1e-12);
         }
-        assert!(samples.iter().any(|s| (s.at - Point2::new(0.25, 0.25)).norm() < 1e-15));
+        assert!(
+            samples
+                .iter()
+                .any(|s| (s.at - Point2::new(0.25, 0.25)).norm() < 1e-15)
+        );
     }
 
     #[test]

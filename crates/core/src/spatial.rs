@@ -23,7 +23,10 @@ pub struct Twist {
 
 impl Twist {
     /// The twist of no motion.
-    pub const ZERO: Twist = Twist { linear: Vector3::new(0.0, 0.0, 0.0), angular: Vector3::new(0.0, 0.0, 0.0) };
+    pub const ZERO: Twist = Twist {
+        linear: Vector3::new(0.0, 0.0, 0.0),
+        angular: Vector3::new(0.0, 0.0, 0.0),
+    };
 
     /// Work (J) that `wrench` does on this displacement; both at the same point and basis.
     pub fn dot(&self, wrench: &Wrench) -> f64 {
@@ -32,7 +35,10 @@ impl Twist {
 
     /// This twist times a number, for example a screw times a joint angle.
     pub fn scaled(&self, factor: f64) -> Twist {
-        Twist { linear: self.linear * factor, angular: self.angular * factor }
+        Twist {
+            linear: self.linear * factor,
+            angular: self.angular * factor,
+        }
     }
 
     /// `[linear; angular]` as one column.
@@ -49,14 +55,20 @@ impl Twist {
 
     /// The same motion, told at a reference point `by` further away (m, same basis).
     pub fn moved(&self, by: Vector3<f64>) -> Twist {
-        Twist { linear: self.linear + self.angular.cross(&by), angular: self.angular }
+        Twist {
+            linear: self.linear + self.angular.cross(&by),
+            angular: self.angular,
+        }
     }
 }
 
 impl std::ops::Add for Twist {
     type Output = Twist;
     fn add(self, other: Twist) -> Twist {
-        Twist { linear: self.linear + other.linear, angular: self.angular + other.angular }
+        Twist {
+            linear: self.linear + other.linear,
+            angular: self.angular + other.angular,
+        }
     }
 }
 
@@ -78,12 +90,18 @@ pub struct Wrench {
 impl Wrench {
     /// A wrench with no moment about its reference point.
     pub fn from_force(force: Vector3<f64>) -> Wrench {
-        Wrench { force, moment: Vector3::zeros() }
+        Wrench {
+            force,
+            moment: Vector3::zeros(),
+        }
     }
 
     /// The same load, told about a reference point `by` further away (m, same basis).
     pub fn moved(&self, by: Vector3<f64>) -> Wrench {
-        Wrench { force: self.force, moment: self.moment - by.cross(&self.force) }
+        Wrench {
+            force: self.force,
+            moment: self.moment - by.cross(&self.force),
+        }
     }
 
     /// `[force; moment]` as one column.
@@ -102,7 +120,8 @@ pub fn adjoint(base_from_local: &Isometry, p: &Point3<f64>) -> Matrix6<f64> {
     let lever = p.coords - base_from_local.translation.vector;
     let mut ad = Matrix6::zeros();
     ad.fixed_view_mut::<3, 3>(0, 0).copy_from(&r);
-    ad.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-lever.cross_matrix() * r));
+    ad.fixed_view_mut::<3, 3>(0, 3)
+        .copy_from(&(-lever.cross_matrix() * r));
     ad.fixed_view_mut::<3, 3>(3, 3).copy_from(&r);
     ad
 }
@@ -113,12 +132,18 @@ mod tests {
     use crate::frame::from_xyz_and_fixed_angles;
 
     fn some_twist() -> Twist {
-        Twist { linear: Vector3::new(1.0, -2.0, 0.5), angular: Vector3::new(0.3, 0.7, -1.1) }
+        Twist {
+            linear: Vector3::new(1.0, -2.0, 0.5),
+            angular: Vector3::new(0.3, 0.7, -1.1),
+        }
     }
 
     #[test]
     fn work_does_not_depend_on_the_reference_point() {
-        let load = Wrench { force: Vector3::new(3.0, -5.0, 5.0), moment: Vector3::new(0.1, 0.2, -0.4) };
+        let load = Wrench {
+            force: Vector3::new(3.0, -5.0, 5.0),
+            moment: Vector3::new(0.1, 0.2, -0.4),
+        };
         let by = Vector3::new(0.2, -0.3, 0.9);
         let here = some_twist().dot(&load);
         let there = some_twist().moved(by).dot(&load.moved(by));
@@ -135,7 +160,9 @@ mod tests {
             linear: base_from_local.rotation * local.linear,
             angular: base_from_local.rotation * local.angular,
         };
-        let expected = in_base.moved(p.coords - base_from_local.translation.vector).to_vector();
+        let expected = in_base
+            .moved(p.coords - base_from_local.translation.vector)
+            .to_vector();
         assert!((adjoint(&base_from_local, &p) * local.to_vector() - expected).norm() < 1e-14);
     }
 }

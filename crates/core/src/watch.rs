@@ -15,7 +15,10 @@ static NEVER: AtomicBool = AtomicBool::new(false);
 
 impl Watch<'_> {
     /// Tells nobody and is never cancelled.
-    pub const NONE: Watch<'static> = Watch { finished: &|_| (), cancel: &NEVER };
+    pub const NONE: Watch<'static> = Watch {
+        finished: &|_| (),
+        cancel: &NEVER,
+    };
 
     /// Whether the work should stop.
     pub fn is_cancelled(&self) -> bool {

@@ -31,7 +31,9 @@ impl Plane {
             Vector3::new(-cos, 0.0, sin),
         ]);
         let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
-        Plane { base_from_part: Isometry::from_parts(centre.coords.into(), rotation) }
+        Plane {
+            base_from_part: Isometry::from_parts(centre.coords.into(), rotation),
+        }
     }
 
     /// Outward normal, base basis.
@@ -51,7 +53,10 @@ impl Plane {
 
     /// The tool pose at in-plane coordinates `at` (m, part x and y) with `spin` (rad) about the tool axis.
     pub fn base_from_tool(&self, at: Point2<f64>, spin: f64) -> Isometry {
-        Isometry::from_parts(self.at(at).coords.into(), tool_orientation(self.tool_axis(), spin))
+        Isometry::from_parts(
+            self.at(at).coords.into(),
+            tool_orientation(self.tool_axis(), spin),
+        )
     }
 
     /// A base vector (a deviation, say) told in the part: in-plane x and y, then along the normal.
@@ -76,7 +81,11 @@ impl Split {
     pub fn of(deviation: &Vector3<f64>, normal: Unit<Vector3<f64>>) -> Split {
         let along = deviation.dot(&normal);
         let in_plane = (deviation - normal.into_inner() * along).norm();
-        Split { full: deviation.norm(), in_plane, normal: along }
+        Split {
+            full: deviation.norm(),
+            in_plane,
+            normal: along,
+        }
     }
 }
 
@@ -96,7 +105,11 @@ impl Grid {
     pub fn within(half_size: [f64; 2], step: f64) -> Grid {
         // A hair of slack, so that 0.4 / 0.1 gives four steps and not three.
         let points = |half: f64| 2 * (half / step + 1e-9).floor() as usize + 1;
-        Grid { columns: points(half_size[0]), rows: points(half_size[1]), step }
+        Grid {
+            columns: points(half_size[0]),
+            rows: points(half_size[1]),
+            step,
+        }
     }
 
     /// How many points.

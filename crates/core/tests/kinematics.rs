@@ -106,8 +106,15 @@ fn mh12_has_eight_postures_in_the_middle_of_its_space() {
     let robot = arms::mh12();
     let tool = Isometry::identity();
     let target = posture_at(&robot, &[0.3, 0.2, -0.4, 0.5, 0.6, -0.2], &tool).base_from_tool;
-    let found =
-        postures(&robot, robot.ortho_parallel().unwrap(), &target, ToolAt { flange_from_tool: &tool, near: None });
+    let found = postures(
+        &robot,
+        robot.ortho_parallel().unwrap(),
+        &target,
+        ToolAt {
+            flange_from_tool: &tool,
+            near: None,
+        },
+    );
     assert_eq!(found.unwrap().len(), 8);
 }
 
@@ -116,10 +123,21 @@ fn a_pose_beyond_the_stretched_arm_says_by_how_much() {
     let robot = arms::mh12();
     let tool = Isometry::identity();
     // Shoulder at (155, 0, 450) mm; wrist centre 100 mm behind the flange, tool along +x.
-    let target = armill_core::workpiece::Plane::tilted([3.0, 0.0, 0.45].into(), 0.0).base_from_tool([0.0, 0.0].into(), 0.0);
-    let miss = postures(&robot, robot.ortho_parallel().unwrap(), &target, ToolAt { flange_from_tool: &tool, near: None });
+    let target = armill_core::workpiece::Plane::tilted([3.0, 0.0, 0.45].into(), 0.0)
+        .base_from_tool([0.0, 0.0].into(), 0.0);
+    let miss = postures(
+        &robot,
+        robot.ortho_parallel().unwrap(),
+        &target,
+        ToolAt {
+            flange_from_tool: &tool,
+            near: None,
+        },
+    );
     let reach = 0.614 + 0.640_f64.hypot(0.200);
-    let Err(Unreachable::TooFar { by }) = miss else { panic!("{miss:?}") };
+    let Err(Unreachable::TooFar { by }) = miss else {
+        panic!("{miss:?}")
+    };
     assert!((by - (2.9 - 0.155 - reach)).abs() < 1e-12, "{by} m");
 }
 
@@ -129,8 +147,26 @@ fn at_the_wrist_singularity_joint_4_stays_or_shares_the_turn() {
     let (arm, tool) = (robot.ortho_parallel().unwrap(), Isometry::identity());
     let q = [0.1, 0.2, -0.3, 0.7, 0.0, 0.5];
     let target = posture_at(&robot, &q, &tool).base_from_tool;
-    let kept = postures(&robot, arm, &target, ToolAt { flange_from_tool: &tool, near: Some(&q) }).unwrap();
-    let shared = postures(&robot, arm, &target, ToolAt { flange_from_tool: &tool, near: None }).unwrap();
+    let kept = postures(
+        &robot,
+        arm,
+        &target,
+        ToolAt {
+            flange_from_tool: &tool,
+            near: Some(&q),
+        },
+    )
+    .unwrap();
+    let shared = postures(
+        &robot,
+        arm,
+        &target,
+        ToolAt {
+            flange_from_tool: &tool,
+            near: None,
+        },
+    )
+    .unwrap();
     let front_up = |found: &[armill_core::robot::Posture]| {
         found
             .iter()
@@ -140,8 +176,16 @@ fn at_the_wrist_singularity_joint_4_stays_or_shares_the_turn() {
     };
     let (kept, shared) = (front_up(&kept), front_up(&shared));
     assert_eq!(kept.singularity, Some(Singularity::Wrist));
-    assert!((kept.joints[3] - 0.7).abs() < 1e-9 && (kept.joints[5] - 0.5).abs() < 1e-9, "{:?}", kept.joints);
-    assert!((shared.joints[3] - 0.6).abs() < 1e-9 && (shared.joints[5] - 0.6).abs() < 1e-9, "{:?}", shared.joints);
+    assert!(
+        (kept.joints[3] - 0.7).abs() < 1e-9 && (kept.joints[5] - 0.5).abs() < 1e-9,
+        "{:?}",
+        kept.joints
+    );
+    assert!(
+        (shared.joints[3] - 0.6).abs() < 1e-9 && (shared.joints[5] - 0.6).abs() < 1e-9,
+        "{:?}",
+        shared.joints
+    );
 }
 
 #[test]

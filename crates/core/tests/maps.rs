@@ -20,7 +20,12 @@ use armill_core::workpiece::{Grid, Plane, Split};
 
 fn cases() -> Vec<Wrench> {
     let force = |y: f64, z: f64| Wrench::from_force(Vector3::new(3.0, y, z));
-    vec![force(-5.0, -5.0), force(-5.0, 5.0), force(5.0, -5.0), force(5.0, 5.0)]
+    vec![
+        force(-5.0, -5.0),
+        force(-5.0, 5.0),
+        force(5.0, -5.0),
+        force(5.0, 5.0),
+    ]
 }
 
 fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
@@ -50,8 +55,14 @@ fn every_point_of_a_map_is_what_predict_says_of_its_posture() {
         let tool = Isometry::translation(0.0, 0.0, 0.1);
         for (index, held) in map.answers.held() {
             let posture = posture_at(&robot, map.answers.joints_at(index), &tool);
-            let told: Vec<_> = cases().iter().map(|w| predict(&posture, robot.compliance().unwrap(), w)).collect();
-            let splits: Vec<_> = told.iter().map(|d| Split::of(&d.twist.linear, plane.normal())).collect();
+            let told: Vec<_> = cases()
+                .iter()
+                .map(|w| predict(&posture, robot.compliance().unwrap(), w))
+                .collect();
+            let splits: Vec<_> = told
+                .iter()
+                .map(|d| Split::of(&d.twist.linear, plane.normal()))
+                .collect();
             let worst = splits.iter().map(|s| s.in_plane).fold(0.0, f64::max);
             assert!((held.in_plane - worst).abs() < 1e-15, "{}", robot.name());
             assert!((splits[held.deciding_case].in_plane - worst).abs() < 1e-15);
@@ -75,16 +86,25 @@ fn best_is_the_least_of_all_branches_inside_limits() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.4);
     let grid = Grid::within([0.4, 0.4], 0.1);
-    let map = ask(&robot, &plane, BranchChoice::Best, |q| plane_map(q, plane, grid, Watch::NONE).unwrap());
+    let map = ask(&robot, &plane, BranchChoice::Best, |q| {
+        plane_map(q, plane, grid, Watch::NONE).unwrap()
+    });
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     for (index, point) in map.answers.points.iter().enumerate() {
         let pose = plane.base_from_tool(grid.point(index), 0.0);
-        let tool_at = ToolAt { flange_from_tool: &tool, near: None };
+        let tool_at = ToolAt {
+            flange_from_tool: &tool,
+            near: None,
+        };
         let found = postures(&robot, robot.ortho_parallel().unwrap(), &pose, tool_at).unwrap_or_default();
-        let inside = found.iter().filter(|p| robot.limit_margin(&p.joints).unwrap().1 >= -1e-9);
+        let inside = found
+            .iter()
+            .filter(|p| robot.limit_margin(&p.joints).unwrap().1 >= -1e-9);
         let envelope = |posture: &armill_core::robot::Posture| {
             let c = compliance_at_tool(&posture.screws, robot.compliance().unwrap());
-            let of = |w: &Wrench| Split::of(&(c * w.to_vector()).fixed_rows::<3>(0).into(), plane.normal()).in_plane;
+            let of = |w: &Wrench| {
+                Split::of(&(c * w.to_vector()).fixed_rows::<3>(0).into(), plane.normal()).in_plane
+            };
             cases().iter().map(of).fold(0.0, f64::max)
         };
         let least = inside.map(envelope).min_by(f64::total_cmp);
@@ -101,10 +121,15 @@ fn any_number_of_threads_gives_the_same_bits() {
     let robot = arms::tx2_90();
     let plane = Plane::tilted(Point3::new(0.6, 0.0, 0.5), 0.9);
     let map = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| {
             ask(&robot, &plane, BranchChoice::Best, |q| {
-                plane_map(q, plane, Grid::within([0.5, 0.5], 0.02), Watch::NONE).unwrap().answers
+                plane_map(q, plane, Grid::within([0.5, 0.5], 0.02), Watch::NONE)
+                    .unwrap()
+                    .answers
             })
         })
     };
@@ -121,7 +146,12 @@ fn a_plane_out_of_reach_is_a_result_with_a_reason() {
     let map = ask(&robot, &plane, BranchChoice::Best, |q| {
         plane_map(q, plane, Grid::within([0.1, 0.1], 0.1), Watch::NONE).unwrap()
     });
-    assert!(map.answers.points.iter().all(|p| matches!(p, Err(Unreachable::TooFar { by }) if *by > 3.0)));
+    assert!(
+        map.answers
+            .points
+            .iter()
+            .all(|p| matches!(p, Err(Unreachable::TooFar { by }) if *by > 3.0))
+    );
     let counts = Counts::of(&map.answers, 50e-6);
     assert_eq!((counts.out_of_reach, counts.points()), (9, 9));
     assert_eq!(map.region(50e-6).area, 0.0);
@@ -140,7 +170,10 @@ fn a_volume_and_a_plane_agree_where_they_share_points() {
     for row in 0..5 {
         for column in 0..5 {
             let on_plane = map.answers.points[row * 5 + column].as_ref().unwrap().in_plane;
-            let in_box = volume.answers.points[1 + 3 * ((4 - column) + 5 * row)].as_ref().unwrap().in_plane;
+            let in_box = volume.answers.points[1 + 3 * ((4 - column) + 5 * row)]
+                .as_ref()
+                .unwrap()
+                .in_plane;
             assert!((on_plane - in_box).abs() < 1e-15);
         }
     }
@@ -162,18 +195,28 @@ fn in_order_and_at_once_agree_away_from_singularities() {
 fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
-    let circle = Shape::Circle { centre: Point2::origin(), radius: 0.1 };
-    let path = ask(&robot, &plane, branch("front elbow-up"), |q| along_path(q, plane, &circle, 0.01, Watch::NONE).unwrap());
+    let circle = Shape::Circle {
+        centre: Point2::origin(),
+        radius: 0.1,
+    };
+    let path = ask(&robot, &plane, branch("front elbow-up"), |q| {
+        along_path(q, plane, &circle, 0.01, Watch::NONE).unwrap()
+    });
     assert_eq!(path.radial.len(), 4);
     for (case, radial) in path.radial.iter().enumerate() {
         // Peak to valley about any centre is at least that about the best, and at most the radial range.
         let range = radial.outward.iter().copied().fold(f64::MIN, f64::max)
             - radial.outward.iter().copied().fold(f64::MAX, f64::min);
         assert!(radial.roundness.peak_to_valley < range, "case {case}");
-        let mean = (0..path.samples.len()).map(|i| path.deviation_in_part(i, case).xy()).sum::<Vector2<f64>>()
+        let mean = (0..path.samples.len())
+            .map(|i| path.deviation_in_part(i, case).xy())
+            .sum::<Vector2<f64>>()
             / path.samples.len() as f64;
         // The centre follows the mean deviation, up to the second harmonic's share (half a micrometre here).
-        assert!((radial.roundness.centre.coords - mean).norm() < 0.3 * mean.norm(), "case {case}");
+        assert!(
+            (radial.roundness.centre.coords - mean).norm() < 0.3 * mean.norm(),
+            "case {case}"
+        );
     }
 }
 
@@ -182,8 +225,13 @@ fn work_stops_when_it_is_cancelled() {
     let robot = arms::mh12();
     let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
     let cancel = std::sync::atomic::AtomicBool::new(true);
-    let watch = Watch { finished: &|_| (), cancel: &cancel };
-    let outcome = ask(&robot, &plane, BranchChoice::Best, |q| plane_map(q, plane, Grid::within([0.1, 0.1], 0.01), watch).map(|_| ()));
+    let watch = Watch {
+        finished: &|_| (),
+        cancel: &cancel,
+    };
+    let outcome = ask(&robot, &plane, BranchChoice::Best, |q| {
+        plane_map(q, plane, Grid::within([0.1, 0.1], 0.01), watch).map(|_| ())
+    });
     assert_eq!(outcome, Err(Cancelled));
 }
 
@@ -196,8 +244,14 @@ fn progress_counts_every_point_once() {
     let finished = |points: usize| {
         counted.fetch_add(points, std::sync::atomic::Ordering::Relaxed);
     };
-    let watch = Watch { finished: &finished, cancel: &cancel };
+    let watch = Watch {
+        finished: &finished,
+        cancel: &cancel,
+    };
     let grid = Grid::within([0.2, 0.2], 0.01);
-    ask(&robot, &plane, BranchChoice::Best, |q| plane_map(q, plane, grid, watch).map(|_| ())).unwrap();
+    ask(&robot, &plane, BranchChoice::Best, |q| {
+        plane_map(q, plane, grid, watch).map(|_| ())
+    })
+    .unwrap();
     assert_eq!(counted.into_inner(), grid.len());
 }

@@ -56,13 +56,18 @@ pub enum ErrorKind {
 impl StudyError {
     /// A wrong value with what to do about it.
     pub fn value(message: impl Into<String>, hint: impl Into<String>) -> StudyError {
-        StudyError::Value { message: message.into(), hint: hint.into() }
+        StudyError::Value {
+            message: message.into(),
+            hint: hint.into(),
+        }
     }
 
     /// Of which kind this is.
     pub fn kind(&self) -> ErrorKind {
         match self {
-            StudyError::Problems(_) | StudyError::File(_) | StudyError::Value { .. } => ErrorKind::InvalidInput,
+            StudyError::Problems(_) | StudyError::File(_) | StudyError::Value { .. } => {
+                ErrorKind::InvalidInput
+            }
             StudyError::Cancelled(_) => ErrorKind::Cancelled,
             _ => ErrorKind::Internal,
         }

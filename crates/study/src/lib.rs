@@ -65,6 +65,10 @@ mod tests {
         let choice = branch_choice("elbow-down", nominal).unwrap();
         assert_eq!(choice, BranchChoice::Of("front elbow-down".parse().unwrap()));
         assert_eq!(branch_choice("best", nominal), Ok(BranchChoice::Best));
-        assert!(branch_choice("sideways", nominal).unwrap_err().contains("`sideways`"));
+        assert!(
+            branch_choice("sideways", nominal)
+                .unwrap_err()
+                .contains("`sideways`")
+        );
     }
 }

@@ -44,10 +44,17 @@ pub fn robot(name: &str) -> Option<Result<RobotDescription, Problems>> {
 /// The name in the library that is most like `name`, if any is.
 pub fn most_like(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
-    let part = ROBOTS.iter().find(|robot| robot.name.split('/').any(|word| word == lower));
+    let part = ROBOTS
+        .iter()
+        .find(|robot| robot.name.split('/').any(|word| word == lower));
     part.map(|robot| robot.name).or_else(|| {
-        let scored = ROBOTS.iter().map(|robot| (strsim::jaro_winkler(robot.name, &lower), robot.name));
-        scored.filter(|(score, _)| *score > 0.75).max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name)
+        let scored = ROBOTS
+            .iter()
+            .map(|robot| (strsim::jaro_winkler(robot.name, &lower), robot.name));
+        scored
+            .filter(|(score, _)| *score > 0.75)
+            .max_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, name)| name)
     })
 }
 

@@ -11,7 +11,7 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
 use armill_core::robot::{Posture, Unreachable};
 use armill_core::spatial::Wrench;
-use armill_formats::robot::RobotDescription;
+use armill_formats::robot::{RobotDescription, Source};
 use serde::Serialize;
 
 use crate::StudyError;
@@ -58,8 +58,10 @@ pub struct PoseAnswer {
     pub postures: Vec<PostureAnswer>,
     /// Why there is no posture.
     pub unreachable: Option<UnreachableAnswer>,
-    /// Where the numbers come from, and what is missing.
+    /// What a user should know before trusting it, and what is missing.
     pub notes: Vec<String>,
+    /// Where the numbers of the robot come from.
+    pub sources: Vec<Source>,
 }
 
 /// One posture.
@@ -146,18 +148,28 @@ const WEIGHING_LENGTH: f64 = 1.0;
 pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
     let robot = &described.robot;
     let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
-        StudyError::value(format!("robot `{}` has no frame `{}`", robot.name(), question.base), format!("it has: {known}"))
+        StudyError::value(
+            format!("robot `{}` has no frame `{}`", robot.name(), question.base),
+            format!("it has: {known}"),
+        )
     })?;
     let mut unreachable = None;
     let found = match &question.at {
-        At::JointsDeg(joints) => vec![posture_at(robot, &joint_positions(described, joints)?, &question.flange_from_tool)],
+        At::JointsDeg(joints) => vec![posture_at(
+            robot,
+            &joint_positions(described, joints)?,
+            &question.flange_from_tool,
+        )],
         At::Tool { tcp, axis, spin } => {
             let arm = robot.ortho_parallel().ok_or_else(|| {
                 let message = format!("robot `{}` has no closed-form inverse", robot.name());
                 StudyError::value(message, "give its joints with --joints-deg")
             })?;
             let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
-            let tool = ToolAt { flange_from_tool: &question.flange_from_tool, near: None };
+            let tool = ToolAt {
+                flange_from_tool: &question.flange_from_tool,
+                near: None,
+            };
             match postures(robot, arm, &(base_from_counted * counted_from_tool), tool) {
                 Ok(found) => found,
                 Err(miss) => {
@@ -171,9 +183,13 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
         robot: robot.name().to_owned(),
         base: question.base.clone(),
         joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
-        postures: found.iter().map(|p| posture_answer(described, question, &base_from_counted, p)).collect(),
+        postures: found
+            .iter()
+            .map(|p| posture_answer(described, question, &base_from_counted, p))
+            .collect(),
         unreachable,
         notes: notes(described),
+        sources: described.sources.clone(),
     })
 }
 
@@ -181,10 +197,24 @@ fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f6
     let robot = &described.robot;
     let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     if given.len() != names.len() {
-        let message = format!("{} joint positions for the {} joints of `{}`", given.len(), names.len(), robot.name());
-        return Err(StudyError::value(message, format!("one each for {}", names.join(", "))));
+        let message = format!(
+            "{} joint positions for the {} joints of `{}`",
+            given.len(),
+            names.len(),
+            robot.name()
+        );
+        return Err(StudyError::value(
+            message,
+            format!("one each for {}", names.join(", ")),
+        ));
     }
-    let to_si = |(i, value): (usize, &f64)| if robot.slides(i) { value * 1e-3 } else { value.to_radians() };
+    let to_si = |(i, value): (usize, &f64)| {
+        if robot.slides(i) {
+            value * 1e-3
+        } else {
+            value.to_radians()
+        }
+    };
     Ok(given.iter().enumerate().map(to_si).collect())
 }
 
@@ -195,18 +225,32 @@ fn posture_answer(
     posture: &Posture,
 ) -> PostureAnswer {
     let robot = &described.robot;
-    let from_si = |i: usize, value: f64| if robot.slides(i) { value * 1e3 } else { value.to_degrees() };
+    let from_si = |i: usize, value: f64| {
+        if robot.slides(i) {
+            value * 1e3
+        } else {
+            value.to_degrees()
+        }
+    };
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
     let compliance = robot.compliance().map(|c| compliance_at_tool(&posture.screws, c));
-    let deviation = robot.compliance().zip(question.wrench).map(|(c, wrench)| predict(posture, c, &wrench));
+    let deviation = robot
+        .compliance()
+        .zip(question.wrench)
+        .map(|(c, wrench)| predict(posture, c, &wrench));
     let counted_from_tool = base_from_counted.inv_mul(&posture.base_from_tool);
     let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
     let rotation = counted_from_tool.rotation.quaternion();
     let um = |v: Vector3<f64>| [v.x * 1e6, v.y * 1e6, v.z * 1e6];
     PostureAnswer {
         branch: posture.branch.map(|branch| branch.to_string()),
-        joints_deg: posture.joints.iter().enumerate().map(|(i, q)| from_si(i, *q)).collect(),
+        joints_deg: posture
+            .joints
+            .iter()
+            .enumerate()
+            .map(|(i, q)| from_si(i, *q))
+            .collect(),
         within_limits: margin.is_none_or(|(_, margin)| margin >= -AT_LIMIT),
         limit_margin_deg: margin.map(|(i, margin)| from_si(i, margin)),
         limit_joint: margin.map(|(i, _)| robot.joints()[i].name.clone()),
@@ -222,8 +266,12 @@ fn posture_answer(
         stiffness: compliance.map(|c| stiffness_answer(&c, axis)),
         deviation_um: deviation.as_ref().map(|d| um(d.twist.linear)),
         rotation_urad: deviation.as_ref().map(|d| um(d.twist.angular)),
-        joint_share_um: deviation.as_ref().map(|d| d.joint_shares.iter().map(|s| um(s.linear)).collect()),
-        deviation_u_um: deviation.as_ref().map(|d| um(d.covariance.diagonal().map(f64::sqrt))),
+        joint_share_um: deviation
+            .as_ref()
+            .map(|d| d.joint_shares.iter().map(|s| um(s.linear)).collect()),
+        deviation_u_um: deviation
+            .as_ref()
+            .map(|d| um(d.covariance.diagonal().map(f64::sqrt))),
     }
 }
 
@@ -233,7 +281,10 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
     StiffnessAnswer {
         stiffness: six_rows(&stiffness.matrix),
         rank: stiffness.rank,
-        condition_number: stiffness.condition_number.is_finite().then_some(stiffness.condition_number),
+        condition_number: stiffness
+            .condition_number
+            .is_finite()
+            .then_some(stiffness.condition_number),
         principal_um_per_n: principal.map(|p| p.value * 1e6),
         principal_direction: principal.map(|p| p.direction.into()),
         permissible_n_per_um: permissible_force_in_worst_direction(compliance, axis, 1e-6).0,
@@ -246,7 +297,11 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     | Unreachable::InsideLateralOffset { by }
     | Unreachable::Unverified { by }
     | Unreachable::OutsideLimits { by, .. }) = miss;
-    UnreachableAnswer { reason: miss.reason().to_owned(), amount_mm: by * 1e3, message: miss.to_string() }
+    UnreachableAnswer {
+        reason: miss.reason().to_owned(),
+        amount_mm: by * 1e3,
+        message: miss.to_string(),
+    }
 }
 
 fn notes(described: &RobotDescription) -> Vec<String> {
@@ -254,12 +309,14 @@ fn notes(described: &RobotDescription) -> Vec<String> {
     if described.robot.compliance().is_none() {
         notes.push("no joint compliance is known: give one with --compliance-rad-per-n-m".to_owned());
     }
-    notes.extend(described.sources.iter().map(|s| format!("{}: {} ({})", s.key, s.what, s.place)));
     notes
 }
 
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
-    matrix.row_iter().map(|row| row.iter().copied().collect()).collect()
+    matrix
+        .row_iter()
+        .map(|row| row.iter().copied().collect())
+        .collect()
 }
 
 fn six_rows(matrix: &Matrix6<f64>) -> [[f64; 6]; 6] {

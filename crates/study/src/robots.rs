@@ -27,19 +27,29 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
         return Err(StudyError::value(message, hint));
     }
     // A file of the current folder is called as the user called it.
-    let path = if folder == Path::new(".") { Path::new(name).to_owned() } else { folder.join(name) };
+    let path = if folder == Path::new(".") {
+        Path::new(name).to_owned()
+    } else {
+        folder.join(name)
+    };
     let shown = path.display().to_string();
     let bytes = std::fs::read(&path).map_err(|error| {
         let hint = "in a study, paths count from the folder of the study file";
         StudyError::value(format!("cannot read robot file {shown}: {error}"), hint)
     })?;
-    let id = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let id = path
+        .file_stem()
+        .map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
     if is_toml {
         // Only to refuse bytes that are no text with their place.
         Document::from_bytes(&shown, &bytes)?;
     }
     let text = String::from_utf8_lossy(&bytes);
-    Ok(if is_urdf { urdf::read(&shown, &id, &text)? } else { armill::read(&shown, &id, &text)? })
+    Ok(if is_urdf {
+        urdf::read(&shown, &id, &text)?
+    } else {
+        armill::read(&shown, &id, &text)?
+    })
 }
 
 #[cfg(test)]
@@ -49,12 +59,17 @@ mod tests {
     #[test]
     fn an_unknown_robot_is_told_with_the_one_most_like_it() {
         let error = find("yaskawa/mh21", Path::new(".")).unwrap_err().to_string();
-        assert!(error.contains("`yaskawa/mh21`") && error.contains("`yaskawa/mh12`"), "{error}");
+        assert!(
+            error.contains("`yaskawa/mh21`") && error.contains("`yaskawa/mh12`"),
+            "{error}"
+        );
     }
 
     #[test]
     fn a_missing_file_is_told_with_its_path() {
-        let error = find("no-such.urdf", Path::new("/nowhere")).unwrap_err().to_string();
+        let error = find("no-such.urdf", Path::new("/nowhere"))
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("/nowhere/no-such.urdf"), "{error}");
     }
 }

@@ -39,10 +39,22 @@ pub fn point_count(study: &Study) -> usize {
 /// Cancelled by the watch; a robot without compliance or closed-form inverse.
 pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
     let robot = &study.robot.robot;
-    let missing = |what: &str| StudyError::value(format!("robot `{}` has no {what}", robot.name()), "see `armill check`");
+    let missing = |what: &str| {
+        StudyError::value(
+            format!("robot `{}` has no {what}", robot.name()),
+            "see `armill check`",
+        )
+    };
     let compliance = robot.compliance().ok_or_else(|| missing("joint compliance"))?;
-    let arm = robot.ortho_parallel().ok_or_else(|| missing("closed-form inverse"))?;
-    let runner = Runner { robot, compliance, arm, watch };
+    let arm = robot
+        .ortho_parallel()
+        .ok_or_else(|| missing("closed-form inverse"))?;
+    let runner = Runner {
+        robot,
+        compliance,
+        arm,
+        watch,
+    };
     study.asks.iter().map(|ask| runner.find(ask)).collect()
 }
 
@@ -57,15 +69,25 @@ impl Runner<'_> {
     fn find(&self, ask: &Ask) -> Result<Found, StudyError> {
         Ok(match &ask.subject {
             Subject::Map(sheet) => Found::Map(self.map(sheet)?),
-            Subject::Sections(sections) => {
-                Found::Sections(sections.iter().map(|(_, sheet)| self.map(sheet)).collect::<Result<_, _>>()?)
-            }
-            Subject::Volume(setting, grid) => {
-                Found::Volume(volume_map(&self.question(setting), setting.plane, *grid, self.watch)?)
-            }
-            Subject::Path(setting, shape, step) => {
-                Found::Path(along_path(&self.question(setting), setting.plane, shape, *step, self.watch)?)
-            }
+            Subject::Sections(sections) => Found::Sections(
+                sections
+                    .iter()
+                    .map(|(_, sheet)| self.map(sheet))
+                    .collect::<Result<_, _>>()?,
+            ),
+            Subject::Volume(setting, grid) => Found::Volume(volume_map(
+                &self.question(setting),
+                setting.plane,
+                *grid,
+                self.watch,
+            )?),
+            Subject::Path(setting, shape, step) => Found::Path(along_path(
+                &self.question(setting),
+                setting.plane,
+                shape,
+                *step,
+                self.watch,
+            )?),
         })
     }
 

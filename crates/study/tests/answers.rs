@@ -42,7 +42,11 @@ fn answered(study: &Study) -> StudyAnswer {
 }
 
 fn map<'a>(answer: &'a StudyAnswer, name: &str) -> &'a MapAnswer {
-    answer.maps.iter().find(|map| map.name == name).unwrap_or_else(|| panic!("no map `{name}`"))
+    answer
+        .maps
+        .iter()
+        .find(|map| map.name == name)
+        .unwrap_or_else(|| panic!("no map `{name}`"))
 }
 
 fn points(map: &MapAnswer) -> usize {
@@ -60,12 +64,26 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
     assert_eq!(answer.maps.len(), 10);
     for map in &answer.maps {
         assert_eq!((points(map), map.grid.points), (81, 81), "{}", map.name);
-        assert_eq!(map.fraction_within, map.counts.within as f64 / 81.0, "{}", map.name);
+        assert_eq!(
+            map.fraction_within,
+            map.counts.within as f64 / 81.0,
+            "{}",
+            map.name
+        );
         let reached = map.grid.in_plane_um.iter().flatten().count();
         assert_eq!(reached, map.counts.within + map.counts.over_limit, "{}", map.name);
-        assert!(map.fraction_within_and_inside_joint_limits <= map.fraction_within, "{}", map.name);
+        assert!(
+            map.fraction_within_and_inside_joint_limits <= map.fraction_within,
+            "{}",
+            map.name
+        );
         let named: usize = map.grid.remarks.iter().map(|remark| remark.points.len()).sum();
-        assert_eq!(named, 81 - reached + map.outside_joint_limits + map.near_singularity, "{}", map.name);
+        assert_eq!(
+            named,
+            81 - reached + map.outside_joint_limits + map.near_singularity,
+            "{}",
+            map.name
+        );
     }
     assert_eq!(map(&answer, "s: x = 9000 mm").counts.out_of_reach, 81);
 }
@@ -79,11 +97,18 @@ fn a_larger_tolerance_holds_at_least_as_much() {
     });
     for pair in fractions.windows(2) {
         // Areas are sums of some hundred triangles of 1e3 mm^2.
-        assert!(pair[0].0 <= pair[1].0 && pair[0].1 <= pair[1].1 + 1e-6, "{fractions:?}");
+        assert!(
+            pair[0].0 <= pair[1].0 && pair[0].1 <= pair[1].1 + 1e-6,
+            "{fractions:?}"
+        );
     }
     assert_eq!(fractions[0], (0.0, 0.0));
     assert_eq!(fractions[5].0, 1.0);
-    assert!((fractions[5].1 - 400.0 * 400.0).abs() < 1e-6, "{} mm^2", fractions[5].1);
+    assert!(
+        (fractions[5].1 - 400.0 * 400.0).abs() < 1e-6,
+        "{} mm^2",
+        fractions[5].1
+    );
 }
 
 #[test]
@@ -95,9 +120,18 @@ fn a_section_is_the_map_of_its_plane() {
          [[ask]]\nkind = \"map\"\nname = \"nearer\"\nplane.centre_mm = [800, 0, 800]\n",
     ));
     assert_eq!(answer.maps.len(), 3 + 2 + 2);
-    assert_eq!(map(&answer, "s: tilt 45°").grid.in_plane_um, map(&answer, "tilted").grid.in_plane_um);
-    assert_eq!(map(&answer, "d: x = 800 mm").grid.in_plane_um, map(&answer, "nearer").grid.in_plane_um);
-    assert_eq!(map(&answer, "s: tilt 0°").grid.in_plane_um, map(&answer, "d: x = 900 mm").grid.in_plane_um);
+    assert_eq!(
+        map(&answer, "s: tilt 45 deg").grid.in_plane_um,
+        map(&answer, "tilted").grid.in_plane_um
+    );
+    assert_eq!(
+        map(&answer, "d: x = 800 mm").grid.in_plane_um,
+        map(&answer, "nearer").grid.in_plane_um
+    );
+    assert_eq!(
+        map(&answer, "s: tilt 0 deg").grid.in_plane_um,
+        map(&answer, "d: x = 900 mm").grid.in_plane_um
+    );
 }
 
 #[test]
@@ -107,15 +141,29 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
          [[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 200, 200], step_mm = 50 }\n",
     );
     let found = found(&study);
-    let (Found::Map(map), Found::Volume(volume)) = (&found[0], &found[1]) else { panic!("a map and a volume") };
+    let (Found::Map(map), Found::Volume(volume)) = (&found[0], &found[1]) else {
+        panic!("a map and a volume")
+    };
     assert_eq!(volume.grid.counts, [3, 9, 9]);
     for index in 0..map.grid.len() {
-        let tcp = map.plane.base_from_tool(map.grid.point(index), 0.0).translation.vector;
+        let tcp = map
+            .plane
+            .base_from_tool(map.grid.point(index), 0.0)
+            .translation
+            .vector;
         let same = (0..volume.grid.len()).find(|i| (volume.grid.point(*i).coords - tcp).norm() < 1e-9);
-        let (in_map, in_volume) = (map.answers.points[index].unwrap(), volume.answers.points[same.unwrap()].unwrap());
-        assert_eq!((in_map.branch, in_map.deciding_case), (in_volume.branch, in_volume.deciding_case));
+        let (in_map, in_volume) = (
+            map.answers.points[index].unwrap(),
+            volume.answers.points[same.unwrap()].unwrap(),
+        );
+        assert_eq!(
+            (in_map.branch, in_map.deciding_case),
+            (in_volume.branch, in_volume.deciding_case)
+        );
         assert!((in_map.in_plane - in_volume.in_plane).abs() < SAME, "{tcp}");
-        assert!((in_map.normal - in_volume.normal).abs() < SAME && (in_map.full - in_volume.full).abs() < SAME);
+        assert!(
+            (in_map.normal - in_volume.normal).abs() < SAME && (in_map.full - in_volume.full).abs() < SAME
+        );
     }
     let told = answer(&study, &found);
     let counts = told.volumes[0].counts;
@@ -131,10 +179,14 @@ fn a_path_agrees_with_the_map_where_they_meet() {
          [[ask]]\nkind = \"path\"\nname = \"row\"\nline = { from_mm = [-200, 50], to_mm = [200, 50] }\nstep_mm = 50\n",
     );
     let found = found(&study);
-    let (Found::Map(map), Found::Path(path)) = (&found[0], &found[1]) else { panic!("a map and a path") };
+    let (Found::Map(map), Found::Path(path)) = (&found[0], &found[1]) else {
+        panic!("a map and a path")
+    };
     assert_eq!(path.samples.len(), 9);
     for (sample, on_path) in path.samples.iter().zip(&path.answers.points) {
-        let same = (0..map.grid.len()).find(|i| (map.grid.point(*i) - sample.at).norm() < 1e-9).unwrap();
+        let same = (0..map.grid.len())
+            .find(|i| (map.grid.point(*i) - sample.at).norm() < 1e-9)
+            .unwrap();
         let (a, b) = (map.answers.points[same].unwrap(), on_path.unwrap());
         assert!((a.in_plane - b.in_plane).abs() < SAME, "{}", sample.at);
     }
@@ -142,15 +194,22 @@ fn a_path_agrees_with_the_map_where_they_meet() {
 
 #[test]
 fn a_circle_starts_at_plus_y_and_turns_towards_z() {
-    let study = plate_with("[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n");
+    let study = plate_with(
+        "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n",
+    );
     let found = found(&study);
-    let Found::Path(path) = &found[0] else { panic!("a path") };
+    let Found::Path(path) = &found[0] else {
+        panic!("a path")
+    };
     let in_plane = |i: usize| [-path.samples[i].at.x * 1e3, path.samples[i].at.y * 1e3];
     let quarter = path.samples.len() / 4;
     assert_eq!(path.samples.len() % 4, 0);
     for (index, expected) in [(0, [90.0, 100.0]), (quarter, [50.0, 140.0])] {
         let [y, z] = in_plane(index);
-        assert!((y - expected[0]).abs() < 1e-9 && (z - expected[1]).abs() < 1e-9, "({y}, {z}) mm");
+        assert!(
+            (y - expected[0]).abs() < 1e-9 && (z - expected[1]).abs() < 1e-9,
+            "({y}, {z}) mm"
+        );
     }
 }
 
@@ -160,10 +219,17 @@ fn a_rigid_arm_deviates_by_nothing_and_cuts_round_circles() {
     let answer = answered(&plate_with(&format!(
         "{rigid}[[ask]]\nkind = \"map\"\nlimit_um = 0\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n"
     )));
-    assert_eq!((answer.maps[0].max_in_plane_um, answer.maps[0].fraction_within), (Some(0.0), 1.0));
+    assert_eq!(
+        (answer.maps[0].max_in_plane_um, answer.maps[0].fraction_within),
+        (Some(0.0), 1.0)
+    );
     assert_eq!(answer.paths[0].max_in_plane_um, Some(0.0));
     // A radius of 0.1 m in doubles, fitted: 1e-16 m a point, some ten of them.
-    assert!(answer.paths[0].roundness_um.unwrap() < 1e-8, "{:?}", answer.paths[0].roundness_um);
+    assert!(
+        answer.paths[0].roundness_um.unwrap() < 1e-8,
+        "{:?}",
+        answer.paths[0].roundness_um
+    );
 }
 
 #[test]
@@ -174,9 +240,16 @@ fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
     for case in &path.circle_cases {
         let spread = case.max_radial_um - case.min_radial_um;
         // The least-squares centre is not that of least spread: its fit may cost as much again at most.
-        assert!(case.roundness_um > 0.0 && case.roundness_um <= 2.0 * spread, "{case:?}");
+        assert!(
+            case.roundness_um > 0.0 && case.roundness_um <= 2.0 * spread,
+            "{case:?}"
+        );
     }
-    let largest = path.circle_cases.iter().map(|case| case.roundness_um).fold(0.0, f64::max);
+    let largest = path
+        .circle_cases
+        .iter()
+        .map(|case| case.roundness_um)
+        .fold(0.0, f64::max);
     assert_eq!(path.roundness_um, Some(largest));
 }
 
@@ -184,14 +257,23 @@ fn roundness_is_at_most_the_spread_of_the_radial_deviation() {
 fn twice_the_compliance_or_twice_the_force_deviates_twice() {
     let own = |factor: f64| {
         let values = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5].map(|c| format!("{:e}", c * factor));
-        format!("compliance = {{ rad_per_n_m = [{}], source = \"scaled\" }}\n", values.join(", "))
+        format!(
+            "compliance = {{ rad_per_n_m = [{}], source = \"scaled\" }}\n",
+            values.join(", ")
+        )
     };
     let once = answered(&plate_with(&own(1.0)));
     let softer = answered(&plate_with(&own(2.0)));
     let forces = "[[ask]]\nkind = \"map\"\nname = \"map\"\nload.cases_n = [[6, -10, -10], [6, -10, 10], [6, 10, -10], [6, 10, 10]]\n";
     let pushed = answered(&plate_with(&format!("{}{forces}", own(1.0))));
     for other in [&softer, &pushed] {
-        for (a, b) in once.maps[0].grid.in_plane_um.iter().flatten().zip(other.maps[0].grid.in_plane_um.iter().flatten()) {
+        for (a, b) in once.maps[0]
+            .grid
+            .in_plane_um
+            .iter()
+            .flatten()
+            .zip(other.maps[0].grid.in_plane_um.iter().flatten())
+        {
             // Both told to 1e-4 um.
             assert!((2.0 * a - b).abs() < 2.0 * 1e-4, "{a} um and {b} um");
         }
@@ -200,26 +282,55 @@ fn twice_the_compliance_or_twice_the_force_deviates_twice() {
 
 #[test]
 fn shares_of_the_joints_add_up_to_the_worst_deviation() {
-    let answer = answered(&plate_with("[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n"));
-    for worst in [answer.maps[0].worst.as_ref().unwrap(), answer.paths[0].worst.as_ref().unwrap()] {
+    let answer = answered(&plate_with(
+        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\n",
+    ));
+    for worst in [
+        answer.maps[0].worst.as_ref().unwrap(),
+        answer.paths[0].worst.as_ref().unwrap(),
+    ] {
         let sum: f64 = worst.joint_share_um.iter().sum();
         // Six numbers of 1e2 um.
-        assert!((sum - worst.in_plane_um).abs() < 1e-10, "{sum} um of {} um", worst.in_plane_um);
+        assert!(
+            (sum - worst.in_plane_um).abs() < 1e-10,
+            "{sum} um of {} um",
+            worst.in_plane_um
+        );
     }
 }
 
 #[test]
 fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() {
-    let ask = |branch: &str| format!("[[ask]]\nkind = \"map\"\nname = \"{branch}\"\nposture.branch = \"{branch}\"\n");
+    let ask = |branch: &str| {
+        format!("[[ask]]\nkind = \"map\"\nname = \"{branch}\"\nposture.branch = \"{branch}\"\n")
+    };
     let study = plate_with(&["best", "front elbow-up", "front elbow-down"].map(ask).concat());
     let found = found(&study);
-    let maps: Vec<_> = found.iter().map(|found| if let Found::Map(map) = found { map } else { panic!("a map") }).collect();
+    let maps: Vec<_> = found
+        .iter()
+        .map(|found| {
+            if let Found::Map(map) = found {
+                map
+            } else {
+                panic!("a map")
+            }
+        })
+        .collect();
     for index in 0..maps[0].grid.len() {
-        let Ok(best) = &maps[0].answers.points[index] else { panic!("point {index} has no posture inside limits") };
+        let Ok(best) = &maps[0].answers.points[index] else {
+            panic!("point {index} has no posture inside limits")
+        };
         assert!(best.within_limits());
         for named in &maps[1..] {
-            if let Ok(held) = named.answers.points[index].as_ref().map(|held| *held).map_err(|_| ()) {
-                assert!(!held.within_limits() || best.in_plane <= held.in_plane + SAME, "point {index}");
+            if let Ok(held) = named.answers.points[index]
+                .as_ref()
+                .map(|held| *held)
+                .map_err(|_| ())
+            {
+                assert!(
+                    !held.within_limits() || best.in_plane <= held.in_plane + SAME,
+                    "point {index}"
+                );
             }
         }
     }
@@ -228,14 +339,24 @@ fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() 
 #[test]
 fn a_load_in_part_axes_is_the_same_load_in_base_axes() {
     // A horizontal plate: x_part = -y, y_part = x, z_part = up.
-    let ask = |name: &str, load: &str| format!("[[ask]]\nkind = \"map\"\nname = \"{name}\"\nplane.tilt_deg = 90\nload = {load}\n");
+    let ask = |name: &str, load: &str| {
+        format!("[[ask]]\nkind = \"map\"\nname = \"{name}\"\nplane.tilt_deg = 90\nload = {load}\n")
+    };
     let answer = answered(&plate_with(&format!(
         "{}{}",
-        ask("part", "{ frame = \"part\", cases_n = [[3, 5, 7]], moments_n_m = [[0, 1, 2]] }"),
+        ask(
+            "part",
+            "{ frame = \"part\", cases_n = [[3, 5, 7]], moments_n_m = [[0, 1, 2]] }"
+        ),
         ask("base", "{ cases_n = [[5, -3, 7]], moments_n_m = [[1, 0, 2]] }")
     )));
     assert_eq!(answer.maps[0].setting.cases_n, [[5.0, -3.0, 7.0]]);
-    for (a, b) in answer.maps[0].grid.full_um.iter().zip(&answer.maps[1].grid.full_um) {
+    for (a, b) in answer.maps[0]
+        .grid
+        .full_um
+        .iter()
+        .zip(&answer.maps[1].grid.full_um)
+    {
         // Told to 1e-4 um.
         assert!((a.unwrap() - b.unwrap()).abs() < 1.1e-4, "{a:?} um and {b:?} um");
     }
@@ -246,7 +367,13 @@ fn heights_of_the_controller_frame_count_450_mm_higher() {
     let asks = "[[ask]]\nkind = \"map\"\nname = \"floor\"\n\
                 [[ask]]\nkind = \"map\"\nname = \"controller\"\nbase = \"controller\"\nplane.centre_mm = [900, 0, 350]\n";
     let answer = answered(&plate_with(asks));
-    for (a, b) in answer.maps[0].grid.in_plane_um.iter().flatten().zip(answer.maps[1].grid.in_plane_um.iter().flatten()) {
+    for (a, b) in answer.maps[0]
+        .grid
+        .in_plane_um
+        .iter()
+        .flatten()
+        .zip(answer.maps[1].grid.in_plane_um.iter().flatten())
+    {
         // Told to 1e-4 um.
         assert!((a - b).abs() < 1.1e-4, "{a} um and {b} um");
     }
@@ -263,9 +390,16 @@ fn a_statement_is_consistent_where_the_largest_deviation_is_within_its_bound() {
         );
         let answer = answered(&plate_with(&statement));
         let readings = &answer.statements[0].readings;
-        assert_eq!((readings.len(), readings[0].consistent), (2, consistent), "{readings:?}");
+        assert_eq!(
+            (readings.len(), readings[0].consistent),
+            (2, consistent),
+            "{readings:?}"
+        );
         assert_eq!(readings[0].in_plane_um.unwrap()[1], most);
-        assert!(readings[1].in_plane_um.is_none() && !readings[1].consistent, "what is not reached confirms nothing");
+        assert!(
+            readings[1].in_plane_um.is_none() && !readings[1].consistent,
+            "what is not reached confirms nothing"
+        );
     }
 }
 
@@ -280,11 +414,28 @@ fn a_study_without_asks_maps_its_plane() {
 #[test]
 fn assumed_compliances_and_their_source_are_told() {
     let own = "compliance = { rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6], source = \"a guess of mine\", assumed = true }\n";
-    let kuka = PLATE.replace("yaskawa/mh12", "kuka/kr120r2500pro").replace("[900,", "[1500,");
+    let kuka = PLATE
+        .replace("yaskawa/mh12", "kuka/kr120r2500pro")
+        .replace("[900,", "[1500,");
     let answer = answered(&study(&format!("{kuka}{own}")));
-    assert!(answer.warnings.iter().any(|warning| warning.contains("assumed")), "{:?}", answer.warnings);
-    assert!(answer.sources.iter().any(|source| source.place == "a guess of mine"));
-    assert!(answer.robot.joints.iter().all(|joint| joint.compliance_source == "a guess of mine"));
+    assert!(
+        answer.warnings.iter().any(|warning| warning.contains("assumed")),
+        "{:?}",
+        answer.warnings
+    );
+    assert!(
+        answer
+            .sources
+            .iter()
+            .any(|source| source.place == "a guess of mine")
+    );
+    assert!(
+        answer
+            .robot
+            .joints
+            .iter()
+            .all(|joint| joint.compliance_source == "a guess of mine")
+    );
 }
 
 #[test]
@@ -298,13 +449,27 @@ fn points_are_counted_before_they_are_asked() {
     let finished = |points: usize| {
         told.fetch_add(points, std::sync::atomic::Ordering::Relaxed);
     };
-    run(&study, Watch { finished: &finished, cancel: &AtomicBool::new(false) }).unwrap();
-    assert_eq!(told.into_inner(), point_count(&study), "progress does not end at its end");
+    run(
+        &study,
+        Watch {
+            finished: &finished,
+            cancel: &AtomicBool::new(false),
+        },
+    )
+    .unwrap();
+    assert_eq!(
+        told.into_inner(),
+        point_count(&study),
+        "progress does not end at its end"
+    );
 }
 
 #[test]
 fn a_cancelled_study_says_so_and_has_no_answer() {
-    let watch = Watch { finished: &|_| (), cancel: &AtomicBool::new(true) };
+    let watch = Watch {
+        finished: &|_| (),
+        cancel: &AtomicBool::new(true),
+    };
     let error = run(&plate_with(""), watch).unwrap_err();
     assert!(matches!(error, StudyError::Cancelled(_)), "{error}");
     assert_eq!(error.kind(), ErrorKind::Cancelled);
@@ -312,13 +477,25 @@ fn a_cancelled_study_says_so_and_has_no_answer() {
 
 #[test]
 fn the_same_study_gives_the_same_files() {
-    let study = plate_with("[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 30\n");
+    let study = plate_with(
+        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 30\n",
+    );
     let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     for folder in &folders {
         let found = found(&study);
-        write(&study, &found, &answer(&study, &found), (folder.path(), Pictures::None), &|_| ()).unwrap();
+        write(
+            &study,
+            &found,
+            &answer(&study, &found),
+            (folder.path(), Pictures::None),
+            &|_| (),
+        )
+        .unwrap();
     }
-    let mut names: Vec<_> = std::fs::read_dir(folders[0].path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
+    let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
     names.sort();
     assert_eq!(names.len(), 2 * 3 + 1, "{names:?}");
     for name in names {

@@ -79,21 +79,76 @@ of = ["plate", "circle"]
 
 /// Values that something may trip over.
 const TRAPS: &[&str] = &[
-    "0", "-0.0", "-1", "1", "1e-9", "1e-320", "1e9", "1e10", "1e154", "1e200", "1e308", "-1e308", "1e400", "nan", "inf", "-inf",
-    "9223372036854775807", "-9223372036854775808", "99999999999999999999", "0x7f", "1_000", "true", "[]", "[[]]",
-    "[[], []]", "{}", "\"\"", "\"best\"", "\"\\u0000\"", "'''\n'''", "1979-05-27", "89.999999999", "90", "180", "360", "1e6",
+    "0",
+    "-0.0",
+    "-1",
+    "1",
+    "1e-9",
+    "1e-320",
+    "1e9",
+    "1e10",
+    "1e154",
+    "1e200",
+    "1e308",
+    "-1e308",
+    "1e400",
+    "nan",
+    "inf",
+    "-inf",
+    "9223372036854775807",
+    "-9223372036854775808",
+    "99999999999999999999",
+    "0x7f",
+    "1_000",
+    "true",
+    "[]",
+    "[[]]",
+    "[[], []]",
+    "{}",
+    "\"\"",
+    "\"best\"",
+    "\"\\u0000\"",
+    "'''\n'''",
+    "1979-05-27",
+    "89.999999999",
+    "90",
+    "180",
+    "360",
+    "1e6",
 ];
 
 /// Numbers that a study may well hold, at the edge of what is sensible.
 const EDGES: &[&str] = &[
-    "0", "-0.0", "1", "-1", "1e-9", "-1e-9", "1e-320", "1e6", "-1e6", "1e9", "-1e9", "25", "50", "89.999999999", "90", "-90", "180", "400",
+    "0",
+    "-0.0",
+    "1",
+    "-1",
+    "1e-9",
+    "-1e-9",
+    "1e-320",
+    "1e6",
+    "-1e6",
+    "1e9",
+    "-1e9",
+    "25",
+    "50",
+    "89.999999999",
+    "90",
+    "-90",
+    "180",
+    "400",
 ];
 
 /// A study of more points than this is not run: other tests are about size.
 const MOST_POINTS: usize = 3000;
 
 fn config(cases: u32, seed: u64) -> ProptestConfig {
-    ProptestConfig { cases, failure_persistence: None, rng_seed: RngSeed::Fixed(seed), ..ProptestConfig::default() }
+    ProptestConfig {
+        cases,
+        failure_persistence: None,
+        rng_seed: RngSeed::Fixed(seed),
+        ..ProptestConfig::default()
+    }
 }
 
 /// The byte ranges of all numbers of a text.
@@ -101,8 +156,13 @@ fn numbers(text: &str) -> Vec<std::ops::Range<usize>> {
     let part_of_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
     let mut ranges = Vec::new();
     let mut at = 0;
-    while let Some(start) = text[at..].find(|c: char| c.is_ascii_digit() || c == '-').map(|found| at + found) {
-        let end = text[start..].find(|c: char| !part_of_number(c) && c != 'e').map_or(text.len(), |found| start + found);
+    while let Some(start) = text[at..]
+        .find(|c: char| c.is_ascii_digit() || c == '-')
+        .map(|found| at + found)
+    {
+        let end = text[start..]
+            .find(|c: char| !part_of_number(c) && c != 'e')
+            .map_or(text.len(), |found| start + found);
         if text[..start].ends_with([' ', '[']) && text[start..end].parse::<f64>().is_ok() {
             ranges.push(start..end);
         }
@@ -146,7 +206,12 @@ fn outcome(text: &[u8]) -> Result<(), TestCaseError> {
         let c = map.counts;
         let points = c.within + c.over_limit + c.out_of_reach + c.no_posture_inside_limits + c.unverified;
         prop_assert_eq!(points, map.grid.points, "{}\n{}", map.name, shown);
-        prop_assert!(map.max_in_plane_um.is_none_or(f64::is_finite), "{}\n{}", map.name, shown);
+        prop_assert!(
+            map.max_in_plane_um.is_none_or(f64::is_finite),
+            "{}\n{}",
+            map.name,
+            shown
+        );
     }
     Ok(())
 }

@@ -21,7 +21,10 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
         print(r#"{"problems":[]}"#)?;
     }
     let counted = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
-    let (asks, points) = (counted(study.asks.len(), "ask"), counted(point_count(&study), "point"));
+    let (asks, points) = (
+        counted(study.asks.len(), "ask"),
+        counted(point_count(&study), "point"),
+    );
     say(&format!("{}: fine; {asks}, {points}", found.shown));
     Ok(Outcome::Fine)
 }

@@ -20,13 +20,22 @@ assumed = true
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
     if found.robot.ortho_parallel().is_none() {
-        let message = format!("robot `{}` has no closed-form inverse: no study of it would run", arguments.robot);
-        return Err(StudyError::value(message, "`armill pose` takes its joints; `armill robots` lists robots for studies"));
+        let message = format!(
+            "robot `{}` has no closed-form inverse: no study of it would run",
+            arguments.robot
+        );
+        return Err(StudyError::value(
+            message,
+            "`armill pose` takes its joints; `armill robots` lists robots for studies",
+        ));
     }
     let path = arguments.dir.join("study.toml");
     if path.exists() {
         let message = format!("{} exists already", path.display());
-        return Err(StudyError::value(message, "choose another folder: armill never overwrites a study"));
+        return Err(StudyError::value(
+            message,
+            "choose another folder: armill never overwrites a study",
+        ));
     }
     // A guess for a mid-size arm, 1e6 N m/rad at every joint.
     let guess = vec!["1.0e-6"; found.robot.joints().len()].join(", ");
@@ -35,14 +44,19 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
         None => COMPLIANCE.replace("COMPLIANCES", &guess),
     };
     let robot = toml_string(&robot_for(&arguments.robot)?);
-    let text = TEMPLATE.replace("\"ROBOT\"", &robot).replace("# COMPLIANCE\n", &compliance);
+    let text = TEMPLATE
+        .replace("\"ROBOT\"", &robot)
+        .replace("# COMPLIANCE\n", &compliance);
     create_folder(&arguments.dir)?;
     write_atomically(&path, text.as_bytes())?;
     let shown = path.display().to_string();
     if arguments.json {
         print(&serde_json::json!({ "study": shown }).to_string())?;
     }
-    say(&format!("made {shown}; edit it, then: armill run {}", arguments.dir.display()));
+    say(&format!(
+        "made {shown}; edit it, then: armill run {}",
+        arguments.dir.display()
+    ));
     Ok(Outcome::Fine)
 }
 
@@ -51,8 +65,12 @@ fn robot_for(given: &str) -> Result<String, StudyError> {
     if library::robot(given).is_some() {
         return Ok(given.to_owned());
     }
-    let path = std::path::absolute(given)
-        .map_err(|error| StudyError::value(format!("cannot tell where {given} is: {error}"), "give its whole path"))?;
+    let path = std::path::absolute(given).map_err(|error| {
+        StudyError::value(
+            format!("cannot tell where {given} is: {error}"),
+            "give its whole path",
+        )
+    })?;
     Ok(path.display().to_string())
 }
 

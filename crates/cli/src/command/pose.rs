@@ -17,15 +17,27 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let mut found = robots::find(&arguments.robot, ".".as_ref())?;
     if let Some(values) = &arguments.compliance_rad_per_n_m {
         finite("--compliance-rad-per-n-m", values)?;
-        let given = values.iter().map(|value| JointCompliance { value: *value, standard_uncertainty: 0.0 }).collect();
+        let given = values
+            .iter()
+            .map(|value| JointCompliance {
+                value: *value,
+                standard_uncertainty: 0.0,
+            })
+            .collect();
         let refused = |error: armill_core::robot::RobotError| {
-            StudyError::value(format!("--compliance-rad-per-n-m: {error}"), "one a joint, 0 or more")
+            StudyError::value(
+                format!("--compliance-rad-per-n-m: {error}"),
+                "one a joint, 0 or more",
+            )
         };
         found.robot = found.robot.with_compliance(given).map_err(refused)?;
     }
     let question = PoseQuestion {
         at: at(arguments)?,
-        flange_from_tool: pose_mm_deg(&padded("--tool-mm", arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]))?),
+        flange_from_tool: pose_mm_deg(&padded(
+            "--tool-mm",
+            arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]),
+        )?),
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
         base: arguments.base.clone(),
     };
@@ -34,7 +46,11 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         let drawing = posture_drawing(&found.robot, &question.flange_from_tool, &answer);
         super::drawing::write(file, &drawing)?;
     }
-    print(&if arguments.json { as_json(&answer)? } else { as_text(&answer) })?;
+    print(&if arguments.json {
+        as_json(&answer)?
+    } else {
+        as_text(&answer)
+    })?;
     Ok(Outcome::Fine)
 }
 
@@ -53,19 +69,29 @@ fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
     };
     let spin_deg = arguments.spin_deg.unwrap_or(0.0);
     finite("--spin-deg", &[spin_deg])?;
-    Ok(At::Tool { tcp: tcp.into(), axis, spin: spin_deg.to_radians() })
+    Ok(At::Tool {
+        tcp: tcp.into(),
+        axis,
+        spin: spin_deg.to_radians(),
+    })
 }
 
 fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
     let [fx, fy, fz, mx, my, mz] = padded("--wrench-n", values)?;
-    Ok(Wrench { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) })
+    Ok(Wrench {
+        force: Vector3::new(fx, fy, fz),
+        moment: Vector3::new(mx, my, mz),
+    })
 }
 
 fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
     finite(flag, values)?;
     match values {
         [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => Err(StudyError::value(format!("{flag}: {} numbers", values.len()), "it takes three, such as 1000,0,800")),
+        _ => Err(StudyError::value(
+            format!("{flag}: {} numbers", values.len()),
+            "it takes three, such as 1000,0,800",
+        )),
     }
 }
 
@@ -75,7 +101,10 @@ fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
     match values {
         [x, y, z] => Ok([*x, *y, *z, 0.0, 0.0, 0.0]),
         [x, y, z, rx, ry, rz] => Ok([*x, *y, *z, *rx, *ry, *rz]),
-        _ => Err(StudyError::value(format!("{flag}: {} numbers", values.len()), "it takes three or six")),
+        _ => Err(StudyError::value(
+            format!("{flag}: {} numbers", values.len()),
+            "it takes three or six",
+        )),
     }
 }
 
@@ -84,10 +113,16 @@ const LARGEST: f64 = 1e9;
 
 fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
     if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-        return Err(StudyError::value(format!("{flag}: {value} is not a finite number"), "a plain number"));
+        return Err(StudyError::value(
+            format!("{flag}: {value} is not a finite number"),
+            "a plain number",
+        ));
     }
     match values.iter().find(|value| value.abs() > LARGEST) {
-        Some(value) => Err(StudyError::value(format!("{flag}: {value:e} is beyond {LARGEST:e}"), "is the unit right?")),
+        Some(value) => Err(StudyError::value(
+            format!("{flag}: {value:e} is beyond {LARGEST:e}"),
+            "is the unit right?",
+        )),
         None => Ok(()),
     }
 }
@@ -105,6 +140,7 @@ fn as_text(answer: &PoseAnswer) -> String {
     }
     lines.push(String::new());
     lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));
+    lines.push(format!("sources: armill robots {}", answer.robot));
     lines.join("\n")
 }
 
@@ -113,11 +149,17 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
         let [x, y, z] = v.map(without_minus_zero);
         format!("({x:.2}, {y:.2}, {z:.2})")
     };
-    let joints = answer.joint_names.iter().zip(&posture.joints_deg).map(|(name, q)| format!("{name} {:.3}", without_minus_zero(*q)));
+    let joints = answer
+        .joint_names
+        .iter()
+        .zip(&posture.joints_deg)
+        .map(|(name, q)| format!("{name} {:.3}", without_minus_zero(*q)));
     let joints = joints.collect::<Vec<_>>().join("  ");
     let mut lines = vec![posture.branch.clone().unwrap_or_else(|| "posture".to_owned())];
     let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
-        (Some(joint), Some(margin)) if posture.within_limits => format!("inside limits, {joint} nearest, by {margin:.1} deg"),
+        (Some(joint), Some(margin)) if posture.within_limits => {
+            format!("inside limits, {joint} nearest, by {margin:.1} deg")
+        }
         (Some(joint), Some(margin)) => format!("OUTSIDE LIMITS, {joint} by {:.1} deg", -margin),
         _ => "limits not known".to_owned(),
     };
@@ -131,11 +173,27 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
             three(&stiffness.principal_direction[0])
         ));
     }
-    if let (Some(deviation), Some(u), Some(shares)) = (&posture.deviation_um, &posture.deviation_u_um, &posture.joint_share_um) {
+    if let (Some(deviation), Some(u), Some(shares)) = (
+        &posture.deviation_um,
+        &posture.deviation_u_um,
+        &posture.joint_share_um,
+    ) {
         let length = |v: &[f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-        lines.push(format!("  deviation   {} µm, {:.2} µm long (standard uncertainty {} µm)", three(deviation), length(deviation), three(u)));
-        let shares = answer.joint_names.iter().zip(shares).map(|(name, share)| format!("{name} {:.2}", length(share)));
-        lines.push(format!("  by joint    {} µm", shares.collect::<Vec<_>>().join("  ")));
+        lines.push(format!(
+            "  deviation   {} µm, {:.2} µm long (standard uncertainty {} µm)",
+            three(deviation),
+            length(deviation),
+            three(u)
+        ));
+        let shares = answer
+            .joint_names
+            .iter()
+            .zip(shares)
+            .map(|(name, share)| format!("{name} {:.2}", length(share)));
+        lines.push(format!(
+            "  by joint    {} µm",
+            shares.collect::<Vec<_>>().join("  ")
+        ));
     }
     lines
 }

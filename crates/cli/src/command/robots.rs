@@ -18,7 +18,11 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     if let Some(file) = &arguments.drawing {
         super::drawing::write(file, &arm_drawing(&found.robot, &found.title))?;
     }
-    print(&if arguments.json { as_json(&found).to_string() } else { as_text(&found) })?;
+    print(&if arguments.json {
+        as_json(&found).to_string()
+    } else {
+        as_text(&found)
+    })?;
     Ok(Outcome::Fine)
 }
 
@@ -27,11 +31,22 @@ fn list(json: bool) -> Result<Outcome, StudyError> {
     let mut values = Vec::new();
     for entry in library::ROBOTS {
         let found = robots::find(entry.name, ".".as_ref())?;
-        let known = if found.robot.compliance().is_some() { "known" } else { "not known" };
-        lines.push(format!("{:<24} {:<28} joint compliance {known}", entry.name, found.title));
+        let known = if found.robot.compliance().is_some() {
+            "known"
+        } else {
+            "not known"
+        };
+        lines.push(format!(
+            "{:<24} {:<28} joint compliance {known}",
+            entry.name, found.title
+        ));
         values.push(json!({ "name": entry.name, "title": found.title, "compliance": found.robot.compliance().is_some() }));
     }
-    print(&if json { Value::from(values).to_string() } else { lines.join("\n") })?;
+    print(&if json {
+        Value::from(values).to_string()
+    } else {
+        lines.join("\n")
+    })?;
     Ok(Outcome::Fine)
 }
 
@@ -45,22 +60,41 @@ fn axis_name(axis: Axis) -> &'static str {
 
 /// One elementary motion in words: `along z 450 mm (H)`, `about y by U, counted -`.
 fn motion(found: &RobotDescription, index: usize) -> String {
-    let symbol = found.symbols[index].as_ref().map_or(String::new(), |symbol| format!(" ({symbol})"));
+    let symbol = found.symbols[index]
+        .as_ref()
+        .map_or(String::new(), |symbol| format!(" ({symbol})"));
     let of_joint = |joint: usize| {
         let joint = &found.robot.joints()[joint];
-        let against = if joint.sign.factor() < 0.0 { ", counted against the right hand" } else { "" };
-        let zero = if joint.zero_offset == 0.0 { String::new() } else { format!(", zero at {:.4} deg", joint.zero_offset.to_degrees()) };
-        let coupled: String =
-            joint.coupling.iter().map(|c| format!(", plus {} x {}", c.factor, found.robot.joints()[c.joint].name)).collect();
+        let against = if joint.sign.factor() < 0.0 {
+            ", counted against the right hand"
+        } else {
+            ""
+        };
+        let zero = if joint.zero_offset == 0.0 {
+            String::new()
+        } else {
+            format!(", zero at {:.4} deg", joint.zero_offset.to_degrees())
+        };
+        let coupled: String = joint
+            .coupling
+            .iter()
+            .map(|c| format!(", plus {} x {}", c.factor, found.robot.joints()[c.joint].name))
+            .collect();
         format!("{}{against}{zero}{coupled}", joint.name)
     };
     match found.robot.chain().motions()[index] {
-        Motion::Along(axis, Amount::Constant(m)) => format!("along {} {} mm{symbol}", axis_name(axis), tidy(m * 1e3)),
-        Motion::Along(axis, Amount::Joint(joint)) => format!("along {} by {}{symbol}", axis_name(axis), of_joint(joint)),
+        Motion::Along(axis, Amount::Constant(m)) => {
+            format!("along {} {} mm{symbol}", axis_name(axis), tidy(m * 1e3))
+        }
+        Motion::Along(axis, Amount::Joint(joint)) => {
+            format!("along {} by {}{symbol}", axis_name(axis), of_joint(joint))
+        }
         Motion::About(axis, Amount::Constant(rad)) => {
             format!("about {} {} deg{symbol}", axis_name(axis), tidy(rad.to_degrees()))
         }
-        Motion::About(axis, Amount::Joint(joint)) => format!("about {} by {}{symbol}", axis_name(axis), of_joint(joint)),
+        Motion::About(axis, Amount::Joint(joint)) => {
+            format!("about {} by {}{symbol}", axis_name(axis), of_joint(joint))
+        }
     }
 }
 
@@ -73,21 +107,33 @@ fn as_text(found: &RobotDescription) -> String {
     let mut lines = vec![format!("{} ({})", found.title, robot.name())];
     lines.extend(found.note.iter().cloned());
     lines.push(String::new());
-    lines.push("Chain of elementary motions, base to flange (right hand; joints in the chain's own sense):".to_owned());
+    lines.push(
+        "Chain of elementary motions, base to flange (right hand; joints in the chain's own sense):"
+            .to_owned(),
+    );
     lines.extend((0..robot.chain().motions().len()).map(|i| format!("  {}", motion(found, i))));
     lines.push(String::new());
     lines.push("Joints as their controller counts them:".to_owned());
     for (i, joint) in robot.joints().iter().enumerate() {
-        let (scale, unit) = if robot.slides(i) { (1e3, "mm") } else { (1f64.to_degrees(), "deg") };
+        let (scale, unit) = if robot.slides(i) {
+            (1e3, "mm")
+        } else {
+            (1f64.to_degrees(), "deg")
+        };
         let chain = if joint.sign.factor() < 0.0 { "-" } else { "+" };
         let limits = joint.limits.map_or("limits not known".to_owned(), |l| {
             format!("{} to {} {unit}", tidy(l.lower * scale), tidy(l.upper * scale))
         });
-        let speed = joint.max_speed.map_or("speed not known".to_owned(), |v| format!("{} {unit}/s", tidy(v * scale)));
+        let speed = joint.max_speed.map_or("speed not known".to_owned(), |v| {
+            format!("{} {unit}/s", tidy(v * scale))
+        });
         let compliance = robot.compliance().map_or("compliance not known".to_owned(), |c| {
             format!("{:.2e} ± {:.1e} rad/(N m)", c[i].value, c[i].standard_uncertainty)
         });
-        lines.push(format!("  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}", joint.name, joint.name));
+        lines.push(format!(
+            "  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}",
+            joint.name, joint.name
+        ));
         for ([lower, upper], source, note) in &found.joints[i].other_limits {
             let note = note.as_ref().map_or(String::new(), |note| format!(": {note}"));
             lines.push(format!("       limits by {source}: {lower} to {upper} deg{note}"));
@@ -95,16 +141,31 @@ fn as_text(found: &RobotDescription) -> String {
     }
     lines.push(String::new());
     lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
-    let inverse = if robot.ortho_parallel().is_some() { "closed form, up to 8 postures" } else { "none: forward only" };
+    let inverse = if robot.ortho_parallel().is_some() {
+        "closed form, up to 8 postures"
+    } else {
+        "none: forward only"
+    };
     lines.push(format!("Inverse kinematics: {inverse}"));
     lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
     for frame in robot.frames() {
         let at = frame.base_from_frame.translation.vector * 1e3;
-        lines.push(format!("Frame {}: at ({}, {}, {}) mm of base_link", frame.name, tidy(at.x), tidy(at.y), tidy(at.z)));
+        lines.push(format!(
+            "Frame {}: at ({}, {}, {}) mm of base_link",
+            frame.name,
+            tidy(at.x),
+            tidy(at.y),
+            tidy(at.z)
+        ));
     }
     lines.push(String::new());
     lines.push("Sources:".to_owned());
-    lines.extend(found.sources.iter().map(|s| format!("  {}: {}; {}; {}", s.key, s.what, s.place, s.licence)));
+    lines.extend(
+        found
+            .sources
+            .iter()
+            .map(|s| format!("  {}: {}; {}; {}", s.key, s.what, s.place, s.licence)),
+    );
     lines.join("\n")
 }
 
@@ -127,7 +188,11 @@ fn as_json(found: &RobotDescription) -> Value {
                 "compliance_u_source": found.joints[i].compliance_u_source,
             });
             value[format!("zero_offset_{unit}")] = json!(tidy(joint.zero_offset * scale));
-            value[format!("limits_{unit}")] = json!(joint.limits.map(|l| [tidy(l.lower * scale), tidy(l.upper * scale)]));
+            value[format!("limits_{unit}")] = json!(
+                joint
+                    .limits
+                    .map(|l| [tidy(l.lower * scale), tidy(l.upper * scale)])
+            );
             value[format!("max_speed_{unit}_per_s")] = json!(joint.max_speed.map(|v| tidy(v * scale)));
             value
         })

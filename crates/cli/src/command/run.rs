@@ -31,13 +31,21 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let held = answer.maps.iter().all(|map| map.fraction_within == 1.0)
         && answer.paths.iter().all(|path| path.fraction_within == 1.0)
         && answer.volumes.iter().all(|volume| volume.fraction_within == 1.0);
-    Ok(if arguments.strict && !held { Outcome::ToleranceNotHeld } else { Outcome::Fine })
+    Ok(if arguments.strict && !held {
+        Outcome::ToleranceNotHeld
+    } else {
+        Outcome::Fine
+    })
 }
 
 fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, StudyError> {
     let Some(threads) = threads else { return Ok(work()) };
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build();
-    let pool = pool.map_err(|error| StudyError::value(format!("cannot start {threads} threads: {error}"), "try fewer"))?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(usize::from(threads))
+        .build();
+    let pool = pool.map_err(|error| {
+        StudyError::value(format!("cannot start {threads} threads: {error}"), "try fewer")
+    })?;
     Ok(pool.install(work))
 }
 
@@ -45,8 +53,14 @@ fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnsw
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    let pictures = if arguments.no_pictures { Pictures::None } else { Pictures::Drawn };
-    let written = output::write(study, &found, &answer, (out, pictures), &|name| progress.tell(name));
+    let pictures = if arguments.no_pictures {
+        Pictures::None
+    } else {
+        Pictures::Drawn
+    };
+    let written = output::write(study, &found, &answer, (out, pictures), &|name| {
+        progress.tell(name)
+    });
     progress.clear();
     written.map(|_| answer)
 }
@@ -56,16 +70,31 @@ fn summary(answer: &StudyAnswer) -> String {
     let mut lines = vec![answer.answer.clone()];
     for statement in &answer.statements {
         lines.push(String::new());
-        lines.push(format!("{} ({}): at most {} µm", statement.text, statement.source, statement.at_most_um));
+        lines.push(format!(
+            "{} ({}): at most {} µm",
+            statement.text, statement.source, statement.at_most_um
+        ));
         for reading in &statement.readings {
-            let range = reading.in_plane_um.map_or("not reached".to_owned(), |[a, b]| format!("{a:.1} to {b:.1} µm"));
-            let verdict = if reading.consistent { "consistent" } else { "not consistent" };
-            let limits = if reading.inside_joint_limits { "" } else { ", outside joint limits" };
+            let range = reading
+                .in_plane_um
+                .map_or("not reached".to_owned(), |[a, b]| format!("{a:.1} to {b:.1} µm"));
+            let verdict = if reading.consistent {
+                "consistent"
+            } else {
+                "not consistent"
+            };
+            let limits = if reading.inside_joint_limits {
+                ""
+            } else {
+                ", outside joint limits"
+            };
             lines.push(format!("  {:<62} {range:>20}  {verdict}{limits}", reading.name));
         }
     }
     if !answer.statements.is_empty() {
-        lines.push("Consistent is not confirmed: the source leaves open what tells these readings apart.".to_owned());
+        lines.push(
+            "Consistent is not confirmed: the source leaves open what tells these readings apart.".to_owned(),
+        );
     }
     lines.join("\n")
 }

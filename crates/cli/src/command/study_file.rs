@@ -23,21 +23,37 @@ impl Found {
 
 /// The study at `given`; an example of the library where nothing of that name is on disk.
 pub(crate) fn find(given: &Path) -> Result<Found, StudyError> {
-    let file = if given.is_dir() { given.join("study.toml") } else { given.to_owned() };
+    let file = if given.is_dir() {
+        given.join("study.toml")
+    } else {
+        given.to_owned()
+    };
     let shown = file.display().to_string();
     if !file.exists() {
-        let name = given.strip_prefix("studies").unwrap_or(given).display().to_string();
+        let name = given
+            .strip_prefix("studies")
+            .unwrap_or(given)
+            .display()
+            .to_string();
         let Some(example) = library::STUDIES.iter().find(|study| study.name == name) else {
             let examples: Vec<&str> = library::STUDIES.iter().map(|study| study.name).collect();
             return Err(StudyError::value(
                 format!("no study at {shown}"),
-                format!("make one with `armill new DIR`, or run an example: {}", examples.join(", ")),
+                format!(
+                    "make one with `armill new DIR`, or run an example: {}",
+                    examples.join(", ")
+                ),
             ));
         };
-        return Ok(Found { shown: example.path.to_owned(), folder: PathBuf::from(example.name), bytes: example.text.into() });
+        return Ok(Found {
+            shown: example.path.to_owned(),
+            folder: PathBuf::from(example.name),
+            bytes: example.text.into(),
+        });
     }
-    let bytes = std::fs::read(&file)
-        .map_err(|error| StudyError::value(format!("cannot read {shown}: {error}"), "give a readable file"))?;
+    let bytes = std::fs::read(&file).map_err(|error| {
+        StudyError::value(format!("cannot read {shown}: {error}"), "give a readable file")
+    })?;
     let folder = file.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
     Ok(Found { shown, folder, bytes })
 }

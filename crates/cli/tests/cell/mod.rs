@@ -128,7 +128,9 @@ pub struct Said {
 
 impl Cell {
     pub fn new() -> Cell {
-        Cell { folder: tempfile::tempdir().expect("a temporary folder") }
+        Cell {
+            folder: tempfile::tempdir().expect("a temporary folder"),
+        }
     }
 
     /// A cell with `study.toml`.
@@ -155,7 +157,11 @@ impl Cell {
 
     /// armill with these arguments, in this folder.
     pub fn armill<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Said {
-        let output = Command::new(ARMILL).current_dir(self.path()).args(arguments).output().expect("armill starts");
+        let output = Command::new(ARMILL)
+            .current_dir(self.path())
+            .args(arguments)
+            .output()
+            .expect("armill starts");
         Said {
             code: output.status.code().unwrap_or(-1),
             out: String::from_utf8(output.stdout).expect("stdout is UTF-8"),
@@ -196,13 +202,16 @@ impl Said {
     /// Stdout as one JSON value.
     #[track_caller]
     pub fn json(&self) -> Value {
-        serde_json::from_str(&self.out).unwrap_or_else(|error| panic!("{error} in:\n{}\nstderr:\n{}", self.out, self.err))
+        serde_json::from_str(&self.out)
+            .unwrap_or_else(|error| panic!("{error} in:\n{}\nstderr:\n{}", self.out, self.err))
     }
 }
 
 /// Every file of a folder by name; nothing where there is no folder.
 pub fn files_in(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let Ok(entries) = std::fs::read_dir(folder) else { return BTreeMap::new() };
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return BTreeMap::new();
+    };
     entries
         .map(|entry| {
             let path = entry.expect("an entry").path();
@@ -227,12 +236,24 @@ pub fn what_is_half(name: &str, bytes: &[u8]) -> Option<String> {
         "parquet" => bytes.len() > 12 && bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"),
         "csv" => {
             let commas = |line: &str| line.matches(',').count();
-            let header = text().lines().find(|line| !line.starts_with('#')).unwrap_or_default();
-            bytes.ends_with(b"\n") && text().lines().last().is_some_and(|last| commas(last) == commas(header))
+            let header = text()
+                .lines()
+                .find(|line| !line.starts_with('#'))
+                .unwrap_or_default();
+            bytes.ends_with(b"\n")
+                && text()
+                    .lines()
+                    .last()
+                    .is_some_and(|last| commas(last) == commas(header))
         }
         _ => false,
     };
-    (!whole).then(|| format!("{name} ({} bytes) is half-written or not one of armill's files", bytes.len()))
+    (!whole).then(|| {
+        format!(
+            "{name} ({} bytes) is half-written or not one of armill's files",
+            bytes.len()
+        )
+    })
 }
 
 /// `value` as a number.
@@ -244,13 +265,23 @@ pub fn number(value: &Value) -> f64 {
 /// `value` as a list of numbers.
 #[track_caller]
 pub fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().unwrap_or_else(|| panic!("`{value}` is no list")).iter().map(number).collect()
+    value
+        .as_array()
+        .unwrap_or_else(|| panic!("`{value}` is no list"))
+        .iter()
+        .map(number)
+        .collect()
 }
 
 /// `value` as rows of numbers.
 #[track_caller]
 pub fn rows(value: &Value) -> Vec<Vec<f64>> {
-    value.as_array().unwrap_or_else(|| panic!("`{value}` is no list")).iter().map(numbers).collect()
+    value
+        .as_array()
+        .unwrap_or_else(|| panic!("`{value}` is no list"))
+        .iter()
+        .map(numbers)
+        .collect()
 }
 
 /// Difference of two angles, deg, whole turns taken off.

@@ -52,8 +52,17 @@ pub fn stiffness_at_tool(compliance: &Matrix6<f64>, length: f64) -> Stiffness {
     let rank = values.iter().filter(|value| **value > zero).count();
     let inverse = values.map(|value| if value > zero { 1.0 / value } else { 0.0 });
     let matrix = vectors * Matrix6::from_diagonal(&inverse) * vectors.transpose();
-    let condition_number = if rank == 6 { values.max() / values.min() } else { f64::INFINITY };
-    Stiffness { matrix: scale * matrix * scale, rank, condition_number, length }
+    let condition_number = if rank == 6 {
+        values.max() / values.min()
+    } else {
+        f64::INFINITY
+    };
+    Stiffness {
+        matrix: scale * matrix * scale,
+        rank,
+        condition_number,
+        length,
+    }
 }
 
 #[cfg(test)]
@@ -62,7 +71,10 @@ mod tests {
     use nalgebra::Vector3;
 
     fn screw(o: Vector3<f64>, z: Vector3<f64>) -> Twist {
-        Twist { linear: z.cross(&-o), angular: z }
+        Twist {
+            linear: z.cross(&-o),
+            angular: z,
+        }
     }
 
     fn six_joints() -> (Vec<Twist>, Vec<JointCompliance>) {
@@ -76,7 +88,10 @@ mod tests {
         ];
         let screws = places.iter().map(|(o, z)| screw(*o, *z)).collect();
         let joints = (1..=6)
-            .map(|i| JointCompliance { value: f64::from(i) * 1e-6, standard_uncertainty: 0.0 })
+            .map(|i| JointCompliance {
+                value: f64::from(i) * 1e-6,
+                standard_uncertainty: 0.0,
+            })
             .collect();
         (screws, joints)
     }

@@ -51,7 +51,10 @@ pub fn permissible_force_in_worst_direction(
     let rows = in_plane_rows(compliance, normal);
     let eigen = (rows.transpose() * rows).symmetric_eigen();
     let worst = eigen.eigenvalues.imax();
-    (limit / eigen.eigenvalues[worst].max(0.0).sqrt(), eigen.eigenvectors.column(worst).into())
+    (
+        limit / eigen.eigenvalues[worst].max(0.0).sqrt(),
+        eigen.eigenvectors.column(worst).into(),
+    )
 }
 
 /// The two in-plane rows of the translational compliance, in an arbitrary basis of the plane.
@@ -85,7 +88,10 @@ mod tests {
 
     #[test]
     fn permissible_force_uses_up_the_limit_exactly() {
-        let (c, n) = (some_compliance(), Unit::new_normalize(Vector3::new(0.2, -0.4, 1.0)));
+        let (c, n) = (
+            some_compliance(),
+            Unit::new_normalize(Vector3::new(0.2, -0.4, 1.0)),
+        );
         let f = Unit::new_normalize(Vector3::new(1.0, 2.0, -0.5));
         let force = permissible_force(&c, n, f, 50e-6);
         let moved = c.fixed_view::<3, 3>(0, 0) * f.into_inner() * force;
@@ -95,7 +101,10 @@ mod tests {
 
     #[test]
     fn no_direction_permits_less_than_the_worst_one() {
-        let (c, n) = (some_compliance(), Unit::new_normalize(Vector3::new(0.2, -0.4, 1.0)));
+        let (c, n) = (
+            some_compliance(),
+            Unit::new_normalize(Vector3::new(0.2, -0.4, 1.0)),
+        );
         let (worst, direction) = permissible_force_in_worst_direction(&c, n, 50e-6);
         let there = permissible_force(&c, n, Unit::new_normalize(direction), 50e-6);
         assert!((there / worst - 1.0).abs() < 1e-9, "{there} N against {worst} N");

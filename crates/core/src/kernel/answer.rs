@@ -108,7 +108,10 @@ impl Answers {
 
     /// The points where the arm holds the tool, with their index.
     pub fn held(&self) -> impl Iterator<Item = (usize, &Held)> {
-        self.points.iter().enumerate().filter_map(|(i, point)| Some((i, point.as_ref().ok()?)))
+        self.points
+            .iter()
+            .enumerate()
+            .filter_map(|(i, point)| Some((i, point.as_ref().ok()?)))
     }
 }
 
@@ -134,7 +137,11 @@ impl Scratch {
             joints: [0.0; 6],
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; joints],
-            kept: (vec![0.0; joints], vec![Vector3::zeros(); cases], vec![0.0; joints]),
+            kept: (
+                vec![0.0; joints],
+                vec![Vector3::zeros(); cases],
+                vec![0.0; joints],
+            ),
         }
     }
 
@@ -213,7 +220,10 @@ impl Scratch {
                     let held = self.judge(question, base_from_flange, base_from_tool, &solution)?;
                     if !held.within_limits() {
                         let by = -held.limit_margin;
-                        let outside = Unreachable::OutsideLimits { joint: held.limit_joint, by };
+                        let outside = Unreachable::OutsideLimits {
+                            joint: held.limit_joint,
+                            by,
+                        };
                         miss = match miss {
                             Some(Unreachable::OutsideLimits { by: less, .. }) if less <= by => miss,
                             _ => Some(outside),
@@ -283,7 +293,11 @@ impl Scratch {
         let along = in_plane.try_normalize(0.0).unwrap_or_default();
         let wrench = &question.cases[held.deciding_case];
         let mut variance = 0.0;
-        for (share, (screw, joint)) in self.shares.iter_mut().zip(self.screws.iter().zip(question.compliance)) {
+        for (share, (screw, joint)) in self
+            .shares
+            .iter_mut()
+            .zip(self.screws.iter().zip(question.compliance))
+        {
             let sensitivity = elastic::sensitivity(screw, wrench).linear.dot(&along);
             *share = sensitivity * joint.value;
             variance += (sensitivity * joint.standard_uncertainty).powi(2);

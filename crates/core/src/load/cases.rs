@@ -47,7 +47,10 @@ mod tests {
     fn a_load_told_in_the_part_turns_with_it() {
         let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.3);
         let push = Wrench::from_force(Vector3::new(0.0, 0.0, -7.0));
-        let load = LoadCases { frame: LoadFrame::Part, cases: vec![push] };
+        let load = LoadCases {
+            frame: LoadFrame::Part,
+            cases: vec![push],
+        };
         let in_base = load.in_base(&plane.base_from_part)[0];
         // A push into the part is along the tool axis.
         assert!((in_base.force - plane.tool_axis().into_inner() * 7.0).norm() < 1e-14);

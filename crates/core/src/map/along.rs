@@ -38,7 +38,10 @@ impl PathAnswer {
 
     /// The largest roundness of all load cases, m; `None` off circles.
     pub fn worst_roundness(&self) -> Option<f64> {
-        self.radial.iter().map(|r| r.roundness.peak_to_valley).max_by(f64::total_cmp)
+        self.radial
+            .iter()
+            .map(|r| r.roundness.peak_to_valley)
+            .max_by(f64::total_cmp)
     }
 }
 
@@ -56,10 +59,17 @@ pub fn along_path(
     let samples = shape.sampled(step);
     let poses = samples.iter().map(|sample| plane.base_from_tool(sample.at, 0.0));
     let answers = evaluate_in_order(question, poses, watch)?;
-    let mut path = PathAnswer { plane, samples, answers, radial: Vec::new() };
+    let mut path = PathAnswer {
+        plane,
+        samples,
+        answers,
+        radial: Vec::new(),
+    };
     if let Shape::Circle { centre, .. } = shape {
         let cases = 0..question.cases.len();
-        path.radial = cases.filter_map(|case| radial_deviation(&path, *centre, case)).collect();
+        path.radial = cases
+            .filter_map(|case| radial_deviation(&path, *centre, case))
+            .collect();
     }
     Ok(path)
 }
@@ -73,8 +83,12 @@ fn radial_deviation(path: &PathAnswer, centre: Point2<f64>, case: usize) -> Opti
         let radial: Vector2<f64> = (sample.at - centre).normalize();
         radial.dot(&in_plane(i))
     };
-    let deviated: Vec<Point2<f64>> =
-        path.samples.iter().enumerate().map(|(i, sample)| sample.at + in_plane(i)).collect();
+    let deviated: Vec<Point2<f64>> = path
+        .samples
+        .iter()
+        .enumerate()
+        .map(|(i, sample)| sample.at + in_plane(i))
+        .collect();
     Some(RadialDeviation {
         outward: path.samples.iter().enumerate().map(outward).collect(),
         roundness: roundness(&deviated)?,

@@ -37,7 +37,11 @@ pub(super) fn largest_rectangle(grid: &Grid, within: &[bool]) -> Option<Rectangl
     let mut heights = vec![0usize; grid.columns];
     for row in 0..grid.rows {
         for (column, height) in heights.iter_mut().enumerate() {
-            *height = if within[row * grid.columns + column] { *height + 1 } else { 0 };
+            *height = if within[row * grid.columns + column] {
+                *height + 1
+            } else {
+                0
+            };
         }
         // Stack of (first column, height) with growing heights.
         let mut stack: Vec<(usize, usize)> = Vec::new();
@@ -88,8 +92,13 @@ pub(super) fn largest_disc(grid: &Grid, within: &[bool]) -> Option<Disc> {
         let edge = column.min(columns - 1 - column).min(row).min(rows - 1 - row);
         (squared[index].sqrt() - 1.0).max(0.0).min(edge as f64)
     };
-    let best = (0..grid.len()).filter(|i| within[*i]).max_by(|a, b| steps(*a).total_cmp(&steps(*b)))?;
-    Some(Disc { centre: grid.point(best), radius: steps(best) * grid.step })
+    let best = (0..grid.len())
+        .filter(|i| within[*i])
+        .max_by(|a, b| steps(*a).total_cmp(&steps(*b)))?;
+    Some(Disc {
+        centre: grid.point(best),
+        radius: steps(best) * grid.step,
+    })
 }
 
 /// `d(p) = min_q (p - q)^2 + f(q)` in one dimension: lower envelope of parabolas.
@@ -126,30 +135,48 @@ mod tests {
 
     /// A field of within/outside that looks random but is not.
     fn speckled(grid: &Grid, seed: usize) -> Vec<bool> {
-        (0..grid.len()).map(|i| (i * 7919 + seed * 104_729) % 23 > 3).collect()
+        (0..grid.len())
+            .map(|i| (i * 7919 + seed * 104_729) % 23 > 3)
+            .collect()
     }
 
     #[test]
     fn rectangle_agrees_with_exhaustive_search() {
-        let grid = Grid { columns: 9, rows: 7, step: 0.1 };
+        let grid = Grid {
+            columns: 9,
+            rows: 7,
+            step: 0.1,
+        };
         for seed in 0..50 {
             let within = speckled(&grid, seed);
             let mut most = 0.0_f64;
             for (i, j) in (0..grid.len()).flat_map(|i| (0..grid.len()).map(move |j| (i, j))) {
-                let (c0, r0, c1, r1) =
-                    (i % grid.columns, i / grid.columns, j % grid.columns, j / grid.columns);
-                if c0 <= c1 && r0 <= r1 && (r0..=r1).all(|r| (c0..=c1).all(|c| within[r * grid.columns + c])) {
+                let (c0, r0, c1, r1) = (
+                    i % grid.columns,
+                    i / grid.columns,
+                    j % grid.columns,
+                    j / grid.columns,
+                );
+                if c0 <= c1 && r0 <= r1 && (r0..=r1).all(|r| (c0..=c1).all(|c| within[r * grid.columns + c]))
+                {
                     most = most.max((c1 - c0) as f64 * (r1 - r0) as f64 * 0.01);
                 }
             }
             let found = largest_rectangle(&grid, &within).unwrap().area();
-            assert!((found - most).abs() < 1e-12, "seed {seed}: {found} against {most}");
+            assert!(
+                (found - most).abs() < 1e-12,
+                "seed {seed}: {found} against {most}"
+            );
         }
     }
 
     #[test]
     fn disc_agrees_with_exhaustive_search() {
-        let grid = Grid { columns: 17, rows: 13, step: 0.1 };
+        let grid = Grid {
+            columns: 17,
+            rows: 13,
+            step: 0.1,
+        };
         for seed in 0..50 {
             let mut within = speckled(&grid, seed);
             for i in [100, 101, 117, 118, 119, 135] {
@@ -162,7 +189,10 @@ mod tests {
                 let nearest = outside.map(|j| ((grid.point(j) - p).norm() - 0.1).max(0.0));
                 nearest.fold(edge, f64::min)
             };
-            let most = (0..grid.len()).filter(|i| within[*i]).map(room).fold(0.0, f64::max);
+            let most = (0..grid.len())
+                .filter(|i| within[*i])
+                .map(room)
+                .fold(0.0, f64::max);
             let found = largest_disc(&grid, &within).unwrap().radius;
             assert!((found - most).abs() < 1e-9, "seed {seed}: {found} against {most}");
         }
@@ -170,7 +200,11 @@ mod tests {
 
     #[test]
     fn nothing_within_means_nothing_fits() {
-        let grid = Grid { columns: 4, rows: 4, step: 0.1 };
+        let grid = Grid {
+            columns: 4,
+            rows: 4,
+            step: 0.1,
+        };
         assert!(largest_rectangle(&grid, &[false; 16]).is_none());
         assert!(largest_disc(&grid, &[false; 16]).is_none());
     }

@@ -30,7 +30,11 @@ pub(super) fn within_level(grid: &Grid, values: &[Option<f64>], level: f64) -> W
         }
         let (va, vb) = (values[a].unwrap_or(level), values[b].unwrap_or(level));
         // The sum over a cell's polygon must not depend on the direction in which a side is walked.
-        let t = if vb == va { 0.5 } else { ((level - va) / (vb - va)).clamp(0.0, 1.0) };
+        let t = if vb == va {
+            0.5
+        } else {
+            ((level - va) / (vb - va)).clamp(0.0, 1.0)
+        };
         grid.point(a) + (grid.point(b) - grid.point(a)) * t
     };
     let inside = |i: usize| values[i].is_some_and(|v| v <= level);
@@ -63,7 +67,13 @@ pub(super) fn within_level(grid: &Grid, values: &[Option<f64>], level: f64) -> W
         }
     }
     outline(grid, &inside, values, &mut pieces);
-    Within { area, boundary: chains(pieces).into_iter().map(|c| c.into_iter().map(&place).collect()).collect() }
+    Within {
+        area,
+        boundary: chains(pieces)
+            .into_iter()
+            .map(|c| c.into_iter().map(&place).collect())
+            .collect(),
+    }
 }
 
 /// The polygon of the corners `start..=end` (round the cell) with its two crossings: its area; its cut side
@@ -89,7 +99,11 @@ fn cut(
     }
     polygon.push(place(leave));
     let next = polygon.iter().cycle().skip(1);
-    0.5 * polygon.iter().zip(next).map(|(a, b)| a.x * b.y - b.x * a.y).sum::<f64>()
+    0.5 * polygon
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.x * b.y - b.x * a.y)
+        .sum::<f64>()
 }
 
 /// Sides of the region along the edge of the grid, or along cells that were left out.
@@ -105,7 +119,9 @@ fn outline(
             return false;
         }
         let first = row as usize * columns + column as usize;
-        [first, first + 1, first + columns, first + columns + 1].iter().all(|c| values[*c].is_some())
+        [first, first + 1, first + columns, first + columns + 1]
+            .iter()
+            .all(|c| values[*c].is_some())
     };
     let mut side = |a: usize, b: usize| match (inside(a), inside(b)) {
         (true, true) => pieces.push(((a, a), (b, b))),
@@ -144,7 +160,11 @@ fn chains(pieces: Vec<(Crossing, Crossing)>) -> Vec<Vec<Crossing>> {
         *arriving.entry(b).or_default() += 1;
     }
     let mut chains = Vec::new();
-    let open: Vec<Crossing> = from.keys().filter(|k| !arriving.contains_key(k)).copied().collect();
+    let open: Vec<Crossing> = from
+        .keys()
+        .filter(|k| !arriving.contains_key(k))
+        .copied()
+        .collect();
     let mut starts = open.into_iter();
     while let Some(start) = starts.next().or_else(|| from.keys().next().copied()) {
         let mut chain = vec![start];
@@ -170,7 +190,11 @@ mod tests {
     use super::*;
 
     fn grid() -> Grid {
-        Grid { columns: 81, rows: 61, step: 0.01 }
+        Grid {
+            columns: 81,
+            rows: 61,
+            step: 0.01,
+        }
     }
 
     fn field(f: impl Fn(Point2<f64>) -> Option<f64>) -> Vec<Option<f64>> {
@@ -182,7 +206,11 @@ mod tests {
         let within = within_level(&grid(), &field(|p| Some(p.coords.norm())), 0.2);
         // Chords and linear interpolation each pull the boundary in by at most h^2 / 8 r.
         let exact = std::f64::consts::PI * 0.04;
-        assert!((within.area / exact - 1.0).abs() < 2.0 * 2.0 * 1e-4 / (8.0 * 0.04), "{} against {exact}", within.area);
+        assert!(
+            (within.area / exact - 1.0).abs() < 2.0 * 2.0 * 1e-4 / (8.0 * 0.04),
+            "{} against {exact}",
+            within.area
+        );
         assert_eq!(within.boundary.len(), 1);
         let ring = &within.boundary[0];
         assert_eq!(ring.first(), ring.last());
@@ -193,7 +221,11 @@ mod tests {
     fn boundary_encloses_the_area_counter_clockwise() {
         let within = within_level(&grid(), &field(|p| Some(p.x.abs() + 0.5 * p.y.abs())), 0.13);
         let ring = &within.boundary[0];
-        let enclosed = 0.5 * ring.windows(2).map(|w| w[0].x * w[1].y - w[1].x * w[0].y).sum::<f64>();
+        let enclosed = 0.5
+            * ring
+                .windows(2)
+                .map(|w| w[0].x * w[1].y - w[1].x * w[0].y)
+                .sum::<f64>();
         assert!((enclosed - within.area).abs() < 1e-12);
     }
 
@@ -215,7 +247,11 @@ mod tests {
 
     #[test]
     fn a_single_row_of_points_has_no_area() {
-        let line = Grid { columns: 5, rows: 1, step: 0.1 };
+        let line = Grid {
+            columns: 5,
+            rows: 1,
+            step: 0.1,
+        };
         assert_eq!(within_level(&line, &[Some(1.0); 5], 2.0).area, 0.0);
     }
 }

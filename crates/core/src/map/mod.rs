@@ -3,12 +3,12 @@
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path on a plane, with radial
 //! deviation and roundness on a circle; [`region`]: the part within a limit, its area, boundary and what fits.
 
-pub mod plane;
-pub mod volume;
 pub mod along;
-pub mod region;
-mod marching_squares;
 mod inscribed;
+mod marching_squares;
+pub mod plane;
+pub mod region;
+pub mod volume;
 
 pub use along::{PathAnswer, RadialDeviation, along_path};
 pub use plane::{Counts, PlaneMap, plane_map};

@@ -87,7 +87,11 @@ impl Counts {
 impl PlaneMap {
     /// In-plane deviation (m) of each point, `None` without posture.
     pub fn in_plane(&self) -> Vec<Option<f64>> {
-        self.answers.points.iter().map(|point| point.as_ref().ok().map(|held| held.in_plane)).collect()
+        self.answers
+            .points
+            .iter()
+            .map(|point| point.as_ref().ok().map(|held| held.in_plane))
+            .collect()
     }
 
     /// The region within `limit` (m).

@@ -24,7 +24,11 @@ impl BoxGrid {
     pub fn within(centre: Point3<f64>, half_size: [f64; 3], step: f64) -> BoxGrid {
         let steps = half_size.map(|half| (half / step + 1e-9).floor());
         let corner = Vector3::from(steps) * step;
-        BoxGrid { origin: centre - corner, counts: steps.map(|n| 2 * n as usize + 1), step }
+        BoxGrid {
+            origin: centre - corner,
+            counts: steps.map(|n| 2 * n as usize + 1),
+            step,
+        }
     }
 
     /// How many points.

@@ -160,7 +160,9 @@ pub enum ChainError {
     #[error("the chain of {0} elementary motions has no joint")]
     NoJoint(usize),
     /// Joint variables must appear once each, in the order of the joints.
-    #[error("motion {motion} uses joint {found}, but joint {expected} comes next: joints appear once each, in order")]
+    #[error(
+        "motion {motion} uses joint {found}, but joint {expected} comes next: joints appear once each, in order"
+    )]
     JointOrder {
         /// Index of the motion in the chain, from 0.
         motion: usize,
@@ -194,10 +196,17 @@ impl Chain {
                 }
                 Amount::Constant(value) => fixed *= motion.displacement(value),
                 Amount::Joint(found) if found != links.len() => {
-                    return Err(ChainError::JointOrder { motion: index, found, expected: links.len() });
+                    return Err(ChainError::JointOrder {
+                        motion: index,
+                        found,
+                        expected: links.len(),
+                    });
                 }
                 Amount::Joint(_) => {
-                    links.push(Link { before: Fixed::new(&fixed), motion: *motion });
+                    links.push(Link {
+                        before: Fixed::new(&fixed),
+                        motion: *motion,
+                    });
                     fixed = Isometry::identity();
                 }
             }
@@ -205,7 +214,11 @@ impl Chain {
         if links.is_empty() {
             return Err(ChainError::NoJoint(motions.len()));
         }
-        Ok(Chain { motions, links, last_joint_from_flange: Fixed::new(&fixed) })
+        Ok(Chain {
+            motions,
+            links,
+            last_joint_from_flange: Fixed::new(&fixed),
+        })
     }
 
     /// The elementary motions, base to flange.
@@ -227,13 +240,15 @@ impl Chain {
     ///
     /// `theta` are chain positions (m, rad), without sign, zero offset or coupling of the joints.
     pub fn base_from_flange(&self, theta: &[f64]) -> Isometry {
-        self.motions.iter().fold(Isometry::identity(), |base_from_here, motion| {
-            base_from_here
-                * match motion.amount() {
-                    Amount::Constant(value) => motion.displacement(value),
-                    Amount::Joint(joint) => motion.displacement(theta[joint]),
-                }
-        })
+        self.motions
+            .iter()
+            .fold(Isometry::identity(), |base_from_here, motion| {
+                base_from_here
+                    * match motion.amount() {
+                        Amount::Constant(value) => motion.displacement(value),
+                        Amount::Joint(joint) => motion.displacement(theta[joint]),
+                    }
+            })
     }
 
     /// Position form of the FSF, eq. (1): `r` (m) of the flange frame, told in base.
@@ -255,7 +270,10 @@ impl Chain {
     /// [`Chain::screw`] applied to one twist.
     pub fn transform_twist(&self, theta: &[f64], twist: &Twist) -> Twist {
         let moved = self.screw(theta) * twist.to_vector();
-        Twist { linear: moved.fixed_rows::<3>(0).into(), angular: moved.fixed_rows::<3>(3).into() }
+        Twist {
+            linear: moved.fixed_rows::<3>(0).into(),
+            angular: moved.fixed_rows::<3>(3).into(),
+        }
     }
 }
 
@@ -290,7 +308,9 @@ mod tests {
             let r = step.rotation.to_rotation_matrix().into_inner();
             elementary.fixed_view_mut::<3, 3>(0, 0).copy_from(&r);
             elementary.fixed_view_mut::<3, 3>(3, 3).copy_from(&r);
-            elementary.fixed_view_mut::<3, 3>(0, 3).copy_from(&(step.translation.vector.cross_matrix() * r));
+            elementary
+                .fixed_view_mut::<3, 3>(0, 3)
+                .copy_from(&(step.translation.vector.cross_matrix() * r));
             product *= elementary;
         }
         assert!((product - chain.screw(&theta)).norm() < 1e-15);
@@ -317,7 +337,14 @@ mod tests {
             Motion::About(Axis::Z, Amount::Joint(0)),
             Motion::About(Axis::Y, Amount::Joint(0)),
         ]);
-        assert_eq!(twice.unwrap_err(), ChainError::JointOrder { motion: 1, found: 0, expected: 1 });
+        assert_eq!(
+            twice.unwrap_err(),
+            ChainError::JointOrder {
+                motion: 1,
+                found: 0,
+                expected: 1
+            }
+        );
     }
 
     #[test]
@@ -327,7 +354,10 @@ mod tests {
                 Motion::About(Axis::Z, Amount::Joint(0)),
                 Motion::Along(Axis::X, Amount::Constant(value)),
             ]);
-            assert!(matches!(broken, Err(ChainError::Amount { motion: 1, .. })), "{value}");
+            assert!(
+                matches!(broken, Err(ChainError::Amount { motion: 1, .. })),
+                "{value}"
+            );
         }
     }
 }

@@ -61,7 +61,11 @@ fn isometry(axes: Matrix3<f64>, origin: Vector3<f64>) -> IsometryMatrix3<f64> {
 /// Unit axis of joint `index` in base.
 pub fn joint_axis(robot: &Robot, frames: &Frames, index: usize) -> Vector3<f64> {
     let (Motion::Along(axis, _) | Motion::About(axis, _)) = robot.chain().links()[index].motion;
-    frames.base_from_joint[index].rotation.matrix().column(axis.index()).into_owned()
+    frames.base_from_joint[index]
+        .rotation
+        .matrix()
+        .column(axis.index())
+        .into_owned()
 }
 
 #[cfg(test)]

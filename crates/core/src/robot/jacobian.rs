@@ -25,8 +25,14 @@ pub fn screws_into(robot: &Robot, frames: &Frames, tcp: &Point3<f64>, screws: &m
     for (index, screw) in screws.iter_mut().enumerate() {
         let z = joint_axis(robot, frames, index);
         *screw = match robot.chain().links()[index].motion {
-            Motion::About(..) => Twist { linear: z.cross(&(tcp - frames.origin(index))), angular: z },
-            Motion::Along(..) => Twist { linear: z, angular: Vector3::zeros() },
+            Motion::About(..) => Twist {
+                linear: z.cross(&(tcp - frames.origin(index))),
+                angular: z,
+            },
+            Motion::Along(..) => Twist {
+                linear: z,
+                angular: Vector3::zeros(),
+            },
         };
     }
 }
@@ -50,7 +56,11 @@ pub fn jacobian(robot: &Robot, screws: &[Twist]) -> Matrix6xX<f64> {
 /// comparable between postures of one arm only.
 pub fn manipulability(jacobian: &Matrix6xX<f64>) -> f64 {
     let joints = jacobian.ncols();
-    let tall = if joints < 6 { DMatrix::from_fn(6, joints, |i, j| jacobian[(i, j)]) } else { jacobian.transpose().resize(joints, 6, 0.0) };
+    let tall = if joints < 6 {
+        DMatrix::from_fn(6, joints, |i, j| jacobian[(i, j)])
+    } else {
+        jacobian.transpose().resize(joints, 6, 0.0)
+    };
     tall.qr().r().diagonal().product().abs()
 }
 

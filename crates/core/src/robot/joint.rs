@@ -107,7 +107,10 @@ mod tests {
 
     #[test]
     fn margin_is_the_distance_to_the_nearer_limit_and_negative_outside() {
-        let limits = Limits { lower: -1.0, upper: 2.0 };
+        let limits = Limits {
+            lower: -1.0,
+            upper: 2.0,
+        };
         assert_eq!(limits.margin(1.5), 0.5);
         assert_eq!(limits.margin(-1.25), -0.25);
     }

@@ -6,12 +6,12 @@
 //! to every posture).
 
 pub mod chain;
+pub mod forward;
+pub mod inverse;
+pub mod jacobian;
 pub mod joint;
 pub mod model;
-pub mod forward;
-pub mod jacobian;
 pub mod posture;
-pub mod inverse;
 
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use joint::{Joint, JointCompliance, Limits};

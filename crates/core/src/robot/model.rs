@@ -102,7 +102,10 @@ impl Robot {
     ) -> Result<Robot, RobotError> {
         let chain = Chain::new(motions)?;
         if chain.links().len() != joints.len() {
-            return Err(RobotError::JointCount { in_chain: chain.links().len(), described: joints.len() });
+            return Err(RobotError::JointCount {
+                in_chain: chain.links().len(),
+                described: joints.len(),
+            });
         }
         for (index, joint) in joints.iter().enumerate() {
             check_joint(index, joint)?;
@@ -125,14 +128,22 @@ impl Robot {
     /// Another count than joints; a value or uncertainty that is not a number from 0 to [`SOFTEST`].
     pub fn with_compliance(mut self, compliance: Vec<JointCompliance>) -> Result<Robot, RobotError> {
         if compliance.len() != self.joints.len() {
-            return Err(RobotError::ComplianceCount { given: compliance.len(), joints: self.joints.len() });
+            return Err(RobotError::ComplianceCount {
+                given: compliance.len(),
+                joints: self.joints.len(),
+            });
         }
         for (joint, c) in self.joints.iter().zip(&compliance) {
-            for (what, value) in
-                [("compliance", c.value), ("standard uncertainty of compliance", c.standard_uncertainty)]
-            {
+            for (what, value) in [
+                ("compliance", c.value),
+                ("standard uncertainty of compliance", c.standard_uncertainty),
+            ] {
                 if !(0.0..=SOFTEST).contains(&value) {
-                    return Err(RobotError::Compliance { joint: joint.name.clone(), what, value });
+                    return Err(RobotError::Compliance {
+                        joint: joint.name.clone(),
+                        what,
+                        value,
+                    });
                 }
             }
         }
@@ -191,7 +202,10 @@ impl Robot {
 
     /// Whether joint `index` slides instead of turning.
     pub fn slides(&self, index: usize) -> bool {
-        matches!(self.chain.links()[index].motion, Motion::Along(_, Amount::Joint(_)))
+        matches!(
+            self.chain.links()[index].motion,
+            Motion::Along(_, Amount::Joint(_))
+        )
     }
 
     /// Chain position `theta` of joint `index` at the joint positions `q`.
@@ -211,20 +225,34 @@ impl Robot {
     /// Joint positions outside which no joint may stand: the least margin over all joints with limits, with
     /// the joint that has it. `None` where no joint has limits.
     pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {
-        let margins = self.joints.iter().enumerate().filter_map(|(i, j)| Some((i, j.limits?.margin(q[i]))));
+        let margins = self
+            .joints
+            .iter()
+            .enumerate()
+            .filter_map(|(i, j)| Some((i, j.limits?.margin(q[i]))));
         margins.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
 fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
     let finite = |what, value: f64| {
-        if value.is_finite() { Ok(()) } else { Err(RobotError::NotFinite { joint: joint.name.clone(), what }) }
+        if value.is_finite() {
+            Ok(())
+        } else {
+            Err(RobotError::NotFinite {
+                joint: joint.name.clone(),
+                what,
+            })
+        }
     };
     finite("zero offset", joint.zero_offset)?;
     for coupling in &joint.coupling {
         finite("coupling factor", coupling.factor)?;
         if coupling.joint >= index {
-            return Err(RobotError::Coupling { joint: joint.name.clone(), other: coupling.joint });
+            return Err(RobotError::Coupling {
+                joint: joint.name.clone(),
+                other: coupling.joint,
+            });
         }
     }
     if let Some(limits) = joint.limits {
@@ -232,8 +260,14 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
         finite("upper limit", limits.upper)?;
         if limits.lower >= limits.upper {
             let (lower, upper) = (limits.lower, limits.upper);
-            return Err(RobotError::LimitsReversed { joint: joint.name.clone(), lower, upper });
+            return Err(RobotError::LimitsReversed {
+                joint: joint.name.clone(),
+                lower,
+                upper,
+            });
         }
     }
-    joint.max_speed.map_or(Ok(()), |speed| finite("maximal speed", speed))
+    joint
+        .max_speed
+        .map_or(Ok(()), |speed| finite("maximal speed", speed))
 }

@@ -59,7 +59,11 @@ impl Branch {
         use Shoulder::{Back, Front};
         use Wrist::{Flip, NoFlip};
         const fn branch(shoulder: Shoulder, elbow: Elbow, wrist: Wrist) -> Branch {
-            Branch { shoulder, elbow, wrist }
+            Branch {
+                shoulder,
+                elbow,
+                wrist,
+            }
         }
         [
             branch(Front, Up, NoFlip),
@@ -93,8 +97,11 @@ pub struct BranchPattern {
 
 impl BranchPattern {
     /// Front, elbow up, either wrist: how most arms stand before their work.
-    pub const FRONT_ELBOW_UP: BranchPattern =
-        BranchPattern { shoulder: Some(Shoulder::Front), elbow: Some(Elbow::Up), wrist: None };
+    pub const FRONT_ELBOW_UP: BranchPattern = BranchPattern {
+        shoulder: Some(Shoulder::Front),
+        elbow: Some(Elbow::Up),
+        wrist: None,
+    };
 
     /// Whether `branch` is one of those meant.
     pub fn matches(&self, branch: Branch) -> bool {
@@ -146,7 +153,9 @@ impl fmt::Display for BranchPattern {
 
 /// A word that names no branch.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{word}` names no branch: write words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once")]
+#[error(
+    "`{word}` names no branch: write words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
+)]
 pub struct UnknownBranch {
     /// The word, or the word said twice.
     pub word: String,
@@ -159,7 +168,9 @@ impl FromStr for BranchPattern {
         fn set<T>(slot: &mut Option<T>, value: T, word: &str) -> Result<(), UnknownBranch> {
             match slot.replace(value) {
                 None => Ok(()),
-                Some(_) => Err(UnknownBranch { word: word.to_owned() }),
+                Some(_) => Err(UnknownBranch {
+                    word: word.to_owned(),
+                }),
             }
         }
         let mut pattern = BranchPattern::default();
@@ -171,11 +182,17 @@ impl FromStr for BranchPattern {
                 "elbow-down" => set(&mut pattern.elbow, Elbow::Down, word)?,
                 "no-flip" => set(&mut pattern.wrist, Wrist::NoFlip, word)?,
                 "flip" => set(&mut pattern.wrist, Wrist::Flip, word)?,
-                _ => return Err(UnknownBranch { word: word.to_owned() }),
+                _ => {
+                    return Err(UnknownBranch {
+                        word: word.to_owned(),
+                    });
+                }
             }
         }
         if pattern == BranchPattern::default() {
-            return Err(UnknownBranch { word: text.to_owned() });
+            return Err(UnknownBranch {
+                word: text.to_owned(),
+            });
         }
         Ok(pattern)
     }
@@ -252,16 +269,32 @@ impl fmt::Display for Unreachable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Unreachable::TooFar { by } => {
-                write!(f, "out of reach: the wrist centre is {:.1} mm beyond the stretched arm", by * 1e3)
+                write!(
+                    f,
+                    "out of reach: the wrist centre is {:.1} mm beyond the stretched arm",
+                    by * 1e3
+                )
             }
             Unreachable::TooNear { by } => {
-                write!(f, "too near: the wrist centre is {:.1} mm inside the folded arm", by * 1e3)
+                write!(
+                    f,
+                    "too near: the wrist centre is {:.1} mm inside the folded arm",
+                    by * 1e3
+                )
             }
             Unreachable::InsideLateralOffset { by } => {
-                write!(f, "too near: the wrist centre is {:.1} mm inside the lateral offset", by * 1e3)
+                write!(
+                    f,
+                    "too near: the wrist centre is {:.1} mm inside the lateral offset",
+                    by * 1e3
+                )
             }
             Unreachable::Unverified { by } => {
-                write!(f, "the inverse kinematics misses the pose by {:.6} mm: no posture is given", by * 1e3)
+                write!(
+                    f,
+                    "the inverse kinematics misses the pose by {:.6} mm: no posture is given",
+                    by * 1e3
+                )
             }
             Unreachable::OutsideLimits { joint, by } => write!(
                 f,
@@ -296,7 +329,13 @@ mod tests {
     fn names_of_branches_read_back() {
         for branch in Branch::ALL {
             let pattern: BranchPattern = branch.to_string().parse().unwrap();
-            assert_eq!(Branch::ALL.into_iter().filter(|b| pattern.matches(*b)).collect::<Vec<_>>(), [branch]);
+            assert_eq!(
+                Branch::ALL
+                    .into_iter()
+                    .filter(|b| pattern.matches(*b))
+                    .collect::<Vec<_>>(),
+                [branch]
+            );
         }
     }
 

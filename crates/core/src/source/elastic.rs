@@ -27,17 +27,29 @@ pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
 
 /// Deviation of the tool by all joints.
 pub fn deviation(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Twist {
-    screws.iter().zip(joints).map(|(s, c)| sensitivity(s, wrench).scaled(c.value)).sum()
+    screws
+        .iter()
+        .zip(joints)
+        .map(|(s, c)| sensitivity(s, wrench).scaled(c.value))
+        .sum()
 }
 
 /// Translational part of [`deviation`], m: what a map needs of it.
 pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vector3<f64> {
-    screws.iter().zip(joints).map(|(s, c)| s.linear * (c.value * s.dot(wrench))).sum()
+    screws
+        .iter()
+        .zip(joints)
+        .map(|(s, c)| s.linear * (c.value * s.dot(wrench)))
+        .sum()
 }
 
 /// Share of each joint in the deviation; they add up to [`deviation`].
 pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vec<Twist> {
-    screws.iter().zip(joints).map(|(s, c)| sensitivity(s, wrench).scaled(c.value)).collect()
+    screws
+        .iter()
+        .zip(joints)
+        .map(|(s, c)| sensitivity(s, wrench).scaled(c.value))
+        .collect()
 }
 
 /// Covariance (m^2) of the translational deviation, from the uncertainties of the joint compliances, taken as
@@ -55,12 +67,18 @@ mod tests {
     use super::*;
 
     fn arm() -> ([Twist; 2], [JointCompliance; 2]) {
-        let screw = |o: Vector3<f64>, z: Vector3<f64>| Twist { linear: z.cross(&-o), angular: z };
+        let screw = |o: Vector3<f64>, z: Vector3<f64>| Twist {
+            linear: z.cross(&-o),
+            angular: z,
+        };
         let screws = [
             screw(Vector3::new(-1.0, 0.0, 0.0), Vector3::z()),
             screw(Vector3::new(-0.5, 0.0, 0.2), Vector3::y()),
         ];
-        let compliance = |value: f64| JointCompliance { value, standard_uncertainty: 0.1 * value };
+        let compliance = |value: f64| JointCompliance {
+            value,
+            standard_uncertainty: 0.1 * value,
+        };
         (screws, [compliance(2e-6), compliance(4e-5)])
     }
 

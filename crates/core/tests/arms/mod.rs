@@ -13,11 +13,20 @@ use Motion::{About, Along};
 /// A joint counted against the right hand, with limits in degrees.
 fn joint(name: &str, sign: Sign, limits_deg: [f64; 2]) -> Joint {
     let [lower, upper] = limits_deg.map(f64::to_radians);
-    Joint { sign, limits: Some(Limits { lower, upper }), ..Joint::plain(name) }
+    Joint {
+        sign,
+        limits: Some(Limits { lower, upper }),
+        ..Joint::plain(name)
+    }
 }
 
 pub fn compliance(values: [f64; 6]) -> Vec<JointCompliance> {
-    values.map(|value| JointCompliance { value, standard_uncertainty: 0.2 * value }).to_vec()
+    values
+        .map(|value| JointCompliance {
+            value,
+            standard_uncertainty: 0.2 * value,
+        })
+        .to_vec()
 }
 
 /// Yaskawa MH12: ros-industrial/motoman, Apache-2.0; compliances of Shneor & Chapsky 2021, section 3.4.
@@ -48,7 +57,9 @@ pub fn mh12() -> Robot {
         joint("T", Negative, [-360.0, 360.0]),
     ];
     let robot = Robot::new("yaskawa/mh12", motions, joints).unwrap();
-    robot.with_compliance(compliance([2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5])).unwrap()
+    robot
+        .with_compliance(compliance([2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5]))
+        .unwrap()
 }
 
 /// KUKA KR120 R2500 pro, whose first axis counts downwards: ros-industrial/kuka_experimental, Apache-2.0.
@@ -144,7 +155,10 @@ pub fn r2000ic() -> Robot {
         joint("J5", Negative, [-114.0, 114.0]),
         joint("J6", Negative, [-355.0, 355.0]),
     ];
-    joints[2].coupling = vec![armill_core::robot::joint::Coupling { joint: 1, factor: 1.0 }];
+    joints[2].coupling = vec![armill_core::robot::joint::Coupling {
+        joint: 1,
+        factor: 1.0,
+    }];
     let stiffness = [
         9.339417645122126e5,
         4.129256136278849e6,

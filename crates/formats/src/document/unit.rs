@@ -50,8 +50,9 @@ pub(super) struct Unit {
 /// A field's name without its unit, and the unit; `None` if the name ends with no unit.
 pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
     let cut = |suffix: &str| name.strip_suffix(suffix)?.strip_suffix('_');
-    let (before, shown, quantity) =
-        ATOMS.iter().find_map(|(suffix, shown, quantity)| Some((cut(suffix)?, shown, quantity)))?;
+    let (before, shown, quantity) = ATOMS
+        .iter()
+        .find_map(|(suffix, shown, quantity)| Some((cut(suffix)?, shown, quantity)))?;
     if let Some((above, top)) = before.strip_suffix("_per").and_then(split) {
         let below = if shown.contains(' ') {
             format!("({shown})")

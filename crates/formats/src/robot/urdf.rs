@@ -25,10 +25,17 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let whole = |message: String, hint: &str| {
         Problems::from(vec![file.problem(0..0, message, Some(hint.to_owned()))])
     };
-    let urdf = urdf_rs::read_from_string(text)
-        .map_err(|error| whole(format!("not a URDF: {error}"), "xacro files must be expanded first"))?;
+    let urdf = urdf_rs::read_from_string(text).map_err(|error| {
+        whole(
+            format!("not a URDF: {error}"),
+            "xacro files must be expanded first",
+        )
+    })?;
     let joints = chain_to_tip(&urdf).map_err(|message| {
-        whole(message, "a serial arm has one root link and joints that lead away from it without a loop")
+        whole(
+            message,
+            "a serial arm has one root link and joints that lead away from it without a loop",
+        )
     })?;
 
     let mut problems = Vec::new();
@@ -53,7 +60,13 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         }
     }
     Problems::from(problems).into_result()?;
-    let notes = vec![JointNote { source: Some("urdf".to_owned()), ..JointNote::default() }; moving.len()];
+    let notes = vec![
+        JointNote {
+            source: Some("urdf".to_owned()),
+            ..JointNote::default()
+        };
+        moving.len()
+    ];
     let symbols = vec![None; motions.len()];
     let robot = Robot::new(id, motions, moving)
         .map_err(|error| whole(error.to_string(), "the file describes no robot that could move"))?;
@@ -74,7 +87,10 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
 }
 
 fn at_joint(file: &document::Source, name: &str, message: String) -> Problem {
-    let start = file.text().find(&format!("\"{name}\"")).map_or(0, |quote| quote + 1);
+    let start = file
+        .text()
+        .find(&format!("\"{name}\""))
+        .map_or(0, |quote| quote + 1);
     let end = if start == 0 { 0 } else { start + name.len() };
     file.problem(start..end, message, None)
 }
@@ -84,12 +100,22 @@ fn chain_to_tip(urdf: &urdf_rs::Robot) -> Result<Vec<&urdf_rs::Joint>, String> {
     for joint in &urdf.joints {
         for link in [&joint.parent.link, &joint.child.link] {
             if !urdf.links.iter().any(|known| known.name == *link) {
-                return Err(format!("joint `{}` names link `{link}`, which is not in the file", joint.name));
+                return Err(format!(
+                    "joint `{}` names link `{link}`, which is not in the file",
+                    joint.name
+                ));
             }
         }
-        let parents = urdf.joints.iter().filter(|other| other.child.link == joint.child.link).count();
+        let parents = urdf
+            .joints
+            .iter()
+            .filter(|other| other.child.link == joint.child.link)
+            .count();
         if parents > 1 {
-            return Err(format!("link `{}` is the child of {parents} joints", joint.child.link));
+            return Err(format!(
+                "link `{}` is the child of {parents} joints",
+                joint.child.link
+            ));
         }
     }
     let is_child = |link: &str| urdf.joints.iter().any(|joint| joint.child.link == link);
@@ -98,13 +124,26 @@ fn chain_to_tip(urdf: &urdf_rs::Robot) -> Result<Vec<&urdf_rs::Joint>, String> {
     if roots != 1 {
         return Err(format!("{roots} links have no parent: one root is wanted"));
     }
-    let tips = urdf.links.iter().map(|link| link.name.as_str()).filter(|link| !is_parent(link));
-    let chains = tips.map(|tip| Ok((tip, path_from_root(urdf, tip)?))).collect::<Result<Vec<_>, String>>()?;
+    let tips = urdf
+        .links
+        .iter()
+        .map(|link| link.name.as_str())
+        .filter(|link| !is_parent(link));
+    let chains = tips
+        .map(|tip| Ok((tip, path_from_root(urdf, tip)?)))
+        .collect::<Result<Vec<_>, String>>()?;
     let moving = |chain: &[&urdf_rs::Joint]| {
-        chain.iter().filter(|joint| joint.joint_type != JointType::Fixed && joint.mimic.is_none()).count()
+        chain
+            .iter()
+            .filter(|joint| joint.joint_type != JointType::Fixed && joint.mimic.is_none())
+            .count()
     };
-    let longest = chains.into_iter().max_by_key(|(tip, chain)| (moving(chain), *tip == "tool0", chain.len()));
-    longest.map(|(_, chain)| chain).ok_or_else(|| "the file has no link".to_owned())
+    let longest = chains
+        .into_iter()
+        .max_by_key(|(tip, chain)| (moving(chain), *tip == "tool0", chain.len()));
+    longest
+        .map(|(_, chain)| chain)
+        .ok_or_else(|| "the file has no link".to_owned())
 }
 
 fn path_from_root<'a>(urdf: &'a urdf_rs::Robot, tip: &str) -> Result<Vec<&'a urdf_rs::Joint>, String> {
@@ -124,7 +163,10 @@ fn path_from_root<'a>(urdf: &'a urdf_rs::Robot, tip: &str) -> Result<Vec<&'a urd
 /// The motion of a moving joint, turned so that its axis is a coordinate axis, and what is known of it.
 fn moved(joint: &urdf_rs::Joint, index: usize) -> Result<(Vec<Motion>, Joint), String> {
     let axis = Vector3::from(joint.axis.xyz.0);
-    let Some(unit) = axis.try_normalize(1e-12).filter(|unit| unit.iter().all(|c| c.is_finite())) else {
+    let Some(unit) = axis
+        .try_normalize(1e-12)
+        .filter(|unit| unit.iter().all(|c| c.is_finite()))
+    else {
         return Err(format!("joint `{}` has an axis of length zero", joint.name));
     };
     let slides = joint.joint_type == JointType::Prismatic;
@@ -133,8 +175,18 @@ fn moved(joint: &urdf_rs::Joint, index: usize) -> Result<(Vec<Motion>, Joint), S
         false => Motion::About(axis, Amount::Joint(index)),
     };
     let along = |axis: Axis| unit.dot(&axis.unit());
-    let (motions, sign) = match [Axis::X, Axis::Y, Axis::Z].into_iter().find(|a| 1.0 - along(*a).abs() < ALIGNED) {
-        Some(axis) => (vec![motion(axis)], if along(axis) < 0.0 { Sign::Negative } else { Sign::Positive }),
+    let (motions, sign) = match [Axis::X, Axis::Y, Axis::Z]
+        .into_iter()
+        .find(|a| 1.0 - along(*a).abs() < ALIGNED)
+    {
+        Some(axis) => (
+            vec![motion(axis)],
+            if along(axis) < 0.0 {
+                Sign::Negative
+            } else {
+                Sign::Positive
+            },
+        ),
         None => {
             let turn = UnitQuaternion::rotation_between(&Vector3::z(), &unit).unwrap_or_default();
             let mut motions = rotation(turn);
@@ -144,24 +196,44 @@ fn moved(joint: &urdf_rs::Joint, index: usize) -> Result<(Vec<Motion>, Joint), S
         }
     };
     let limits = (joint.joint_type != JointType::Continuous && joint.limit.lower < joint.limit.upper)
-        .then_some(Limits { lower: joint.limit.lower, upper: joint.limit.upper });
+        .then_some(Limits {
+            lower: joint.limit.lower,
+            upper: joint.limit.upper,
+        });
     let max_speed = (joint.limit.velocity > 0.0).then_some(joint.limit.velocity);
-    Ok((motions, Joint { sign, limits, max_speed, ..Joint::plain(&joint.name) }))
+    Ok((
+        motions,
+        Joint {
+            sign,
+            limits,
+            max_speed,
+            ..Joint::plain(&joint.name)
+        },
+    ))
 }
 
 fn displacement(pose: &urdf_rs::Pose) -> Vec<Motion> {
-    let along = |(axis, value): (Axis, f64)| (value != 0.0).then_some(Motion::Along(axis, Amount::Constant(value)));
-    let about = |(axis, value): (Axis, f64)| (value != 0.0).then_some(Motion::About(axis, Amount::Constant(value)));
+    let along =
+        |(axis, value): (Axis, f64)| (value != 0.0).then_some(Motion::Along(axis, Amount::Constant(value)));
+    let about =
+        |(axis, value): (Axis, f64)| (value != 0.0).then_some(Motion::About(axis, Amount::Constant(value)));
     let ([x, y, z], [roll, pitch, yaw]) = (pose.xyz.0, pose.rpy.0);
-    let translations = [(Axis::X, x), (Axis::Y, y), (Axis::Z, z)].into_iter().filter_map(along);
-    let rotations = [(Axis::Z, yaw), (Axis::Y, pitch), (Axis::X, roll)].into_iter().filter_map(about);
+    let translations = [(Axis::X, x), (Axis::Y, y), (Axis::Z, z)]
+        .into_iter()
+        .filter_map(along);
+    let rotations = [(Axis::Z, yaw), (Axis::Y, pitch), (Axis::X, roll)]
+        .into_iter()
+        .filter_map(about);
     translations.chain(rotations).collect()
 }
 
 fn rotation(turn: UnitQuaternion<f64>) -> Vec<Motion> {
     let (roll, pitch, yaw) = turn.euler_angles();
     let about = |(axis, angle): (Axis, f64)| Motion::About(axis, Amount::Constant(angle));
-    [(Axis::Z, yaw), (Axis::Y, pitch), (Axis::X, roll)].into_iter().map(about).collect()
+    [(Axis::Z, yaw), (Axis::Y, pitch), (Axis::X, roll)]
+        .into_iter()
+        .map(about)
+        .collect()
 }
 
 #[cfg(test)]
@@ -171,12 +243,16 @@ mod tests {
     use armill_core::robot::inverse::posture_at;
 
     fn urdf(joints: &str) -> String {
-        let links = ["base_link", "a", "b", "tool0", "piston"].map(|name| format!("<link name=\"{name}\"/>")).concat();
+        let links = ["base_link", "a", "b", "tool0", "piston"]
+            .map(|name| format!("<link name=\"{name}\"/>"))
+            .concat();
         format!("<robot name=\"small\">{links}{joints}</robot>")
     }
 
     fn joint(name: &str, kind: &str, parent: &str, child: &str, inner: &str) -> String {
-        format!("<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{inner}</joint>\n")
+        format!(
+            "<joint name=\"{name}\" type=\"{kind}\"><parent link=\"{parent}\"/><child link=\"{child}\"/>{inner}</joint>\n"
+        )
     }
 
     fn sound() -> String {
@@ -184,9 +260,27 @@ mod tests {
         let origin = "<origin xyz=\"0 0 0.4\" rpy=\"0 0 0\"/><axis xyz=\"0 0 -1\"/>";
         [
             joint("j1", "revolute", "base_link", "a", &format!("{origin}{limit}")),
-            joint("j2", "revolute", "a", "b", &format!("<origin xyz=\"0.3 0 0\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"0.6 0 0.8\"/>{limit}")),
-            joint("flange", "fixed", "b", "tool0", "<origin xyz=\"0.1 0 0\" rpy=\"0 1.57 0\"/>"),
-            joint("j2p", "revolute", "a", "piston", &format!("<axis xyz=\"0 1 0\"/>{limit}<mimic joint=\"j2\" multiplier=\"-0.25\"/>")),
+            joint(
+                "j2",
+                "revolute",
+                "a",
+                "b",
+                &format!("<origin xyz=\"0.3 0 0\" rpy=\"0.1 0.2 0.3\"/><axis xyz=\"0.6 0 0.8\"/>{limit}"),
+            ),
+            joint(
+                "flange",
+                "fixed",
+                "b",
+                "tool0",
+                "<origin xyz=\"0.1 0 0\" rpy=\"0 1.57 0\"/>",
+            ),
+            joint(
+                "j2p",
+                "revolute",
+                "a",
+                "piston",
+                &format!("<axis xyz=\"0 1 0\"/>{limit}<mimic joint=\"j2\" multiplier=\"-0.25\"/>"),
+            ),
         ]
         .concat()
     }
@@ -221,14 +315,20 @@ mod tests {
     fn an_axis_of_length_zero_is_named_with_its_line() {
         let broken = sound().replace("<axis xyz=\"0.6 0 0.8\"/>", "<axis xyz=\"0 0 0\"/>");
         let text = read("s.urdf", "s", &urdf(&broken)).unwrap_err().to_string();
-        assert!(text.contains("s.urdf:2:") && text.contains("`j2` has an axis of length zero"), "{text}");
+        assert!(
+            text.contains("s.urdf:2:") && text.contains("`j2` has an axis of length zero"),
+            "{text}"
+        );
     }
 
     #[test]
     fn a_loop_of_joints_is_refused() {
         let looped = format!("{}{}", sound(), joint("back", "fixed", "tool0", "a", ""));
         let text = read("s.urdf", "s", &urdf(&looped)).unwrap_err().to_string();
-        assert!(text.contains("s.urdf:1:1") && text.contains("link `a` is the child of 2 joints"), "{text}");
+        assert!(
+            text.contains("s.urdf:1:1") && text.contains("link `a` is the child of 2 joints"),
+            "{text}"
+        );
     }
 
     #[test]

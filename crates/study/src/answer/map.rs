@@ -114,7 +114,13 @@ pub struct Remark {
 
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
     let counts = Counts::of(&map.answers, setting.limit);
-    let at = |index: usize| map.plane.base_from_tool(map.grid.point(index), 0.0).translation.vector.into();
+    let at = |index: usize| {
+        map.plane
+            .base_from_tool(map.grid.point(index), 0.0)
+            .translation
+            .vector
+            .into()
+    };
     let point = |(index, held)| PointAnswer::of(study, setting, &map.answers, (index, held, at(index)));
     let (worst, best) = (map.answers.worst().map(point), map.answers.best().map(point));
     MapAnswer {
@@ -138,7 +144,11 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
 fn region_answer(region: &Region) -> RegionAnswer {
     RegionAnswer {
         area_mm2: region.area * 1e6,
-        boundary_mm: region.boundary.iter().map(|line| line.iter().map(in_plane).collect()).collect(),
+        boundary_mm: region
+            .boundary
+            .iter()
+            .map(|line| line.iter().map(in_plane).collect())
+            .collect(),
         rectangle_mm: region.rectangle.map(|r| [in_plane(&r.lower), in_plane(&r.upper)]),
         circle_centre_mm: region.disc.map(|d| in_plane(&d.centre)),
         circle_radius_mm: region.disc.map(|d| tidy(d.radius * 1e3)),
@@ -154,12 +164,20 @@ fn grid_answer(map: &PlaneMap) -> GridAnswer {
     let grid = &map.grid;
     let um = |value: f64| (value * 1e10).round() / 1e4;
     let of = |get: &dyn Fn(&armill_core::kernel::Held) -> f64| -> Vec<Option<f64>> {
-        map.answers.points.iter().map(|point| point.as_ref().ok().map(|held| um(get(held)))).collect()
+        map.answers
+            .points
+            .iter()
+            .map(|point| point.as_ref().ok().map(|held| um(get(held))))
+            .collect()
     };
     GridAnswer {
         points: grid.len(),
-        y_mm: (0..grid.columns).map(|i| tidy(-grid.coordinate(i, grid.columns) * 1e3)).collect(),
-        z_mm: (0..grid.rows).map(|i| tidy(grid.coordinate(i, grid.rows) * 1e3)).collect(),
+        y_mm: (0..grid.columns)
+            .map(|i| tidy(-grid.coordinate(i, grid.columns) * 1e3))
+            .collect(),
+        z_mm: (0..grid.rows)
+            .map(|i| tidy(grid.coordinate(i, grid.rows) * 1e3))
+            .collect(),
         in_plane_um: of(&|held| held.in_plane),
         normal_um: of(&|held| held.normal),
         full_um: of(&|held| held.full),
@@ -171,7 +189,10 @@ fn remarks(map: &PlaneMap) -> Vec<Remark> {
     let mut remarks: Vec<Remark> = Vec::new();
     let mut add = |reason: &str, index: usize| match remarks.iter_mut().find(|r| r.reason == reason) {
         Some(remark) => remark.points.push(index),
-        None => remarks.push(Remark { reason: reason.to_owned(), points: vec![index] }),
+        None => remarks.push(Remark {
+            reason: reason.to_owned(),
+            points: vec![index],
+        }),
     };
     for (index, point) in map.answers.points.iter().enumerate() {
         match point {

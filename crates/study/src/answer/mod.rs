@@ -87,7 +87,12 @@ pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
             }
             (Subject::Sections(sections), Found::Sections(found)) => {
                 for ((label, sheet), map) in sections.iter().zip(found) {
-                    maps.push(map::answer(study, &format!("{}: {label}", ask.name), &sheet.setting, map));
+                    maps.push(map::answer(
+                        study,
+                        &format!("{}: {label}", ask.name),
+                        &sheet.setting,
+                        map,
+                    ));
                 }
             }
             (Subject::Volume(setting, _), Found::Volume(volume)) => {
@@ -133,7 +138,12 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     RobotAnswer {
         name: robot.name().to_owned(),
         title: study.robot.title.clone(),
-        joints: robot.joints().iter().enumerate().map(|(i, j)| joint(i, j)).collect(),
+        joints: robot
+            .joints()
+            .iter()
+            .enumerate()
+            .map(|(i, j)| joint(i, j))
+            .collect(),
     }
 }
 
@@ -145,7 +155,12 @@ fn sources(study: &Study) -> Vec<Source> {
         licence: "the user's".to_owned(),
     };
     let mut sources = study.robot.sources.clone();
-    sources.extend(study.own_compliance.iter().map(|(source, _)| own("compliance", source)));
+    sources.extend(
+        study
+            .own_compliance
+            .iter()
+            .map(|(source, _)| own("compliance", source)),
+    );
     sources.extend(study.load_source.iter().map(|source| own("load", source)));
     sources
 }
@@ -159,7 +174,9 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
         for ([lower, upper], source, note) in &joint.other_limits {
             let name = &study.robot.robot.joints()[i].name;
             let note = note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
-            warnings.push(format!("Limits of joint {name}: another source ({source}) says {lower} to {upper} deg{note}."));
+            warnings.push(format!(
+                "Limits of joint {name}: another source ({source}) says {lower} to {upper} deg{note}."
+            ));
         }
     }
     for map in maps {

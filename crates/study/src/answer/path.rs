@@ -57,7 +57,13 @@ pub struct CircleCase {
 
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, path: &PathAnswer) -> PathResult {
     let answers = &path.answers;
-    let at = |index: usize| path.plane.base_from_tool(path.samples[index].at, 0.0).translation.vector.into();
+    let at = |index: usize| {
+        path.plane
+            .base_from_tool(path.samples[index].at, 0.0)
+            .translation
+            .vector
+            .into()
+    };
     let held = || answers.held().map(|(_, held)| held);
     let within = held().filter(|held| held.in_plane <= setting.limit).count();
     let points = path.samples.len();
@@ -73,16 +79,22 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, path: &PathAn
         fraction_within: within as f64 / points.max(1) as f64,
         roundness_um: path.worst_roundness().map(|roundness| roundness * 1e6),
         circle_cases: circle_cases(path),
-        worst: answers.worst().map(|(i, held)| PointAnswer::of(study, setting, answers, (i, held, at(i)))),
+        worst: answers
+            .worst()
+            .map(|(i, held)| PointAnswer::of(study, setting, answers, (i, held, at(i)))),
         setting: SettingAnswer::of(setting),
-        joint_range_deg: (0..answers.joint_count).map(|joint| joint_range(path, joint)).collect(),
+        joint_range_deg: (0..answers.joint_count)
+            .map(|joint| joint_range(path, joint))
+            .collect(),
     }
 }
 
 fn circle_cases(path: &PathAnswer) -> Vec<CircleCase> {
     let centroid = |points: &mut dyn Iterator<Item = armill_core::nalgebra::Point2<f64>>| {
         let all: Vec<_> = points.collect();
-        all.iter().fold(armill_core::nalgebra::Vector2::zeros(), |sum, p| sum + p.coords) / all.len().max(1) as f64
+        all.iter()
+            .fold(armill_core::nalgebra::Vector2::zeros(), |sum, p| sum + p.coords)
+            / all.len().max(1) as f64
     };
     let nominal = centroid(&mut path.samples.iter().map(|sample| sample.at));
     let um = |value: f64| value * 1e6;
@@ -103,7 +115,14 @@ fn circle_cases(path: &PathAnswer) -> Vec<CircleCase> {
 }
 
 fn joint_range(path: &PathAnswer, joint: usize) -> [f64; 2] {
-    let positions = path.answers.held().map(|(index, _)| path.answers.joints_at(index)[joint].to_degrees());
+    let positions = path
+        .answers
+        .held()
+        .map(|(index, _)| path.answers.joints_at(index)[joint].to_degrees());
     let (low, high) = positions.fold((f64::MAX, f64::MIN), |(low, high), q| (low.min(q), high.max(q)));
-    if low > high { [0.0, 0.0] } else { [tidy(low), tidy(high)] }
+    if low > high {
+        [0.0, 0.0]
+    } else {
+        [tidy(low), tidy(high)]
+    }
 }

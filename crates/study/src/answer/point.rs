@@ -80,7 +80,12 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
-    pub(super) fn of(study: &Study, setting: &Setting, answers: &Answers, at: (usize, &Held, Point3<f64>)) -> PointAnswer {
+    pub(super) fn of(
+        study: &Study,
+        setting: &Setting,
+        answers: &Answers,
+        at: (usize, &Held, Point3<f64>),
+    ) -> PointAnswer {
         let (index, held, tcp) = at;
         let in_part = setting.plane.base_from_part.inverse_transform_point(&tcp);
         let robot = &study.robot.robot;
@@ -95,7 +100,12 @@ impl PointAnswer {
             xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
             in_plane_mm: [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)],
             branch: held.branch.to_string(),
-            joints_deg: answers.joints_at(index).iter().enumerate().map(position).collect(),
+            joints_deg: answers
+                .joints_at(index)
+                .iter()
+                .enumerate()
+                .map(position)
+                .collect(),
             within_limits: held.within_limits(),
             singularity: held.singularity.map(|s| s.to_string()),
             deciding_case: held.deciding_case + 1,

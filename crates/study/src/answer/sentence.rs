@@ -7,25 +7,49 @@ use crate::file::resolve::Study;
 
 /// The answer to the first thing that was asked.
 pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> String {
-    let first_is_path = study.asks.first().is_some_and(|ask| paths.first().is_some_and(|path| path.name == ask.name));
-    let sentence = if first_is_path { paths.first().map(|p| of_path(study, p)) } else { maps.first().map(|m| of_map(study, m)) };
+    let first_is_path = study
+        .asks
+        .first()
+        .is_some_and(|ask| paths.first().is_some_and(|path| path.name == ask.name));
+    let sentence = if first_is_path {
+        paths.first().map(|p| of_path(study, p))
+    } else {
+        maps.first().map(|m| of_map(study, m))
+    };
     let sentence = sentence.unwrap_or_else(|| "Nothing was asked of a plane or a path.".to_owned());
     let assumed = study.own_compliance.as_ref().is_some_and(|(_, assumed)| *assumed);
-    if assumed { sentence + " The joint compliances are assumed, not measured." } else { sentence }
+    if assumed {
+        sentence + " The joint compliances are assumed, not measured."
+    } else {
+        sentence
+    }
 }
 
 fn of_map(study: &Study, map: &MapAnswer) -> String {
     let (Some(worst), Some(best)) = (&map.worst, &map.best) else {
-        return format!("The robot reaches no point of the plane ({}, branch {}).", map.name, map.branch);
+        return format!(
+            "The robot reaches no point of the plane ({}, branch {}).",
+            map.name, map.branch
+        );
     };
     let held = match map.fraction_within {
-        0.0 => format!("no point of the plane holds {} µm", micrometres(map.setting.limit_um)),
+        0.0 => format!(
+            "no point of the plane holds {} µm",
+            micrometres(map.setting.limit_um)
+        ),
         1.0 => format!("the whole plane holds {} µm", micrometres(map.setting.limit_um)),
-        fraction => format!("{:.1} % of the plane holds {} µm", fraction * 100.0, micrometres(map.setting.limit_um)),
+        fraction => format!(
+            "{:.1} % of the plane holds {} µm",
+            fraction * 100.0,
+            micrometres(map.setting.limit_um)
+        ),
     };
     let limits = match map.outside_joint_limits {
         0 => String::new(),
-        n => format!(" (at {n} of {} points only outside joint limits)", map.grid.points),
+        n => format!(
+            " (at {n} of {} points only outside joint limits)",
+            map.grid.points
+        ),
     };
     format!(
         "{}, branch {}: {held}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by joint {}.",
@@ -43,9 +67,14 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
 
 fn of_path(study: &Study, path: &PathResult) -> String {
     let Some(worst) = &path.worst else {
-        return format!("The robot reaches no point of the path ({}, branch {}).", path.name, path.branch);
+        return format!(
+            "The robot reaches no point of the path ({}, branch {}).",
+            path.name, path.branch
+        );
     };
-    let roundness = path.roundness_um.map_or(String::new(), |r| format!(" and makes the circle {} µm out of round", micrometres(r)));
+    let roundness = path.roundness_um.map_or(String::new(), |r| {
+        format!(" and makes the circle {} µm out of round", micrometres(r))
+    });
     format!(
         "{}, branch {}: the tool deviates up to {} ± {} µm in the plane{roundness}, mostly by joint {}; {:.1} % of the path holds {} µm.",
         path.name,
@@ -60,7 +89,11 @@ fn of_path(study: &Study, path: &PathResult) -> String {
 
 /// The joint with the largest share, and how large.
 fn culprit(study: &Study, point: &PointAnswer) -> String {
-    let largest = point.joint_share_um.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let largest = point
+        .joint_share_um
+        .iter()
+        .enumerate()
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     largest.map_or_else(String::new, |(i, share)| {
         let name = &study.robot.robot.joints()[i].name;
         if point.in_plane_um > 0.0 {

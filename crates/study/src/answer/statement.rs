@@ -36,10 +36,18 @@ pub struct Reading {
 
 pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<StatementAnswer> {
     let of_map = |map: &MapAnswer| {
-        (map.branch.clone(), map.min_in_plane_um.zip(map.max_in_plane_um), map.outside_joint_limits == 0)
+        (
+            map.branch.clone(),
+            map.min_in_plane_um.zip(map.max_in_plane_um),
+            map.outside_joint_limits == 0,
+        )
     };
     let of_path = |path: &PathResult| {
-        (path.branch.clone(), path.min_in_plane_um.zip(path.max_in_plane_um), path.outside_joint_limits == 0)
+        (
+            path.branch.clone(),
+            path.min_in_plane_um.zip(path.max_in_plane_um),
+            path.outside_joint_limits == 0,
+        )
     };
     let reading = |name: &String, bound: f64| {
         let found = paths.iter().find(|path| path.name == *name).map(of_path);
@@ -47,13 +55,23 @@ pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -
         let (branch, range, inside_joint_limits) = found;
         let consistent = range.is_some_and(|(_, most)| most <= bound);
         let in_plane_um = range.map(|(least, most)| [least, most]);
-        Some(Reading { name: name.clone(), branch, in_plane_um, inside_joint_limits, consistent })
+        Some(Reading {
+            name: name.clone(),
+            branch,
+            in_plane_um,
+            inside_joint_limits,
+            consistent,
+        })
     };
     let answer = |statement: &crate::file::format::StatementTable| StatementAnswer {
         text: statement.text.clone(),
         source: statement.source.clone(),
         at_most_um: statement.at_most_um,
-        readings: statement.of.iter().filter_map(|name| reading(name, statement.at_most_um)).collect(),
+        readings: statement
+            .of
+            .iter()
+            .filter_map(|name| reading(name, statement.at_most_um))
+            .collect(),
     };
     study.statements.iter().map(answer).collect()
 }

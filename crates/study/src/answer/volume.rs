@@ -39,7 +39,12 @@ pub struct VolumeAnswer {
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
     let counts = volume.counts(setting.limit);
     let point = |(index, held)| {
-        PointAnswer::of(study, setting, &volume.answers, (index, held, volume.grid.point(index)))
+        PointAnswer::of(
+            study,
+            setting,
+            &volume.answers,
+            (index, held, volume.grid.point(index)),
+        )
     };
     VolumeAnswer {
         name: name.to_owned(),
@@ -50,7 +55,11 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &Volu
         counts: CountsAnswer::of(&counts),
         point_counts: volume.grid.counts,
         step_mm: volume.grid.step * 1e3,
-        origin_mm: setting.counted(&volume.grid.origin).coords.map(|c| super::point::tidy(c * 1e3)).into(),
+        origin_mm: setting
+            .counted(&volume.grid.origin)
+            .coords
+            .map(|c| super::point::tidy(c * 1e3))
+            .into(),
         best: volume.answers.best().map(point),
         worst: volume.answers.worst().map(point),
         setting: SettingAnswer::of(setting),

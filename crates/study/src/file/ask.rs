@@ -69,11 +69,23 @@ impl Resolver<'_> {
         let numbers = [
             ("plane.centre_mm", "mm", plane.centre_mm.to_vec()),
             ("plane.tilt_deg", "deg", plane.tilt_deg.into_iter().collect()),
-            ("plane.rotation_deg", "deg", plane.rotation_deg.iter().flatten().copied().collect()),
+            (
+                "plane.rotation_deg",
+                "deg",
+                plane.rotation_deg.iter().flatten().copied().collect(),
+            ),
             ("plane.half_size_mm", "mm", half_size),
             ("plane.step_mm", "mm", vec![plane.step_mm]),
-            ("load.cases_n", "N", load.cases_n.iter().flatten().copied().collect()),
-            ("load.moments_n_m", "N m", load.moments_n_m.iter().flatten().flatten().copied().collect()),
+            (
+                "load.cases_n",
+                "N",
+                load.cases_n.iter().flatten().copied().collect(),
+            ),
+            (
+                "load.moments_n_m",
+                "N m",
+                load.moments_n_m.iter().flatten().flatten().copied().collect(),
+            ),
             (
                 "tool.flange_from_tool_mm_deg",
                 "mm or deg",
@@ -81,15 +93,55 @@ impl Resolver<'_> {
             ),
             ("distances_mm", "mm", t.distances_mm.clone().unwrap_or_default()),
             ("tilts_deg", "deg", t.tilts_deg.clone().unwrap_or_default()),
-            ("box.centre_mm", "mm", in_box.and_then(|b| b.centre_mm).map_or_else(Vec::new, Vec::from)),
-            ("box.half_size_mm", "mm", in_box.map_or_else(Vec::new, |b| b.half_size_mm.to_vec())),
-            ("box.step_mm", "mm", in_box.map_or_else(Vec::new, |b| vec![b.step_mm])),
-            ("circle.centre_mm", "mm", t.circle.iter().filter_map(|c| c.centre_mm).flatten().collect()),
-            ("circle.radius_mm", "mm", t.circle.iter().map(|c| c.radius_mm).collect()),
-            ("line", "mm", t.line.iter().flat_map(|l| [l.from_mm, l.to_mm]).flatten().collect()),
-            ("polyline_mm", "mm", t.polyline_mm.iter().flatten().flatten().copied().collect()),
-            ("rectangle.centre_mm", "mm", t.rectangle.iter().filter_map(|r| r.centre_mm).flatten().collect()),
-            ("rectangle.size_mm", "mm", t.rectangle.iter().flat_map(|r| r.size_mm).collect()),
+            (
+                "box.centre_mm",
+                "mm",
+                in_box.and_then(|b| b.centre_mm).map_or_else(Vec::new, Vec::from),
+            ),
+            (
+                "box.half_size_mm",
+                "mm",
+                in_box.map_or_else(Vec::new, |b| b.half_size_mm.to_vec()),
+            ),
+            (
+                "box.step_mm",
+                "mm",
+                in_box.map_or_else(Vec::new, |b| vec![b.step_mm]),
+            ),
+            (
+                "circle.centre_mm",
+                "mm",
+                t.circle.iter().filter_map(|c| c.centre_mm).flatten().collect(),
+            ),
+            (
+                "circle.radius_mm",
+                "mm",
+                t.circle.iter().map(|c| c.radius_mm).collect(),
+            ),
+            (
+                "line",
+                "mm",
+                t.line
+                    .iter()
+                    .flat_map(|l| [l.from_mm, l.to_mm])
+                    .flatten()
+                    .collect(),
+            ),
+            (
+                "polyline_mm",
+                "mm",
+                t.polyline_mm.iter().flatten().flatten().copied().collect(),
+            ),
+            (
+                "rectangle.centre_mm",
+                "mm",
+                t.rectangle.iter().filter_map(|r| r.centre_mm).flatten().collect(),
+            ),
+            (
+                "rectangle.size_mm",
+                "mm",
+                t.rectangle.iter().flat_map(|r| r.size_mm).collect(),
+            ),
             ("step_mm", "mm", t.step_mm.into_iter().collect()),
         ];
         for (path, unit, values) in numbers {
@@ -114,7 +166,10 @@ impl Resolver<'_> {
         ];
         for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
             let message = format!("`{key}` means nothing to a {}", kind_name(t.kind));
-            let hint = format!("it belongs to kind = \"{}\"; the grid of a map is plane.step_mm", kind_name(*kind));
+            let hint = format!(
+                "it belongs to kind = \"{}\"; the grid of a map is plane.step_mm",
+                kind_name(*kind)
+            );
             places.problem(key, message, &hint);
         }
     }
@@ -138,15 +193,29 @@ impl Resolver<'_> {
         let base_from_counted = self.base_from_counted(places, &base_name);
         let choice = self.choice(places);
         let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
-        let plane = plane_at(places, plane, &base_from_counted.unwrap_or_else(Isometry::identity));
+        let plane = plane_at(
+            places,
+            plane,
+            &base_from_counted.unwrap_or_else(Isometry::identity),
+        );
         let load = self.table.load.as_ref().unwrap_or(&self.file.load);
         let cases = load_cases(places, load);
         let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
         let cases = cases?.in_base(&plane.base_from_part);
         let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
-        let flange_from_tool = tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
+        let flange_from_tool =
+            tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
         let limit = limit_um * 1e-6;
-        Some(Setting { base_name, base_from_counted, flange_from_tool, plane, tilt, cases, limit, choice })
+        Some(Setting {
+            base_name,
+            base_from_counted,
+            flange_from_tool,
+            plane,
+            tilt,
+            cases,
+            limit,
+            choice,
+        })
     }
 
     fn base_from_counted(&self, places: &mut Places<'_>, name: &str) -> Option<Isometry> {
@@ -160,7 +229,9 @@ impl Resolver<'_> {
     }
 
     fn choice(&self, places: &mut Places<'_>) -> Option<BranchChoice> {
-        let nominal = self.robot.map_or(BranchPattern::FRONT_ELBOW_UP, |found| found.robot.nominal_branch());
+        let nominal = self.robot.map_or(BranchPattern::FRONT_ELBOW_UP, |found| {
+            found.robot.nominal_branch()
+        });
         let posture = self.table.posture.as_ref().or(self.file.posture.as_ref());
         match crate::branch_choice(posture.map_or("nominal", |p| p.branch.as_str()), nominal) {
             Ok(choice) => Some(choice),
@@ -177,18 +248,42 @@ impl Resolver<'_> {
         Some(Sheet { setting, grid })
     }
 
-    fn sections(&self, places: &mut Places<'_>, setting: Option<Setting>, grid: Option<Grid>) -> Option<Subject> {
+    fn sections(
+        &self,
+        places: &mut Places<'_>,
+        setting: Option<Setting>,
+        grid: Option<Grid>,
+    ) -> Option<Subject> {
         let given = |list: &Option<Vec<f64>>| list.as_ref().is_some_and(|list| !list.is_empty());
         if given(&self.table.distances_mm) == given(&self.table.tilts_deg) {
             let hint = "distances_mm = [600, 800, 1000] or tilts_deg = [-60, 0, 60]";
             places.problem_here("sections vary either `distances_mm` or `tilts_deg`", hint);
             return None;
         }
+        let lists = [
+            ("distances_mm", &self.table.distances_mm),
+            ("tilts_deg", &self.table.tilts_deg),
+        ];
+        for (key, values) in lists {
+            let values = values.as_deref().unwrap_or_default();
+            for i in (1..values.len()).filter(|i| values[..*i].contains(&values[*i])) {
+                let message = format!("{} stands twice in `{key}`", values[i]);
+                places.problem(
+                    &format!("{key}[{i}]"),
+                    message,
+                    "each section once: its name comes of it",
+                );
+            }
+        }
         let (setting, grid) = (setting?, grid?);
         let mut sections = Vec::new();
         let mut add = |places: &mut Places<'_>, label: String, plane: PlaneTable| {
             let (plane, tilt) = plane_at(places, &plane, &setting.base_from_counted)?;
-            let setting = Setting { plane, tilt, ..setting.clone() };
+            let setting = Setting {
+                plane,
+                tilt,
+                ..setting.clone()
+            };
             sections.push((label, self.sheet(places, setting, grid)?));
             Some(())
         };
@@ -198,8 +293,12 @@ impl Resolver<'_> {
             add(places, format!("x = {distance} mm"), plane)?;
         }
         for tilt in self.table.tilts_deg.iter().flatten() {
-            let plane = PlaneTable { tilt_deg: Some(*tilt), rotation_deg: None, ..self.plane_table() };
-            add(places, format!("tilt {tilt}°").replace('-', "−"), plane)?;
+            let plane = PlaneTable {
+                tilt_deg: Some(*tilt),
+                rotation_deg: None,
+                ..self.plane_table()
+            };
+            add(places, format!("tilt {tilt} deg"), plane)?;
         }
         Some(Subject::Sections(sections))
     }
@@ -215,7 +314,10 @@ impl Resolver<'_> {
         let (half_size, step, setting) = (half_size?, step?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
         let centre = setting.base_from_counted * Point3::from(Vector3::from(centre) * 1e-3);
-        let points: f64 = half_size.iter().map(|half| 2.0 * (half / step).floor() + 1.0).product();
+        let points: f64 = half_size
+            .iter()
+            .map(|half| 2.0 * (half / step).floor() + 1.0)
+            .product();
         self.enough_memory(places, "box.step_mm", points, &setting)?;
         let grid = BoxGrid::within(centre, [half_size[0], half_size[1], half_size[2]], step);
         Some(Subject::Volume(setting, grid))
@@ -227,10 +329,17 @@ impl Resolver<'_> {
         let shapes: Vec<Shape> = [
             t.circle.as_ref().map(|c| {
                 let radius = c.radius_mm * 1e-3;
-                Shape::Circle { centre: at(c.centre_mm.unwrap_or_default()), radius }
+                Shape::Circle {
+                    centre: at(c.centre_mm.unwrap_or_default()),
+                    radius,
+                }
             }),
-            t.line.as_ref().map(|l| Shape::Polyline(vec![at(l.from_mm), at(l.to_mm)])),
-            t.polyline_mm.as_ref().map(|points| Shape::Polyline(points.iter().copied().map(at).collect())),
+            t.line
+                .as_ref()
+                .map(|l| Shape::Polyline(vec![at(l.from_mm), at(l.to_mm)])),
+            t.polyline_mm
+                .as_ref()
+                .map(|points| Shape::Polyline(points.iter().copied().map(at).collect())),
             t.rectangle.as_ref().map(|r| {
                 let size = Vector2::from(r.size_mm) * 1e-3;
                 Shape::rectangle(at(r.centre_mm.unwrap_or_default()), size)
@@ -249,7 +358,10 @@ impl Resolver<'_> {
         }
         let length = shape.length();
         if length <= 0.0 {
-            places.problem_here("the path has length 0 mm", "give it at least two different points");
+            places.problem_here(
+                "the path has length 0 mm",
+                "give it at least two different points",
+            );
             return None;
         }
         let step = match (t.step_mm, shape) {
@@ -262,7 +374,13 @@ impl Resolver<'_> {
         Some(Subject::Path(setting, shape.clone(), step))
     }
 
-    fn enough_memory(&self, places: &mut Places<'_>, path: &str, points: f64, setting: &Setting) -> Option<()> {
+    fn enough_memory(
+        &self,
+        places: &mut Places<'_>,
+        path: &str,
+        points: f64,
+        setting: &Setting,
+    ) -> Option<()> {
         memory::check_points(places, path, points, (self.robot?, setting))
     }
 }

@@ -37,7 +37,10 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
     let of = |setting: &Setting, points: f64| points * bytes_per_point(robot, setting);
     let of_ask = |ask: &Ask| match &ask.subject {
         Subject::Map(sheet) => of(&sheet.setting, sheet.grid.len() as f64),
-        Subject::Sections(all) => all.iter().map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64)).sum(),
+        Subject::Sections(all) => all
+            .iter()
+            .map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64))
+            .sum(),
         Subject::Volume(setting, grid) => of(setting, grid.len() as f64),
         Subject::Path(setting, shape, step) => of(setting, shape.length() / step),
     };

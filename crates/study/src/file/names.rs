@@ -12,18 +12,30 @@ const LONGEST_SLUG: usize = 160;
 
 /// The name of an ask; of its kind and number where it gives none.
 pub(super) fn name_of(table: &AskTable, index: usize) -> String {
-    table.name.clone().unwrap_or_else(|| format!("{} {}", kind_name(table.kind), index + 1))
+    table
+        .name
+        .clone()
+        .unwrap_or_else(|| format!("{} {}", kind_name(table.kind), index + 1))
 }
 
 /// Problems of statements that speak of no map, section or path.
 pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: &[Ask]) {
     let named = |kinds: &[AskKind], name: &str| {
-        let of_kind = file.ask.iter().enumerate().filter(|(_, ask)| kinds.contains(&ask.kind));
-        of_kind.map(|(index, ask)| name_of(ask, index)).any(|ask| ask == name)
+        let of_kind = file
+            .ask
+            .iter()
+            .enumerate()
+            .filter(|(_, ask)| kinds.contains(&ask.kind));
+        of_kind
+            .map(|(index, ask)| name_of(ask, index))
+            .any(|ask| ask == name)
     };
     // Sections are named by their labels; those of an ask with problems are not known.
     let sections = |ask: &Ask| match &ask.subject {
-        Subject::Sections(sections) => sections.iter().map(|(label, _)| format!("{}: {label}", ask.name)).collect(),
+        Subject::Sections(sections) => sections
+            .iter()
+            .map(|(label, _)| format!("{}: {label}", ask.name))
+            .collect(),
         _ => Vec::new(),
     };
     let sections: Vec<String> = asks.iter().flat_map(sections).collect();
@@ -39,12 +51,21 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
             }
             let (message, hint) = if named(&[AskKind::Sections], name) {
                 let first = sections.iter().find(|section| section.starts_with(name.as_str()));
-                let hint = format!("name one section, such as `{}`", first.map_or("name: x = 800 mm", String::as_str));
+                let hint = format!(
+                    "name one section, such as `{}`",
+                    first.map_or("name: x = 800 mm", String::as_str)
+                );
                 (format!("`{name}` is a series of sections"), hint)
             } else if named(&[AskKind::Volume], name) {
-                (format!("`{name}` is a volume"), "a statement speaks of maps, sections and paths".to_owned())
+                (
+                    format!("`{name}` is a volume"),
+                    "a statement speaks of maps, sections and paths".to_owned(),
+                )
             } else {
-                (format!("no ask is called `{name}`"), "give an ask this `name`".to_owned())
+                (
+                    format!("no ask is called `{name}`"),
+                    "give an ask this `name`".to_owned(),
+                )
             };
             places.problem(&format!("statement[{index}].of[{k}]"), message, &hint);
         }
@@ -53,17 +74,45 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
 
 /// Problems of names that give no file name, too long a one, or that of an earlier ask.
 pub(super) fn unfit_names(document: &Document, file: &StudyFile) -> Vec<Problem> {
-    let names: Vec<String> = file.ask.iter().enumerate().map(|(index, ask)| name_of(ask, index)).collect();
+    let names: Vec<String> = file
+        .ask
+        .iter()
+        .enumerate()
+        .map(|(index, ask)| name_of(ask, index))
+        .collect();
     let slugs: Vec<String> = names.iter().map(|name| crate::output::slug(name)).collect();
     let problem = |i: usize| {
         let (message, hint) = if slugs[i].is_empty() {
-            (format!("`{}` has no letter and no digit to name files by", names[i]), "such as `plate`")
+            (
+                format!("`{}` has no letter and no digit to name files by", names[i]),
+                "such as `plate`",
+            )
         } else if slugs[i].len() > LONGEST_SLUG {
-            let message = format!("file names of {} bytes would come of this name, more than {LONGEST_SLUG}", slugs[i].len());
-            (message, "a shorter name; `title` and `question` may be as long as you like")
+            let message = format!(
+                "file names of {} bytes would come of this name, more than {LONGEST_SLUG}",
+                slugs[i].len()
+            );
+            (
+                message,
+                "a shorter name; `title` and `question` may be as long as you like",
+            )
+        } else if let Some(other) =
+            (0..slugs.len()).find(|j| crate::output::is_picture_of(&slugs[i], &slugs[*j]))
+        {
+            let message = format!("`{}` would write a picture of `{}` over", names[i], names[other]);
+            (
+                message,
+                "another name: pictures of an ask are called by its name and what they show",
+            )
         } else if let Some(earlier) = (0..i).find(|j| slugs[*j] == slugs[i]) {
-            let message = format!("`{}` and `{}` would write the same files", names[earlier], names[i]);
-            (message, "each ask needs a name of its own; case and punctuation do not tell names apart")
+            let message = format!(
+                "`{}` and `{}` would write the same files",
+                names[earlier], names[i]
+            );
+            (
+                message,
+                "each ask needs a name of its own; case and punctuation do not tell names apart",
+            )
         } else {
             return None;
         };

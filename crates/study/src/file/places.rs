@@ -12,19 +12,25 @@ pub(super) struct Places<'a> {
 
 impl<'a> Places<'a> {
     pub(super) fn new(document: &'a Document, ask: Option<usize>) -> Places<'a> {
-        Places { document, ask, problems: Vec::new() }
+        Places {
+            document,
+            ask,
+            problems: Vec::new(),
+        }
     }
 
     /// A problem of the value `path`, such as `plane.step_mm`.
     pub(super) fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
         let place = self.place(path);
-        self.problems.push(self.document.problem(&place, message, Some(hint)));
+        self.problems
+            .push(self.document.problem(&place, message, Some(hint)));
     }
 
     /// A problem at the ask itself.
     pub(super) fn problem_here(&mut self, message: impl Into<String>, hint: &str) {
         let place = self.ask.map_or_else(String::new, |index| format!("ask[{index}]"));
-        self.problems.push(self.document.problem(&place, message, Some(hint)));
+        self.problems
+            .push(self.document.problem(&place, message, Some(hint)));
     }
 
     fn place(&self, path: &str) -> String {

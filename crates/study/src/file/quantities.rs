@@ -15,7 +15,11 @@ pub(super) fn positive(places: &mut Places<'_>, path: &str, value_mm: f64) -> Op
     if value_mm > 0.0 {
         return Some(value_mm * 1e-3);
     }
-    places.problem(path, format!("`{path}` is {value_mm} mm: must be above 0 mm"), "a length above 0");
+    places.problem(
+        path,
+        format!("`{path}` is {value_mm} mm: must be above 0 mm"),
+        "a length above 0",
+    );
     None
 }
 
@@ -24,7 +28,10 @@ const LARGEST_MM: f64 = 1e6;
 
 /// Half sizes of 0 to 1 km, m.
 pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -> Option<Vec<f64>> {
-    let Some(wrong) = half_size_mm.iter().find(|half| !(0.0..=LARGEST_MM).contains(*half)) else {
+    let Some(wrong) = half_size_mm
+        .iter()
+        .find(|half| !(0.0..=LARGEST_MM).contains(*half))
+    else {
         return Some(half_size_mm.iter().map(|half| half * 1e-3).collect());
     };
     let message = format!("`{path}` is {wrong} mm: must be from 0 to {LARGEST_MM} mm");
@@ -44,9 +51,14 @@ pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> 
     // Counted as numbers first: a grid too large for memory must not overflow an index.
     if half.iter().any(|h| h / step > 1e8) {
         // Bounded so that it can still be told; at least what a point takes beside its answers.
-        let points = half.iter().map(|h| 2.0 * h / step + 1.0).product::<f64>().min(1e300);
+        let points = half
+            .iter()
+            .map(|h| 2.0 * h / step + 1.0)
+            .product::<f64>()
+            .min(1e300);
         let (gib, most) = (points * BYTES_BESIDE as f64 / GIB, MOST_BYTES / GIB);
-        let message = format!("{points:.0e} points would take {gib:.0e} GiB of memory, more than {most:.0} GiB");
+        let message =
+            format!("{points:.0e} points would take {gib:.0e} GiB of memory, more than {most:.0} GiB");
         places.problem("plane.step_mm", message, "a larger step, or a smaller plane");
         return None;
     }
@@ -54,11 +66,19 @@ pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> 
 }
 
 /// The plane in base, and its tilt (rad) where it was given by one.
-pub(super) fn plane_at(places: &mut Places<'_>, table: &PlaneTable, base_from_counted: &Isometry) -> Option<(Plane, Option<f64>)> {
+pub(super) fn plane_at(
+    places: &mut Places<'_>,
+    table: &PlaneTable,
+    base_from_counted: &Isometry,
+) -> Option<(Plane, Option<f64>)> {
     let centre = Point3::from(Vector3::from(table.centre_mm) * 1e-3);
     let (counted_from_part, tilt) = match (table.tilt_deg, table.rotation_deg) {
         (Some(_), Some(_)) => {
-            places.problem("plane.rotation_deg", "a plane has either `tilt_deg` or `rotation_deg`", "remove one");
+            places.problem(
+                "plane.rotation_deg",
+                "a plane has either `tilt_deg` or `rotation_deg`",
+                "remove one",
+            );
             return None;
         }
         (None, Some(angles)) => {
@@ -70,27 +90,45 @@ pub(super) fn plane_at(places: &mut Places<'_>, table: &PlaneTable, base_from_co
             (Plane::tilted(centre, tilt).base_from_part, Some(tilt))
         }
     };
-    Some((Plane { base_from_part: base_from_counted * counted_from_part }, tilt))
+    Some((
+        Plane {
+            base_from_part: base_from_counted * counted_from_part,
+        },
+        tilt,
+    ))
 }
 
 /// The load cases in their own frame.
 pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<LoadCases> {
     if table.cases_n.is_empty() {
-        places.problem("load.cases_n", "the load has no case", "cases_n = [[3, 5, 5]]: force on the tool, x, y, z");
+        places.problem(
+            "load.cases_n",
+            "the load has no case",
+            "cases_n = [[3, 5, 5]]: force on the tool, x, y, z",
+        );
         return None;
     }
-    let moments = table.moments_n_m.clone().unwrap_or_else(|| vec![[0.0; 3]; table.cases_n.len()]);
+    let moments = table
+        .moments_n_m
+        .clone()
+        .unwrap_or_else(|| vec![[0.0; 3]; table.cases_n.len()]);
     if moments.len() != table.cases_n.len() {
         let message = format!("{} moments for {} cases", moments.len(), table.cases_n.len());
         places.problem("load.moments_n_m", message, "one a case, in the same order");
         return None;
     }
-    let cases = table.cases_n.iter().zip(moments).map(|(f, m)| Wrench { force: (*f).into(), moment: m.into() });
+    let cases = table.cases_n.iter().zip(moments).map(|(f, m)| Wrench {
+        force: (*f).into(),
+        moment: m.into(),
+    });
     let frame = match table.frame {
         None | Some(LoadFrameName::Base) => LoadFrame::Base,
         Some(LoadFrameName::Part) => LoadFrame::Part,
     };
-    Some(LoadCases { frame, cases: cases.collect() })
+    Some(LoadCases {
+        frame,
+        cases: cases.collect(),
+    })
 }
 
 /// The pose of six numbers: x, y, z in mm, turns about fixed x, y, z in degrees.

@@ -122,11 +122,19 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
     let mut problems = std::mem::take(&mut places.problems);
     let mut asks = Vec::new();
     let default_ask = [whole_plane()];
-    let tables = if file.ask.is_empty() { &default_ask[..] } else { &file.ask };
+    let tables = if file.ask.is_empty() {
+        &default_ask[..]
+    } else {
+        &file.ask
+    };
     for (index, table) in tables.iter().enumerate() {
         let own = (!file.ask.is_empty()).then_some(index);
         let mut places = Places::new(&document, own);
-        let resolver = Resolver { file: &file, robot: robot.as_ref(), table };
+        let resolver = Resolver {
+            file: &file,
+            robot: robot.as_ref(),
+            table,
+        };
         let name = name_of(table, index);
         if let Some(subject) = resolver.subject(&mut places) {
             asks.push(Ask { name, subject });
@@ -141,10 +149,15 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
     problems.extend(unfit_names(&document, &file));
     Problems::from(without_repeats(problems)).into_result()?;
     let Some(robot) = robot else {
-        return Err(StudyError::value(format!("{shown}: no robot"), "name one with `robot = ...`"));
+        return Err(StudyError::value(
+            format!("{shown}: no robot"),
+            "name one with `robot = ...`",
+        ));
     };
     Ok(Study {
-        title: file.title.unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
+        title: file
+            .title
+            .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
         question: file.question,
         own_compliance: file.compliance.map(|c| (c.source, c.assumed)),
         load_source: file.load.source,
@@ -201,14 +214,22 @@ fn find_robot(
         Err(problems) => return Err(problems),
     };
     if found.robot.ortho_parallel().is_none() {
-        let message = format!("robot `{}` has no closed-form inverse: it can be posed by its joints only", file.robot);
-        places.problem("robot", message, "maps need six joints in ortho-parallel order with a spherical wrist");
+        let message = format!(
+            "robot `{}` has no closed-form inverse: it can be posed by its joints only",
+            file.robot
+        );
+        places.problem(
+            "robot",
+            message,
+            "maps need six joints in ortho-parallel order with a spherical wrist",
+        );
     }
     let joints = found.robot.joints().len();
     match &file.compliance {
         Some(table) => {
             if let Some(compliance) = compliance(places, table, joints) {
-                let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
+                let refused =
+                    |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
                 found.robot = found.robot.with_compliance(compliance).map_err(refused)?;
             }
         }
@@ -222,9 +243,16 @@ fn find_robot(
     Ok(Some(found))
 }
 
-fn compliance(places: &mut Places<'_>, table: &ComplianceTable, joints: usize) -> Option<Vec<JointCompliance>> {
+fn compliance(
+    places: &mut Places<'_>,
+    table: &ComplianceTable,
+    joints: usize,
+) -> Option<Vec<JointCompliance>> {
     let before = places.problems.len();
-    let lists = [("rad_per_n_m", Some(&table.rad_per_n_m)), ("u_rad_per_n_m", table.u_rad_per_n_m.as_ref())];
+    let lists = [
+        ("rad_per_n_m", Some(&table.rad_per_n_m)),
+        ("u_rad_per_n_m", table.u_rad_per_n_m.as_ref()),
+    ];
     for (key, list) in lists {
         let Some(list) = list else { continue };
         let path = format!("compliance.{key}");
@@ -234,16 +262,32 @@ fn compliance(places: &mut Places<'_>, table: &ComplianceTable, joints: usize) -
         }
         for (index, value) in list.iter().enumerate().filter(|(_, value)| **value < 0.0) {
             let message = format!("{value} rad/(N m) is below 0");
-            places.problem(&format!("{path}[{index}]"), message, "a joint yields with its load: 0 or more");
+            places.problem(
+                &format!("{path}[{index}]"),
+                message,
+                "a joint yields with its load: 0 or more",
+            );
         }
-        for (index, value) in list.iter().enumerate().filter(|(_, value)| **value > MOST_COMPLIANT) {
+        for (index, value) in list
+            .iter()
+            .enumerate()
+            .filter(|(_, value)| **value > MOST_COMPLIANT)
+        {
             let message = format!("{value} rad/(N m) is above {MOST_COMPLIANT} rad/(N m)");
-            places.problem(&format!("{path}[{index}]"), message, "the joints of an arm yield some 1e-6 rad/(N m)");
+            places.problem(
+                &format!("{path}[{index}]"),
+                message,
+                "the joints of an arm yield some 1e-6 rad/(N m)",
+            );
         }
     }
     let u = table.u_rad_per_n_m.clone().unwrap_or_else(|| vec![0.0; joints]);
     (places.problems.len() == before).then(|| {
         let both = table.rad_per_n_m.iter().zip(u);
-        both.map(|(value, u)| JointCompliance { value: *value, standard_uncertainty: u }).collect()
+        both.map(|(value, u)| JointCompliance {
+            value: *value,
+            standard_uncertainty: u,
+        })
+        .collect()
     })
 }

@@ -35,12 +35,19 @@ pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &Pose
         let joints: Vec<f64> = posture.joints_deg.iter().enumerate().map(to_si).collect();
         arm_posture(robot, &joints, flange_from_tool)
     };
-    let chosen = answer.postures.iter().position(|posture| posture.within_limits).unwrap_or(0);
+    let chosen = answer
+        .postures
+        .iter()
+        .position(|posture| posture.within_limits)
+        .unwrap_or(0);
     let others = answer.postures.iter().enumerate().filter(|(i, _)| *i != chosen);
     let name = |posture: &PostureAnswer| posture.branch.clone().unwrap_or_else(|| "posture".to_owned());
     let drawing = ArmDrawing {
         title: answer.robot.clone(),
-        subtitle: answer.postures.get(chosen).map_or_else(|| "out of reach".to_owned(), name),
+        subtitle: answer
+            .postures
+            .get(chosen)
+            .map_or_else(|| "out of reach".to_owned(), name),
         posture: answer.postures.get(chosen).map(stand).unwrap_or_default(),
         ghosts: others.map(|(_, posture)| stand(posture)).collect(),
         ..ArmDrawing::default()

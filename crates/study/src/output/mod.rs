@@ -35,6 +35,16 @@ pub enum Pictures {
 #[cfg(feature = "png")]
 const PNG_SCALE: f64 = 2.0;
 
+/// What pictures of an ask add to its name.
+const PICTURES: [&str; 7] = ["region", "shares", "ellipse", "arm", "vectors", "along", "polar"];
+
+/// Whether files called `slug` could be pictures of the ask called `ask`.
+pub(crate) fn is_picture_of(slug: &str, ask: &str) -> bool {
+    slug.strip_prefix(ask)
+        .and_then(|rest| rest.strip_prefix('-'))
+        .is_some_and(|rest| PICTURES.contains(&rest))
+}
+
 /// A part of a file name that every system takes: letters (of any script), digits and hyphens.
 pub fn slug(name: &str) -> String {
     let mut slug = String::new();
@@ -94,7 +104,10 @@ pub fn write(
         for picture in &drawn {
             save(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
             #[cfg(feature = "png")]
-            save(&format!("{}.png", picture.name), &armill_report::raster::png(&picture.svg, PNG_SCALE)?)?;
+            save(
+                &format!("{}.png", picture.name),
+                &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
+            )?;
         }
         save("report.html", report::html(study, answer, &drawn).as_bytes())?;
     }

@@ -40,17 +40,29 @@ pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<
         match (&ask.subject, found) {
             (Subject::Map(plate), Found::Map(map)) => {
                 let Some(told) = maps.next() else { continue };
-                pictures.extend(map_pictures(told, &plate.setting, map, overlays(study, &plate.setting)));
+                pictures.extend(map_pictures(
+                    told,
+                    &plate.setting,
+                    map,
+                    overlays(study, &plate.setting),
+                ));
                 pictures.extend(worst_point(study, &plate.setting, told, map));
             }
             (Subject::Sections(sections), Found::Sections(found)) => {
                 let panels = sections.iter().zip(found).filter_map(|((label, plate), map)| {
-                    maps.next().map(|told| section_panel(label, map, &plate.setting, told.fraction_within))
+                    maps.next()
+                        .map(|told| section_panel(label, map, &plate.setting, told.fraction_within))
                 });
                 let panels: Vec<_> = panels.collect();
-                pictures.extend(sections.first().map(|(_, first)| sheet(&ask.name, panels, &first.setting, axes(&first.setting))));
+                pictures.extend(
+                    sections
+                        .first()
+                        .map(|(_, first)| sheet(&ask.name, panels, &first.setting, axes(&first.setting))),
+                );
             }
-            (Subject::Volume(setting, _), Found::Volume(volume)) => pictures.push(slices(&ask.name, volume, setting)),
+            (Subject::Volume(setting, _), Found::Volume(volume)) => {
+                pictures.push(slices(&ask.name, volume, setting));
+            }
             (Subject::Path(setting, ..), Found::Path(path)) => {
                 let Some(told) = paths.next() else { continue };
                 pictures.extend(path_pictures(study, setting, told, path));
@@ -65,17 +77,26 @@ pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<
 fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
     let mut overlays: Vec<Overlay> = Vec::new();
     for ask in &study.asks {
-        let Subject::Path(of_path, shape, step) = &ask.subject else { continue };
-        let apart = of_path.plane.base_from_part.to_homogeneous() - setting.plane.base_from_part.to_homogeneous();
+        let Subject::Path(of_path, shape, step) = &ask.subject else {
+            continue;
+        };
+        let apart =
+            of_path.plane.base_from_part.to_homogeneous() - setting.plane.base_from_part.to_homogeneous();
         if apart.norm() > 1e-9 || of_path.base_name != setting.base_name {
             continue;
         }
         let y0 = base_y(setting);
-        let mut points_mm: Vec<[f64; 2]> =
-            shape.sampled(*step).iter().map(|s| [y0 - s.at.x * 1e3, s.at.y * 1e3]).collect();
+        let mut points_mm: Vec<[f64; 2]> = shape
+            .sampled(*step)
+            .iter()
+            .map(|s| [y0 - s.at.x * 1e3, s.at.y * 1e3])
+            .collect();
         points_mm.extend(points_mm.first().copied());
         if overlays.iter().all(|other| other.points_mm != points_mm) {
-            overlays.push(Overlay { label: "path".to_owned(), points_mm });
+            overlays.push(Overlay {
+                label: "path".to_owned(),
+                points_mm,
+            });
         }
     }
     overlays
@@ -84,28 +105,48 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
 /// Why the worst point of a map is bad: shares of the joints there and at the best point, the compliance in the
 /// plane, and the arm.
 fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMap) -> Vec<Picture> {
-    let Some((worst, best)) = told.worst.as_ref().zip(told.best.as_ref()) else { return Vec::new() };
-    let Some((index, _)) = map.answers.worst() else { return Vec::new() };
+    let Some((worst, best)) = told.worst.as_ref().zip(told.best.as_ref()) else {
+        return Vec::new();
+    };
+    let Some((index, _)) = map.answers.worst() else {
+        return Vec::new();
+    };
     let bars = vec![share_bar("largest", worst), share_bar("least", best)];
     let slug = super::slug(&told.name);
     vec![
         Picture {
             name: format!("{slug}-shares"),
-            caption: format!("{}: share of each joint where the deviation is largest and least.", told.name),
-            svg: shares(study, &format!("{}: which joint is to blame", told.name), setting, bars),
+            caption: format!(
+                "{}: share of each joint where the deviation is largest and least.",
+                told.name
+            ),
+            svg: shares(
+                study,
+                &format!("{}: which joint is to blame", told.name),
+                setting,
+                bars,
+            ),
         },
         ellipse(study, setting, &slug, &map.answers, index),
         Picture {
             name: format!("{slug}-arm"),
             caption: format!("{}: the arm where the deviation is largest.", told.name),
-            svg: arm(study, setting, (&told.name, map.answers.joints_at(index)), plate_corners(map)),
+            svg: arm(
+                study,
+                setting,
+                (&told.name, map.answers.joints_at(index)),
+                plate_corners(map),
+            ),
         },
     ]
 }
 
 fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     ShareBar {
-        label: format!("{label} ({:.0}, {:.0}, {:.0}) mm", point.xyz_mm[0], point.xyz_mm[1], point.xyz_mm[2]),
+        label: format!(
+            "{label} ({:.0}, {:.0}, {:.0}) mm",
+            point.xyz_mm[0], point.xyz_mm[1], point.xyz_mm[2]
+        ),
         shares_um: point.joint_share_um.clone(),
         share_uncertainty_um: Vec::new(),
         total_um: Some(point.in_plane_um),
@@ -118,7 +159,13 @@ fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) ->
         title: title.to_owned(),
         subtitle: subtitle(setting),
         quantity: "share of in-plane deviation (µm)".to_owned(),
-        parts: study.robot.robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        parts: study
+            .robot
+            .robot
+            .joints()
+            .iter()
+            .map(|joint| joint.name.clone())
+            .collect(),
         bars,
         ..ShareBars::default()
     };
@@ -157,7 +204,12 @@ fn plate_corners(map: &PlaneMap) -> [[f64; 3]; 4] {
         let at = map.plane.base_from_part * Point3::new(sx * x, sy * y, 0.0);
         (at.coords * 1e3).into()
     };
-    [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+    [
+        corner(-1.0, -1.0),
+        corner(1.0, -1.0),
+        corner(1.0, 1.0),
+        corner(-1.0, 1.0),
+    ]
 }
 
 fn arm(study: &Study, setting: &Setting, (title, joints): (&str, &[f64]), plate_mm: [[f64; 3]; 4]) -> String {
@@ -176,7 +228,10 @@ fn path_pictures(study: &Study, setting: &Setting, told: &PathResult, path: &Pat
     let mut pictures = vec![
         Picture {
             name: format!("{slug}-vectors"),
-            caption: format!("{}: in-plane deviation along the path under every load case.", told.name),
+            caption: format!(
+                "{}: in-plane deviation along the path under every load case.",
+                told.name
+            ),
             svg: vectors(setting, told, path),
         },
         Picture {
@@ -209,9 +264,16 @@ fn vectors(setting: &Setting, told: &PathResult, path: &PathAnswer) -> String {
     let arrows = |case: usize| {
         let arrow = |i: usize| {
             let deviation = path.deviation_in_part(i, case) * 1e6;
-            Arrow { at_mm: at(i), deviation_um: [-deviation.x, deviation.y] }
+            Arrow {
+                at_mm: at(i),
+                deviation_um: [-deviation.x, deviation.y],
+            }
         };
-        (0..path.samples.len()).step_by(every).filter(reached).map(arrow).collect()
+        (0..path.samples.len())
+            .step_by(every)
+            .filter(reached)
+            .map(arrow)
+            .collect()
     };
     let mut path_mm: Vec<[f64; 2]> = (0..path.samples.len()).map(at).collect();
     if !path.radial.is_empty() {
@@ -224,7 +286,10 @@ fn vectors(setting: &Setting, told: &PathResult, path: &PathAnswer) -> String {
         growth: Growth::Left,
         path_mm,
         cases: (0..setting.cases.len())
-            .map(|case| ArrowCase { name: case_name(setting, case), arrows: arrows(case) })
+            .map(|case| ArrowCase {
+                name: case_name(setting, case),
+                arrows: arrows(case),
+            })
             .collect(),
     };
     picture.to_svg()
@@ -236,7 +301,13 @@ fn along(setting: &Setting, told: &PathResult, path: &PathAnswer) -> String {
         name,
         position: position.clone(),
         deviation_um: (0..position.len())
-            .map(|i| if path.answers.points[i].is_ok() { value(i) } else { f64::NAN })
+            .map(|i| {
+                if path.answers.points[i].is_ok() {
+                    value(i)
+                } else {
+                    f64::NAN
+                }
+            })
             .collect(),
     };
     let picture = PathPlot {
@@ -246,11 +317,15 @@ fn along(setting: &Setting, told: &PathResult, path: &PathAnswer) -> String {
         quantity: "in-plane deviation (µm)".to_owned(),
         series: (0..setting.cases.len())
             .map(|case| {
-                series(case_name(setting, case), &|i| path.deviation_in_part(i, case).xy().norm() * 1e6)
+                series(case_name(setting, case), &|i| {
+                    path.deviation_in_part(i, case).xy().norm() * 1e6
+                })
             })
             .collect(),
         envelope: Some(series("largest of all cases".to_owned(), &|i| {
-            path.answers.points[i].as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
+            path.answers.points[i]
+                .as_ref()
+                .map_or(f64::NAN, |held| held.in_plane * 1e6)
         })),
         limit_um: Some(setting.limit * 1e6),
     };
@@ -263,7 +338,12 @@ fn polar(setting: &Setting, told: &PathResult, path: &PathAnswer) -> String {
     let series = |(case, radial): (usize, &armill_core::map::RadialDeviation)| RadialSeries {
         name: case_name(setting, case),
         angle_deg: angle_deg.clone(),
-        radial_um: radial.outward.iter().chain(radial.outward.first()).map(|value| value * 1e6).collect(),
+        radial_um: radial
+            .outward
+            .iter()
+            .chain(radial.outward.first())
+            .map(|value| value * 1e6)
+            .collect(),
     };
     let picture = PolarPlot {
         title: told.name.clone(),
@@ -281,8 +361,15 @@ fn path_arm(study: &Study, setting: &Setting, told: &PathResult, path: &PathAnsw
     let (worst, _) = path.answers.worst()?;
     let robot = &study.robot.robot;
     let stand = |i: usize| arm_posture(robot, path.answers.joints_at(i), &setting.flange_from_tool);
-    let ghosts = (0..GHOSTS).map(|k| k * path.samples.len() / GHOSTS).filter(|i| path.answers.points[*i].is_ok());
-    let reach = path.samples.iter().map(|s| s.at.coords.amax()).fold(0.0, f64::max) * 1.3;
+    let ghosts = (0..GHOSTS)
+        .map(|k| k * path.samples.len() / GHOSTS)
+        .filter(|i| path.answers.points[*i].is_ok());
+    let reach = path
+        .samples
+        .iter()
+        .map(|s| s.at.coords.amax())
+        .fold(0.0, f64::max)
+        * 1.3;
     let corner = |sx: f64, sy: f64| -> [f64; 3] {
         let at = path.plane.base_from_part * Point3::new(sx * reach, sy * reach, 0.0);
         (at.coords * 1e3).into()
@@ -299,13 +386,21 @@ fn path_arm(study: &Study, setting: &Setting, told: &PathResult, path: &PathAnsw
         subtitle: subtitle(setting),
         posture: stand(worst),
         ghosts: ghosts.map(stand).collect(),
-        plate_mm: Some([corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]),
+        plate_mm: Some([
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ]),
         path_mm,
         view: View::Iso,
     };
     Some(Picture {
         name: format!("{}-arm", super::slug(&told.name)),
-        caption: format!("{}: the arm along the path, in full where the deviation is largest.", told.name),
+        caption: format!(
+            "{}: the arm along the path, in full where the deviation is largest.",
+            told.name
+        ),
         svg: drawing.to_svg_views(&[View::Iso, View::Side]),
     })
 }

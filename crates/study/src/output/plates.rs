@@ -6,8 +6,8 @@ use armill_core::kernel::Held;
 use armill_core::map::{PlaneMap, VolumeMap};
 use armill_core::robot::Unreachable;
 use armill_report::{
-    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState, RectangleMm,
-    RegionMap, Sheet,
+    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState,
+    RectangleMm, RegionMap, Sheet,
 };
 
 use super::pictures::Picture;
@@ -23,7 +23,12 @@ const QUANTITY: &str = "in-plane deviation (µm)";
 pub(super) fn axes(setting: &Setting) -> AxisLabels {
     let along_base_y = setting.tilt.is_some();
     AxisLabels {
-        horizontal: if along_base_y { "base y (mm)" } else { "along the plane, y′ (mm)" }.to_owned(),
+        horizontal: if along_base_y {
+            "base y (mm)"
+        } else {
+            "along the plane, y′ (mm)"
+        }
+        .to_owned(),
         vertical: "along the plane, z′ (mm)".to_owned(),
     }
 }
@@ -34,17 +39,31 @@ pub(super) fn subtitle(setting: &Setting) -> String {
         0.0 => "bare flange".to_owned(),
         length => format!("TCP {length:.0} mm from the flange"),
     };
-    let tilt = setting.tilt.map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
+    let tilt = setting
+        .tilt
+        .map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
     let cases = setting.cases.len();
-    let worst = if cases == 1 { "1 load case".to_owned() } else { format!("worst of {cases} load cases") };
-    format!("{}{tilt}, {tool}, {worst}, heights from {}", setting.branch(), setting.base_name)
+    let worst = if cases == 1 {
+        "1 load case".to_owned()
+    } else {
+        format!("worst of {cases} load cases")
+    };
+    format!(
+        "{}{tilt}, {tool}, {worst}, heights from {}",
+        setting.branch(),
+        setting.base_name
+    )
 }
 
 pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     let y0 = base_y(setting);
     Grid {
-        horizontal_mm: (0..map.grid.columns).map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3).collect(),
-        vertical_mm: (0..map.grid.rows).map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3).collect(),
+        horizontal_mm: (0..map.grid.columns)
+            .map(|i| y0 - map.grid.coordinate(i, map.grid.columns) * 1e3)
+            .collect(),
+        vertical_mm: (0..map.grid.rows)
+            .map(|i| map.grid.coordinate(i, map.grid.rows) * 1e3)
+            .collect(),
         points: map.answers.points.iter().map(state).collect(),
     }
 }
@@ -52,7 +71,11 @@ pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
 /// Base y of the plane's centre where the horizontal axis is base y, otherwise 0; mm.
 pub(super) fn base_y(setting: &Setting) -> f64 {
     let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
-    if setting.tilt.is_some() { centre.y * 1e3 } else { 0.0 }
+    if setting.tilt.is_some() {
+        centre.y * 1e3
+    } else {
+        0.0
+    }
 }
 
 fn state(point: &Result<Held, Unreachable>) -> PointState {
@@ -63,13 +86,28 @@ fn state(point: &Result<Held, Unreachable>) -> PointState {
     }
 }
 
-pub(super) fn map_pictures(answer: &MapAnswer, setting: &Setting, map: &PlaneMap, overlays: Vec<Overlay>) -> [Picture; 2] {
+pub(super) fn map_pictures(
+    answer: &MapAnswer,
+    setting: &Setting,
+    map: &PlaneMap,
+    overlays: Vec<Overlay>,
+) -> [Picture; 2] {
     let y0 = base_y(setting);
     let at = |in_plane: [f64; 2]| [y0 + in_plane[0], in_plane[1]];
-    let marker = |label: &str, kind, at_mm| Marker { at_mm, label: label.to_owned(), kind };
+    let marker = |label: &str, kind, at_mm| Marker {
+        at_mm,
+        label: label.to_owned(),
+        kind,
+    };
     let markers = [
-        answer.best.as_ref().map(|p| marker("least", MarkerKind::Best, at(p.in_plane_mm))),
-        answer.worst.as_ref().map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
+        answer
+            .best
+            .as_ref()
+            .map(|p| marker("least", MarkerKind::Best, at(p.in_plane_mm))),
+        answer
+            .worst
+            .as_ref()
+            .map(|p| marker("largest", MarkerKind::Point, at(p.in_plane_mm))),
     ];
     let limit_um = setting.limit * 1e6;
     let deviation = DeviationMap {
@@ -96,13 +134,19 @@ pub(super) fn map_pictures(answer: &MapAnswer, setting: &Setting, map: &PlaneMap
             .region
             .rectangle_mm
             .filter(|[a, b]| a != b)
-            .map(|[a, b]| RectangleMm { corner_mm: at(a), opposite_mm: at(b) }),
+            .map(|[a, b]| RectangleMm {
+                corner_mm: at(a),
+                opposite_mm: at(b),
+            }),
         circle: answer
             .region
             .circle_centre_mm
             .zip(answer.region.circle_radius_mm)
             .filter(|(_, radius)| *radius > 0.0)
-            .map(|(centre, radius_mm)| CircleMm { centre_mm: at(centre), radius_mm }),
+            .map(|(centre, radius_mm)| CircleMm {
+                centre_mm: at(centre),
+                radius_mm,
+            }),
     };
     let slug = super::slug(&answer.name);
     [
@@ -113,7 +157,11 @@ pub(super) fn map_pictures(answer: &MapAnswer, setting: &Setting, map: &PlaneMap
         },
         Picture {
             name: format!("{slug}-region"),
-            caption: format!("{}: {:.1} % of the points hold {limit_um:.0} µm.", answer.name, answer.fraction_within * 100.0),
+            caption: format!(
+                "{}: {:.1} % of the points hold {limit_um:.0} µm.",
+                answer.name,
+                answer.fraction_within * 100.0
+            ),
             svg: region.to_svg(),
         },
     ]
@@ -135,17 +183,27 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
     };
     Picture {
         name: super::slug(name),
-        caption: format!("{name}: in-plane deviation above, the region within {:.0} µm below.", setting.limit * 1e6),
+        caption: format!(
+            "{name}: in-plane deviation above, the region within {:.0} µm below.",
+            setting.limit * 1e6
+        ),
         svg: sheet.to_svg(),
     }
 }
 
 fn subtitle_without_tilt(setting: &Setting) -> String {
-    subtitle(&Setting { tilt: None, ..setting.clone() })
+    subtitle(&Setting {
+        tilt: None,
+        ..setting.clone()
+    })
 }
 
 pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, fraction: f64) -> Panel {
-    Panel { title: label.to_owned(), note: format!("{:.0} % within", fraction * 100.0), grid: grid(map, setting) }
+    Panel {
+        title: label.replace('-', "−"),
+        note: format!("{:.0} % within", fraction * 100.0),
+        grid: grid(map, setting),
+    }
 }
 
 /// Slices of a box across base x, as seen from the robot.
@@ -158,10 +216,16 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
     let panels = chosen.map(|i| {
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
         let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
-        let within = points.iter().filter(|p| p.value_um().is_some_and(|v| v <= setting.limit * 1e6)).count();
+        let within = points
+            .iter()
+            .filter(|p| p.value_um().is_some_and(|v| v <= setting.limit * 1e6))
+            .count();
         Panel {
             title: format!("x = {:.0} mm", origin.x + i as f64 * step),
-            note: format!("{:.0} % within", within as f64 / points.len().max(1) as f64 * 100.0),
+            note: format!(
+                "{:.0} % within",
+                within as f64 / points.len().max(1) as f64 * 100.0
+            ),
             grid: Grid {
                 horizontal_mm: (0..ny).rev().map(|j| origin.y + j as f64 * step).collect(),
                 vertical_mm: (0..nz).map(|k| origin.z + k as f64 * step).collect(),
@@ -169,7 +233,10 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
             },
         }
     });
-    let axes = AxisLabels { horizontal: "base y (mm)".to_owned(), vertical: "base z (mm)".to_owned() };
+    let axes = AxisLabels {
+        horizontal: "base y (mm)".to_owned(),
+        vertical: "base z (mm)".to_owned(),
+    };
     let mut picture = sheet(name, panels.collect(), setting, axes);
     picture.caption = format!(
         "{name}: slices of the box across base x; above the in-plane deviation, below the region within {:.0} µm.",

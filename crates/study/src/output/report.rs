@@ -50,24 +50,62 @@ fn inputs(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     };
     let place = |key: &str| {
         let found = answer.sources.iter().find(|source| source.key == key);
-        found.map_or_else(|| key.to_owned(), |source| format!("{} ({})", source.what, source.place))
+        found.map_or_else(
+            || key.to_owned(),
+            |source| format!("{} ({})", source.what, source.place),
+        )
     };
-    let chain = study.robot.joints.first().and_then(|joint| joint.source.clone()).unwrap_or_default();
-    let mut inputs = vec![input("robot", format!("{} ({})", answer.robot.title, answer.robot.name), "", &place(&chain))];
+    let chain = study
+        .robot
+        .joints
+        .first()
+        .and_then(|joint| joint.source.clone())
+        .unwrap_or_default();
+    let mut inputs = vec![input(
+        "robot",
+        format!("{} ({})", answer.robot.title, answer.robot.name),
+        "",
+        &place(&chain),
+    )];
     for joint in &answer.robot.joints {
-        let value = format!("{:.3e} ± {:.1e}", joint.compliance_rad_per_n_m, joint.compliance_u_rad_per_n_m);
+        let value = format!(
+            "{:.3e} ± {:.1e}",
+            joint.compliance_rad_per_n_m, joint.compliance_u_rad_per_n_m
+        );
         let name = format!("compliance of joint {}", joint.name);
         inputs.push(input(&name, value, "rad/(N m)", &place(&joint.compliance_source)));
     }
-    let settings = answer.maps.iter().map(|map| &map.setting).chain(answer.paths.iter().map(|path| &path.setting));
+    let settings = answer
+        .maps
+        .iter()
+        .map(|map| &map.setting)
+        .chain(answer.paths.iter().map(|path| &path.setting));
     if let Some(setting) = settings.into_iter().next() {
-        let load_source = study.load_source.clone().unwrap_or_else(|| "the study".to_owned());
+        let load_source = study
+            .load_source
+            .clone()
+            .unwrap_or_else(|| "the study".to_owned());
         for (i, force) in setting.cases_n.iter().enumerate() {
             let value = format!("({}, {}, {})", force[0], force[1], force[2]);
-            inputs.push(input(&format!("force on the tool, case {}", i + 1), value, "N", &load_source));
+            inputs.push(input(
+                &format!("force on the tool, case {}", i + 1),
+                value,
+                "N",
+                &load_source,
+            ));
         }
-        inputs.push(input("tolerance, in plane", format!("{}", setting.limit_um), "µm", "the study"));
-        inputs.push(input("tool centre point from the flange", format!("{:.1}", setting.tool_length_mm), "mm", "the study"));
+        inputs.push(input(
+            "tolerance, in plane",
+            format!("{}", setting.limit_um),
+            "µm",
+            "the study",
+        ));
+        inputs.push(input(
+            "tool centre point from the flange",
+            format!("{:.1}", setting.tool_length_mm),
+            "mm",
+            "the study",
+        ));
         inputs.push(input("heights count from", setting.base.clone(), "", "the study"));
     }
     inputs
@@ -77,7 +115,11 @@ fn columns(names: &[(&str, &str)]) -> Vec<Column> {
     let column = |(i, (name, unit)): (usize, &(&str, &str))| Column {
         name: (*name).to_owned(),
         unit: (*unit).to_owned(),
-        align: if i == 0 || unit.is_empty() { Align::Left } else { Align::Number },
+        align: if i == 0 || unit.is_empty() {
+            Align::Left
+        } else {
+            Align::Number
+        },
     };
     names.iter().enumerate().map(column).collect()
 }
@@ -92,7 +134,10 @@ fn percent(fraction: f64) -> String {
 
 fn statements(answer: &StudyAnswer) -> Vec<Table> {
     let table = |statement: &crate::answer::StatementAnswer| Table {
-        caption: format!("{} ({}): at most {} µm.", statement.text, statement.source, statement.at_most_um),
+        caption: format!(
+            "{} ({}): at most {} µm.",
+            statement.text, statement.source, statement.at_most_um
+        ),
         columns: columns(&[
             ("reading", ""),
             ("branch", ""),
@@ -104,13 +149,20 @@ fn statements(answer: &StudyAnswer) -> Vec<Table> {
             .readings
             .iter()
             .map(|reading| {
-                let range = reading.in_plane_um.map_or("–".to_owned(), |[a, b]| format!("{a:.1} … {b:.1}"));
+                let range = reading
+                    .in_plane_um
+                    .map_or("–".to_owned(), |[a, b]| format!("{a:.1} … {b:.1}"));
                 vec![
                     reading.name.clone(),
                     reading.branch.clone(),
                     range,
                     if reading.inside_joint_limits { "yes" } else { "no" }.to_owned(),
-                    if reading.consistent { "consistent" } else { "not consistent" }.to_owned(),
+                    if reading.consistent {
+                        "consistent"
+                    } else {
+                        "not consistent"
+                    }
+                    .to_owned(),
                 ]
             })
             .collect(),
@@ -154,7 +206,8 @@ fn maps(answer: &StudyAnswer) -> Table {
 
 fn paths(answer: &StudyAnswer) -> Table {
     Table {
-        caption: "Roundness: largest of all load cases, peak to valley about the least-squares circle.".to_owned(),
+        caption: "Roundness: largest of all load cases, peak to valley about the least-squares circle."
+            .to_owned(),
         columns: columns(&[
             ("path", ""),
             ("branch", ""),

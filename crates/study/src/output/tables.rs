@@ -12,12 +12,19 @@ use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::Found;
 
 /// The files of one ask: extension and bytes.
-pub(super) fn files(study: &Study, ask: &Ask, found: &Found) -> Result<Vec<(&'static str, Vec<u8>)>, StudyError> {
+pub(super) fn files(
+    study: &Study,
+    ask: &Ask,
+    found: &Found,
+) -> Result<Vec<(&'static str, Vec<u8>)>, StudyError> {
     let series = rows(ask, found);
     let table = table(study, &ask.name, &series)?;
     let mut files = vec![("csv", csv::write(&table))];
     #[cfg(feature = "parquet")]
-    files.push(("parquet", armill_formats::table::parquet::write(&table, &metadata(study, ask))?));
+    files.push((
+        "parquet",
+        armill_formats::table::parquet::write(&table, &metadata(study, ask))?,
+    ));
     files.push(match (&ask.subject, found) {
         (Subject::Volume(setting, _), Found::Volume(volume)) => {
             let mm = |v: armill_core::nalgebra::Point3<f64>| v.coords.map(|c| c * 1e3).into();
@@ -43,7 +50,10 @@ fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadat
         ("ask", ask.name.clone()),
         ("robot", study.robot.robot.name().to_owned()),
     ];
-    entries.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
+    entries
+        .into_iter()
+        .map(|(key, value)| (key.to_owned(), value))
+        .collect()
 }
 
 /// All planes of an ask as one surface.
@@ -70,7 +80,10 @@ fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
 }
 
 fn points_mm(rows: &Rows<'_>) -> Vec<[f64; 3]> {
-    rows.tcp.iter().map(|tcp| rows.setting.counted(tcp).coords.map(|c| rounded(c * 1e3)).into()).collect()
+    rows.tcp
+        .iter()
+        .map(|tcp| rows.setting.counted(tcp).coords.map(|c| rounded(c * 1e3)).into())
+        .collect()
 }
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
@@ -81,7 +94,9 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
     };
     let mut arrays = vec![
         scalar("in_plane_um", &|rows| rows.of_held(|_, held| held.in_plane * 1e6)),
-        scalar("in_plane_u_um", &|rows| rows.of_held(|_, held| held.in_plane_uncertainty * 1e6)),
+        scalar("in_plane_u_um", &|rows| {
+            rows.of_held(|_, held| held.in_plane_uncertainty * 1e6)
+        }),
         scalar("normal_um", &|rows| rows.of_held(|_, held| held.normal * 1e6)),
         scalar("full_um", &|rows| rows.of_held(|_, held| held.full * 1e6)),
     ];
@@ -91,8 +106,14 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
             let reached = rows.answers.points[index].is_ok();
             reached.then(|| rows.answers.deviations_at(index)[case].map(|c| c * 1e6).into())
         };
-        let values = series.iter().flat_map(|rows| (0..rows.tcp.len()).map(move |i| vector(rows, i))).collect();
-        PointArray { name: format!("deviation_case_{}_um", case + 1), values: PointValues::OptionalVector(values) }
+        let values = series
+            .iter()
+            .flat_map(|rows| (0..rows.tcp.len()).map(move |i| vector(rows, i)))
+            .collect();
+        PointArray {
+            name: format!("deviation_case_{}_um", case + 1),
+            values: PointValues::OptionalVector(values),
+        }
     }));
     arrays
 }
@@ -103,55 +124,109 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     let mut columns = Vec::new();
     if series.len() > 1 {
         let labels: Vec<String> = series.iter().map(|rows| rows.label.clone()).collect();
-        let codes = series.iter().zip(0..).flat_map(|(rows, code)| std::iter::repeat_n(code, rows.tcp.len())).collect();
-        columns.push(column("section", None, "which section", ColumnData::Category { codes, labels }));
+        let codes = series
+            .iter()
+            .zip(0..)
+            .flat_map(|(rows, code)| std::iter::repeat_n(code, rows.tcp.len()))
+            .collect();
+        columns.push(column(
+            "section",
+            None,
+            "which section",
+            ColumnData::Category { codes, labels },
+        ));
     }
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = series.iter().flat_map(|rows| points_mm(rows).into_iter().map(move |p| p[axis])).collect();
+        let values = series
+            .iter()
+            .flat_map(|rows| points_mm(rows).into_iter().map(move |p| p[axis]))
+            .collect();
         let text = format!("{letter} of the TCP in the frame that the study counts from");
-        columns.push(column(&format!("{letter}_mm"), Some("mm"), &text, ColumnData::Float(values)));
+        columns.push(column(
+            &format!("{letter}_mm"),
+            Some("mm"),
+            &text,
+            ColumnData::Float(values),
+        ));
     }
-    columns.push(words("state", "within the limit, over it, or why there is no posture", series, |rows, i| {
-        Some(rows.state(i).to_owned())
-    }));
+    columns.push(words(
+        "state",
+        "within the limit, over it, or why there is no posture",
+        series,
+        |rows, i| Some(rows.state(i).to_owned()),
+    ));
     columns.push(words("branch", "branch of the posture", series, |rows, i| {
-        rows.answers.points[i].as_ref().ok().map(|held| held.branch.to_string())
+        rows.answers.points[i]
+            .as_ref()
+            .ok()
+            .map(|held| held.branch.to_string())
     }));
-    columns.push(words("singularity", "near which singularity the posture stands", series, |rows, i| {
-        let near = rows.answers.points[i].as_ref().ok()?.singularity?;
-        Some(match near {
-            Singularity::Shoulder => "shoulder".to_owned(),
-            Singularity::Elbow => "elbow".to_owned(),
-            Singularity::Wrist => "wrist".to_owned(),
-        })
-    }));
-    let mut number = |name: &str, unit: Option<&str>, text: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| {
-        let values = series.iter().flat_map(value).map(|value| value.map(rounded)).collect();
-        columns.push(column(name, unit, text, ColumnData::OptionalFloat(values)));
-    };
-    number("limit_margin_deg", Some("deg"), "least distance of a joint to its limit, negative outside", &|rows| {
-        rows.of_held(|_, held| held.limit_margin.to_degrees())
-    });
-    number("deciding_case", None, "load case with the largest in-plane deviation, from 1", &|rows| {
-        rows.of_held(|_, held| held.deciding_case as f64 + 1.0)
-    });
-    number("in_plane_um", Some("um"), "largest in-plane deviation of all cases", &|rows| {
-        rows.of_held(|_, held| held.in_plane * 1e6)
-    });
-    number("in_plane_u_um", Some("um"), "its standard uncertainty from the compliances", &|rows| {
-        rows.of_held(|_, held| held.in_plane_uncertainty * 1e6)
-    });
-    number("normal_um", Some("um"), "deviation along the outward normal, of the case where it is largest", &|rows| {
-        rows.of_held(|_, held| held.normal * 1e6)
-    });
-    number("full_um", Some("um"), "largest length of the deviation of all cases", &|rows| {
-        rows.of_held(|_, held| held.full * 1e6)
-    });
+    columns.push(words(
+        "singularity",
+        "near which singularity the posture stands",
+        series,
+        |rows, i| {
+            let near = rows.answers.points[i].as_ref().ok()?.singularity?;
+            Some(match near {
+                Singularity::Shoulder => "shoulder".to_owned(),
+                Singularity::Elbow => "elbow".to_owned(),
+                Singularity::Wrist => "wrist".to_owned(),
+            })
+        },
+    ));
+    let mut number =
+        |name: &str, unit: Option<&str>, text: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| {
+            let values = series
+                .iter()
+                .flat_map(value)
+                .map(|value| value.map(rounded))
+                .collect();
+            columns.push(column(name, unit, text, ColumnData::OptionalFloat(values)));
+        };
+    number(
+        "limit_margin_deg",
+        Some("deg"),
+        "least distance of a joint to its limit, negative outside",
+        &|rows| rows.of_held(|_, held| held.limit_margin.to_degrees()),
+    );
+    number(
+        "deciding_case",
+        None,
+        "load case with the largest in-plane deviation, from 1",
+        &|rows| rows.of_held(|_, held| held.deciding_case as f64 + 1.0),
+    );
+    number(
+        "in_plane_um",
+        Some("um"),
+        "largest in-plane deviation of all cases",
+        &|rows| rows.of_held(|_, held| held.in_plane * 1e6),
+    );
+    number(
+        "in_plane_u_um",
+        Some("um"),
+        "its standard uncertainty from the compliances",
+        &|rows| rows.of_held(|_, held| held.in_plane_uncertainty * 1e6),
+    );
+    number(
+        "normal_um",
+        Some("um"),
+        "deviation along the outward normal, of the case where it is largest",
+        &|rows| rows.of_held(|_, held| held.normal * 1e6),
+    );
+    number(
+        "full_um",
+        Some("um"),
+        "largest length of the deviation of all cases",
+        &|rows| rows.of_held(|_, held| held.full * 1e6),
+    );
     for (i, joint) in robot.joints().iter().enumerate() {
         let name = &joint.name;
-        number(&format!("joint_{name}_deg"), Some("deg"), "joint position in the robot file's counting", &|rows| {
-            rows.of_held(|index, _| rows.answers.joints_at(index)[i].to_degrees())
-        });
+        number(
+            &format!("joint_{name}_deg"),
+            Some("deg"),
+            "joint position in the robot file's counting",
+            &|rows| rows.of_held(|index, _| rows.answers.joints_at(index)[i].to_degrees()),
+        );
     }
     for (i, joint) in robot.joints().iter().enumerate() {
         let text = "share of the joint in the in-plane deviation; the shares add up to it";
@@ -162,9 +237,12 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     for case in 0..series.first().map_or(0, |rows| rows.answers.case_count) {
         for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
             let name = format!("deviation_{letter}_case_{}_um", case + 1);
-            number(&name, Some("um"), "deviation under this load case, base axes", &|rows| {
-                rows.of_held(|index, _| rows.answers.deviations_at(index)[case][axis] * 1e6)
-            });
+            number(
+                &name,
+                Some("um"),
+                "deviation under this load case, base axes",
+                &|rows| rows.of_held(|index, _| rows.answers.deviations_at(index)[case][axis] * 1e6),
+            );
         }
     }
     Ok(Table::new(name, columns)?)
@@ -177,7 +255,12 @@ fn rounded(value: f64) -> f64 {
 }
 
 fn column(name: &str, unit: Option<&str>, description: &str, data: ColumnData) -> Column {
-    Column { name: name.to_owned(), unit: unit.map(str::to_owned), description: description.to_owned(), data }
+    Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        description: description.to_owned(),
+        data,
+    }
 }
 
 /// A column of few words; points without one get an empty word.

@@ -70,9 +70,15 @@ pub struct ToolAt<'a> {
 pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> bool {
     let reached = &frames.base_from_flange;
     let away = reached.translation.vector - base_from_flange.translation.vector;
-    let (a, b) = (reached.rotation.matrix(), base_from_flange.rotation.to_rotation_matrix());
+    let (a, b) = (
+        reached.rotation.matrix(),
+        base_from_flange.rotation.to_rotation_matrix(),
+    );
     // Each pair of axes spans the sine of the angle between them; an angle above pi/2 shows in the trace.
-    let turned: Vector3<f64> = (0..3).map(|i| a.column(i).cross(&b.matrix().column(i))).sum::<Vector3<f64>>() * 0.5;
+    let turned: Vector3<f64> = (0..3)
+        .map(|i| a.column(i).cross(&b.matrix().column(i)))
+        .sum::<Vector3<f64>>()
+        * 0.5;
     away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0
 }
 

@@ -106,14 +106,15 @@ impl OrthoParallel {
         let up = z1 * sense_of(z1.z);
         let centre = o1 + up * (o2 - o1).dot(&up);
         // The front is where base x points; if it points along axis 2, where the wrist is.
-        let front = up_to_noise(z2.cross(&up).x).or_else(|| up_to_noise((wrist - centre).dot(&z2.cross(&up))));
+        let front =
+            up_to_noise(z2.cross(&up).x).or_else(|| up_to_noise((wrist - centre).dot(&z2.cross(&up))));
         let y = z2 * sense_of(front.unwrap_or(1.0));
         let x = y.cross(&up);
         let base_from_arm = Isometry::from_parts(
             centre.into(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[
-                x, y, up,
-            ]))),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Matrix3::from_columns(
+                &[x, y, up],
+            ))),
         );
         let arm_from_base = base_from_arm.inverse();
         let (shoulder, elbow, w) = (arm_from_base * o2, arm_from_base * o3, arm_from_base * wrist);
@@ -139,7 +140,10 @@ impl OrthoParallel {
             l3: forearm.xz().norm(),
             upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
             forearm_at_zero,
-            forearm_turn_at_zero: Turn { cos: forearm_at_zero.cos(), sin: forearm_at_zero.sin() },
+            forearm_turn_at_zero: Turn {
+                cos: forearm_at_zero.cos(),
+                sin: forearm_at_zero.sin(),
+            },
             bend_at_zero: a5.dot(&a4.cross(&a6)).atan2(a4.dot(&a6)),
             sense,
             wrist_axes: [arm_from_base * a4, arm_from_base * a5],
@@ -168,7 +172,9 @@ impl OrthoParallel {
         let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
         let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
         if r_squared < 0.0 {
-            return Err(Unreachable::InsideLateralOffset { by: self.b.abs() - p.x.hypot(p.y) });
+            return Err(Unreachable::InsideLateralOffset {
+                by: self.b.abs() - p.x.hypot(p.y),
+            });
         }
         let r = match branch.shoulder {
             Shoulder::Front => r_squared.sqrt(),
@@ -207,9 +213,21 @@ impl OrthoParallel {
         let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
         let u = self.l2 * psi.sin() + self.l3 * forearm.sin();
         let branch = Branch {
-            shoulder: if u + self.a1 >= 0.0 { Shoulder::Front } else { Shoulder::Back },
-            elbow: if (eps.sin() >= 0.0) == (u >= 0.0) { Elbow::Up } else { Elbow::Down },
-            wrist: if bend.sin() >= 0.0 { Wrist::NoFlip } else { Wrist::Flip },
+            shoulder: if u + self.a1 >= 0.0 {
+                Shoulder::Front
+            } else {
+                Shoulder::Back
+            },
+            elbow: if (eps.sin() >= 0.0) == (u >= 0.0) {
+                Elbow::Up
+            } else {
+                Elbow::Down
+            },
+            wrist: if bend.sin() >= 0.0 {
+                Wrist::NoFlip
+            } else {
+                Wrist::Flip
+            },
         };
         (branch, self.singularity(bend.sin(), eps.sin(), u + self.a1))
     }
@@ -220,16 +238,24 @@ impl OrthoParallel {
         let (reach, fold) = (self.l2 + self.l3, self.l2 - self.l3);
         let (stretched, folded) = (reach * reach - d_squared, d_squared - fold * fold);
         if stretched < 0.0 {
-            return Err(Unreachable::TooFar { by: d_squared.sqrt() - reach });
+            return Err(Unreachable::TooFar {
+                by: d_squared.sqrt() - reach,
+            });
         }
         if folded < 0.0 {
-            return Err(Unreachable::TooNear { by: fold.abs() - d_squared.sqrt() });
+            return Err(Unreachable::TooNear {
+                by: fold.abs() - d_squared.sqrt(),
+            });
         }
         // l3 (cos, sin) of the elbow's bend; bending the forearm forwards lifts the elbow if the wrist is
         // before the shoulder.
         let along = 0.5 * (d_squared - self.l2 * self.l2 - self.l3 * self.l3) / self.l2;
         let across = 0.5 * (stretched * folded).sqrt() / self.l2;
-        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) { across } else { -across };
+        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) {
+            across
+        } else {
+            -across
+        };
         let k1 = self.l2 + along;
         let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
         let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
@@ -251,7 +277,11 @@ impl OrthoParallel {
             let v = self.arm_from_base * (base_from_flange * in_flange);
             let x = phi1.cos * v.x + phi1.sin * v.y;
             let y = phi1.cos * v.y - phi1.sin * v.x;
-            Vector3::new(forearm.cos * x - forearm.sin * v.z, y, forearm.sin * x + forearm.cos * v.z)
+            Vector3::new(
+                forearm.cos * x - forearm.sin * v.z,
+                y,
+                forearm.sin * x + forearm.cos * v.z,
+            )
         };
         let [a4, a5] = self.wrist_axes;
         let a3 = a4.cross(&a5);
@@ -293,7 +323,10 @@ impl OrthoParallel {
         let mut q = [0.0; 6];
         for index in 0..6 {
             let middle = robot.joints()[index].limits.map_or(0.0, |limits| limits.middle());
-            q[index] = nearest_turn(robot.joint_position(index, self.sense[index] * phi[index], &q), middle);
+            q[index] = nearest_turn(
+                robot.joint_position(index, self.sense[index] * phi[index], &q),
+                middle,
+            );
         }
         q
     }
@@ -312,7 +345,14 @@ impl Turn {
     /// The angle of the vector (`x`, `y`); zero where it has no length.
     fn new(x: f64, y: f64) -> Turn {
         let length = (x * x + y * y).sqrt();
-        if length > 0.0 { Turn { cos: x / length, sin: y / length } } else { Turn::ZERO }
+        if length > 0.0 {
+            Turn {
+                cos: x / length,
+                sin: y / length,
+            }
+        } else {
+            Turn::ZERO
+        }
     }
 
     fn angle(self) -> f64 {
@@ -321,7 +361,10 @@ impl Turn {
 
     /// This angle minus another.
     fn less(self, other: Turn) -> Turn {
-        Turn { cos: self.cos * other.cos + self.sin * other.sin, sin: self.sin * other.cos - self.cos * other.sin }
+        Turn {
+            cos: self.cos * other.cos + self.sin * other.sin,
+            sin: self.sin * other.cos - self.cos * other.sin,
+        }
     }
 }
 

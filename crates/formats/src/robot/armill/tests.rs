@@ -1,3 +1,4 @@
+use super::checks::exact_radians;
 use super::*;
 
 const SMALL: &str = r#"
@@ -36,7 +37,9 @@ licence = "none"
 
 fn problems(from: &str, to: &str) -> String {
     assert!(SMALL.contains(from), "the sample has no `{from}`");
-    read("lever.toml", "lever", &SMALL.replacen(from, to, 1)).unwrap_err().to_string()
+    read("lever.toml", "lever", &SMALL.replacen(from, to, 1))
+        .unwrap_err()
+        .to_string()
 }
 
 #[test]
@@ -71,7 +74,10 @@ fn every_problem_is_told_at_once_with_its_place() {
 #[test]
 fn a_negative_compliance_is_refused() {
     let text = problems("compliance_rad_per_n_m = 2e-6", "compliance_rad_per_n_m = -2e-6");
-    assert!(text.contains("lever.toml:18:") && text.contains("compliance_rad_per_n_m"), "{text}");
+    assert!(
+        text.contains("lever.toml:18:") && text.contains("compliance_rad_per_n_m"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -82,13 +88,19 @@ fn a_missing_unit_suffix_is_named_in_the_hint() {
 
 #[test]
 fn a_compliance_without_source_is_refused() {
-    let text = problems("compliance_um_per_n = 0.02\ncompliance_source = \"made-up\"", "compliance_um_per_n = 0.02");
+    let text = problems(
+        "compliance_um_per_n = 0.02\ncompliance_source = \"made-up\"",
+        "compliance_um_per_n = 0.02",
+    );
     assert!(text.contains("joint B: its compliance names no source"), "{text}");
 }
 
 #[test]
 fn compliance_for_some_joints_only_is_refused() {
-    let text = problems("compliance_um_per_n = 0.02\ncompliance_source = \"made-up\"\n", "");
+    let text = problems(
+        "compliance_um_per_n = 0.02\ncompliance_source = \"made-up\"\n",
+        "",
+    );
     assert!(text.contains("1 of 2 joints have a compliance"), "{text}");
 }
 
@@ -107,7 +119,10 @@ fn a_chain_without_joint_is_refused() {
 
 #[test]
 fn a_motion_with_two_amounts_is_refused() {
-    let text = problems("{ along = \"z\", length_mm = 300 }", "{ along = \"z\", length_mm = 300, angle_deg = 4 }");
+    let text = problems(
+        "{ along = \"z\", length_mm = 300 }",
+        "{ along = \"z\", length_mm = 300, angle_deg = 4 }",
+    );
     assert!(text.contains("exactly one of length, angle and joint"), "{text}");
 }
 
@@ -115,4 +130,24 @@ fn a_motion_with_two_amounts_is_refused() {
 fn quarter_turns_are_exact() {
     assert_eq!(exact_radians(-90.0), -std::f64::consts::FRAC_PI_2);
     assert_eq!(exact_radians(180.0), std::f64::consts::PI);
+}
+
+#[test]
+fn limits_in_the_unit_of_the_other_kind_of_joint_are_refused() {
+    let text = problems("limits_mm = [0, 250]", "limits_deg = [0, 250]");
+    assert!(
+        text.contains("joint B slides: `limits_deg` does not fit it") && text.contains("`limits_mm`"),
+        "{text}"
+    );
+    let text = problems("compliance_rad_per_n_m = 2e-6", "compliance_um_per_n = 2e-6");
+    assert!(
+        text.contains("joint A turns: `compliance_um_per_n` does not fit it"),
+        "{text}"
+    );
+}
+
+#[test]
+fn two_joints_of_one_name_are_refused() {
+    let text = problems("name = \"B\"", "name = \"A\"");
+    assert!(text.contains("another joint is called `A`"), "{text}");
 }

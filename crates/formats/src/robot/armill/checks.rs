@@ -1,0 +1,341 @@
+//! What no schema can say of a robot file, and its numbers in SI.
+
+use std::collections::BTreeMap;
+
+use armill_core::robot::joint::{Coupling, Sign};
+use armill_core::robot::{Amount, Axis, BranchPattern, Joint, JointCompliance, Limits, Motion};
+
+use super::file::{AxisName, JointEntry, MotionEntry, RobotFile, SourceEntry};
+use crate::document::{Document, Problem};
+
+/// What no schema can say, collected.
+pub(super) struct Checks<'a> {
+    pub document: &'a Document,
+    pub problems: Vec<Problem>,
+    pub sources: &'a BTreeMap<String, SourceEntry>,
+}
+
+impl Checks<'_> {
+    fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
+        self.problems
+            .push(self.document.problem(path, message, Some(hint)));
+    }
+
+    fn source(&mut self, path: &str, key: &str) {
+        if !self.sources.contains_key(key) {
+            let known: Vec<&str> = self.sources.keys().map(String::as_str).collect();
+            let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
+            self.problem(path, format!("source `{key}` is not among the sources"), &hint);
+        }
+    }
+
+    pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
+        self.source("chain.source", &file.chain.source);
+        let mut motions = Vec::new();
+        let mut used = 0;
+        for (index, entry) in file.chain.motions.iter().enumerate() {
+            let path = format!("chain.motions[{index}]");
+            if let Some(motion) = self.motion(&path, entry, file, &mut used) {
+                motions.push(motion);
+            }
+        }
+        if used < file.joint.len() && self.problems.is_empty() {
+            let name = &file.joint[used].name;
+            let message = format!("joint `{name}` never moves: the chain does not name it");
+            let hint = "add a motion such as { about = \"z\", joint = ... }, or remove the joint";
+            self.problem(&format!("joint[{used}].name"), message, hint);
+        }
+        motions
+    }
+
+    fn motion(
+        &mut self,
+        path: &str,
+        entry: &MotionEntry,
+        file: &RobotFile,
+        used: &mut usize,
+    ) -> Option<Motion> {
+        let (axis, turns) = match (entry.along, entry.about) {
+            (Some(axis), None) => (axis, false),
+            (None, Some(axis)) => (axis, true),
+            _ => {
+                let hint = "write { along = \"x\", length_mm = 100 } or { about = \"z\", joint = \"A1\" }";
+                self.problem(path, "an elementary motion has either `along` or `about`", hint);
+                return None;
+            }
+        };
+        let amount = match (entry.length_mm, entry.angle_deg, &entry.joint) {
+            (Some(length), None, None) if !turns => Amount::Constant(length * 1e-3),
+            (None, Some(angle), None) if turns => Amount::Constant(exact_radians(angle)),
+            (None, None, Some(name)) => Amount::Joint(self.next_joint(path, name, file, used)?),
+            _ => {
+                let hint = "`along` takes `length_mm` or `joint`, `about` takes `angle_deg` or `joint`";
+                self.problem(
+                    path,
+                    "an elementary motion goes by exactly one of length, angle and joint",
+                    hint,
+                );
+                return None;
+            }
+        };
+        let axis = match axis {
+            AxisName::X => Axis::X,
+            AxisName::Y => Axis::Y,
+            AxisName::Z => Axis::Z,
+        };
+        Some(if turns {
+            Motion::About(axis, amount)
+        } else {
+            Motion::Along(axis, amount)
+        })
+    }
+
+    fn next_joint(&mut self, path: &str, name: &str, file: &RobotFile, used: &mut usize) -> Option<usize> {
+        let expected = file.joint.get(*used).map(|joint| joint.name.as_str());
+        if expected == Some(name) {
+            *used += 1;
+            return Some(*used - 1);
+        }
+        let message = match expected {
+            Some(expected) => format!("joint `{name}` stands where `{expected}` comes next"),
+            None => format!("joint `{name}` has no table [[joint]] of its own"),
+        };
+        self.problem(
+            &format!("{path}.joint"),
+            message,
+            "joints appear once each, in the order of the [[joint]] tables",
+        );
+        None
+    }
+
+    pub(super) fn joints(&mut self, file: &RobotFile) -> Vec<Joint> {
+        if file.joint.is_empty() {
+            self.problem(
+                "chain",
+                "the chain has no joint",
+                "add [[joint]] tables and name them in `motions`",
+            );
+        }
+        let mut joints = Vec::new();
+        for (index, entry) in file.joint.iter().enumerate() {
+            let path = format!("joint[{index}]");
+            self.source(&format!("{path}.source"), &entry.source);
+            if file.joint[..index]
+                .iter()
+                .any(|earlier| earlier.name == entry.name)
+            {
+                let message = format!("another joint is called `{}`", entry.name);
+                self.problem(
+                    &format!("{path}.name"),
+                    message,
+                    "each joint needs a name of its own",
+                );
+            }
+            self.units(&path, entry, &file.chain.motions);
+            if entry.sign == 0 {
+                self.problem(
+                    &format!("{path}.sign"),
+                    format!("joint {}: sign 0", entry.name),
+                    "write 1 or -1",
+                );
+            }
+            joints.push(Joint {
+                name: entry.name.clone(),
+                sign: if entry.sign < 0 {
+                    Sign::Negative
+                } else {
+                    Sign::Positive
+                },
+                zero_offset: entry.zero_offset_deg.map_or(0.0, exact_radians)
+                    + entry.zero_offset_mm.map_or(0.0, |mm| mm * 1e-3),
+                coupling: self.coupling(&path, entry, &file.joint[..index]),
+                limits: self.limits(&path, entry),
+                max_speed: entry
+                    .max_speed_deg_per_s
+                    .map(f64::to_radians)
+                    .or(entry.max_speed_mm_per_s.map(|mm| mm * 1e-3)),
+            });
+            for (other, limits) in entry.other_limits.iter().enumerate() {
+                self.source(&format!("{path}.other_limits[{other}].source"), &limits.source);
+            }
+        }
+        joints
+    }
+
+    /// A turning joint is told in degrees, a sliding one in millimetres.
+    fn units(&mut self, path: &str, entry: &JointEntry, motions: &[MotionEntry]) {
+        let motion = motions
+            .iter()
+            .find(|motion| motion.joint.as_ref() == Some(&entry.name));
+        let Some(slides) = motion.map(|motion| motion.along.is_some()) else {
+            return;
+        };
+        let turning = [
+            ("zero_offset_deg", entry.zero_offset_deg.is_some()),
+            ("limits_deg", entry.limits_deg.is_some()),
+            ("max_speed_deg_per_s", entry.max_speed_deg_per_s.is_some()),
+            ("compliance_rad_per_n_m", entry.compliance_rad_per_n_m.is_some()),
+            (
+                "compliance_u_rad_per_n_m",
+                entry.compliance_u_rad_per_n_m.is_some(),
+            ),
+        ];
+        let sliding = [
+            ("zero_offset_mm", entry.zero_offset_mm.is_some()),
+            ("limits_mm", entry.limits_mm.is_some()),
+            ("max_speed_mm_per_s", entry.max_speed_mm_per_s.is_some()),
+            ("compliance_um_per_n", entry.compliance_um_per_n.is_some()),
+            ("compliance_u_um_per_n", entry.compliance_u_um_per_n.is_some()),
+        ];
+        let (wrong, right, does) = if slides {
+            (turning, sliding, "slides")
+        } else {
+            (sliding, turning, "turns")
+        };
+        for ((key, given), (instead, _)) in wrong.into_iter().zip(right) {
+            if given {
+                let message = format!("joint {} {does}: `{key}` does not fit it", entry.name);
+                self.problem(&format!("{path}.{key}"), message, &format!("write `{instead}`"));
+            }
+        }
+    }
+
+    fn coupling(&mut self, path: &str, entry: &JointEntry, earlier: &[JointEntry]) -> Vec<Coupling> {
+        let mut coupling = Vec::new();
+        for (index, c) in entry.coupling.iter().enumerate() {
+            match earlier.iter().position(|joint| joint.name == c.joint) {
+                Some(joint) => coupling.push(Coupling {
+                    joint,
+                    factor: c.factor,
+                }),
+                None => {
+                    let message = format!("joint {}: `{}` is no earlier joint", entry.name, c.joint);
+                    let hint = "only an earlier joint can add to a joint's count";
+                    self.problem(&format!("{path}.coupling[{index}].joint"), message, hint);
+                }
+            }
+        }
+        coupling
+    }
+
+    fn limits(&mut self, path: &str, entry: &JointEntry) -> Option<Limits> {
+        let (limits, key, unit) = match (entry.limits_deg, entry.limits_mm) {
+            (Some(deg), _) => (deg, "limits_deg", "deg"),
+            (None, Some(mm)) => (mm, "limits_mm", "mm"),
+            (None, None) => return None,
+        };
+        let [lower, upper] = limits;
+        if lower >= upper {
+            let message = format!(
+                "joint {}: lower limit {lower} {unit} is not below upper limit {upper} {unit}",
+                entry.name
+            );
+            self.problem(&format!("{path}.{key}"), message, "write [lower, upper]");
+            return None;
+        }
+        let to_si = |value: f64| {
+            if unit == "deg" {
+                exact_radians(value)
+            } else {
+                value * 1e-3
+            }
+        };
+        Some(Limits {
+            lower: to_si(lower),
+            upper: to_si(upper),
+        })
+    }
+
+    pub(super) fn compliance(&mut self, file: &RobotFile) -> Option<Vec<JointCompliance>> {
+        let mut known = Vec::new();
+        for (index, entry) in file.joint.iter().enumerate() {
+            let path = format!("joint[{index}]");
+            let value = entry
+                .compliance_rad_per_n_m
+                .or(entry.compliance_um_per_n.map(|um| um * 1e-6));
+            let u = entry
+                .compliance_u_rad_per_n_m
+                .or(entry.compliance_u_um_per_n.map(|um| um * 1e-6));
+            match (value, &entry.compliance_source) {
+                (Some(value), Some(_)) => {
+                    known.push(JointCompliance {
+                        value,
+                        standard_uncertainty: u.unwrap_or(0.0),
+                    });
+                }
+                (Some(_), None) => {
+                    let message = format!("joint {}: its compliance names no source", entry.name);
+                    self.problem(&path, message, "add compliance_source = \"...\"");
+                }
+                (None, _) => {}
+            }
+            for (key, source) in [
+                ("compliance_source", &entry.compliance_source),
+                ("compliance_u_source", &entry.compliance_u_source),
+            ] {
+                if let Some(source) = source {
+                    self.source(&format!("{path}.{key}"), source);
+                }
+            }
+        }
+        if !known.is_empty() && known.len() < file.joint.len() {
+            let message = format!("{} of {} joints have a compliance", known.len(), file.joint.len());
+            self.problem("joint", message, "give all of them (0 for a rigid joint) or none");
+        }
+        (known.len() == file.joint.len()).then_some(known)
+    }
+
+    pub(super) fn frames_and_payload(&mut self, file: &RobotFile) {
+        for (index, frame) in file.frame.iter().enumerate() {
+            self.source(&format!("frame[{index}].source"), &frame.source);
+        }
+        if let Some(payload) = &file.payload {
+            self.source("payload.source", &payload.source);
+        }
+    }
+
+    pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {
+        let named = file.nominal_branch.as_deref().map(str::parse::<BranchPattern>);
+        match named {
+            None => BranchPattern::FRONT_ELBOW_UP,
+            Some(Ok(pattern)) => pattern,
+            Some(Err(error)) => {
+                self.problem("nominal_branch", error.to_string(), "such as \"front elbow-up\"");
+                BranchPattern::FRONT_ELBOW_UP
+            }
+        }
+    }
+
+    pub(super) fn unused_sources(&mut self, file: &RobotFile) {
+        let joints = file.joint.iter().flat_map(|joint| {
+            [
+                Some(&joint.source),
+                joint.compliance_source.as_ref(),
+                joint.compliance_u_source.as_ref(),
+            ]
+            .into_iter()
+            .flatten()
+            .chain(joint.other_limits.iter().map(|limits| &limits.source))
+        });
+        let others = file
+            .frame
+            .iter()
+            .map(|frame| &frame.source)
+            .chain(file.payload.iter().map(|p| &p.source));
+        let used: Vec<&String> = joints.chain(others).chain([&file.chain.source]).collect();
+        let unused: Vec<&String> = file.sources.keys().filter(|key| !used.contains(key)).collect();
+        for key in unused {
+            let message = format!("source `{key}` is used by no number");
+            self.problem(
+                &format!("sources.{key}"),
+                message,
+                "name it where its numbers stand, or remove it",
+            );
+        }
+    }
+}
+
+/// Degrees to radians; whole quarter turns exactly.
+pub(super) fn exact_radians(degrees: f64) -> f64 {
+    degrees / 90.0 * std::f64::consts::FRAC_PI_2
+}

@@ -1,0 +1,178 @@
+//! The robot file as it stands: its tables and keys.
+
+use std::collections::BTreeMap;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// The robot file.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RobotFile {
+    /// Version of the format: 1.
+    #[schemars(range(min = 1, max = 1))]
+    #[serde(rename = "format")]
+    pub _format: u32,
+    /// Maker and type, for people.
+    pub name: String,
+    /// What a user should know before trusting the numbers.
+    pub note: Option<String>,
+    /// Branch that stands for the robot where none is asked for, such as `front elbow-up`.
+    pub nominal_branch: Option<String>,
+    /// Elementary motions from base to flange.
+    pub chain: ChainTable,
+    /// Joints, in the order of the chain.
+    pub joint: Vec<JointEntry>,
+    /// Frames that positions may be counted from, beside base_link.
+    #[serde(default)]
+    pub frame: Vec<FrameEntry>,
+    /// Greatest load at the flange.
+    pub payload: Option<PayloadTable>,
+    /// Where the numbers come from, by key.
+    pub sources: BTreeMap<String, SourceEntry>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct ChainTable {
+    /// Key of the source of the lengths and angles.
+    pub source: String,
+    /// Elementary motions, base to flange.
+    pub motions: Vec<MotionEntry>,
+}
+
+/// One elementary motion: along or about an axis, by a length, an angle or a joint.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct MotionEntry {
+    /// Translation along this axis.
+    pub along: Option<AxisName>,
+    /// Rotation about this axis, by the right hand.
+    pub about: Option<AxisName>,
+    /// How far along.
+    #[schemars(range(min = -1e6, max = 1e6))]
+    pub length_mm: Option<f64>,
+    /// How far about.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub angle_deg: Option<f64>,
+    /// Name of the joint that makes the motion.
+    pub joint: Option<String>,
+    /// Symbol in the source, for people.
+    pub symbol: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum AxisName {
+    X,
+    Y,
+    Z,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct JointEntry {
+    /// The maker's name.
+    pub name: String,
+    /// 1 if the controller counts by the right hand about the chain's axis, -1 if against it.
+    #[schemars(range(min = -1, max = 1))]
+    pub sign: i8,
+    /// Chain angle at the controller's zero.
+    pub zero_offset_deg: Option<f64>,
+    /// Chain position at the controller's zero, sliding joints.
+    pub zero_offset_mm: Option<f64>,
+    /// Earlier joints that add to this one's count.
+    #[serde(default)]
+    pub coupling: Vec<CouplingEntry>,
+    /// Lower and upper limit in the controller's counting.
+    pub limits_deg: Option<[f64; 2]>,
+    /// Lower and upper limit, sliding joints.
+    pub limits_mm: Option<[f64; 2]>,
+    /// Greatest speed.
+    #[schemars(range(min = 0.0))]
+    pub max_speed_deg_per_s: Option<f64>,
+    /// Greatest speed, sliding joints.
+    #[schemars(range(min = 0.0))]
+    pub max_speed_mm_per_s: Option<f64>,
+    /// Key of the source of sign, zero, limits and speed.
+    pub source: String,
+    /// Compliance about the axis, drive and control loop included.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub compliance_rad_per_n_m: Option<f64>,
+    /// Standard uncertainty of the compliance.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub compliance_u_rad_per_n_m: Option<f64>,
+    /// Compliance along the axis, sliding joints.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub compliance_um_per_n: Option<f64>,
+    /// Standard uncertainty of the compliance, sliding joints.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub compliance_u_um_per_n: Option<f64>,
+    /// Key of the source of the compliance.
+    pub compliance_source: Option<String>,
+    /// Key of the source of its standard uncertainty; that of the compliance if left out.
+    pub compliance_u_source: Option<String>,
+    /// Limits by other sources; told to the user, never enforced.
+    #[serde(default)]
+    pub other_limits: Vec<OtherLimits>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CouplingEntry {
+    /// Name of the earlier joint.
+    pub joint: String,
+    /// What part of its position adds to this joint's count.
+    pub factor: f64,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct OtherLimits {
+    /// Lower and upper limit.
+    pub limits_deg: [f64; 2],
+    /// Key of the source.
+    pub source: String,
+    /// What to make of it.
+    pub note: Option<String>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct FrameEntry {
+    /// Its name, such as `controller`.
+    pub name: String,
+    /// Its origin in base_link.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub origin_mm: [f64; 3],
+    /// Turn about the fixed axes x, y, z of base_link.
+    #[serde(default)]
+    pub rotation_deg: [f64; 3],
+    /// Key of the source.
+    pub source: String,
+    /// What it is.
+    #[serde(rename = "note")]
+    pub _note: Option<String>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct PayloadTable {
+    /// Greatest mass at the flange.
+    #[schemars(range(min = 0.0))]
+    pub mass_kg: f64,
+    /// Key of the source.
+    pub source: String,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SourceEntry {
+    /// What was taken.
+    pub what: String,
+    /// Where it stands.
+    #[serde(rename = "where")]
+    pub place: String,
+    /// Under which licence, or that it is a fact.
+    pub licence: String,
+}
