@@ -40,7 +40,7 @@ fn one_pose(c: &mut Criterion) {
     let mut group = c.benchmark_group("one pose");
     group.throughput(Throughput::Elements(1));
     group.bench_function("forward and screws", |b| {
-        b.iter(|| posture_at(&robot, black_box(&q), &tool))
+        b.iter(|| posture_at(&robot, black_box(&q), &tool));
     });
     group.bench_function("inverse, 8 postures, verified", |b| {
         let at = ToolAt {
