@@ -59,7 +59,7 @@ fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnsw
         Pictures::Drawn
     };
     let written = output::write(study, &found, &answer, (out, pictures), &|name| {
-        progress.tell(name)
+        progress.tell(name);
     });
     progress.clear();
     written.map(|_| answer)
