@@ -1,10 +1,10 @@
 //! The arm as the pictures need it: joint axes, flange and tool as points.
 
 use armill_core::frame::Isometry;
-use armill_core::nalgebra::Vector3;
+use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
-use armill_core::robot::inverse::tool_on;
+use armill_core::robot::inverse::{posture_at, tool_on};
 use armill_report::{ArmDrawing, ArmJoint, Posture, View};
 
 use crate::pose::{PoseAnswer, PostureAnswer};
@@ -28,12 +28,22 @@ pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -
     }
 }
 
-/// The arm in the first posture of an answer that stands inside limits, the others faintly.
+/// Half the side of the plate that a single pose is drawn with, m.
+const PLATE: f64 = 0.15;
+
+/// The arm in the first posture of an answer that stands inside limits, the others faintly, with a plate that the
+/// tool stands against.
 pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &PoseAnswer) -> String {
     let to_si = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e-3 } else { q.to_radians() };
-    let stand = |posture: &PostureAnswer| {
-        let joints: Vec<f64> = posture.joints_deg.iter().enumerate().map(to_si).collect();
-        arm_posture(robot, &joints, flange_from_tool)
+    let joints =
+        |posture: &PostureAnswer| -> Vec<f64> { posture.joints_deg.iter().enumerate().map(to_si).collect() };
+    let stand = |posture: &PostureAnswer| arm_posture(robot, &joints(posture), flange_from_tool);
+    let plate = |posture: &PostureAnswer| {
+        let base_from_tool = posture_at(robot, &joints(posture), flange_from_tool).base_from_tool;
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| -> [f64; 3] {
+            let corner = base_from_tool * Point3::new(x * PLATE, y * PLATE, 0.0);
+            (corner.coords * 1e3).into()
+        })
     };
     let chosen = answer
         .postures
@@ -50,6 +60,7 @@ pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &Pose
             .map_or_else(|| "out of reach".to_owned(), name),
         posture: answer.postures.get(chosen).map(stand).unwrap_or_default(),
         ghosts: others.map(|(_, posture)| stand(posture)).collect(),
+        plate_mm: answer.postures.get(chosen).map(plate),
         ..ArmDrawing::default()
     };
     drawing.to_svg_views(&[View::Iso, View::Side])
