@@ -19,6 +19,9 @@ use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Grid, Plane};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use rs_opw_kinematics::kinematic_traits::Kinematics;
+use rs_opw_kinematics::kinematics_impl::OPWKinematics;
+use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 
 fn cases() -> Vec<Wrench> {
     let force = |y: f64, z: f64| Wrench::from_force(Vector3::new(3.0, y, z));
@@ -28,6 +31,23 @@ fn cases() -> Vec<Wrench> {
         force(5.0, -5.0),
         force(5.0, 5.0),
     ]
+}
+
+/// The MH12 as rs-opw-kinematics has it: opw_parameters_mh12.yaml of ros-industrial/motoman.
+fn peer() -> OPWKinematics {
+    use std::f64::consts::{FRAC_PI_2, PI};
+    OPWKinematics::new(Parameters {
+        a1: 0.155,
+        a2: -0.200,
+        b: 0.0,
+        c1: 0.450,
+        c2: 0.614,
+        c3: 0.640,
+        c4: 0.100,
+        offsets: [0.0, 0.0, -FRAC_PI_2, 0.0, 0.0, PI],
+        sign_corrections: [1, 1, -1, -1, -1, -1],
+        dof: 6,
+    })
 }
 
 fn one_pose(c: &mut Criterion) {
@@ -48,6 +68,12 @@ fn one_pose(c: &mut Criterion) {
             near: None,
         };
         b.iter(|| postures(&robot, arm, black_box(&posture.base_from_tool), at));
+    });
+    // A peer on the same pose in the same run: absolute numbers mean nothing across machines.
+    let peer = peer();
+    let pose = peer.forward(&q);
+    group.bench_function("inverse, all postures, rs-opw-kinematics 3.0", |b| {
+        b.iter(|| peer.inverse(black_box(&pose)))
     });
     group.bench_function("compliance 6x6 of a posture", |b| {
         b.iter(|| compliance_at_tool(black_box(&posture.screws), compliance));
