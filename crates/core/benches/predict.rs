@@ -73,7 +73,7 @@ fn one_pose(c: &mut Criterion) {
     let peer = peer();
     let pose = peer.forward(&q);
     group.bench_function("inverse, all postures, rs-opw-kinematics 3.0", |b| {
-        b.iter(|| peer.inverse(black_box(&pose)))
+        b.iter(|| peer.inverse(black_box(&pose)));
     });
     group.bench_function("compliance 6x6 of a posture", |b| {
         b.iter(|| compliance_at_tool(black_box(&posture.screws), compliance));
