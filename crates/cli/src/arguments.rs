@@ -53,7 +53,7 @@ impl Command {
 #[command(after_help = "\
 Examples:
   armill run studies/mh12-groove
-  armill run cell/study.toml --out /tmp/cell --no-pictures
+  armill run cell/study.toml --out results --no-pictures
   armill run cell --json --strict && echo \"the tolerance holds everywhere\"")]
 pub(crate) struct RunArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study

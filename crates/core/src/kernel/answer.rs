@@ -248,10 +248,7 @@ impl Scratch {
     ) -> Result<Held, Unreachable> {
         self.joints = solution.joints;
         forward_into(question.robot, &solution.joints, &mut self.frames);
-        if !holds(&self.frames, base_from_flange) {
-            let away = self.frames.base_from_flange.translation.vector - base_from_flange.translation.vector;
-            return Err(Unreachable::Unverified { by: away.norm() });
-        }
+        holds(&self.frames, base_from_flange)?;
         screws_into(
             question.robot,
             &self.frames,

@@ -1,7 +1,7 @@
 //! The region of a plane map within a limit: how large, where, and what part fits into it.
 //!
-//! Fraction counts grid points over *all* points. Area and boundary follow the limit between points, linearly;
-//! cells with an unreached corner do not count. Rectangle and circle are made of grid points within. m, m^2.
+//! Area and boundary follow the limit between points, linearly; cells with an unreached corner do not count.
+//! Rectangle and circle are made of grid points within. m, m^2.
 
 use nalgebra::Point2;
 
@@ -15,8 +15,6 @@ use crate::workpiece::Grid;
 pub struct Region {
     /// Area, m^2.
     pub area: f64,
-    /// Points within over all points.
-    pub fraction: f64,
     /// Polylines in part x and y (m), the region to their left; closed ones repeat their first point.
     pub boundary: Vec<Vec<Point2<f64>>>,
     /// Largest axis-parallel rectangle inside.
@@ -31,7 +29,6 @@ pub fn region_within(grid: &Grid, values: &[Option<f64>], limit: f64) -> Region 
     let shape = within_level(grid, values, limit);
     Region {
         area: shape.area,
-        fraction: within.iter().filter(|w| **w).count() as f64 / grid.len().max(1) as f64,
         boundary: shape.boundary,
         rectangle: largest_rectangle(grid, &within),
         disc: largest_disc(grid, &within),

@@ -18,7 +18,7 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3};
 
 use crate::frame::Isometry;
-use crate::spatial::{Twist, adjoint};
+use crate::spatial::adjoint;
 
 /// A coordinate axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -265,15 +265,6 @@ impl Chain {
     /// to the twist of the same motion told at the base origin in base axes.
     pub fn screw(&self, theta: &[f64]) -> Matrix6<f64> {
         adjoint(&self.base_from_flange(theta), &Point3::origin())
-    }
-
-    /// [`Chain::screw`] applied to one twist.
-    pub fn transform_twist(&self, theta: &[f64], twist: &Twist) -> Twist {
-        let moved = self.screw(theta) * twist.to_vector();
-        Twist {
-            linear: moved.fixed_rows::<3>(0).into(),
-            angular: moved.fixed_rows::<3>(3).into(),
-        }
     }
 }
 

@@ -25,16 +25,7 @@ pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
     screw.scaled(screw.dot(wrench))
 }
 
-/// Deviation of the tool by all joints.
-pub fn deviation(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Twist {
-    screws
-        .iter()
-        .zip(joints)
-        .map(|(s, c)| sensitivity(s, wrench).scaled(c.value))
-        .sum()
-}
-
-/// Translational part of [`deviation`], m: what a map needs of it.
+/// Displacement of the tool by all joints, m: what a map needs of it.
 pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vector3<f64> {
     screws
         .iter()
@@ -43,7 +34,7 @@ pub fn displacement(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrenc
         .sum()
 }
 
-/// Share of each joint in the deviation; they add up to [`deviation`].
+/// Share of each joint in the deviation; they add up to the deviation.
 pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> Vec<Twist> {
     screws
         .iter()
@@ -87,7 +78,7 @@ mod tests {
         // c L^2 F = 2e-6 rad/(N m) x (1 m)^2 x 10 N = 20 um.
         let (screws, joints) = arm();
         let push = Wrench::from_force(Vector3::new(0.0, 10.0, 0.0));
-        let delta = deviation(&screws[..1], &joints[..1], &push);
+        let delta = shares(&screws[..1], &joints[..1], &push)[0];
         assert!((delta.linear - Vector3::new(0.0, 20e-6, 0.0)).norm() < 1e-18);
         assert!((delta.angular - Vector3::new(0.0, 0.0, 20e-6)).norm() < 1e-18);
         assert_eq!(displacement(&screws[..1], &joints[..1], &push), delta.linear);

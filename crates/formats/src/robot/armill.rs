@@ -70,11 +70,6 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     })
 }
 
-/// JSON Schema of the robot file, for editors.
-pub fn schema() -> String {
-    crate::document::schema_json::<RobotFile>()
-}
-
 fn named_frame(entry: &FrameEntry) -> NamedFrame {
     let rotation = Vector3::from(entry.rotation_deg).map(f64::to_radians);
     let base_from_frame: Isometry =

@@ -36,24 +36,28 @@ pub fn postures(
     let base_from_flange = base_from_tool * tool.flange_from_tool.inverse();
     let mut found = Vec::with_capacity(8);
     let mut nearest_miss: Option<Unreachable> = None;
+    let mut frames = Frames::for_robot(robot);
     for branch in Branch::ALL {
-        match arm.solve(robot, &base_from_flange, branch, tool.near) {
-            Ok(solution) => found.push(solution),
+        let solved = arm.solve(robot, &base_from_flange, branch, tool.near);
+        let verified = solved.and_then(|solution| {
+            forward_into(robot, &solution.joints, &mut frames);
+            holds(&frames, &base_from_flange)?;
+            Ok(solution)
+        });
+        match verified {
+            Ok(solution) => found.push(Posture {
+                branch: Some(branch),
+                joints: solution.joints.to_vec(),
+                screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
+                base_from_tool: tool_on(&frames, tool.flange_from_tool),
+                singularity: solution.singularity,
+            }),
             Err(miss) => nearest_miss = Some(nearest_miss.map_or(miss, |other| nearer(other, miss))),
         }
     }
-    let mut frames = Frames::for_robot(robot);
-    let postures: Vec<Posture> = found
-        .into_iter()
-        .filter(|solution| {
-            forward_into(robot, &solution.joints, &mut frames);
-            holds(&frames, &base_from_flange)
-        })
-        .map(|solution| solution.into_posture(robot, tool.flange_from_tool))
-        .collect();
     match nearest_miss {
-        Some(miss) if postures.is_empty() => Err(miss),
-        _ => Ok(postures),
+        Some(miss) if found.is_empty() => Err(miss),
+        _ => Ok(found),
     }
 }
 
@@ -66,8 +70,11 @@ pub struct ToolAt<'a> {
     pub near: Option<&'a [f64]>,
 }
 
-/// Whether these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
-pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> bool {
+/// Checks that these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
+///
+/// # Errors
+/// [`Unreachable::Unverified`] with the distance missed.
+pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreachable> {
     let reached = &frames.base_from_flange;
     let away = reached.translation.vector - base_from_flange.translation.vector;
     let (a, b) = (
@@ -79,7 +86,11 @@ pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> bool {
         .map(|i| a.column(i).cross(&b.matrix().column(i)))
         .sum::<Vector3<f64>>()
         * 0.5;
-    away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0
+    if away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0 {
+        Ok(())
+    } else {
+        Err(Unreachable::Unverified { by: away.norm() })
+    }
 }
 
 /// The posture of a robot at these joint positions, whatever its chain.

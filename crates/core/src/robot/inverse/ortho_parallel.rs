@@ -22,10 +22,8 @@
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
 use super::super::chain::{Chain, Motion};
-use super::super::forward::{Frames, forward, forward_into};
-use super::super::jacobian::screws_at;
 use super::super::model::Robot;
-use super::super::posture::{Branch, Elbow, Posture, Shoulder, Singularity, Unreachable, Wrist};
+use super::super::posture::{Branch, Elbow, Shoulder, Singularity, Unreachable, Wrist};
 use crate::frame::Isometry;
 
 /// How far (rad, m) a geometry may stray from the ideal and still be solved by the closed form.
@@ -69,21 +67,6 @@ pub struct Solution {
     pub joints: [f64; 6],
     /// Near which singularity, if any.
     pub singularity: Option<Singularity>,
-}
-
-impl Solution {
-    /// The posture of this solution with its screws.
-    pub fn into_posture(self, robot: &Robot, flange_from_tool: &Isometry) -> Posture {
-        let frames = forward(robot, &self.joints);
-        let base_from_tool = super::tool_on(&frames, flange_from_tool);
-        Posture {
-            branch: Some(self.branch),
-            joints: self.joints.to_vec(),
-            screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
-            base_from_tool,
-            singularity: self.singularity,
-        }
-    }
 }
 
 impl OrthoParallel {
@@ -205,8 +188,6 @@ impl OrthoParallel {
 
     /// Branch of joint positions, and the singularity they stand near, if any.
     pub fn name(&self, robot: &Robot, q: &[f64]) -> (Branch, Option<Singularity>) {
-        let mut frames = Frames::for_robot(robot);
-        forward_into(robot, q, &mut frames);
         let phi = |i: usize| self.sense[i] * robot.theta(i, q);
         let psi = self.upper_arm_at_zero + phi(1);
         let forearm = self.forearm_at_zero + phi(1) + phi(2);
