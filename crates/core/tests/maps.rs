@@ -186,7 +186,7 @@ fn in_order_and_at_once_agree_away_from_singularities() {
     ask(&robot, &plane, branch("front elbow-up"), |question| {
         let pose = |i: usize| plane.base_from_tool(Point2::new(0.01 * i as f64, 0.1), 0.0);
         let at_once = evaluate(question, 30, pose, Watch::NONE).unwrap();
-        let in_order = evaluate_in_order(question, (0..30).map(pose), Watch::NONE).unwrap();
+        let in_order = evaluate_in_order(question, 30, pose, Watch::NONE).unwrap();
         assert_eq!(at_once.points, in_order.points);
     });
 }

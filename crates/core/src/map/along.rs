@@ -57,8 +57,8 @@ pub fn along_path(
     watch: Watch<'_>,
 ) -> Result<PathAnswer, Cancelled> {
     let samples = shape.sampled(step);
-    let poses = samples.iter().map(|sample| plane.base_from_tool(sample.at, 0.0));
-    let answers = evaluate_in_order(question, poses, watch)?;
+    let pose = |i: usize| plane.base_from_tool(samples[i].at, 0.0);
+    let answers = evaluate_in_order(question, samples.len(), pose, watch)?;
     let mut path = PathAnswer {
         plane,
         samples,

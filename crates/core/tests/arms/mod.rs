@@ -173,9 +173,83 @@ pub fn r2000ic() -> Robot {
         .unwrap()
 }
 
+/// ABB IRB 2400: ros-industrial/abb, Apache-2.0.
+pub fn irb2400() -> Robot {
+    use Sign::Positive;
+    let motions = vec![
+        Along(Z, Constant(0.615)),
+        About(Z, Var(0)),
+        Along(X, Constant(0.100)),
+        About(Y, Var(1)),
+        Along(Z, Constant(0.705)),
+        About(Y, Var(2)),
+        Along(Z, Constant(0.135)),
+        About(X, Var(3)),
+        Along(X, Constant(0.755)),
+        About(Y, Var(4)),
+        About(X, Var(5)),
+        Along(X, Constant(0.085)),
+        About(Y, Constant(std::f64::consts::FRAC_PI_2)),
+    ];
+    let joints = vec![
+        joint("1", Positive, [-180.0, 180.0]),
+        joint("2", Positive, [-100.0, 110.0]),
+        joint("3", Positive, [-60.0, 65.0]),
+        joint("4", Positive, [-200.0, 200.0]),
+        joint("5", Positive, [-120.0, 120.0]),
+        joint("6", Positive, [-400.0, 400.0]),
+    ];
+    Robot::new("abb/irb2400", motions, joints)
+        .unwrap()
+        .with_compliance(compliance([8e-7, 9e-7, 1.1e-6, 6e-6, 7e-6, 1.5e-5]))
+        .unwrap()
+}
+
+/// Made up to be awkward: hung from a tilted beam, lateral offset, mixed senses, zeros anywhere, geared wrist.
+pub fn hung() -> Robot {
+    use Sign::{Negative, Positive};
+    let motions = vec![
+        Along(X, Constant(0.3)),
+        About(X, Constant(std::f64::consts::PI)),
+        About(Y, Constant(0.4)),
+        About(Z, Var(0)),
+        Along(X, Constant(-0.08)),
+        Along(Y, Constant(0.12)),
+        About(Y, Var(1)),
+        Along(X, Constant(0.55)),
+        About(Y, Var(2)),
+        Along(X, Constant(0.60)),
+        Along(Z, Constant(0.1)),
+        About(X, Var(3)),
+        About(Z, Var(4)),
+        About(X, Var(5)),
+        Along(X, Constant(0.13)),
+        About(Y, Constant(std::f64::consts::FRAC_PI_2)),
+    ];
+    let mut joints = vec![
+        joint("a", Negative, [-100.0, 200.0]),
+        joint("b", Positive, [-170.0, 80.0]),
+        joint("c", Negative, [-200.0, 150.0]),
+        joint("d", Negative, [-150.0, 170.0]),
+        joint("e", Positive, [-110.0, 120.0]),
+        joint("f", Negative, [-300.0, 200.0]),
+    ];
+    for (index, offset) in [0.3, -0.7, 1.1, 0.2, 0.0, -2.0].into_iter().enumerate() {
+        joints[index].zero_offset = offset;
+    }
+    joints[5].coupling = vec![armill_core::robot::joint::Coupling {
+        joint: 4,
+        factor: -0.5,
+    }];
+    Robot::new("made-up/hung", motions, joints)
+        .unwrap()
+        .with_compliance(compliance([1e-6, 2e-6, 3e-6, 2e-5, 3e-5, 5e-5]))
+        .unwrap()
+}
+
 /// All of them.
-pub fn all() -> [Robot; 4] {
-    [mh12(), kr120(), tx2_90(), r2000ic()]
+pub fn all() -> [Robot; 6] {
+    [mh12(), kr120(), tx2_90(), r2000ic(), irb2400(), hung()]
 }
 
 /// A tool that is bent and turned against the flange.

@@ -29,33 +29,33 @@ use crate::frame::Isometry;
 /// How far (rad, m) a geometry may stray from the ideal and still be solved by the closed form.
 const IDEAL: f64 = 1e-9;
 /// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
-const NEAR_SINGULAR: f64 = 0.017_452_406;
+pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
 /// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
-const WRIST_SINGULAR: f64 = 1e-9;
+pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 
 /// The geometry of an ortho-parallel arm with spherical wrist, read off its chain.
 #[derive(Clone, Debug)]
 pub struct OrthoParallel {
     /// x to the front, y along axis 2, z along axis 1; origin on axis 1 at the height of axis 2.
-    arm_from_base: Isometry,
-    a1: f64,
-    b: f64,
-    l2: f64,
-    l3: f64,
+    pub(crate) arm_from_base: Isometry,
+    pub(crate) a1: f64,
+    pub(crate) b: f64,
+    pub(crate) l2: f64,
+    pub(crate) l3: f64,
     /// Angles of upper arm and forearm from the vertical at chain zero.
-    upper_arm_at_zero: f64,
-    forearm_at_zero: f64,
+    pub(crate) upper_arm_at_zero: f64,
+    pub(crate) forearm_at_zero: f64,
     forearm_turn_at_zero: Turn,
     /// Wrist bend at chain zero.
-    bend_at_zero: f64,
+    pub(crate) bend_at_zero: f64,
     /// Sense of each axis against the common one, 1 or -1.
-    sense: [f64; 6],
+    pub(crate) sense: [f64; 6],
     /// Axes 4 and 5 at chain zero, in the arm's axes, in the common sense.
-    wrist_axes: [Vector3<f64>; 2],
+    pub(crate) wrist_axes: [Vector3<f64>; 2],
     /// Axes 5 and 6 at chain zero, in the flange's axes, in the common sense.
-    flange_from_axis_5: Vector3<f64>,
-    flange_from_axis_6: Vector3<f64>,
-    flange_from_wrist: Point3<f64>,
+    pub(crate) flange_from_axis_5: Vector3<f64>,
+    pub(crate) flange_from_axis_6: Vector3<f64>,
+    pub(crate) flange_from_wrist: Point3<f64>,
 }
 
 /// Joint positions of one branch.

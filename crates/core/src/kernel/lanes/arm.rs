@@ -1,0 +1,115 @@
+//! The arm as lanes see it: numbers worked out once for a question.
+//!
+//! Everything is told in the arm's axes: origin on axis 1 at the height of axis 2, x to the front, y along
+//! axis 2, z along axis 1; `phi` are angles about axes turned to the common sense (see
+//! `robot::inverse::ortho_parallel`).
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::frame::Isometry;
+use crate::robot::Robot;
+use crate::robot::inverse::OrthoParallel;
+
+/// Half a range that no joint leaves: joints without limits have it.
+pub(super) const UNLIMITED: f64 = 1e6;
+
+/// Geometry, joint counting, limits, tool.
+#[derive(Clone, Debug)]
+pub(super) struct Arm {
+    pub a1: f64,
+    pub b: f64,
+    pub l2: f64,
+    pub l3: f64,
+    /// Axis 4, then axis 5 with joint 4 at chain zero, then their cross product; seen from a forearm that stands
+    /// upright (along +z).
+    pub forearm: [Vector3<f64>; 3],
+    pub joints: [JointRow; 6],
+    /// Sense of each axis of the chain against the common one, 1 or -1.
+    pub sense: [f64; 6],
+    /// `k_ij` of the controller's counting.
+    pub coupling: [[f64; 6]; 6],
+    pub coupled: bool,
+    pub arm_from_base: Isometry,
+    /// Axis 6 in the tool's axes.
+    pub tool_from_axis_6: Vector3<f64>,
+    /// Axis 5 with joint 6 at chain zero, in the tool's axes.
+    pub tool_from_axis_5: Vector3<f64>,
+    /// From the wrist centre to the TCP, tool axes.
+    pub lever: Vector3<f64>,
+}
+
+/// How a joint counts and how far it goes: `q = gain phi + start - coupling`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct JointRow {
+    pub gain: f64,
+    pub start: f64,
+    /// Middle and half of its range.
+    pub middle: f64,
+    pub half: f64,
+}
+
+impl Arm {
+    pub fn new(robot: &Robot, arm: &OrthoParallel, flange_from_tool: &Isometry) -> Arm {
+        let tool_from_flange = flange_from_tool.inverse();
+        let upright = nalgebra::Rotation3::from_axis_angle(&Vector3::y_axis(), -arm.forearm_at_zero);
+        let [a4, a5] = arm.wrist_axes.map(|axis| upright * axis);
+        let zero_of = [
+            0.0,
+            arm.upper_arm_at_zero,
+            arm.forearm_at_zero - arm.upper_arm_at_zero,
+            0.0,
+            arm.bend_at_zero,
+            0.0,
+        ];
+        let mut coupling = [[0.0; 6]; 6];
+        let mut rows = [JointRow {
+            gain: 1.0,
+            start: 0.0,
+            middle: 0.0,
+            half: UNLIMITED,
+        }; 6];
+        for (i, (row, joint)) in rows.iter_mut().zip(robot.joints()).enumerate() {
+            for k in &joint.coupling {
+                coupling[i][k.joint] += k.factor;
+            }
+            let sign = joint.sign.factor();
+            row.gain = sign * arm.sense[i];
+            row.start = -sign * joint.zero_offset - row.gain * zero_of[i];
+            if let Some(limits) = joint.limits {
+                row.middle = limits.middle();
+                row.half = 0.5 * (limits.upper - limits.lower);
+            }
+        }
+        Arm {
+            a1: arm.a1,
+            b: arm.b,
+            l2: arm.l2,
+            l3: arm.l3,
+            forearm: [a4, a5, a4.cross(&a5)],
+            joints: rows,
+            sense: arm.sense,
+            coupled: coupling.iter().flatten().any(|k| *k != 0.0),
+            coupling,
+            arm_from_base: arm.arm_from_base,
+            tool_from_axis_6: tool_from_flange * arm.flange_from_axis_6,
+            tool_from_axis_5: tool_from_flange * arm.flange_from_axis_5,
+            lever: -(tool_from_flange * arm.flange_from_wrist).coords,
+        }
+    }
+
+    /// Rotation of base vectors into the arm's axes.
+    pub fn arm_from_base_rotation(&self) -> Matrix3<f64> {
+        *self.arm_from_base.rotation.to_rotation_matrix().matrix()
+    }
+
+    /// Where the cosine of joint `index` from the middle of its range leaves it, told as
+    /// `(cos, sin)` of the middle in `phi` (without the zero of the arm's angle) and the least cosine allowed; `None` if it never does.
+    pub fn cosine_limit(&self, index: usize) -> Option<[f64; 3]> {
+        let row = self.joints[index];
+        let half = row.half + crate::kernel::AT_LIMIT;
+        (half < std::f64::consts::PI).then(|| {
+            let middle = (row.middle - row.start) / row.gain;
+            [middle.cos(), middle.sin(), half.cos()]
+        })
+    }
+}

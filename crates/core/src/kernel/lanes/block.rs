@@ -1,0 +1,53 @@
+//! Planes of numbers that stay in the first cache.
+
+use super::real::{Float, Real};
+use super::solve::Aim;
+use super::vector::Vector;
+
+/// Points in a block. Planes lie an odd number of cache lines apart, so that many of them at once do not meet
+/// in one set of the cache; all blocks of a [`super::Batch`] together take less than 64 KiB.
+pub(super) const BLOCK: usize = 80;
+
+/// One number a point.
+pub(super) type Plane<T> = [T; BLOCK];
+
+/// `N` numbers a point.
+pub(super) type Planes<T, const N: usize> = [Plane<T>; N];
+
+/// Planes of zeros.
+pub(super) fn planes<T: Float, const N: usize>() -> Planes<T, N> {
+    [[T::default(); BLOCK]; N]
+}
+
+/// Reads a vector from three planes.
+#[inline(always)]
+pub(super) fn vector<R: Real>(planes: &[Plane<R::Float>], i: usize) -> Vector<R> {
+    Vector::new(
+        R::load(planes[0][i]),
+        R::load(planes[1][i]),
+        R::load(planes[2][i]),
+    )
+}
+
+/// Writes a vector to three planes.
+#[inline(always)]
+pub(super) fn put<R: Real>(planes: &mut [Plane<R::Float>], i: usize, v: Vector<R>) {
+    planes[0][i] = v.x.store();
+    planes[1][i] = v.y.store();
+    planes[2][i] = v.z.store();
+}
+
+/// Aims of a block: TCP, lever, axis 6, axis 5.
+pub(super) type Aims<T> = Planes<T, 12>;
+
+/// The aim of point `i`. Where the orientation is `STILL` all but the TCP is that of point 0.
+#[inline(always)]
+pub(super) fn aim<R: Real, const STILL: bool>(aims: &Aims<R::Float>, i: usize) -> Aim<R> {
+    let k = if STILL { 0 } else { i };
+    Aim {
+        tcp: vector(&aims[0..3], i),
+        lever: vector(&aims[3..6], k),
+        out: vector(&aims[6..9], k),
+        second: vector(&aims[9..12], k),
+    }
+}

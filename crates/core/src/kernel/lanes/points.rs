@@ -1,0 +1,322 @@
+//! Whole answers, a block of points at a time: what maps, volumes and paths are made of.
+
+use nalgebra::Vector3;
+
+use super::batch::{Batch, Second};
+use super::block::{BLOCK, Plane, Planes, planes};
+use super::deviation::{OneCase, Shares, Worst};
+use super::posture::{Postures, Preference, Stand};
+use super::solve::flag;
+use crate::frame::Isometry;
+use crate::kernel::answer::{AT_LIMIT, Held};
+use crate::kernel::question::{BranchChoice, Question};
+use crate::robot::posture::{Branch, BranchPattern, Elbow, Shoulder, Singularity, Wrist};
+
+/// Points that are answered at once.
+pub(in crate::kernel) const POINTS: usize = BLOCK;
+
+/// Answers a block of points; made once a thread.
+pub(in crate::kernel) struct Points<'q> {
+    question: &'q Question<'q>,
+    batch: Batch<f64>,
+    room: Box<Room>,
+}
+
+struct Room {
+    postures: Postures<f64>,
+    /// Signs of the best posture so far and what it is judged by; infinite where there is none.
+    chosen: Planes<f64, 2>,
+    score: Plane<f64>,
+    deviations: Vec<Planes<f64, 3>>,
+    worst: Worst<f64>,
+    shares: Planes<f64, 6>,
+    uncertainty: Plane<f64>,
+}
+
+impl<'q> Points<'q> {
+    pub fn new(question: &'q Question<'q>) -> Points<'q> {
+        Points {
+            question,
+            batch: Batch::new(question, super::Backend::fastest()),
+            room: Box::new(Room {
+                postures: Postures {
+                    signs: planes(),
+                    joints: planes(),
+                    room: [0.0; BLOCK],
+                    joint: [0.0; BLOCK],
+                    flip: [0.0; BLOCK],
+                    flags: [0.0; BLOCK],
+                    linear: planes(),
+                    axes: planes(),
+                },
+                chosen: planes(),
+                score: [0.0; BLOCK],
+                deviations: vec![planes(); question.cases.len()],
+                worst: Worst {
+                    in_plane: [0.0; BLOCK],
+                    normal: [0.0; BLOCK],
+                    full: [0.0; BLOCK],
+                    case: [0.0; BLOCK],
+                    components: planes(),
+                    wrench: planes(),
+                },
+                shares: planes(),
+                uncertainty: [0.0; BLOCK],
+            }),
+        }
+    }
+
+    /// Works out the answers at these poses, at most [`POINTS`]; ask for them with [`Points::held`].
+    pub fn solve(&mut self, poses: &[Isometry]) {
+        self.batch.aim_at(poses);
+        let preference = match self.question.choice {
+            BranchChoice::Best => {
+                self.choose_least_envelope();
+                Preference {
+                    plain: 0.0,
+                    flipped: 0.0,
+                }
+            }
+            BranchChoice::Of(pattern) => {
+                let preference = preference(pattern);
+                self.choose_most_room(pattern, preference);
+                preference
+            }
+        };
+        self.room.postures.signs = self.room.chosen;
+        self.stand(preference);
+        self.deviate();
+    }
+
+    /// The answer at point `index` of the block; `None` where lanes cannot decide.
+    pub fn held(&self, index: usize) -> Option<Held> {
+        let Room {
+            postures,
+            score,
+            worst,
+            uncertainty,
+            ..
+        } = &*self.room;
+        let flags = postures.flags[index] as u32;
+        let undecided =
+            flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
+        // The envelope told limits by cosines; at the very edge the angles may say otherwise.
+        let at_the_edge = self.question.choice == BranchChoice::Best && postures.room[index] < -AT_LIMIT;
+        if undecided || at_the_edge {
+            return None;
+        }
+        let limited = postures.room[index] < 0.5 * super::arm::UNLIMITED;
+        Some(Held {
+            branch: branch(postures, index),
+            limit_margin: if limited {
+                postures.room[index]
+            } else {
+                f64::INFINITY
+            },
+            limit_joint: if limited {
+                postures.joint[index] as usize
+            } else {
+                0
+            },
+            singularity: singularity(flags),
+            deciding_case: worst.case[index] as usize,
+            in_plane: worst.in_plane[index],
+            in_plane_uncertainty: uncertainty[index],
+            normal: worst.normal[index],
+            full: worst.full[index],
+        })
+    }
+
+    /// Copies joint positions, deviations and shares of point `index`.
+    pub fn write(
+        &self,
+        index: usize,
+        joints: &mut [f64],
+        deviations: &mut [Vector3<f64>],
+        shares: &mut [f64],
+    ) {
+        for (joint, plane) in joints.iter_mut().zip(&self.room.postures.joints) {
+            *joint = plane[index];
+        }
+        for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.room.deviations) {
+            *deviation = Vector3::new(x[index], y[index], z[index]);
+        }
+        for (share, plane) in shares.iter_mut().zip(&self.room.shares) {
+            *share = plane[index];
+        }
+    }
+
+    /// Chooses, of the postures inside limits, the one with the least envelope.
+    fn choose_least_envelope(&mut self) {
+        let Room { chosen, score, .. } = &mut *self.room;
+        score.fill(f64::INFINITY);
+        self.batch.orient(Second::InTheMiddle);
+        for signs in super::batch::FOUR {
+            let (in_plane, flags) = self.batch.envelope_of_aimed(signs);
+            for i in 0..BLOCK {
+                let flags = flags[i] as u32;
+                let outside = flag::OUTSIDE_LIMITS | flag::OUTSIDE_LIMITS_FLIPPED;
+                let stands = flags & flag::UNREACHABLE == 0 && flags & outside != outside;
+                if stands && in_plane[i] < score[i] {
+                    score[i] = in_plane[i];
+                    (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
+                }
+            }
+        }
+        self.batch.orient(Second::AtZero);
+    }
+
+    /// Chooses, of the postures that match, the one with most room to its limits.
+    fn choose_most_room(&mut self, pattern: BranchPattern, preference: Preference) {
+        let matching: Vec<[f64; 2]> = super::batch::FOUR
+            .into_iter()
+            .zip(Branch::ALL.chunks(2))
+            .filter(|(_, pair)| pair.iter().any(|branch| pattern.matches(*branch)))
+            .map(|(signs, _)| signs)
+            .collect();
+        self.batch.orient(Second::AtZero);
+        if let [only] = matching[..] {
+            self.room.score.fill(0.0);
+            self.room.chosen = [[only[0]; BLOCK], [only[1]; BLOCK]];
+            return;
+        }
+        self.room.score.fill(f64::INFINITY);
+        for signs in matching {
+            self.room.postures.signs = [[signs[0]; BLOCK], [signs[1]; BLOCK]];
+            self.stand(preference);
+            let Room {
+                postures,
+                chosen,
+                score,
+                ..
+            } = &mut *self.room;
+            for i in 0..BLOCK {
+                let reached = postures.flags[i] as u32 & flag::UNREACHABLE == 0;
+                if reached && -postures.room[i] < score[i] {
+                    score[i] = -postures.room[i];
+                    (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
+                }
+            }
+        }
+    }
+
+    fn stand(&mut self, preference: Preference) {
+        let (prepared, aims, backend) = self.batch.aimed();
+        let postures = &mut self.room.postures;
+        if prepared.arm.coupled {
+            backend.run(Stand::<f64, true> {
+                prepared,
+                aims,
+                preference,
+                postures,
+            });
+        } else {
+            backend.run(Stand::<f64, false> {
+                prepared,
+                aims,
+                preference,
+                postures,
+            });
+        }
+    }
+
+    fn deviate(&mut self) {
+        let (prepared, _, backend) = self.batch.aimed();
+        let Room {
+            postures,
+            deviations,
+            worst,
+            shares,
+            uncertainty,
+            ..
+        } = &mut *self.room;
+        for (case, deviation) in deviations.iter_mut().enumerate() {
+            if prepared.moments {
+                backend.run(OneCase::<f64, true> {
+                    prepared,
+                    postures,
+                    case,
+                    deviation,
+                    worst,
+                });
+            } else {
+                backend.run(OneCase::<f64, false> {
+                    prepared,
+                    postures,
+                    case,
+                    deviation,
+                    worst,
+                });
+            }
+        }
+        if prepared.moments {
+            backend.run(Shares::<f64, true> {
+                prepared,
+                postures,
+                worst,
+                shares,
+                uncertainty,
+            });
+        } else {
+            backend.run(Shares::<f64, false> {
+                prepared,
+                postures,
+                worst,
+                shares,
+                uncertainty,
+            });
+        }
+    }
+}
+
+/// More room than any joint has: what is preferred by it is always taken.
+const ALWAYS: f64 = 1e9;
+
+fn preference(pattern: BranchPattern) -> Preference {
+    match pattern.wrist {
+        Some(Wrist::NoFlip) => Preference {
+            plain: ALWAYS,
+            flipped: 0.0,
+        },
+        Some(Wrist::Flip) => Preference {
+            plain: 0.0,
+            flipped: ALWAYS,
+        },
+        None => Preference {
+            plain: 0.0,
+            flipped: 0.0,
+        },
+    }
+}
+
+fn branch(postures: &Postures<f64>, index: usize) -> Branch {
+    Branch {
+        shoulder: if postures.signs[0][index] > 0.0 {
+            Shoulder::Front
+        } else {
+            Shoulder::Back
+        },
+        elbow: if postures.signs[1][index] > 0.0 {
+            Elbow::Up
+        } else {
+            Elbow::Down
+        },
+        wrist: if postures.flip[index] > 0.0 {
+            Wrist::Flip
+        } else {
+            Wrist::NoFlip
+        },
+    }
+}
+
+fn singularity(flags: u32) -> Option<Singularity> {
+    if flags & flag::NEAR_WRIST != 0 {
+        Some(Singularity::Wrist)
+    } else if flags & flag::NEAR_ELBOW != 0 {
+        Some(Singularity::Elbow)
+    } else if flags & flag::NEAR_SHOULDER != 0 {
+        Some(Singularity::Shoulder)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,92 @@
+//! Everything about one posture of each point: joint positions, room to the limits, screws.
+
+use super::backend::Work;
+use super::block::{Aims, BLOCK, Plane, Planes, aim, put};
+use super::joints::{Counting, angles, flipped};
+use super::prepared::Prepared;
+use super::real::{Float, Real};
+use super::screws::Screws;
+use super::solve::{Links, Signs};
+
+/// What is known of the postures of a block.
+#[derive(Clone, Debug)]
+pub(super) struct Postures<T> {
+    /// 1 for front, -1 for back; 1 for elbow up, -1 for down: in.
+    pub signs: Planes<T, 2>,
+    /// Joint positions, rad.
+    pub joints: Planes<T, 6>,
+    /// Least distance to a joint limit, and whose.
+    pub room: Plane<T>,
+    pub joint: Plane<T>,
+    /// 1 where the wrist is flipped, otherwise 0.
+    pub flip: Plane<T>,
+    /// Bits of `flag`, without those of the joint limits.
+    pub flags: Plane<T>,
+    /// Screws at the TCP, arm axes: linear parts, and axes (written only where moments act).
+    pub linear: Planes<T, 18>,
+    pub axes: Planes<T, 18>,
+}
+
+/// Which flip of a posture is taken: the one with more room, after these lengths are added.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Preference {
+    pub plain: f64,
+    pub flipped: f64,
+}
+
+/// Fills [`Postures`] from their signs.
+pub(super) struct Stand<'a, T, const COUPLED: bool> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<T>,
+    pub preference: Preference,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float, const COUPLED: bool> Work<T> for Stand<'_, T, COUPLED> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let links = Links::<R>::new(&self.prepared.arm);
+        let counting = Counting::<R>::new(&self.prepared.arm);
+        let (plain, turned) = (R::of(self.preference.plain), R::of(self.preference.flipped));
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let postures = self.postures;
+        for i in 0..BLOCK {
+            R::step();
+            let aim = aim::<R, false>(self.aims, i);
+            let signs = Signs {
+                shoulder: R::load(postures.signs[0][i]),
+                elbow: R::load(postures.signs[1][i]),
+            };
+            let solved = links.solve(&aim, signs);
+            postures.flags[i] = links.flags(&solved).store();
+
+            let phi = angles(&links, &aim, &solved);
+            let q = counting.positions::<COUPLED>(phi);
+            let q_flipped = counting.positions::<COUPLED>(flipped(phi));
+            let (room, joint) = counting.room(&q);
+            let (room_flipped, joint_flipped) = counting.room(&q_flipped);
+            let flip = room_flipped + turned > room + plain;
+            postures.room[i] = R::either(flip, room_flipped, room).store();
+            postures.joint[i] = R::either(flip, joint_flipped, joint).store();
+            postures.flip[i] = R::either(flip, one, zero).store();
+            let mut k = 0;
+            while k < 6 {
+                postures.joints[k][i] = R::either(flip, q_flipped[k], q[k]).store();
+                k += 1;
+            }
+
+            let screws = Screws::new(&links, &aim, &solved);
+            let per_bent = screws.per_n2.sqrt();
+            let mut k = 0;
+            while k < 6 {
+                let (mut linear, mut axis) = (screws.linear[k], screws.axes[k]);
+                if k == 4 {
+                    (linear, axis) = (linear.scaled(per_bent), axis.scaled(per_bent));
+                }
+                put(&mut postures.linear[3 * k..3 * k + 3], i, linear);
+                put(&mut postures.axes[3 * k..3 * k + 3], i, axis);
+                k += 1;
+            }
+        }
+    }
+}

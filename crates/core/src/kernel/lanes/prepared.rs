@@ -1,0 +1,57 @@
+//! A question made ready for lanes: everything in the arm's axes.
+
+use nalgebra::Vector3;
+
+use super::arm::Arm;
+use super::joints::CosineLimits;
+use crate::kernel::Question;
+
+/// Numbers that all blocks of a question share.
+#[derive(Clone, Debug)]
+pub(super) struct Prepared {
+    pub arm: Arm,
+    /// Absent where joints are coupled in a way that cosines do not see.
+    pub cosines: Option<CosineLimits>,
+    pub compliance: [f64; 6],
+    pub uncertainty: [f64; 6],
+    /// Force and moment of each load case.
+    pub cases: Vec<[Vector3<f64>; 2]>,
+    /// Whether any case has a moment.
+    pub moments: bool,
+    /// Two directions across the plane's normal, then the normal.
+    pub plane: [Vector3<f64>; 3],
+}
+
+impl Prepared {
+    pub fn new(question: &Question<'_>) -> Prepared {
+        let arm = Arm::new(question.robot, question.arm, question.flange_from_tool);
+        let turn = |v: Vector3<f64>| arm.arm_from_base * v;
+        let cases: Vec<[Vector3<f64>; 2]> = question
+            .cases
+            .iter()
+            .map(|wrench| [turn(wrench.force), turn(wrench.moment)])
+            .collect();
+        let normal = turn(question.normal.into_inner());
+        let first = across(&normal);
+        let of = |get: fn(&crate::robot::JointCompliance) -> f64| {
+            std::array::from_fn(|i| question.compliance.get(i).map_or(0.0, get))
+        };
+        Prepared {
+            cosines: CosineLimits::new(&arm),
+            compliance: of(|c| c.value),
+            uncertainty: of(|c| c.standard_uncertainty),
+            moments: cases.iter().any(|[_, moment]| *moment != Vector3::zeros()),
+            cases,
+            plane: [first, normal.cross(&first), normal],
+            arm,
+        }
+    }
+}
+
+/// A unit vector across `normal`.
+fn across(normal: &Vector3<f64>) -> Vector3<f64> {
+    let least = normal.iamin();
+    let mut axis = Vector3::zeros();
+    axis[least] = 1.0;
+    normal.cross(&axis).normalize()
+}

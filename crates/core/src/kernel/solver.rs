@@ -1,0 +1,98 @@
+//! One block of points: through lanes, and where those cannot decide one after the other.
+
+use nalgebra::Vector3;
+
+use super::answer::Held;
+use super::general::General;
+use super::lanes::{POINTS, Points};
+use super::question::Question;
+use crate::frame::Isometry;
+use crate::robot::Unreachable;
+use crate::watch::{Cancelled, Watch};
+
+/// Points in a block: what lanes take at once.
+pub(super) const BLOCK: usize = POINTS;
+
+/// Where the answers of a block go.
+pub(super) struct Slots<'a> {
+    pub points: &'a mut [Result<Held, Unreachable>],
+    pub joints: &'a mut [f64],
+    pub deviations: &'a mut [Vector3<f64>],
+    pub shares: &'a mut [f64],
+}
+
+/// Room to answer a question, one a thread.
+pub(super) struct Solver<'q> {
+    question: &'q Question<'q>,
+    lanes: Points<'q>,
+    general: General,
+    poses: Vec<Isometry>,
+    order: Order,
+    /// Joint positions of the point before, if there is one.
+    before: Option<Vec<f64>>,
+}
+
+/// Whether points follow on each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Order {
+    /// Each stands for itself.
+    Any,
+    /// Each starts where the one before left joint 4.
+    AlongPath,
+}
+
+impl<'q> Solver<'q> {
+    pub fn new(question: &'q Question<'q>, order: Order) -> Solver<'q> {
+        Solver {
+            question,
+            order,
+            lanes: Points::new(question),
+            general: General::new(question),
+            poses: Vec::with_capacity(BLOCK),
+            before: None,
+        }
+    }
+
+    /// Answers at the poses that `base_from_tool` gives for each slot.
+    pub fn answer(
+        &mut self,
+        base_from_tool: impl Fn(usize) -> Isometry,
+        slots: Slots<'_>,
+        watch: Watch<'_>,
+    ) -> Result<(), Cancelled> {
+        if watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        let count = slots.points.len();
+        let (joint_count, case_count) = (slots.joints.len() / count, slots.deviations.len() / count);
+        self.poses.clear();
+        self.poses.extend((0..count).map(base_from_tool));
+        self.lanes.solve(&self.poses);
+        let rows = slots
+            .points
+            .iter_mut()
+            .zip(slots.joints.chunks_mut(joint_count))
+            .zip(slots.deviations.chunks_mut(case_count))
+            .zip(slots.shares.chunks_mut(joint_count));
+        for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
+            *point = match self.lanes.held(i) {
+                Some(held) => {
+                    self.lanes.write(i, joints, deviations, shares);
+                    Ok(held)
+                }
+                None => self
+                    .general
+                    .answer(self.question, &self.poses[i], self.before.as_deref())
+                    .inspect(|_| self.general.write(joints, deviations, shares)),
+            };
+            if self.order == Order::AlongPath && point.is_ok() {
+                match &mut self.before {
+                    Some(before) => before.copy_from_slice(joints),
+                    None => self.before = Some(joints.to_vec()),
+                }
+            }
+        }
+        (watch.finished)(count);
+        Ok(())
+    }
+}
