@@ -134,7 +134,7 @@ fn worst_difference<T: Precision>(robot: &Robot, postures: &[Posture], backend: 
                 .collect();
             let of = |get: fn(&Split) -> f64| splits.iter().map(get).fold(0.0, f64::max);
             let (largest, full) = (of(|split| split.in_plane), of(|split| split.full));
-            let away = (ours.in_plane[i].to_f64() - largest).abs() / full;
+            let away = (ours.in_plane()[i].to_f64() - largest).abs() / full;
             // Whatever is near a singularity in double precision may be out of reach in single.
             if posture.singularity.is_some() && near > 1.0 {
                 continue;
@@ -328,7 +328,7 @@ fn everything<T: Precision>(
     let mut envelopes: [Envelopes<T>; 4] = Default::default();
     batch.envelopes_of_all(&cut.poses(), &mut envelopes);
     for one in &envelopes {
-        all.extend(one.in_plane.iter().map(|x| x.to_f64()));
+        all.extend(one.in_plane().iter().map(|x| x.to_f64()));
         all.extend((0..count).map(|i| f64::from(one.flags(i))));
         all.extend((0..count).map(|i| one.deciding_case(i) as f64));
     }
@@ -399,7 +399,7 @@ fn any_number_of_points_gives_the_bits_of_each_alone() {
             let cut = Soa(std::array::from_fn(|k| soa.0[k][..count].to_vec()));
             let mut part = Envelopes::default();
             batch.envelopes(&cut.poses(), Branch::ALL[0], &mut part);
-            assert_eq!(bits(&part.in_plane), bits(&whole.in_plane[..count]));
+            assert_eq!(bits(part.in_plane()), bits(&whole.in_plane()[..count]));
         }
     });
 }
@@ -421,7 +421,7 @@ fn still_poses_give_what_free_poses_give() {
         let mut out: [Envelopes<f64>; 2] = Default::default();
         batch.envelopes(&soa.poses(), Branch::ALL[0], &mut out[0]);
         batch.envelopes(&still, Branch::ALL[0], &mut out[1]);
-        for (a, b) in out[0].in_plane.iter().zip(&out[1].in_plane) {
+        for (a, b) in out[0].in_plane().iter().zip(out[1].in_plane()) {
             assert!((a - b).abs() < 1e-13 * a, "{a} {b}");
         }
     });
@@ -492,9 +492,9 @@ fn a_pose_that_lanes_cannot_decide_is_finite_and_flagged() {
         |question| {
             let mut out = Envelopes::default();
             Batch::<f64>::new(question, Backend::fastest()).envelopes(&soa.poses(), Branch::ALL[0], &mut out);
-            assert!(out.in_plane.iter().all(|x| x.is_finite()), "{out:?}");
+            assert!(out.in_plane().iter().all(|x| x.is_finite()), "{out:?}");
             assert_ne!(out.flags(0) & flag::WRIST_UNDECIDED, 0);
-            assert_eq!(out.flags(1) & flag::UNREACHABLE, flag::TOO_FAR);
+            assert_ne!(out.flags(1) & flag::TOO_FAR, 0);
             let pose = |i: usize| [straight, far][i];
             let answers = evaluate(question, 2, pose, Watch::NONE).unwrap();
             assert!(answers.points[0].is_ok_and(|held| held.in_plane > 0.0));

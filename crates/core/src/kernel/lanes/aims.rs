@@ -8,20 +8,23 @@ use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::vector::Vector;
 
-/// Base positions to the arm's axes, in place; the orientation planes are for all points what `orientation` says.
-pub(super) struct Places<'a, T> {
+/// Base positions of the TCP into the arm's axes; `TURNED` where these are not those of the base.
+pub(super) struct Places<'a, T, const TURNED: bool> {
     pub prepared: &'a Prepared,
+    pub at: [&'a Plane<T>; 3],
     pub aims: &'a mut Aims<T>,
 }
 
-impl<T: Float> Work<T> for Places<'_, T> {
+impl<T: Float, const TURNED: bool> Work<T> for Places<'_, T, TURNED> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let into = IntoArm::<R>::new(self.prepared);
         for i in 0..BLOCK {
             R::step();
-            let tcp = into.point(vector(&self.aims[0..3], i));
-            put(&mut self.aims[0..3], i, tcp);
+            let [x, y, z] = self.at;
+            let tcp = Vector::new(R::load(x[i]), R::load(y[i]), R::load(z[i]));
+            let turned = if TURNED { into.direction(tcp) } else { tcp };
+            put(&mut self.aims[0..3], i, turned + into.origin);
         }
     }
 }
@@ -86,11 +89,6 @@ impl<R: Real> IntoArm<R> {
     #[inline(always)]
     fn direction(&self, v: Vector<R>) -> Vector<R> {
         Vector::new(self.rows[0].dot(v), self.rows[1].dot(v), self.rows[2].dot(v))
-    }
-
-    #[inline(always)]
-    fn point(&self, p: Vector<R>) -> Vector<R> {
-        self.direction(p) + self.origin
     }
 }
 

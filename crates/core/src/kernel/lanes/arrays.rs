@@ -3,7 +3,7 @@
 use nalgebra::Rotation3;
 
 use super::backend::Precision;
-use super::block::Plane;
+use super::block::{BLOCK, Plane};
 use super::envelope::CASE;
 
 /// Tool poses in base. m.
@@ -84,16 +84,22 @@ impl<T: Precision> Arrays<T> {
     }
 }
 
-/// Largest in-plane deviation of each pose, m, and what may be said of it.
+/// Largest in-plane deviation of each pose, and what may be said of it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Envelopes<T> {
-    /// Largest in-plane deviation of all load cases, m. Finite everywhere; means something where
-    /// [`Envelopes::flags`] has no bit of [`super::flag::UNREACHABLE`].
-    pub in_plane: Vec<T>,
+    /// Whole blocks: the last may have room to spare.
+    in_plane: Vec<T>,
     state: Vec<T>,
+    count: usize,
 }
 
 impl<T: Precision> Envelopes<T> {
+    /// Largest in-plane deviation of all load cases at each point, m. Finite everywhere; means something where
+    /// [`Envelopes::flags`] has no bit of [`super::flag::UNREACHABLE`].
+    pub fn in_plane(&self) -> &[T] {
+        &self.in_plane[..self.count]
+    }
+
     /// Bits of [`super::flag`] at point `index`.
     pub fn flags(&self, index: usize) -> u32 {
         self.state[index].to_f64() as u32 % CASE
@@ -105,12 +111,16 @@ impl<T: Precision> Envelopes<T> {
     }
 
     pub(super) fn resize(&mut self, count: usize) {
-        self.in_plane.resize(count, T::default());
-        self.state.resize(count, T::default());
+        self.count = count;
+        let room = count.next_multiple_of(BLOCK);
+        self.in_plane.resize(room, T::default());
+        self.state.resize(room, T::default());
     }
 
-    pub(super) fn take(&mut self, in_plane: &Plane<T>, state: &Plane<T>, (first, used): (usize, usize)) {
-        self.in_plane[first..first + used].copy_from_slice(&in_plane[..used]);
-        self.state[first..first + used].copy_from_slice(&state[..used]);
+    /// Where the block from point `first` on goes: deviation and state.
+    pub(super) fn block(&mut self, first: usize) -> Option<[&mut Plane<T>; 2]> {
+        let in_plane = self.in_plane.get_mut(first..)?.first_chunk_mut()?;
+        let state = self.state.get_mut(first..)?.first_chunk_mut()?;
+        Some([in_plane, state])
     }
 }

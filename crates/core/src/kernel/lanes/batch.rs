@@ -1,6 +1,6 @@
 //! A question prepared for many poses.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
 use super::aims::{self, Orientations, Places};
 use super::arrays::{Arrays, Envelopes, Poses, length};
@@ -8,9 +8,11 @@ use super::backend::{Backend, Precision};
 use super::block::{Aims, BLOCK, Plane, Planes, planes};
 use super::branches::Pair;
 use super::compliance::Compliances;
-use super::envelope::{Largest, LimitsByAngles, Rows};
+use super::envelope::{Largest, Rows};
 use super::forward::{Forward, POSE, SCREWS};
+use super::joints::{LimitsByAngles, LimitsByCosines};
 use super::prepared::Prepared;
+use super::solve::{Postures, Solve};
 use crate::frame::Isometry;
 use crate::kernel::Question;
 use crate::robot::posture::{Branch, Elbow, Shoulder};
@@ -32,15 +34,14 @@ pub struct Batch<T> {
 #[derive(Clone, Debug)]
 struct Scratch<T> {
     aims: Aims<T>,
+    postures: Postures<T>,
     rotations: Planes<T, 9>,
-    rows: Planes<T, 12>,
+    joints: Planes<T, 6>,
     in_plane: Plane<T>,
     case: Plane<T>,
-    flags: Plane<T>,
     state: Plane<T>,
-    joints: Planes<T, 6>,
     out: Planes<T, { POSE + SCREWS }>,
-    flags_of_pair: Planes<T, 2>,
+    flags: Planes<T, 2>,
 }
 
 /// Scratch that leaves room in the second cache, and fits the first of many machines with what is worked on.
@@ -79,15 +80,14 @@ impl<T: Precision> Batch<T> {
             backend,
             scratch: Box::new(Scratch {
                 aims: planes(),
+                postures: Postures::new(),
                 rotations: planes(),
-                rows: planes(),
+                joints: planes(),
                 in_plane: [T::default(); BLOCK],
                 case: [T::default(); BLOCK],
-                flags: [T::default(); BLOCK],
                 state: [T::default(); BLOCK],
-                joints: planes(),
                 out: planes(),
-                flags_of_pair: planes(),
+                flags: planes(),
             }),
         }
     }
@@ -100,9 +100,9 @@ impl<T: Precision> Batch<T> {
     pub fn envelopes(&mut self, poses: &Poses<'_, T>, branch: Branch, out: &mut Envelopes<T>) {
         out.resize(poses.len());
         for first in (0..poses.len()).step_by(BLOCK) {
-            let used = self.aim(poses, first, Second::InTheMiddle);
-            self.envelope(signs(branch), is_still(poses));
-            out.take(&self.scratch.in_plane, &self.scratch.state, (first, used));
+            self.aim(poses, first, Second::InTheMiddle);
+            self.solve(signs(branch));
+            self.envelope(is_still(poses), out.block(first));
         }
     }
 
@@ -116,10 +116,10 @@ impl<T: Precision> Batch<T> {
             one.resize(poses.len());
         }
         for first in (0..poses.len()).step_by(BLOCK) {
-            let used = self.aim(poses, first, Second::InTheMiddle);
+            self.aim(poses, first, Second::InTheMiddle);
             for (signs, one) in FOUR.into_iter().zip(out.iter_mut()) {
-                self.envelope(signs, is_still(poses));
-                one.take(&self.scratch.in_plane, &self.scratch.state, (first, used));
+                self.solve(signs);
+                self.envelope(is_still(poses), one.block(first));
             }
         }
     }
@@ -133,9 +133,11 @@ impl<T: Precision> Batch<T> {
         out.resize(22, poses.len());
         for first in (0..poses.len()).step_by(BLOCK) {
             let used = self.aim(poses, first, Second::AtZero);
-            self.compliance(signs(branch), is_still(poses));
+            self.solve(signs(branch));
+            self.compliance();
             out.take(0, &self.scratch.out[..21], (first, used));
-            out.take(21, std::slice::from_ref(&self.scratch.flags), (first, used));
+            let flags = std::slice::from_ref(&self.scratch.postures.flags);
+            out.take(21, flags, (first, used));
         }
     }
 
@@ -149,9 +151,10 @@ impl<T: Precision> Batch<T> {
         for first in (0..poses.len()).step_by(BLOCK) {
             let used = self.aim(poses, first, Second::AtZero);
             for (four, signs) in FOUR.into_iter().enumerate() {
-                self.pair(signs, is_still(poses));
+                self.solve(signs);
+                self.pair();
                 out.take(12 * four, &self.scratch.out[..12], (first, used));
-                out.take(48 + 2 * four, &self.scratch.flags_of_pair, (first, used));
+                out.take(48 + 2 * four, &self.scratch.flags, (first, used));
             }
         }
     }
@@ -197,8 +200,15 @@ impl<T: Precision> Batch<T> {
     fn aim(&mut self, poses: &Poses<'_, T>, first: usize, second: Second) -> usize {
         let (Poses::Still { at, .. } | Poses::Free { at, .. }) = poses;
         let used = BLOCK.min(at[0].len() - first);
-        for (plane, from) in self.scratch.aims.iter_mut().zip(at) {
-            fill(plane, &from[first..first + used]);
+        let whole = at.map(|plane| plane[first..].first_chunk());
+        if let [Some(x), Some(y), Some(z)] = whole {
+            self.place([x, y, z]);
+        } else {
+            let mut places: Planes<T, 3> = planes();
+            for (plane, from) in places.iter_mut().zip(at) {
+                fill(plane, &from[first..]);
+            }
+            self.place(places.each_ref());
         }
         match poses {
             Poses::Still { base_from_tool, .. } if first == 0 => {
@@ -218,7 +228,6 @@ impl<T: Precision> Batch<T> {
                 self.orient(second);
             }
         }
-        self.place();
         used
     }
 
@@ -226,6 +235,15 @@ impl<T: Precision> Batch<T> {
         match (second, &self.prepared.cosines) {
             (Second::InTheMiddle, Some(cosines)) => cosines.tool_middle,
             _ => self.prepared.arm.tool_from_axis_5,
+        }
+    }
+
+    fn place(&mut self, at: [&Plane<T>; 3]) {
+        let (prepared, aims) = (&self.prepared, &mut self.scratch.aims);
+        if prepared.turned {
+            self.backend.run(Places::<T, true> { prepared, at, aims });
+        } else {
+            self.backend.run(Places::<T, false> { prepared, at, aims });
         }
     }
 
@@ -242,66 +260,99 @@ impl<T: Precision> Batch<T> {
         });
     }
 
-    fn place(&mut self) {
-        let (prepared, aims) = (&self.prepared, &mut self.scratch.aims);
-        self.backend.run(Places { prepared, aims });
+    /// Solves the aimed block with these signs everywhere.
+    pub(super) fn solve(&mut self, signs: [f64; 2]) {
+        for (plane, sign) in self.scratch.postures.signs.iter_mut().zip(signs) {
+            plane.fill(T::from_f64(sign));
+        }
+        self.solve_signed();
     }
 
-    /// Envelope of the aimed block: deviation and state.
-    fn envelope(&mut self, signs: [f64; 2], still: bool) {
+    /// Solves the aimed block with the signs that its postures have.
+    fn solve_signed(&mut self) {
+        let Scratch { aims, postures, .. } = &mut *self.scratch;
+        let prepared = &self.prepared;
+        self.backend.run(Solve {
+            prepared,
+            aims,
+            postures,
+        });
+    }
+
+    /// Envelope of the solved block; without a place to go it stays in the scratch.
+    fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
         let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch {
             aims,
-            rows,
+            postures,
             in_plane,
             case,
-            flags,
             state,
+            out,
             ..
         } = &mut *self.scratch;
+        match &prepared.cosines {
+            Some(limits) => match (still, limits.swivels) {
+                (true, true) => backend.run(LimitsByCosines::<T, true, true> {
+                    limits,
+                    aims,
+                    postures,
+                }),
+                (true, false) => backend.run(LimitsByCosines::<T, true, false> {
+                    limits,
+                    aims,
+                    postures,
+                }),
+                (false, true) => backend.run(LimitsByCosines::<T, false, true> {
+                    limits,
+                    aims,
+                    postures,
+                }),
+                (false, false) => backend.run(LimitsByCosines::<T, false, false> {
+                    limits,
+                    aims,
+                    postures,
+                }),
+            },
+            None => backend.run(LimitsByAngles {
+                prepared,
+                aims,
+                postures,
+            }),
+        }
+        let Some(rows) = out.first_chunk_mut() else { return };
         match (still, prepared.moments) {
             (true, false) => backend.run(Rows::<T, true, false> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 rows,
-                flags,
             }),
             (true, true) => backend.run(Rows::<T, true, true> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 rows,
-                flags,
             }),
             (false, false) => backend.run(Rows::<T, false, false> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 rows,
-                flags,
             }),
             (false, true) => backend.run(Rows::<T, false, true> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 rows,
-                flags,
             }),
         }
-        if prepared.cosines.is_none() {
-            backend.run(LimitsByAngles {
-                prepared,
-                aims,
-                signs,
-                flags,
-            });
-        }
+        let [in_plane, state] = to.unwrap_or([in_plane, state]);
         if prepared.moments {
             backend.run(Largest::<T, true> {
                 prepared,
                 rows,
-                flags,
+                postures,
                 in_plane,
                 case,
                 state,
@@ -310,7 +361,7 @@ impl<T: Precision> Batch<T> {
             backend.run(Largest::<T, false> {
                 prepared,
                 rows,
-                flags,
+                postures,
                 in_plane,
                 case,
                 state,
@@ -318,83 +369,57 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    fn compliance(&mut self, signs: [f64; 2], still: bool) {
+    fn compliance(&mut self) {
         let (prepared, backend) = (&self.prepared, self.backend);
-        let Scratch { aims, out, flags, .. } = &mut *self.scratch;
+        let Scratch {
+            aims, postures, out, ..
+        } = &mut *self.scratch;
         let Some(out) = out.first_chunk_mut() else { return };
-        let turned = prepared.arm.arm_from_base_rotation() != Matrix3::identity();
-        match (still, turned) {
-            (true, false) => backend.run(Compliances::<T, true, false> {
+        if prepared.turned {
+            backend.run(Compliances::<T, true> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 out,
-                flags,
-            }),
-            (true, true) => backend.run(Compliances::<T, true, true> {
+            });
+        } else {
+            backend.run(Compliances::<T, false> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 out,
-                flags,
-            }),
-            (false, false) => backend.run(Compliances::<T, false, false> {
-                prepared,
-                aims,
-                signs,
-                out,
-                flags,
-            }),
-            (false, true) => backend.run(Compliances::<T, false, true> {
-                prepared,
-                aims,
-                signs,
-                out,
-                flags,
-            }),
+            });
         }
     }
 
-    fn pair(&mut self, signs: [f64; 2], still: bool) {
+    fn pair(&mut self) {
         let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch {
             aims,
+            postures,
             out,
-            flags_of_pair: flags,
+            flags,
             ..
         } = &mut *self.scratch;
         let Some(joints) = out.first_chunk_mut() else {
             return;
         };
-        match (still, prepared.arm.coupled) {
-            (true, false) => backend.run(Pair::<T, true, false> {
+        if prepared.arm.coupled {
+            backend.run(Pair::<T, true> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 joints,
                 flags,
-            }),
-            (true, true) => backend.run(Pair::<T, true, true> {
+            });
+        } else {
+            backend.run(Pair::<T, false> {
                 prepared,
                 aims,
-                signs,
+                postures,
                 joints,
                 flags,
-            }),
-            (false, false) => backend.run(Pair::<T, false, false> {
-                prepared,
-                aims,
-                signs,
-                joints,
-                flags,
-            }),
-            (false, true) => backend.run(Pair::<T, false, true> {
-                prepared,
-                aims,
-                signs,
-                joints,
-                flags,
-            }),
+            });
         }
     }
 }
@@ -402,7 +427,7 @@ impl<T: Precision> Batch<T> {
 impl Batch<f64> {
     /// Places the block's aims at these poses; the rest repeats the last. [`Batch::orient`] must follow.
     pub(super) fn aim_at(&mut self, poses: &[Isometry]) {
-        let Scratch { aims, rotations, .. } = &mut *self.scratch;
+        let mut places: Planes<f64, 3> = planes();
         let last = poses.last();
         for (i, pose) in poses
             .iter()
@@ -410,27 +435,35 @@ impl Batch<f64> {
             .take(BLOCK)
             .enumerate()
         {
-            for (plane, value) in aims.iter_mut().zip(pose.translation.vector.iter()) {
+            for (plane, value) in places.iter_mut().zip(pose.translation.vector.iter()) {
                 plane[i] = *value;
             }
             // Columns of the transpose are rows of the rotation.
             let rotation = pose.rotation.to_rotation_matrix().matrix().transpose();
-            for (plane, value) in rotations.iter_mut().zip(rotation.iter()) {
+            for (plane, value) in self.scratch.rotations.iter_mut().zip(rotation.iter()) {
                 plane[i] = *value;
             }
         }
-        self.place();
+        self.place(places.each_ref());
     }
 
-    /// In-plane envelope and flags of the aimed block.
+    /// In-plane envelope and flags of the aimed block in the postures with these signs.
     pub(super) fn envelope_of_aimed(&mut self, signs: [f64; 2]) -> (&Plane<f64>, &Plane<f64>) {
-        self.envelope(signs, false);
-        (&self.scratch.in_plane, &self.scratch.flags)
+        self.solve(signs);
+        self.envelope(false, None);
+        (&self.scratch.in_plane, &self.scratch.postures.flags)
     }
 
-    /// What other work on the aimed block needs.
-    pub(super) fn aimed(&self) -> (&Prepared, &Aims<f64>, Backend) {
-        (&self.prepared, &self.scratch.aims, self.backend)
+    /// Solves the aimed block with these signs, one pair a point.
+    pub(super) fn solve_each(&mut self, signs: &Planes<f64, 2>) {
+        self.scratch.postures.signs = *signs;
+        self.solve_signed();
+    }
+
+    /// What other work on the solved block needs.
+    pub(super) fn solved(&self) -> (&Prepared, &Aims<f64>, &Postures<f64>, Backend) {
+        let Scratch { aims, postures, .. } = &*self.scratch;
+        (&self.prepared, aims, postures, self.backend)
     }
 }
 
@@ -438,10 +471,11 @@ fn is_still<T>(poses: &Poses<'_, T>) -> bool {
     matches!(poses, Poses::Still { .. })
 }
 
-/// Copies values into a plane; the rest repeats the last.
+/// Copies the first values into a plane; where there are fewer the rest repeats the last.
 fn fill<T: Copy>(plane: &mut Plane<T>, from: &[T]) {
-    plane[..from.len()].copy_from_slice(from);
+    let used = from.len().min(BLOCK);
+    plane[..used].copy_from_slice(&from[..used]);
     if let Some(last) = from.last() {
-        plane[from.len()..].fill(*last);
+        plane[used..].fill(*last);
     }
 }

@@ -1,37 +1,32 @@
 //! Full 6 x 6 compliance at the TCP, base basis: the 21 numbers of its upper triangle, row by row.
 
 use super::backend::Work;
-use super::block::{Aims, BLOCK, Plane, Planes, aim};
+use super::block::{Aims, BLOCK, Planes, aim};
 use super::envelope::lanes_of;
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::screws::Screws;
-use super::solve::{Links, Signs};
+use super::solve::{Links, Postures, Solved};
 use super::vector::Vector;
 
-/// Upper triangles and flags; `TURNED` where the arm's axes are not those of the base.
-pub(super) struct Compliances<'a, T, const STILL: bool, const TURNED: bool> {
+/// Upper triangles; `TURNED` where the arm's axes are not those of the base.
+pub(super) struct Compliances<'a, T, const TURNED: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
-    pub signs: [f64; 2],
+    pub postures: &'a Postures<T>,
     pub out: &'a mut Planes<T, 21>,
-    pub flags: &'a mut Plane<T>,
 }
 
-impl<T: Float, const STILL: bool, const TURNED: bool> Work<T> for Compliances<'_, T, STILL, TURNED> {
+impl<T: Float, const TURNED: bool> Work<T> for Compliances<'_, T, TURNED> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let links = Links::<R>::new(&self.prepared.arm);
         let compliance = lanes_of::<R>(&self.prepared.compliance);
         let base = BaseAxes::<R>::new(self.prepared);
-        let signs = Signs {
-            shoulder: R::of(self.signs[0]),
-            elbow: R::of(self.signs[1]),
-        };
         for i in 0..BLOCK {
             R::step();
-            let aim = aim::<R, STILL>(self.aims, i);
-            let solved = links.solve(&aim, signs);
+            let aim = aim::<R, false>(self.aims, i);
+            let solved = Solved::load(self.postures, i);
             let screws = Screws::new(&links, &aim, &solved);
             let mut sum = [R::of(0.0); 21];
             let mut k = 0;
@@ -65,7 +60,6 @@ impl<T: Float, const STILL: bool, const TURNED: bool> Work<T> for Compliances<'_
                 self.out[at][i] = sum[at].store();
                 at += 1;
             }
-            self.flags[i] = links.flags(&solved).store();
         }
     }
 }

@@ -8,9 +8,9 @@ use super::backend::Work;
 use super::block::{BLOCK, Plane, Planes, put, vector};
 use super::compliance::BaseAxes;
 use super::envelope::lanes_of;
-use super::posture::Postures;
 use super::prepared::Prepared;
 use super::real::{Float, Real};
+use super::stance::Stances;
 use super::vector::Vector;
 
 /// The largest deviations of the cases so far, and the case that decides.
@@ -30,7 +30,7 @@ pub(super) struct Worst<T> {
 /// Deviations of one case (base basis), taken into the worst so far.
 pub(super) struct OneCase<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
-    pub postures: &'a Postures<T>,
+    pub stances: &'a Stances<T>,
     pub case: usize,
     pub deviation: &'a mut Planes<T, 3>,
     pub worst: &'a mut Worst<T>,
@@ -55,10 +55,10 @@ impl<T: Float, const MOMENTS: bool> Work<T> for OneCase<'_, T, MOMENTS> {
             let mut delta = Vector::new(zero, zero, zero);
             let mut k = 0;
             while k < 6 {
-                let v = vector::<R>(&self.postures.linear[3 * k..3 * k + 3], i);
+                let v = vector::<R>(&self.stances.linear[3 * k..3 * k + 3], i);
                 let mut torque = v.dot(force);
                 if MOMENTS {
-                    torque = torque + vector::<R>(&self.postures.axes[3 * k..3 * k + 3], i).dot(moment);
+                    torque = torque + vector::<R>(&self.stances.axes[3 * k..3 * k + 3], i).dot(moment);
                 }
                 delta = v.mul_add(compliance[k] * torque, delta);
                 k += 1;
@@ -106,7 +106,7 @@ fn choose<R: Real>(condition: bool, yes: Vector<R>, no: Vector<R>) -> Vector<R> 
 /// Share of each joint in the deciding case's in-plane deviation, and its standard uncertainty.
 pub(super) struct Shares<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
-    pub postures: &'a Postures<T>,
+    pub stances: &'a Stances<T>,
     pub worst: &'a Worst<T>,
     pub shares: &'a mut Planes<T, 6>,
     pub uncertainty: &'a mut Plane<T>,
@@ -131,11 +131,11 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Shares<'_, T, MOMENTS> {
             let mut variance = zero;
             let mut k = 0;
             while k < 6 {
-                let v = vector::<R>(&self.postures.linear[3 * k..3 * k + 3], i);
+                let v = vector::<R>(&self.stances.linear[3 * k..3 * k + 3], i);
                 let mut torque = v.dot(force);
                 if MOMENTS {
                     let moment = vector::<R>(&self.worst.wrench[3..6], i);
-                    torque = torque + vector::<R>(&self.postures.axes[3 * k..3 * k + 3], i).dot(moment);
+                    torque = torque + vector::<R>(&self.stances.axes[3 * k..3 * k + 3], i).dot(moment);
                 }
                 let sensitivity = torque * v.dot(along);
                 self.shares[k][i] = (sensitivity * compliance[k]).store();

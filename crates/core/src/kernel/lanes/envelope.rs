@@ -5,42 +5,34 @@
 use super::backend::Work;
 use super::block::{Aims, BLOCK, Plane, Planes, aim, put, vector};
 use super::flexibility::Flexibility;
-use super::joints::{CosineLimits, Cosines, Counting, angles, flipped};
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::screws::Screws;
-use super::solve::{Links, Signs, flag};
+use super::solve::{Links, Postures, Solved};
 use super::vector::Vector;
 
 /// Multiple of the deciding case's index in a state: the flags are below it.
 pub(super) const CASE: u32 = 1024;
 
-/// In-plane rows of the compliance (two for forces, two for moments) and flags.
+/// In-plane rows of the compliance: two for forces, two for moments.
 pub(super) struct Rows<'a, T, const STILL: bool, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
-    pub signs: [f64; 2],
+    pub postures: &'a Postures<T>,
     pub rows: &'a mut Planes<T, 12>,
-    pub flags: &'a mut Plane<T>,
 }
 
 impl<T: Float, const STILL: bool, const MOMENTS: bool> Work<T> for Rows<'_, T, STILL, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let links = Links::<R>::new(&self.prepared.arm);
-        let without = CosineLimits::NONE;
-        let cosines = Cosines::<R>::new(self.prepared.cosines.as_ref().unwrap_or(&without));
         let compliance = lanes_of::<R>(&self.prepared.compliance);
         let [first, second, _] = &self.prepared.plane;
         let (first, second) = (Vector::of(first), Vector::of(second));
-        let signs = Signs {
-            shoulder: R::of(self.signs[0]),
-            elbow: R::of(self.signs[1]),
-        };
         for i in 0..BLOCK {
             R::step();
             let aim = aim::<R, STILL>(self.aims, i);
-            let solved = links.solve(&aim, signs);
+            let solved = Solved::load(self.postures, i);
             let screws = Screws::new(&links, &aim, &solved);
             let flexibility = Flexibility::new::<MOMENTS>(&screws, &compliance);
             put(&mut self.rows[0..3], i, flexibility.times(first));
@@ -49,41 +41,6 @@ impl<T: Float, const STILL: bool, const MOMENTS: bool> Work<T> for Rows<'_, T, S
                 put(&mut self.rows[6..9], i, flexibility.transposed_d_times(first));
                 put(&mut self.rows[9..12], i, flexibility.transposed_d_times(second));
             }
-            let flags = links.flags(&solved) + cosines.flags(&aim, &solved);
-            self.flags[i] = flags.store();
-        }
-    }
-}
-
-/// Adds the flags of the joint limits, told by angles: for arms whose coupling cosines do not see.
-pub(super) struct LimitsByAngles<'a, T> {
-    pub prepared: &'a Prepared,
-    pub aims: &'a Aims<T>,
-    pub signs: [f64; 2],
-    pub flags: &'a mut Plane<T>,
-}
-
-impl<T: Float> Work<T> for LimitsByAngles<'_, T> {
-    #[inline(always)]
-    fn run<R: Real<Float = T>>(self) {
-        let links = Links::<R>::new(&self.prepared.arm);
-        let counting = Counting::<R>::new(&self.prepared.arm);
-        let signs = Signs {
-            shoulder: R::of(self.signs[0]),
-            elbow: R::of(self.signs[1]),
-        };
-        let at_limit = R::of(-<T as Float>::AT_LIMIT);
-        let bit = |outside, bit: u32| R::either(outside, R::of(f64::from(bit)), R::of(0.0));
-        for i in 0..BLOCK {
-            R::step();
-            let aim = aim::<R, false>(self.aims, i);
-            let solved = links.solve(&aim, signs);
-            let phi = angles(&links, &aim, &solved);
-            let (room, _) = counting.room(&counting.positions::<true>(phi));
-            let (room_flipped, _) = counting.room(&counting.positions::<true>(flipped(phi)));
-            let flags = bit(room < at_limit, flag::OUTSIDE_LIMITS)
-                + bit(room_flipped < at_limit, flag::OUTSIDE_LIMITS_FLIPPED);
-            self.flags[i] = (R::load(self.flags[i]) + flags).store();
         }
     }
 }
@@ -92,7 +49,7 @@ impl<T: Float> Work<T> for LimitsByAngles<'_, T> {
 pub(super) struct Largest<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub rows: &'a Planes<T, 12>,
-    pub flags: &'a Plane<T>,
+    pub postures: &'a Postures<T>,
     pub in_plane: &'a mut Plane<T>,
     /// Index of the deciding case, times [`CASE`].
     pub case: &'a mut Plane<T>,
@@ -138,7 +95,7 @@ impl<T: Float, const MOMENTS: bool> Work<T> for Largest<'_, T, MOMENTS> {
                 }
                 self.in_plane[i] = if last { most.sqrt() } else { most }.store();
                 self.case[i] = which.store();
-                self.state[i] = (which + R::load(self.flags[i])).store();
+                self.state[i] = (which + R::load(self.postures.flags[i])).store();
             }
             first += 4;
         }

@@ -66,7 +66,7 @@ impl<T: Float, const COUPLED: bool> Work<T> for Forward<'_, T, COUPLED> {
             let [row6, row5, row65] = wrist_from_tool;
             let lever = of_tool(row6.dot(lever), row5.dot(lever), row65.dot(lever));
             let aim = Aim {
-                tcp: links.wrist(&solved) + lever,
+                tcp: links.wrist_centre(&solved) + lever,
                 lever,
                 out,
                 second,

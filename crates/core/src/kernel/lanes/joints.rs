@@ -7,8 +7,11 @@ use nalgebra::Vector3;
 
 use super::angle::atan2;
 use super::arm::Arm;
+use super::backend::Work;
+use super::block::{Aims, BLOCK, aim};
+use super::prepared::Prepared;
 use super::real::{Float, Real};
-use super::solve::{Aim, Links, Solved, flag};
+use super::solve::{Aim, Links, Postures, Solved, flag, flagged, turned};
 use super::vector::Vector;
 
 /// How the joints count and how far they go, in every lane.
@@ -133,15 +136,19 @@ impl<R: Real> Counting<R> {
 #[inline(always)]
 pub(super) fn angles<R: Real>(links: &Links<R>, aim: &Aim<R>, solved: &Solved<R>) -> [R; 6] {
     let [a5, a3] = links.wrist_axes(solved);
-    let psi = atan2(solved.sp, solved.cp);
-    [
-        atan2(solved.s1, solved.c1),
-        psi,
-        atan2(solved.sc, solved.cc) - psi,
-        atan2(aim.out.dot(a5), -aim.out.dot(a3)),
-        atan2(solved.n2.sqrt(), solved.z4.dot(aim.out)),
-        atan2(solved.n.dot(aim.second.cross(aim.out)), solved.n.dot(aim.second)),
-    ]
+    let [phi1, psi, chi] = atan2(
+        [solved.s1, solved.sp, solved.sc],
+        [solved.c1, solved.cp, solved.cc],
+    );
+    let [phi4, bend, phi6] = atan2(
+        [
+            aim.out.dot(a5),
+            solved.n2.sqrt(),
+            solved.n.dot(aim.second.cross(aim.out)),
+        ],
+        [-aim.out.dot(a3), solved.z4.dot(aim.out), solved.n.dot(aim.second)],
+    );
+    [phi1, psi, chi - psi, phi4, bend, phi6]
 }
 
 /// The same posture with the wrist flipped.
@@ -168,17 +175,11 @@ pub(super) struct CosineLimits {
     forearm_middle: Vector3<f64>,
     /// Across axis 6 in the tool's axes: where axis 5 lies with joint 6 in the middle of its range.
     pub tool_middle: Vector3<f64>,
+    /// Whether joint 4 or 6 has less than a turn.
+    pub swivels: bool,
 }
 
 impl CosineLimits {
-    /// No joint has limits.
-    pub const NONE: CosineLimits = CosineLimits {
-        rows: [[0.0, 0.0, -1.0]; 6],
-        third_from_vertical: false,
-        forearm_middle: Vector3::new(0.0, 0.0, 0.0),
-        tool_middle: Vector3::new(0.0, 0.0, 0.0),
-    };
-
     /// `None` where joints are coupled in a way that cosines do not see.
     pub fn new(arm: &Arm) -> Option<CosineLimits> {
         let mut alone = arm.coupling;
@@ -197,6 +198,7 @@ impl CosineLimits {
         Some(CosineLimits {
             rows: [row(0), row(1), row(2), fourth, row(4), sixth],
             third_from_vertical,
+            swivels: counting.cosine_limit(3).is_some() || counting.cosine_limit(5).is_some(),
             forearm_middle: a5 * fourth[1] - a3 * fourth[0],
             tool_middle: second * sixth[0] + second.cross(&out) * sixth[1],
         })
@@ -229,10 +231,10 @@ impl<R: Real> Cosines<R> {
         }
     }
 
-    /// Bits of the joint limits, for the wrist not flipped and flipped. Not checked: `aim.second` must be
-    /// [`CosineLimits::tool_middle`].
+    /// `flags` with the bits of the joint limits, for the wrist not flipped and flipped; `SWIVELS` where joint 4 or 6
+    /// has less than a turn.
     #[inline(always)]
-    pub fn flags(&self, aim: &Aim<R>, solved: &Solved<R>) -> R {
+    fn flags<const SWIVELS: bool>(&self, flags: R, aim: &Aim<R>, solved: &Solved<R>) -> R {
         let zero = R::of(0.0);
         let Solved { cc, sc, cp, sp, .. } = *solved;
         let row = |i: usize, c: R, s: R| {
@@ -249,12 +251,66 @@ impl<R: Real> Cosines<R> {
 
         let bent = solved.n2.sqrt();
         let along = solved.z4.dot(aim.out);
-        let middle = super::solve::turned(self.forearm_middle, cc, sc, solved.c1, solved.s1);
-        let (fourth, sixth) = (aim.out.dot(middle), solved.n.dot(aim.second));
-        let (least_4, least_6) = (self.rows[3][2] * bent, self.rows[5][2] * bent);
-        let wrist = row(4, along, bent).min(fourth - least_4).min(sixth - least_6);
-        let flipped = row(4, along, -bent).min(-fourth - least_4).min(-sixth - least_6);
-        let bit = |least: R, bit: u32| R::either(least < zero, R::of(f64::from(bit)), zero);
-        bit(arm.min(wrist), flag::OUTSIDE_LIMITS) + bit(arm.min(flipped), flag::OUTSIDE_LIMITS_FLIPPED)
+        let (mut wrist, mut flipped) = (row(4, along, bent), row(4, along, -bent));
+        if SWIVELS {
+            let middle = turned(self.forearm_middle, cc, sc, solved.c1, solved.s1);
+            let (fourth, sixth) = (aim.out.dot(middle), solved.n.dot(aim.second));
+            let (least_4, least_6) = (self.rows[3][2] * bent, self.rows[5][2] * bent);
+            wrist = wrist.min(fourth - least_4).min(sixth - least_6);
+            flipped = flipped.min(-fourth - least_4).min(-sixth - least_6);
+        }
+        let flags = flagged(flags, arm.min(wrist) < zero, flag::OUTSIDE_LIMITS);
+        flagged(flags, arm.min(flipped) < zero, flag::OUTSIDE_LIMITS_FLIPPED)
+    }
+}
+
+/// Adds the flags of the joint limits, told by cosines. Not checked: the aims' axis 5 must be
+/// [`CosineLimits::tool_middle`].
+pub(super) struct LimitsByCosines<'a, T, const STILL: bool, const SWIVELS: bool> {
+    pub limits: &'a CosineLimits,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float, const STILL: bool, const SWIVELS: bool> Work<T> for LimitsByCosines<'_, T, STILL, SWIVELS> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let cosines = Cosines::<R>::new(self.limits);
+        for i in 0..BLOCK {
+            R::step();
+            let (aim, solved) = (aim::<R, STILL>(self.aims, i), Solved::load(self.postures, i));
+            let flags = R::load(self.postures.flags[i]);
+            self.postures.flags[i] = cosines.flags::<SWIVELS>(flags, &aim, &solved).store();
+        }
+    }
+}
+
+/// Adds the flags of the joint limits, told by joint positions: for arms whose coupling cosines do not see.
+pub(super) struct LimitsByAngles<'a, T> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float> Work<T> for LimitsByAngles<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let links = Links::<R>::new(&self.prepared.arm);
+        let counting = Counting::<R>::new(&self.prepared.arm);
+        let at_limit = R::of(-<T as Float>::AT_LIMIT);
+        for i in 0..BLOCK {
+            R::step();
+            let phi = angles(
+                &links,
+                &aim::<R, false>(self.aims, i),
+                &Solved::load(self.postures, i),
+            );
+            let (room, _) = counting.room(&counting.positions::<true>(phi));
+            let (room_flipped, _) = counting.room(&counting.positions::<true>(flipped(phi)));
+            let flags = R::load(self.postures.flags[i]);
+            let flags = flagged(flags, room < at_limit, flag::OUTSIDE_LIMITS);
+            let flags = flagged(flags, room_flipped < at_limit, flag::OUTSIDE_LIMITS_FLIPPED);
+            self.postures.flags[i] = flags.store();
+        }
     }
 }

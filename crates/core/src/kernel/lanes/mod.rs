@@ -15,11 +15,11 @@ mod flexibility;
 mod forward;
 mod joints;
 mod points;
-mod posture;
 mod prepared;
 mod real;
 mod screws;
 mod solve;
+mod stance;
 mod vector;
 
 pub use arrays::{Arrays, Envelopes, Poses};

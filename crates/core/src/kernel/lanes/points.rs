@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::batch::{Batch, Second};
 use super::block::{BLOCK, Plane, Planes, planes};
 use super::deviation::{OneCase, Shares, Worst};
-use super::posture::{Postures, Preference, Stand};
 use super::solve::flag;
+use super::stance::{Preference, Stances, Stand};
 use crate::frame::Isometry;
 use crate::kernel::answer::{AT_LIMIT, Held};
 use crate::kernel::question::{BranchChoice, Question};
@@ -23,7 +23,7 @@ pub(in crate::kernel) struct Points<'q> {
 }
 
 struct Room {
-    postures: Postures<f64>,
+    stances: Stances<f64>,
     /// Signs of the best posture so far and what it is judged by; infinite where there is none.
     chosen: Planes<f64, 2>,
     score: Plane<f64>,
@@ -39,13 +39,11 @@ impl<'q> Points<'q> {
             question,
             batch: Batch::new(question, super::Backend::fastest()),
             room: Box::new(Room {
-                postures: Postures {
-                    signs: planes(),
+                stances: Stances {
                     joints: planes(),
                     room: [0.0; BLOCK],
                     joint: [0.0; BLOCK],
                     flip: [0.0; BLOCK],
-                    flags: [0.0; BLOCK],
                     linear: planes(),
                     axes: planes(),
                 },
@@ -83,7 +81,7 @@ impl<'q> Points<'q> {
                 preference
             }
         };
-        self.room.postures.signs = self.room.chosen;
+        self.batch.solve_each(&self.room.chosen);
         self.stand(preference);
         self.deviate();
     }
@@ -91,33 +89,31 @@ impl<'q> Points<'q> {
     /// The answer at point `index` of the block; `None` where lanes cannot decide.
     pub fn held(&self, index: usize) -> Option<Held> {
         let Room {
-            postures,
+            stances,
+            chosen,
             score,
             worst,
             uncertainty,
             ..
         } = &*self.room;
-        let flags = postures.flags[index] as u32;
+        let (_, _, solved, _) = self.batch.solved();
+        let flags = solved.flags[index] as u32;
         let undecided =
             flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
         // The envelope told limits by cosines; at the very edge the angles may say otherwise.
-        let at_the_edge = self.question.choice == BranchChoice::Best && postures.room[index] < -AT_LIMIT;
+        let at_the_edge = self.question.choice == BranchChoice::Best && stances.room[index] < -AT_LIMIT;
         if undecided || at_the_edge {
             return None;
         }
-        let limited = postures.room[index] < 0.5 * super::arm::UNLIMITED;
+        let limited = stances.room[index] < 0.5 * super::arm::UNLIMITED;
         Some(Held {
-            branch: branch(postures, index),
+            branch: branch(chosen, &stances.flip, index),
             limit_margin: if limited {
-                postures.room[index]
+                stances.room[index]
             } else {
                 f64::INFINITY
             },
-            limit_joint: if limited {
-                postures.joint[index] as usize
-            } else {
-                0
-            },
+            limit_joint: if limited { stances.joint[index] as usize } else { 0 },
             singularity: singularity(flags),
             deciding_case: worst.case[index] as usize,
             in_plane: worst.in_plane[index],
@@ -135,7 +131,7 @@ impl<'q> Points<'q> {
         deviations: &mut [Vector3<f64>],
         shares: &mut [f64],
     ) {
-        for (joint, plane) in joints.iter_mut().zip(&self.room.postures.joints) {
+        for (joint, plane) in joints.iter_mut().zip(&self.room.stances.joints) {
             *joint = plane[index];
         }
         for (deviation, [x, y, z]) in deviations.iter_mut().zip(&self.room.deviations) {
@@ -182,18 +178,19 @@ impl<'q> Points<'q> {
         }
         self.room.score.fill(f64::INFINITY);
         for signs in matching {
-            self.room.postures.signs = [[signs[0]; BLOCK], [signs[1]; BLOCK]];
+            self.batch.solve(signs);
             self.stand(preference);
+            let (_, _, solved, _) = self.batch.solved();
             let Room {
-                postures,
+                stances,
                 chosen,
                 score,
                 ..
             } = &mut *self.room;
             for i in 0..BLOCK {
-                let reached = postures.flags[i] as u32 & flag::UNREACHABLE == 0;
-                if reached && -postures.room[i] < score[i] {
-                    score[i] = -postures.room[i];
+                let reached = solved.flags[i] as u32 & flag::UNREACHABLE == 0;
+                if reached && -stances.room[i] < score[i] {
+                    score[i] = -stances.room[i];
                     (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
                 }
             }
@@ -201,29 +198,31 @@ impl<'q> Points<'q> {
     }
 
     fn stand(&mut self, preference: Preference) {
-        let (prepared, aims, backend) = self.batch.aimed();
-        let postures = &mut self.room.postures;
+        let (prepared, aims, postures, backend) = self.batch.solved();
+        let stances = &mut self.room.stances;
         if prepared.arm.coupled {
             backend.run(Stand::<f64, true> {
                 prepared,
                 aims,
-                preference,
                 postures,
+                preference,
+                stances,
             });
         } else {
             backend.run(Stand::<f64, false> {
                 prepared,
                 aims,
-                preference,
                 postures,
+                preference,
+                stances,
             });
         }
     }
 
     fn deviate(&mut self) {
-        let (prepared, _, backend) = self.batch.aimed();
+        let (prepared, _, _, backend) = self.batch.solved();
         let Room {
-            postures,
+            stances,
             deviations,
             worst,
             shares,
@@ -234,7 +233,7 @@ impl<'q> Points<'q> {
             if prepared.moments {
                 backend.run(OneCase::<f64, true> {
                     prepared,
-                    postures,
+                    stances,
                     case,
                     deviation,
                     worst,
@@ -242,7 +241,7 @@ impl<'q> Points<'q> {
             } else {
                 backend.run(OneCase::<f64, false> {
                     prepared,
-                    postures,
+                    stances,
                     case,
                     deviation,
                     worst,
@@ -252,7 +251,7 @@ impl<'q> Points<'q> {
         if prepared.moments {
             backend.run(Shares::<f64, true> {
                 prepared,
-                postures,
+                stances,
                 worst,
                 shares,
                 uncertainty,
@@ -260,7 +259,7 @@ impl<'q> Points<'q> {
         } else {
             backend.run(Shares::<f64, false> {
                 prepared,
-                postures,
+                stances,
                 worst,
                 shares,
                 uncertainty,
@@ -289,19 +288,19 @@ fn preference(pattern: BranchPattern) -> Preference {
     }
 }
 
-fn branch(postures: &Postures<f64>, index: usize) -> Branch {
+fn branch(signs: &Planes<f64, 2>, flip: &Plane<f64>, index: usize) -> Branch {
     Branch {
-        shoulder: if postures.signs[0][index] > 0.0 {
+        shoulder: if signs[0][index] > 0.0 {
             Shoulder::Front
         } else {
             Shoulder::Back
         },
-        elbow: if postures.signs[1][index] > 0.0 {
+        elbow: if signs[1][index] > 0.0 {
             Elbow::Up
         } else {
             Elbow::Down
         },
-        wrist: if postures.flip[index] > 0.0 {
+        wrist: if flip[index] > 0.0 {
             Wrist::Flip
         } else {
             Wrist::NoFlip

@@ -1,6 +1,6 @@
 //! A question made ready for lanes: everything in the arm's axes.
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::arm::Arm;
 use super::joints::CosineLimits;
@@ -10,6 +10,8 @@ use crate::kernel::Question;
 #[derive(Clone, Debug)]
 pub(super) struct Prepared {
     pub arm: Arm,
+    /// Whether the arm's axes are not those of the base.
+    pub turned: bool,
     /// Absent where joints are coupled in a way that cosines do not see.
     pub cosines: Option<CosineLimits>,
     pub compliance: [f64; 6],
@@ -37,6 +39,7 @@ impl Prepared {
             std::array::from_fn(|i| question.compliance.get(i).map_or(0.0, get))
         };
         Prepared {
+            turned: arm.arm_from_base_rotation() != Matrix3::identity(),
             cosines: CosineLimits::new(&arm),
             compliance: of(|c| c.value),
             uncertainty: of(|c| c.standard_uncertainty),

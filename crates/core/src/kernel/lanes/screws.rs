@@ -2,7 +2,7 @@
 //!
 //! `C = sum_i c_i s_i s_i^T` needs axis 5 only as `z5 z5^T = n n^T / |n|^2`: one division.
 
-use super::real::{Float, Real};
+use super::real::Real;
 use super::solve::{Aim, Links, Solved};
 use super::vector::Vector;
 
@@ -43,7 +43,7 @@ impl<R: Real> Screws<R> {
                 solved.n,
                 aim.out,
             ],
-            per_n2: one / solved.n2.max(R::of(<R::Float as Float>::NOTHING)),
+            per_n2: solved.per_n2,
         }
     }
 }

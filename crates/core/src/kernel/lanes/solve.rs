@@ -11,6 +11,9 @@
 //! One division serves both quotients. Source: as there.
 
 use super::arm::Arm;
+use super::backend::Work;
+use super::block::{Aims, BLOCK, Plane, Planes, planes, put, vector};
+use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::vector::Vector;
 
@@ -27,54 +30,86 @@ pub(super) struct Aim<R> {
     pub second: Vector<R>,
 }
 
-/// Signs that choose a posture: 1 for front and for elbow up, -1 for back and for elbow down.
-#[derive(Clone, Copy)]
-pub(super) struct Signs<R> {
-    pub shoulder: R,
-    pub elbow: R,
-}
-
-/// A posture. Finite whatever the aim; trust it where [`Solved::flags`] allows.
+/// A posture. Finite whatever the aim; trust it where the flags allow.
 #[derive(Clone, Copy)]
 pub(super) struct Solved<R> {
     pub c1: R,
     pub s1: R,
-    /// Signed distance of the wrist centre from axis 1 in the arm's plane.
-    pub r: R,
     /// Upper arm and forearm from the vertical.
     pub cp: R,
     pub sp: R,
     pub cc: R,
     pub sc: R,
-    /// Length of the forearm times the sine of the elbow's bend.
-    pub across: R,
     pub z4: Vector<R>,
     pub n: Vector<R>,
     /// Square of the sine of the wrist's bend.
     pub n2: R,
-    /// `h^2 - b^2`, stretched minus asked, asked minus folded (m^2): negative where out of reach.
-    pub room: [R; 3],
+    /// One over that.
+    pub per_n2: R,
+}
+
+/// Planes of a [`Solved`].
+pub(super) const SOLVED: usize = 14;
+
+/// The postures of a block.
+#[derive(Clone, Debug)]
+pub(super) struct Postures<T> {
+    /// 1 for front, -1 for back; 1 for elbow up, -1 for elbow down: chosen by the caller.
+    pub signs: Planes<T, 2>,
+    r: Plane<T>,
+    across: Plane<T>,
+    solved: Planes<T, SOLVED>,
+    /// Bits of [`flag`], as a number.
+    pub flags: Plane<T>,
+}
+
+impl<T: Float> Postures<T> {
+    /// Room for a block.
+    pub fn new() -> Postures<T> {
+        Postures {
+            signs: planes(),
+            r: [T::default(); BLOCK],
+            across: [T::default(); BLOCK],
+            solved: planes(),
+            flags: [T::default(); BLOCK],
+        }
+    }
 }
 
 impl<R: Real> Solved<R> {
-    /// Arm and forearm turned so; the wrist's bend is not known yet and counts as a right angle.
+    /// Arm and forearm turned so; the wrist's bend counts as a right angle, its axis must follow.
     #[inline(always)]
     pub fn turned(links: &Links<R>, [c1, s1]: [R; 2], [cp, sp]: [R; 2], [cc, sc]: [R; 2]) -> Self {
-        let (zero, one) = (R::of(0.0), R::of(1.0));
         let z4 = turned(links.forearm[0], cc, sc, c1, s1);
         Solved {
             c1,
             s1,
-            r: zero,
             cp,
             sp,
             cc,
             sc,
-            across: zero,
             z4,
             n: z4,
-            n2: one,
-            room: [one; 3],
+            n2: R::of(1.0),
+            per_n2: R::of(1.0),
+        }
+    }
+
+    /// The posture of point `i`.
+    #[inline(always)]
+    pub fn load(postures: &Postures<R::Float>, i: usize) -> Self {
+        let at = |k: usize| R::load(postures.solved[k][i]);
+        Solved {
+            c1: at(0),
+            s1: at(1),
+            cp: at(2),
+            sp: at(3),
+            cc: at(4),
+            sc: at(5),
+            z4: Vector::new(at(6), at(7), at(8)),
+            n: Vector::new(at(9), at(10), at(11)),
+            n2: at(12),
+            per_n2: at(13),
         }
     }
 }
@@ -87,7 +122,7 @@ pub mod flag {
     pub const TOO_NEAR: u32 = 2;
     /// The wrist centre is inside the lateral offset about axis 1.
     pub const INSIDE_LATERAL_OFFSET: u32 = 4;
-    /// The solution fails its own check: links of wrong length.
+    /// Out of reach, or the solution fails its own check: links of wrong length.
     pub const UNVERIFIED: u32 = 8;
     /// Axes 4 and 6 in line: joints 4 and 6 are not unique, and joint 5's part is not to be trusted.
     pub const WRIST_UNDECIDED: u32 = 16;
@@ -151,57 +186,9 @@ impl<R: Real> Links<R> {
         }
     }
 
-    /// The posture with these signs.
-    #[inline(always)]
-    pub fn solve(&self, aim: &Aim<R>, signs: Signs<R>) -> Solved<R> {
-        let (zero, one) = (R::of(0.0), R::of(1.0));
-        let nothing = R::of(<R::Float as Float>::NOTHING);
-        let p = aim.tcp - aim.lever;
-        let h2 = p.x.mul_add(p.x, p.y * p.y);
-        let r2 = h2 - self.b2;
-        let r = signs.shoulder * r2.max(zero).sqrt();
-        let (u, v) = (r - self.a1, p.z);
-        let d2 = u.mul_add(u, v * v);
-        let (h2_safe, d2_safe) = (h2.max(nothing), d2.max(nothing));
-        let quotient = one / (h2_safe * d2_safe);
-        let (per_h2, per_d2) = (d2_safe * quotient, h2_safe * quotient);
-
-        let on_axis = h2 < nothing;
-        let c1 = r.mul_add(p.x, self.b * p.y) * per_h2;
-        let s1 = r.mul_add(p.y, -(self.b * p.x)) * per_h2;
-        let (c1, s1) = (R::either(on_axis, one, c1), R::either(on_axis, zero, s1));
-
-        // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
-        let (stretched, folded) = (self.reach2 - d2, d2 - self.fold2);
-        let across = signs.elbow * u.sign() * ((stretched * folded).max(zero).sqrt() * self.half_per_l2);
-        let k1 = (d2 + self.l2_less_l3) * self.half_per_l2;
-        let on_shoulder = d2 < nothing;
-        let cp = R::either(on_shoulder, one, v.mul_add(k1, u * across) * per_d2);
-        let sp = R::either(on_shoulder, zero, u.mul_add(k1, -(v * across)) * per_d2);
-        let cc = (-self.l2).mul_add(cp, v) * self.per_l3;
-        let sc = (-self.l2).mul_add(sp, u) * self.per_l3;
-
-        let z4 = turned(self.forearm[0], cc, sc, c1, s1);
-        let n = z4.cross(aim.out);
-        Solved {
-            c1,
-            s1,
-            r,
-            cp,
-            sp,
-            cc,
-            sc,
-            across,
-            z4,
-            n,
-            n2: n.dot(n),
-            room: [r2, stretched, folded],
-        }
-    }
-
     /// The wrist centre.
     #[inline(always)]
-    pub fn wrist(&self, solved: &Solved<R>) -> Vector<R> {
+    pub fn wrist_centre(&self, solved: &Solved<R>) -> Vector<R> {
         let out = self.l3.mul_add(solved.sc, self.l2.mul_add(solved.sp, self.a1));
         let up = self.l3.mul_add(solved.cc, self.l2 * solved.cp);
         let (c1, s1) = (solved.c1, solved.s1);
@@ -216,32 +203,6 @@ impl<R: Real> Links<R> {
             turned(self.forearm[1], cc, sc, c1, s1),
             turned(self.forearm[2], cc, sc, c1, s1),
         ]
-    }
-
-    /// Bits of [`flag`] but the joint limits', as a number.
-    #[inline(always)]
-    pub fn flags(&self, solved: &Solved<R>) -> R {
-        let zero = R::of(0.0);
-        let bit = |condition, bit: u32| R::either(condition, R::of(f64::from(bit)), zero);
-        let off = |c: R, s: R| (c.mul_add(c, s * s) - R::of(1.0)).abs();
-        let [lateral, stretched, folded] = solved.room;
-        let strays = off(solved.c1, solved.s1)
-            .max(off(solved.cp, solved.sp))
-            .max(off(solved.cc, solved.sc));
-        // Out of reach nothing holds together: there is nothing to verify.
-        let least = lateral.min(stretched).min(folded);
-        let strays = R::either(least < zero, zero, strays);
-        let reach = bit(stretched < zero, flag::TOO_FAR)
-            + bit(folded < zero, flag::TOO_NEAR)
-            + bit(lateral < zero, flag::INSIDE_LATERAL_OFFSET)
-            + bit(strays > R::of(<R::Float as Float>::VERIFIED), flag::UNVERIFIED);
-        let near = bit(
-            solved.n2 < R::of(<R::Float as Float>::NOTHING),
-            flag::WRIST_UNDECIDED,
-        ) + bit(solved.n2 < R::of(NEAR_SINGULAR * NEAR_SINGULAR), flag::NEAR_WRIST)
-            + bit(solved.across.abs() < self.near_elbow, flag::NEAR_ELBOW)
-            + bit(solved.r.abs() < self.near_shoulder, flag::NEAR_SHOULDER);
-        reach + near
     }
 
     /// Where the axis-2-to-TCP and elbow-to-TCP levers start: shoulder and elbow as (outwards, up) in the arm's plane.
@@ -263,4 +224,134 @@ pub(super) fn turned<R: Real>(v: Vector<R>, cc: R, sc: R, c1: R, s1: R) -> Vecto
     let x = cc.mul_add(v.x, sc * v.z);
     let z = cc.mul_add(v.z, -(sc * v.x));
     Vector::new(c1.mul_add(x, -(s1 * v.y)), s1.mul_add(x, c1 * v.y), z)
+}
+
+/// Solves every posture of a block, told by its signs.
+pub(super) struct Solve<'a, T> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float> Work<T> for Solve<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let links = Links::<R>::new(&self.prepared.arm);
+        // Loops of one root or quotient each: they are slow, and a processor that looks a hundred instructions
+        // ahead then works on those of several points at once.
+        for i in 0..BLOCK {
+            R::step();
+            links.reach(self.aims, self.postures, i);
+        }
+        for i in 0..BLOCK {
+            R::step();
+            links.bend(self.aims, self.postures, i);
+        }
+        for i in 0..BLOCK {
+            R::step();
+            links.turn(self.aims, self.postures, i);
+        }
+        for i in 0..BLOCK {
+            R::step();
+            links.wrist(self.aims, self.postures, i);
+        }
+    }
+}
+
+impl<R: Real> Links<R> {
+    /// Signed distance `r` of the wrist centre from axis 1 in the arm's plane.
+    #[inline(always)]
+    fn reach(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+        let zero = R::of(0.0);
+        let p = wrist_of::<R>(aims, i);
+        let r2 = p.x.mul_add(p.x, p.y.mul_add(p.y, -self.b2));
+        let r = R::load(postures.signs[0][i]) * r2.max(zero).sqrt();
+        postures.r[i] = r.store();
+        let flags = flagged(zero, r2 < zero, flag::INSIDE_LATERAL_OFFSET);
+        let flags = flagged(flags, r.abs() < self.near_shoulder, flag::NEAR_SHOULDER);
+        postures.flags[i] = flags.store();
+    }
+
+    /// Length of the forearm times the sine of the elbow's bend.
+    #[inline(always)]
+    fn bend(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+        let zero = R::of(0.0);
+        let (u, v) = (R::load(postures.r[i]) - self.a1, wrist_of::<R>(aims, i).z);
+        let d2 = u.mul_add(u, v * v);
+        let (stretched, folded) = (self.reach2 - d2, d2 - self.fold2);
+        // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
+        let side = R::load(postures.signs[1][i]) * u.sign();
+        let across = side * ((stretched * folded).max(zero).sqrt() * self.half_per_l2);
+        postures.across[i] = across.store();
+        let flags = flagged(R::load(postures.flags[i]), stretched < zero, flag::TOO_FAR);
+        let flags = flagged(flags, folded < zero, flag::TOO_NEAR);
+        let flags = flagged(flags, across.abs() < self.near_elbow, flag::NEAR_ELBOW);
+        postures.flags[i] = flags.store();
+    }
+
+    /// Turns of the arm; verifies that links have their lengths.
+    #[inline(always)]
+    fn turn(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+        let (zero, one) = (R::of(0.0), R::of(1.0));
+        let nothing = R::of(<R::Float as Float>::NOTHING);
+        let (r, across) = (R::load(postures.r[i]), R::load(postures.across[i]));
+        let p = wrist_of::<R>(aims, i);
+        let (u, v) = (r - self.a1, p.z);
+        let h2 = p.x.mul_add(p.x, p.y * p.y);
+        let d2 = u.mul_add(u, v * v);
+        let (on_axis, on_shoulder) = (h2 < nothing, d2 < nothing);
+        let (h2, d2) = (h2.max(nothing), d2.max(nothing));
+        let quotient = one / (h2 * d2);
+        let (per_h2, per_d2) = (d2 * quotient, h2 * quotient);
+
+        let c1 = R::either(on_axis, one, r.mul_add(p.x, self.b * p.y) * per_h2);
+        let s1 = R::either(on_axis, zero, r.mul_add(p.y, -(self.b * p.x)) * per_h2);
+        let k1 = (d2 + self.l2_less_l3) * self.half_per_l2;
+        let cp = R::either(on_shoulder, one, v.mul_add(k1, u * across) * per_d2);
+        let sp = R::either(on_shoulder, zero, u.mul_add(k1, -(v * across)) * per_d2);
+        let cc = (-self.l2).mul_add(cp, v) * self.per_l3;
+        let sc = (-self.l2).mul_add(sp, u) * self.per_l3;
+        let [at_c1, at_s1, at_cp, at_sp, at_cc, at_sc, ..] = &mut postures.solved;
+        at_c1[i] = c1.store();
+        at_s1[i] = s1.store();
+        at_cp[i] = cp.store();
+        at_sp[i] = sp.store();
+        at_cc[i] = cc.store();
+        at_sc[i] = sc.store();
+
+        let off = |c: R, s: R| c.mul_add(c, s.mul_add(s, -one));
+        let (arm, upper, fore) = (off(c1, s1), off(cp, sp), off(cc, sc));
+        let strays = arm.mul_add(arm, upper.mul_add(upper, fore * fore));
+        let unverified = strays > R::of(<R::Float as Float>::VERIFIED * <R::Float as Float>::VERIFIED);
+        postures.flags[i] = flagged(R::load(postures.flags[i]), unverified, flag::UNVERIFIED).store();
+    }
+
+    /// Axis 4, and the wrist's bend.
+    #[inline(always)]
+    fn wrist(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+        let Solved { c1, s1, cc, sc, .. } = Solved::<R>::load(postures, i);
+        let z4 = turned(self.forearm[0], cc, sc, c1, s1);
+        let n = z4.cross(vector(&aims[6..9], i));
+        let n2 = n.dot(n);
+        put(&mut postures.solved[6..9], i, z4);
+        put(&mut postures.solved[9..12], i, n);
+        postures.solved[12][i] = n2.store();
+        let nothing = R::of(<R::Float as Float>::NOTHING);
+        postures.solved[13][i] = (R::of(1.0) / n2.max(nothing)).store();
+        let near = R::of(NEAR_SINGULAR * NEAR_SINGULAR);
+        let flags = flagged(R::load(postures.flags[i]), n2 < nothing, flag::WRIST_UNDECIDED);
+        postures.flags[i] = flagged(flags, n2 < near, flag::NEAR_WRIST).store();
+    }
+}
+
+/// The wrist centre asked for.
+#[inline(always)]
+fn wrist_of<R: Real>(aims: &Aims<R::Float>, i: usize) -> Vector<R> {
+    vector::<R>(&aims[0..3], i) - vector(&aims[3..6], i)
+}
+
+/// `flags` with `bit` where the condition holds.
+#[inline(always)]
+pub(super) fn flagged<R: Real>(flags: R, condition: bool, bit: u32) -> R {
+    R::either(condition, flags + R::of(f64::from(bit)), flags)
 }

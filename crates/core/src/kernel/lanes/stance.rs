@@ -1,4 +1,4 @@
-//! Everything about one posture of each point: joint positions, room to the limits, screws.
+//! How each point's posture stands: joint positions, room to the limits, screws.
 
 use super::backend::Work;
 use super::block::{Aims, BLOCK, Plane, Planes, aim, put};
@@ -6,13 +6,11 @@ use super::joints::{Counting, angles, flipped};
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::screws::Screws;
-use super::solve::{Links, Signs};
+use super::solve::{Links, Postures, Solved};
 
-/// What is known of the postures of a block.
+/// How the postures of a block stand.
 #[derive(Clone, Debug)]
-pub(super) struct Postures<T> {
-    /// 1 for front, -1 for back; 1 for elbow up, -1 for down: in.
-    pub signs: Planes<T, 2>,
+pub(super) struct Stances<T> {
     /// Joint positions, rad.
     pub joints: Planes<T, 6>,
     /// Least distance to a joint limit, and whose.
@@ -20,8 +18,6 @@ pub(super) struct Postures<T> {
     pub joint: Plane<T>,
     /// 1 where the wrist is flipped, otherwise 0.
     pub flip: Plane<T>,
-    /// Bits of `flag`, without those of the joint limits.
-    pub flags: Plane<T>,
     /// Screws at the TCP, arm axes: linear parts, and axes (written only where moments act).
     pub linear: Planes<T, 18>,
     pub axes: Planes<T, 18>,
@@ -34,12 +30,13 @@ pub(super) struct Preference {
     pub flipped: f64,
 }
 
-/// Fills [`Postures`] from their signs.
+/// Fills [`Stances`].
 pub(super) struct Stand<'a, T, const COUPLED: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
+    pub postures: &'a Postures<T>,
     pub preference: Preference,
-    pub postures: &'a mut Postures<T>,
+    pub stances: &'a mut Stances<T>,
 }
 
 impl<T: Float, const COUPLED: bool> Work<T> for Stand<'_, T, COUPLED> {
@@ -49,29 +46,23 @@ impl<T: Float, const COUPLED: bool> Work<T> for Stand<'_, T, COUPLED> {
         let counting = Counting::<R>::new(&self.prepared.arm);
         let (plain, turned) = (R::of(self.preference.plain), R::of(self.preference.flipped));
         let (zero, one) = (R::of(0.0), R::of(1.0));
-        let postures = self.postures;
+        let stances = self.stances;
         for i in 0..BLOCK {
             R::step();
             let aim = aim::<R, false>(self.aims, i);
-            let signs = Signs {
-                shoulder: R::load(postures.signs[0][i]),
-                elbow: R::load(postures.signs[1][i]),
-            };
-            let solved = links.solve(&aim, signs);
-            postures.flags[i] = links.flags(&solved).store();
-
+            let solved = Solved::load(self.postures, i);
             let phi = angles(&links, &aim, &solved);
             let q = counting.positions::<COUPLED>(phi);
             let q_flipped = counting.positions::<COUPLED>(flipped(phi));
             let (room, joint) = counting.room(&q);
             let (room_flipped, joint_flipped) = counting.room(&q_flipped);
             let flip = room_flipped + turned > room + plain;
-            postures.room[i] = R::either(flip, room_flipped, room).store();
-            postures.joint[i] = R::either(flip, joint_flipped, joint).store();
-            postures.flip[i] = R::either(flip, one, zero).store();
+            stances.room[i] = R::either(flip, room_flipped, room).store();
+            stances.joint[i] = R::either(flip, joint_flipped, joint).store();
+            stances.flip[i] = R::either(flip, one, zero).store();
             let mut k = 0;
             while k < 6 {
-                postures.joints[k][i] = R::either(flip, q_flipped[k], q[k]).store();
+                stances.joints[k][i] = R::either(flip, q_flipped[k], q[k]).store();
                 k += 1;
             }
 
@@ -83,8 +74,8 @@ impl<T: Float, const COUPLED: bool> Work<T> for Stand<'_, T, COUPLED> {
                 if k == 4 {
                     (linear, axis) = (linear.scaled(per_bent), axis.scaled(per_bent));
                 }
-                put(&mut postures.linear[3 * k..3 * k + 3], i, linear);
-                put(&mut postures.axes[3 * k..3 * k + 3], i, axis);
+                put(&mut stances.linear[3 * k..3 * k + 3], i, linear);
+                put(&mut stances.axes[3 * k..3 * k + 3], i, axis);
                 k += 1;
             }
         }
