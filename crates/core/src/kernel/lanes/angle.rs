@@ -57,55 +57,24 @@ fn polynomial<R: Real, const N: usize>(x: R, coefficients: [f64; N]) -> R {
     sum
 }
 
-/// The angles of three vectors (`x`, `y`), rad, in [-pi, pi]; zero where one has no length. They share one division.
+/// The angle of the vector (`x`, `y`), rad, in [-pi, pi]; zero where it has no length.
 #[inline(always)]
-pub(super) fn atan2<R: Real>(y: [R; 3], x: [R; 3]) -> [R; 3] {
-    let folded = [fold(y[0], x[0]), fold(y[1], x[1]), fold(y[2], x[2])];
-    let [a, b, c] = [folded[0].bottom, folded[1].bottom, folded[2].bottom];
-    let ab = a * b;
-    let quotient = R::of(1.0) / (ab * c);
-    let per_ab = quotient * c;
-    [
-        folded[0].angle(per_ab * b, y[0], x[0]),
-        folded[1].angle(per_ab * a, y[1], x[1]),
-        folded[2].angle(quotient * ab, y[2], x[2]),
-    ]
-}
-
-/// An angle folded into [0, pi/4], told from where its tangent is small: `start + atan(top / bottom)`.
-struct Folded<R> {
-    start: R,
-    top: R,
-    bottom: R,
-}
-
-#[inline(always)]
-fn fold<R: Real>(y: R, x: R) -> Folded<R> {
+pub(super) fn atan2<R: Real>(y: R, x: R) -> R {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
     let zero = R::of(0.0);
     let (ax, ay) = (x.abs(), y.abs());
     let (greater, lesser) = (ax.max(ay), ax.min(ay));
     // Above pi/8 the angle is told from pi/4.
     let from_diagonal = lesser > greater * R::of(TAN_PI_8);
+    let top = R::either(from_diagonal, lesser - greater, lesser);
     let bottom = R::either(from_diagonal, lesser + greater, greater);
-    Folded {
-        start: R::either(from_diagonal, R::of(std::f64::consts::FRAC_PI_4), zero),
-        top: R::either(from_diagonal, lesser - greater, lesser),
-        bottom: R::either(bottom > zero, bottom, R::of(1.0)),
-    }
-}
-
-impl<R: Real> Folded<R> {
-    #[inline(always)]
-    fn angle(&self, per_bottom: R, y: R, x: R) -> R {
-        use std::f64::consts::{FRAC_PI_2, PI};
-        let zero = R::of(0.0);
-        let z = self.top * per_bottom;
-        let z2 = z * z;
-        let angle = self.start + (z * z2).mul_add(polynomial(z2, ATAN), z);
-        let angle = R::either(y.abs() > x.abs(), R::of(FRAC_PI_2) - angle, angle);
-        let angle = R::either(x < zero, R::of(PI) - angle, angle);
-        R::either(y < zero, -angle, angle)
-    }
+    let start = R::either(from_diagonal, R::of(FRAC_PI_4), zero);
+    let z = top / R::either(bottom > zero, bottom, R::of(1.0));
+    let z2 = z * z;
+    let angle = start + (z * z2).mul_add(polynomial(z2, ATAN), z);
+    let angle = R::either(ay > ax, R::of(FRAC_PI_2) - angle, angle);
+    let angle = R::either(x < zero, R::of(PI) - angle, angle);
+    R::either(y < zero, -angle, angle)
 }
 
 /// Sine and cosine of `angle` (rad).
@@ -152,8 +121,8 @@ mod tests {
             let angle = (f64::from(k) / 100_000.0 - 1.0) * std::f64::consts::PI;
             let (y, x) = (3.0 * angle.sin(), 3.0 * angle.cos());
             for ours in [
-                atan2([Plain::<f64>::load(y); 3], [Plain::load(x); 3])[2].store(),
-                atan2([Fused::<f64>::load(y); 3], [Fused::load(x); 3])[1].store(),
+                atan2(Plain::<f64>::load(y), Plain::load(x)).store(),
+                atan2(Fused::<f64>::load(y), Fused::load(x)).store(),
             ] {
                 worst = worst.max((ours - y.atan2(x)).abs());
             }
@@ -165,7 +134,7 @@ mod tests {
     #[test]
     fn atan2_of_axes_and_of_nothing() {
         use std::f64::consts::{FRAC_PI_2, PI};
-        let angle = |y: f64, x: f64| atan2([Plain::<f64>::load(y); 3], [Plain::load(x); 3])[0].store();
+        let angle = |y: f64, x: f64| atan2(Plain::<f64>::load(y), Plain::load(x)).store();
         assert_eq!(angle(0.0, 2.0), 0.0);
         assert_eq!(angle(2.0, 0.0), FRAC_PI_2);
         assert_eq!(angle(0.0, -2.0), PI);

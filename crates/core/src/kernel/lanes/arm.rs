@@ -28,7 +28,6 @@ pub(super) struct Arm {
     pub sense: [f64; 6],
     /// `k_ij` of the controller's counting.
     pub coupling: [[f64; 6]; 6],
-    pub coupled: bool,
     pub arm_from_base: Isometry,
     /// Axis 6 in the tool's axes.
     pub tool_from_axis_6: Vector3<f64>,
@@ -88,7 +87,6 @@ impl Arm {
             forearm: [a4, a5, a4.cross(&a5)],
             joints: rows,
             sense: arm.sense,
-            coupled: coupling.iter().flatten().any(|k| *k != 0.0),
             coupling,
             arm_from_base: arm.arm_from_base,
             tool_from_axis_6: tool_from_flange * arm.flange_from_axis_6,

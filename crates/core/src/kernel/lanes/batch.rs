@@ -6,11 +6,11 @@ use super::aims::{self, Orientations, Places};
 use super::arrays::{Arrays, Envelopes, Poses, length};
 use super::backend::{Backend, Precision};
 use super::block::{Aims, BLOCK, Plane, Planes, planes};
-use super::branches::Pair;
 use super::compliance::Compliances;
 use super::envelope::{Largest, Rows};
 use super::forward::{Forward, POSE, SCREWS};
-use super::joints::{LimitsByAngles, LimitsByCosines};
+use super::limits::LimitsByCosines;
+use super::positions::{LimitsByPositions, Position, Positions};
 use super::prepared::Prepared;
 use super::solve::{Postures, Solve};
 use crate::frame::Isometry;
@@ -29,6 +29,8 @@ pub struct Batch<T> {
     prepared: Prepared,
     backend: Backend,
     scratch: Box<Scratch<T>>,
+    /// Joint positions in; poses and screws out. Made when first asked for.
+    forward: Option<Box<(Planes<T, 6>, Planes<T, { POSE + SCREWS }>)>>,
 }
 
 #[derive(Clone, Debug)]
@@ -36,12 +38,12 @@ struct Scratch<T> {
     aims: Aims<T>,
     postures: Postures<T>,
     rotations: Planes<T, 9>,
-    joints: Planes<T, 6>,
+    positions: Positions<T>,
     in_plane: Plane<T>,
     case: Plane<T>,
     state: Plane<T>,
-    out: Planes<T, { POSE + SCREWS }>,
-    flags: Planes<T, 2>,
+    /// In-plane rows or upper triangles of compliances.
+    out: Planes<T, 21>,
 }
 
 /// Scratch that leaves room in the second cache, and fits the first of many machines with what is worked on.
@@ -82,13 +84,13 @@ impl<T: Precision> Batch<T> {
                 aims: planes(),
                 postures: Postures::new(),
                 rotations: planes(),
-                joints: planes(),
+                positions: Positions::new(),
                 in_plane: [T::default(); BLOCK],
                 case: [T::default(); BLOCK],
                 state: [T::default(); BLOCK],
                 out: planes(),
-                flags: planes(),
             }),
+            forward: None,
         }
     }
 
@@ -135,7 +137,7 @@ impl<T: Precision> Batch<T> {
             let used = self.aim(poses, first, Second::AtZero);
             self.solve(signs(branch));
             self.compliance();
-            out.take(0, &self.scratch.out[..21], (first, used));
+            out.take(0, &self.scratch.out, (first, used));
             let flags = std::slice::from_ref(&self.scratch.postures.flags);
             out.take(21, flags, (first, used));
         }
@@ -152,9 +154,10 @@ impl<T: Precision> Batch<T> {
             let used = self.aim(poses, first, Second::AtZero);
             for (four, signs) in FOUR.into_iter().enumerate() {
                 self.solve(signs);
-                self.pair();
-                out.take(12 * four, &self.scratch.out[..12], (first, used));
-                out.take(48 + 2 * four, &self.scratch.flags, (first, used));
+                self.position();
+                let Positions { joints, flags, .. } = &self.scratch.positions;
+                out.take(12 * four, joints.as_flattened(), (first, used));
+                out.take(48 + 2 * four, flags, (first, used));
             }
         }
     }
@@ -167,31 +170,18 @@ impl<T: Precision> Batch<T> {
     pub fn forward(&mut self, joints: &[&[T]; 6], out: &mut Arrays<T>) {
         let count = length(joints);
         out.resize(POSE + SCREWS, count);
+        let room = self.forward.get_or_insert_with(|| Box::new((planes(), planes())));
+        let (planes, to) = &mut **room;
         for first in (0..count).step_by(BLOCK) {
-            let used = BLOCK.min(count - first);
-            let Scratch {
+            for (plane, from) in planes.iter_mut().zip(joints) {
+                fill(plane, &from[first..]);
+            }
+            self.backend.run(Forward {
+                prepared: &self.prepared,
                 joints: planes,
                 out: to,
-                ..
-            } = &mut *self.scratch;
-            for (plane, from) in planes.iter_mut().zip(joints) {
-                fill(plane, &from[first..first + used]);
-            }
-            let prepared = &self.prepared;
-            if prepared.arm.coupled {
-                self.backend.run(Forward::<T, true> {
-                    prepared,
-                    joints: planes,
-                    out: to,
-                });
-            } else {
-                self.backend.run(Forward::<T, false> {
-                    prepared,
-                    joints: planes,
-                    out: to,
-                });
-            }
-            out.take(0, to, (first, used));
+            });
+            out.take(0, to, (first, BLOCK.min(count - first)));
         }
     }
 
@@ -289,6 +279,7 @@ impl<T: Precision> Batch<T> {
             case,
             state,
             out,
+            positions,
             ..
         } = &mut *self.scratch;
         match &prepared.cosines {
@@ -314,11 +305,15 @@ impl<T: Precision> Batch<T> {
                     postures,
                 }),
             },
-            None => backend.run(LimitsByAngles {
-                prepared,
-                aims,
-                postures,
-            }),
+            None => {
+                backend.run(Position {
+                    prepared,
+                    aims,
+                    postures,
+                    positions,
+                });
+                backend.run(LimitsByPositions { positions, postures });
+            }
         }
         let Some(rows) = out.first_chunk_mut() else { return };
         match (still, prepared.moments) {
@@ -392,35 +387,21 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    fn pair(&mut self) {
-        let (prepared, backend) = (&self.prepared, self.backend);
+    /// Joint positions of the solved block.
+    pub(super) fn position(&mut self) {
         let Scratch {
             aims,
             postures,
-            out,
-            flags,
+            positions,
             ..
         } = &mut *self.scratch;
-        let Some(joints) = out.first_chunk_mut() else {
-            return;
-        };
-        if prepared.arm.coupled {
-            backend.run(Pair::<T, true> {
-                prepared,
-                aims,
-                postures,
-                joints,
-                flags,
-            });
-        } else {
-            backend.run(Pair::<T, false> {
-                prepared,
-                aims,
-                postures,
-                joints,
-                flags,
-            });
-        }
+        let prepared = &self.prepared;
+        self.backend.run(Position {
+            prepared,
+            aims,
+            postures,
+            positions,
+        });
     }
 }
 
@@ -461,10 +442,30 @@ impl Batch<f64> {
     }
 
     /// What other work on the solved block needs.
-    pub(super) fn solved(&self) -> (&Prepared, &Aims<f64>, &Postures<f64>, Backend) {
-        let Scratch { aims, postures, .. } = &*self.scratch;
-        (&self.prepared, aims, postures, self.backend)
+    pub(super) fn solved(&self) -> Solved<'_> {
+        let Scratch {
+            aims,
+            postures,
+            positions,
+            ..
+        } = &*self.scratch;
+        Solved {
+            prepared: &self.prepared,
+            aims,
+            postures,
+            positions,
+            backend: self.backend,
+        }
     }
+}
+
+/// A solved block.
+pub(super) struct Solved<'a> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<f64>,
+    pub postures: &'a Postures<f64>,
+    pub positions: &'a Positions<f64>,
+    pub backend: Backend,
 }
 
 fn is_still<T>(poses: &Poses<'_, T>) -> bool {

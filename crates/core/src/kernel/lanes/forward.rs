@@ -5,7 +5,6 @@ use super::backend::Work;
 use super::block::{BLOCK, Planes, put};
 use super::compliance::BaseAxes;
 use super::envelope::lanes_of;
-use super::joints::Counting;
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::screws::Screws;
@@ -18,18 +17,19 @@ pub(super) const POSE: usize = 12;
 pub(super) const SCREWS: usize = 36;
 
 /// Poses, then screws at the TCP, base basis, per unit of chain position.
-pub(super) struct Forward<'a, T, const COUPLED: bool> {
+pub(super) struct Forward<'a, T> {
     pub prepared: &'a Prepared,
-    pub joints: &'a Planes<T, 6>,
+    /// Joint positions in; the arm's angles out.
+    pub joints: &'a mut Planes<T, 6>,
     pub out: &'a mut Planes<T, { POSE + SCREWS }>,
 }
 
-impl<T: Float, const COUPLED: bool> Work<T> for Forward<'_, T, COUPLED> {
+impl<T: Float> Work<T> for Forward<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let arm = &self.prepared.arm;
         let links = Links::<R>::new(arm);
-        let counting = Counting::<R>::new(arm);
+        angles::<R>(self.prepared, self.joints);
         let base = BaseAxes::<R>::new(self.prepared);
         let sense = lanes_of::<R>(&arm.sense);
         let origin = Vector::of(&arm.arm_from_base.translation.vector);
@@ -39,13 +39,9 @@ impl<T: Float, const COUPLED: bool> Work<T> for Forward<'_, T, COUPLED> {
         let lever = Vector::of(&arm.lever);
         for i in 0..BLOCK {
             R::step();
-            let mut q = [R::of(0.0); 6];
-            let mut k = 0;
-            while k < 6 {
-                q[k] = R::load(self.joints[k][i]);
-                k += 1;
-            }
-            let [phi1, psi, eps, phi4, bend, phi6] = counting.angles::<COUPLED>(q);
+            let phi = |k: usize| R::load(self.joints[k][i]);
+            let (phi1, psi, eps) = (phi(0), phi(1), phi(2));
+            let (phi4, bend, phi6) = (phi(3), phi(4), phi(5));
             let (s1, c1) = sin_cos(phi1);
             let (sp, cp) = sin_cos(psi);
             let (sc, cc) = sin_cos(psi + eps);
@@ -89,6 +85,31 @@ impl<T: Float, const COUPLED: bool> Work<T> for Forward<'_, T, COUPLED> {
                 put(&mut self.out[at + 3..at + 6], i, z.scaled(sense[k]));
                 k += 1;
             }
+        }
+    }
+}
+
+/// Joint positions to the arm's angles, in place.
+#[inline(always)]
+fn angles<R: Real>(prepared: &Prepared, joints: &mut Planes<R::Float, 6>) {
+    // The last joint first: those before it are still positions.
+    for joint in (0..6).rev() {
+        let (before, from) = joints.split_at_mut(joint);
+        for (other, factor) in before.iter().zip(&prepared.arm.coupling[joint]) {
+            if *factor != 0.0 {
+                let factor = R::of(*factor);
+                for i in 0..BLOCK {
+                    R::step();
+                    from[0][i] = factor.mul_add(R::load(other[i]), R::load(from[0][i])).store();
+                }
+            }
+        }
+        // The gain is 1 or -1: its own inverse.
+        let row = prepared.arm.joints[joint];
+        let (gain, start) = (R::of(row.gain), R::of(-row.gain * row.start));
+        for i in 0..BLOCK {
+            R::step();
+            from[0][i] = gain.mul_add(R::load(from[0][i]), start).store();
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::batch::{Batch, Second};
+use super::batch::{Batch, Second, Solved};
 use super::block::{BLOCK, Plane, Planes, planes};
 use super::deviation::{OneCase, Shares, Worst};
 use super::solve::flag;
@@ -96,8 +96,8 @@ impl<'q> Points<'q> {
             uncertainty,
             ..
         } = &*self.room;
-        let (_, _, solved, _) = self.batch.solved();
-        let flags = solved.flags[index] as u32;
+        let Solved { postures, .. } = self.batch.solved();
+        let flags = postures.flags[index] as u32;
         let undecided =
             flags & (flag::UNREACHABLE | flag::WRIST_UNDECIDED) != 0 || score[index].is_infinite();
         // The envelope told limits by cosines; at the very edge the angles may say otherwise.
@@ -180,7 +180,7 @@ impl<'q> Points<'q> {
         for signs in matching {
             self.batch.solve(signs);
             self.stand(preference);
-            let (_, _, solved, _) = self.batch.solved();
+            let Solved { postures, .. } = self.batch.solved();
             let Room {
                 stances,
                 chosen,
@@ -188,7 +188,7 @@ impl<'q> Points<'q> {
                 ..
             } = &mut *self.room;
             for i in 0..BLOCK {
-                let reached = solved.flags[i] as u32 & flag::UNREACHABLE == 0;
+                let reached = postures.flags[i] as u32 & flag::UNREACHABLE == 0;
                 if reached && -stances.room[i] < score[i] {
                     score[i] = -stances.room[i];
                     (chosen[0][i], chosen[1][i]) = (signs[0], signs[1]);
@@ -198,29 +198,29 @@ impl<'q> Points<'q> {
     }
 
     fn stand(&mut self, preference: Preference) {
-        let (prepared, aims, postures, backend) = self.batch.solved();
+        self.batch.position();
+        let Solved {
+            prepared,
+            aims,
+            postures,
+            positions,
+            backend,
+        } = self.batch.solved();
         let stances = &mut self.room.stances;
-        if prepared.arm.coupled {
-            backend.run(Stand::<f64, true> {
-                prepared,
-                aims,
-                postures,
-                preference,
-                stances,
-            });
-        } else {
-            backend.run(Stand::<f64, false> {
-                prepared,
-                aims,
-                postures,
-                preference,
-                stances,
-            });
-        }
+        backend.run(Stand {
+            prepared,
+            aims,
+            postures,
+            positions,
+            preference,
+            stances,
+        });
     }
 
     fn deviate(&mut self) {
-        let (prepared, _, _, backend) = self.batch.solved();
+        let Solved {
+            prepared, backend, ..
+        } = self.batch.solved();
         let Room {
             stances,
             deviations,

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::arm::Arm;
-use super::joints::CosineLimits;
+use super::limits::CosineLimits;
 use crate::kernel::Question;
 
 /// Numbers that all blocks of a question share.

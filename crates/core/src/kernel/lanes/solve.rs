@@ -64,6 +64,12 @@ pub(super) struct Postures<T> {
 }
 
 impl<T: Float> Postures<T> {
+    /// Cosine and sine of phi1, psi and chi.
+    pub fn turns(&self) -> [&Plane<T>; 6] {
+        let [c1, s1, cp, sp, cc, sc, ..] = &self.solved;
+        [c1, s1, cp, sp, cc, sc]
+    }
+
     /// Room for a block.
     pub fn new() -> Postures<T> {
         Postures {

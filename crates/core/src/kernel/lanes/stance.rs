@@ -2,7 +2,7 @@
 
 use super::backend::Work;
 use super::block::{Aims, BLOCK, Plane, Planes, aim, put};
-use super::joints::{Counting, angles, flipped};
+use super::positions::Positions;
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::screws::Screws;
@@ -31,41 +31,42 @@ pub(super) struct Preference {
 }
 
 /// Fills [`Stances`].
-pub(super) struct Stand<'a, T, const COUPLED: bool> {
+pub(super) struct Stand<'a, T> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
     pub postures: &'a Postures<T>,
+    pub positions: &'a Positions<T>,
     pub preference: Preference,
     pub stances: &'a mut Stances<T>,
 }
 
-impl<T: Float, const COUPLED: bool> Work<T> for Stand<'_, T, COUPLED> {
+impl<T: Float> Work<T> for Stand<'_, T> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
-        let links = Links::<R>::new(&self.prepared.arm);
-        let counting = Counting::<R>::new(&self.prepared.arm);
-        let (plain, turned) = (R::of(self.preference.plain), R::of(self.preference.flipped));
+        let (plain, flipped) = (R::of(self.preference.plain), R::of(self.preference.flipped));
         let (zero, one) = (R::of(0.0), R::of(1.0));
-        let stances = self.stances;
+        let (positions, stances) = (self.positions, self.stances);
         for i in 0..BLOCK {
             R::step();
-            let aim = aim::<R, false>(self.aims, i);
-            let solved = Solved::load(self.postures, i);
-            let phi = angles(&links, &aim, &solved);
-            let q = counting.positions::<COUPLED>(phi);
-            let q_flipped = counting.positions::<COUPLED>(flipped(phi));
-            let (room, joint) = counting.room(&q);
-            let (room_flipped, joint_flipped) = counting.room(&q_flipped);
-            let flip = room_flipped + turned > room + plain;
-            stances.room[i] = R::either(flip, room_flipped, room).store();
-            stances.joint[i] = R::either(flip, joint_flipped, joint).store();
-            stances.flip[i] = R::either(flip, one, zero).store();
+            let (room, room_flipped) = (R::load(positions.room[0][i]), R::load(positions.room[1][i]));
+            let flip = room_flipped + flipped > room + plain;
+            let take = |of: [R; 2]| R::either(flip, of[1], of[0]).store();
+            stances.room[i] = take([room, room_flipped]);
+            stances.joint[i] = take(positions.nearest.each_ref().map(|plane| R::load(plane[i])));
+            stances.flip[i] = take([zero, one]);
             let mut k = 0;
             while k < 6 {
-                stances.joints[k][i] = R::either(flip, q_flipped[k], q[k]).store();
+                stances.joints[k][i] = take([
+                    R::load(positions.joints[0][k][i]),
+                    R::load(positions.joints[1][k][i]),
+                ]);
                 k += 1;
             }
-
+        }
+        let links = Links::<R>::new(&self.prepared.arm);
+        for i in 0..BLOCK {
+            R::step();
+            let (aim, solved) = (aim::<R, false>(self.aims, i), Solved::load(self.postures, i));
             let screws = Screws::new(&links, &aim, &solved);
             let per_bent = screws.per_n2.sqrt();
             let mut k = 0;

@@ -1,0 +1,218 @@
+//! Joint positions of the postures of a block, flipped and not, and how far they are from their limits.
+//!
+//! Loop after loop over one joint: few numbers at a time stay in registers.
+
+use super::angle::atan2;
+use super::backend::Work;
+use super::block::{Aims, BLOCK, Plane, Planes, aim, planes};
+use super::prepared::Prepared;
+use super::real::{Float, Real};
+use super::solve::{Links, Postures, Solved, flag, flagged};
+
+/// Joint positions and what limits leave of them; of each pair first the posture not flipped, then the flipped one.
+#[derive(Clone, Debug)]
+pub(super) struct Positions<T> {
+    /// Sines and cosines of joints 4, 5, 6, each times any positive number.
+    tangents: Planes<T, 6>,
+    /// The arm's angles: phi1, psi, chi - psi, phi4, bend, phi6.
+    phi: Planes<T, 6>,
+    /// Joint positions, rad, each as near as possible to the middle of its range.
+    pub joints: [Planes<T, 6>; 2],
+    /// Least distance to a limit, negative outside; and the joint that has it.
+    pub room: Planes<T, 2>,
+    pub nearest: Planes<T, 2>,
+    /// The postures' flags with [`flag::OUTSIDE_LIMITS`].
+    pub flags: Planes<T, 2>,
+}
+
+impl<T: Float> Positions<T> {
+    /// Room for a block.
+    pub fn new() -> Positions<T> {
+        Positions {
+            tangents: planes(),
+            phi: planes(),
+            joints: [planes(), planes()],
+            room: planes(),
+            nearest: planes(),
+            flags: planes(),
+        }
+    }
+}
+
+/// Fills [`Positions`].
+pub(super) struct Position<'a, T> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a Postures<T>,
+    pub positions: &'a mut Positions<T>,
+}
+
+impl<T: Float> Work<T> for Position<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let Positions {
+            tangents,
+            phi,
+            joints,
+            room,
+            nearest,
+            flags,
+        } = self.positions;
+        let links = Links::<R>::new(&self.prepared.arm);
+        for i in 0..BLOCK {
+            R::step();
+            let (aim, solved) = (aim::<R, false>(self.aims, i), Solved::load(self.postures, i));
+            let [a5, a3] = links.wrist_axes(&solved);
+            tangents[0][i] = aim.out.dot(a5).store();
+            tangents[1][i] = (-aim.out.dot(a3)).store();
+            tangents[2][i] = solved.n2.sqrt().store();
+            tangents[3][i] = solved.z4.dot(aim.out).store();
+            tangents[4][i] = solved.n.dot(aim.second.cross(aim.out)).store();
+            tangents[5][i] = solved.n.dot(aim.second).store();
+        }
+        let [c1, s1, cp, sp, cc, sc] = self.postures.turns();
+        let [first, upper, fore, fourth, bend, sixth] = phi;
+        angle_of::<R>(s1, c1, first);
+        angle_of::<R>(sp, cp, upper);
+        angle_of::<R>(sc, cc, fore);
+        angle_of::<R>(&tangents[0], &tangents[1], fourth);
+        angle_of::<R>(&tangents[2], &tangents[3], bend);
+        angle_of::<R>(&tangents[4], &tangents[5], sixth);
+        for i in 0..BLOCK {
+            R::step();
+            fore[i] = (R::load(fore[i]) - R::load(upper[i])).store();
+        }
+        for (flip, joints) in joints.iter_mut().enumerate() {
+            let (room, nearest) = (&mut room[flip], &mut nearest[flip]);
+            for joint in 0..6 {
+                let row = Counting::<R>::new(self.prepared, joint, flip == 1);
+                row.count(&phi[joint], &mut joints[joint]);
+                for other in 0..joint {
+                    let factor = self.prepared.arm.coupling[joint][other];
+                    if factor != 0.0 {
+                        let (before, from) = joints.split_at_mut(joint);
+                        uncouple::<R>(factor, &before[other], &mut from[0]);
+                    }
+                }
+                row.near_the_middle(&mut joints[joint]);
+                row.room(&joints[joint], room, nearest);
+            }
+            let at_limit = R::of(-<T as Float>::AT_LIMIT);
+            for i in 0..BLOCK {
+                R::step();
+                let before = R::load(self.postures.flags[i]);
+                let outside = R::load(room[i]) < at_limit;
+                flags[flip][i] = flagged(before, outside, flag::OUTSIDE_LIMITS).store();
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn angle_of<R: Real>(y: &Plane<R::Float>, x: &Plane<R::Float>, to: &mut Plane<R::Float>) {
+    for i in 0..BLOCK {
+        R::step();
+        to[i] = atan2(R::load(y[i]), R::load(x[i])).store();
+    }
+}
+
+/// Takes what another joint adds to this one's count away.
+#[inline(always)]
+fn uncouple<R: Real>(factor: f64, other: &Plane<R::Float>, joint: &mut Plane<R::Float>) {
+    let factor = R::of(-factor);
+    for i in 0..BLOCK {
+        R::step();
+        joint[i] = factor.mul_add(R::load(other[i]), R::load(joint[i])).store();
+    }
+}
+
+/// How one joint counts and how far it goes, in every lane.
+#[derive(Clone, Copy)]
+struct Counting<R> {
+    index: R,
+    gain: R,
+    start: R,
+    middle: R,
+    half: R,
+    /// Turns that the middle is away from zero, and a hair.
+    middle_turns: R,
+}
+
+impl<R: Real> Counting<R> {
+    /// Joint `index`; with the wrist flipped joints 4 and 6 stand half a turn away, and joint 5 bends the other way.
+    #[inline(always)]
+    fn new(prepared: &Prepared, index: usize, flipped: bool) -> Self {
+        use std::f64::consts::{PI, TAU};
+        let joint = prepared.arm.joints[index];
+        let turned = if flipped && (index == 3 || index == 5) {
+            PI
+        } else {
+            0.0
+        };
+        let sense = if flipped && index == 4 { -1.0 } else { 1.0 };
+        Counting {
+            index: R::of(index as f64),
+            gain: R::of(sense * joint.gain),
+            start: R::of(joint.gain.mul_add(turned, joint.start)),
+            middle: R::of(joint.middle),
+            half: R::of(joint.half),
+            middle_turns: R::of(joint.middle / TAU + <R::Float as Float>::HALF_TURN_SLACK),
+        }
+    }
+
+    #[inline(always)]
+    fn count(&self, phi: &Plane<R::Float>, joint: &mut Plane<R::Float>) {
+        for i in 0..BLOCK {
+            R::step();
+            joint[i] = self.gain.mul_add(R::load(phi[i]), self.start).store();
+        }
+    }
+
+    /// Takes whole turns away until the joint is within half a turn of the middle of its range.
+    #[inline(always)]
+    fn near_the_middle(&self, joint: &mut Plane<R::Float>) {
+        use std::f64::consts::TAU;
+        for i in 0..BLOCK {
+            R::step();
+            let at = R::load(joint[i]);
+            let turns = at.mul_add(R::of(1.0 / TAU), -self.middle_turns).round();
+            joint[i] = (-turns).mul_add(R::of(TAU), at).store();
+        }
+    }
+
+    /// Keeps the least room of the joints so far; the first starts.
+    #[inline(always)]
+    fn room(&self, joint: &Plane<R::Float>, room: &mut Plane<R::Float>, nearest: &mut Plane<R::Float>) {
+        let first = self.index == R::of(0.0);
+        let most = R::of(f64::from(f32::MAX));
+        for i in 0..BLOCK {
+            R::step();
+            let this = self.half - (R::load(joint[i]) - self.middle).abs();
+            let so_far = R::either(first, most, R::load(room[i]));
+            let less = this < so_far;
+            room[i] = R::either(less, this, so_far).store();
+            nearest[i] = R::either(less, self.index, R::load(nearest[i])).store();
+        }
+    }
+}
+
+/// Adds to the postures' flags the joint limits told by joint positions: for arms whose coupling cosines do not see.
+pub(super) struct LimitsByPositions<'a, T> {
+    pub positions: &'a Positions<T>,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float> Work<T> for LimitsByPositions<'_, T> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let at_limit = R::of(-<T as Float>::AT_LIMIT);
+        let [room, room_flipped] = &self.positions.room;
+        for i in 0..BLOCK {
+            R::step();
+            let flags = R::load(self.postures.flags[i]);
+            let flags = flagged(flags, R::load(room[i]) < at_limit, flag::OUTSIDE_LIMITS);
+            let outside = R::load(room_flipped[i]) < at_limit;
+            self.postures.flags[i] = flagged(flags, outside, flag::OUTSIDE_LIMITS_FLIPPED).store();
+        }
+    }
+}
