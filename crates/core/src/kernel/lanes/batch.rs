@@ -34,6 +34,7 @@ pub struct Batch<T> {
 }
 
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 struct Scratch<T> {
     aims: Aims<T>,
     postures: Postures<T>,
@@ -103,7 +104,7 @@ impl<T: Precision> Batch<T> {
         out.resize(poses.len());
         for first in (0..poses.len()).step_by(BLOCK) {
             self.aim(poses, first, Second::InTheMiddle);
-            self.solve(signs(branch));
+            self.solve(signs(branch), is_still(poses));
             self.envelope(is_still(poses), out.block(first));
         }
     }
@@ -120,7 +121,7 @@ impl<T: Precision> Batch<T> {
         for first in (0..poses.len()).step_by(BLOCK) {
             self.aim(poses, first, Second::InTheMiddle);
             for (signs, one) in FOUR.into_iter().zip(out.iter_mut()) {
-                self.solve(signs);
+                self.solve(signs, is_still(poses));
                 self.envelope(is_still(poses), one.block(first));
             }
         }
@@ -135,7 +136,7 @@ impl<T: Precision> Batch<T> {
         out.resize(22, poses.len());
         for first in (0..poses.len()).step_by(BLOCK) {
             let used = self.aim(poses, first, Second::AtZero);
-            self.solve(signs(branch));
+            self.solve(signs(branch), is_still(poses));
             self.compliance();
             out.take(0, &self.scratch.out, (first, used));
             let flags = std::slice::from_ref(&self.scratch.postures.flags);
@@ -153,7 +154,7 @@ impl<T: Precision> Batch<T> {
         for first in (0..poses.len()).step_by(BLOCK) {
             let used = self.aim(poses, first, Second::AtZero);
             for (four, signs) in FOUR.into_iter().enumerate() {
-                self.solve(signs);
+                self.solve(signs, is_still(poses));
                 self.position();
                 let Positions { joints, flags, .. } = &self.scratch.positions;
                 out.take(12 * four, joints.as_flattened(), (first, used));
@@ -251,22 +252,34 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Solves the aimed block with these signs everywhere.
-    pub(super) fn solve(&mut self, signs: [f64; 2]) {
+    pub(super) fn solve(&mut self, signs: [f64; 2], still: bool) {
         for (plane, sign) in self.scratch.postures.signs.iter_mut().zip(signs) {
-            plane.fill(T::from_f64(sign));
+            let sign = T::from_f64(sign);
+            // Filled from call to call, unless the signs change.
+            if plane.iter().any(|one| *one != sign) {
+                plane.fill(sign);
+            }
         }
-        self.solve_signed();
+        self.solve_signed(still);
     }
 
     /// Solves the aimed block with the signs that its postures have.
-    fn solve_signed(&mut self) {
+    fn solve_signed(&mut self, still: bool) {
         let Scratch { aims, postures, .. } = &mut *self.scratch;
         let prepared = &self.prepared;
-        self.backend.run(Solve {
-            prepared,
-            aims,
-            postures,
-        });
+        if still {
+            self.backend.run(Solve::<T, true> {
+                prepared,
+                aims,
+                postures,
+            });
+        } else {
+            self.backend.run(Solve::<T, false> {
+                prepared,
+                aims,
+                postures,
+            });
+        }
     }
 
     /// Envelope of the solved block; without a place to go it stays in the scratch.
@@ -430,7 +443,7 @@ impl Batch<f64> {
 
     /// In-plane envelope and flags of the aimed block in the postures with these signs.
     pub(super) fn envelope_of_aimed(&mut self, signs: [f64; 2]) -> (&Plane<f64>, &Plane<f64>) {
-        self.solve(signs);
+        self.solve(signs, false);
         self.envelope(false, None);
         (&self.scratch.in_plane, &self.scratch.postures.flags)
     }
@@ -438,7 +451,7 @@ impl Batch<f64> {
     /// Solves the aimed block with these signs, one pair a point.
     pub(super) fn solve_each(&mut self, signs: &Planes<f64, 2>) {
         self.scratch.postures.signs = *signs;
-        self.solve_signed();
+        self.solve_signed(false);
     }
 
     /// What other work on the solved block needs.

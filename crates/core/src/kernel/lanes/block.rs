@@ -4,8 +4,9 @@ use super::real::{Float, Real};
 use super::solve::Aim;
 use super::vector::Vector;
 
-/// Points in a block. Planes lie an odd number of cache lines apart, so that many of them at once do not meet
-/// in one set of the cache; all blocks of a [`super::Batch`] together take less than 64 KiB.
+/// Points in a block: whole vectors of every back end and whole cache lines, for a vector across two lines is read
+/// and written at half the speed (structs of planes start on a line). Few enough that what one loop works on stays
+/// in the first cache; not a power of two, or many planes at once would meet in one set of it.
 pub(super) const BLOCK: usize = 80;
 
 /// One number a point.

@@ -15,6 +15,7 @@ use super::vector::Vector;
 
 /// The largest deviations of the cases so far, and the case that decides.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Worst<T> {
     pub in_plane: Plane<T>,
     /// Along the normal, of the case where it is largest in size.

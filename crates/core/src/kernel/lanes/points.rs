@@ -22,15 +22,17 @@ pub(in crate::kernel) struct Points<'q> {
     room: Box<Room>,
 }
 
+#[repr(C, align(64))]
 struct Room {
     stances: Stances<f64>,
     /// Signs of the best posture so far and what it is judged by; infinite where there is none.
     chosen: Planes<f64, 2>,
     score: Plane<f64>,
-    deviations: Vec<Planes<f64, 3>>,
     worst: Worst<f64>,
     shares: Planes<f64, 6>,
     uncertainty: Plane<f64>,
+    /// Of each load case; last, because its size is no multiple of a cache line.
+    deviations: Vec<Planes<f64, 3>>,
 }
 
 impl<'q> Points<'q> {
@@ -178,7 +180,7 @@ impl<'q> Points<'q> {
         }
         self.room.score.fill(f64::INFINITY);
         for signs in matching {
-            self.batch.solve(signs);
+            self.batch.solve(signs, false);
             self.stand(preference);
             let Solved { postures, .. } = self.batch.solved();
             let Room {

@@ -11,6 +11,7 @@ use super::solve::{Links, Postures, Solved, flag, flagged};
 
 /// Joint positions and what limits leave of them; of each pair first the posture not flipped, then the flipped one.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Positions<T> {
     /// Sines and cosines of joints 4, 5, 6, each times any positive number.
     tangents: Planes<T, 6>,

@@ -12,7 +12,7 @@
 
 use super::arm::Arm;
 use super::backend::Work;
-use super::block::{Aims, BLOCK, Plane, Planes, planes, put, vector};
+use super::block::{Aims, BLOCK, Plane, Planes, aim, planes, put};
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::vector::Vector;
@@ -53,6 +53,7 @@ pub(super) const SOLVED: usize = 14;
 
 /// The postures of a block.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Postures<T> {
     /// 1 for front, -1 for back; 1 for elbow up, -1 for elbow down: chosen by the caller.
     pub signs: Planes<T, 2>,
@@ -233,13 +234,13 @@ pub(super) fn turned<R: Real>(v: Vector<R>, cc: R, sc: R, c1: R, s1: R) -> Vecto
 }
 
 /// Solves every posture of a block, told by its signs.
-pub(super) struct Solve<'a, T> {
+pub(super) struct Solve<'a, T, const STILL: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
     pub postures: &'a mut Postures<T>,
 }
 
-impl<T: Float> Work<T> for Solve<'_, T> {
+impl<T: Float, const STILL: bool> Work<T> for Solve<'_, T, STILL> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let links = Links::<R>::new(&self.prepared.arm);
@@ -247,19 +248,19 @@ impl<T: Float> Work<T> for Solve<'_, T> {
         // ahead then works on those of several points at once.
         for i in 0..BLOCK {
             R::step();
-            links.reach(self.aims, self.postures, i);
+            links.reach::<STILL>(self.aims, self.postures, i);
         }
         for i in 0..BLOCK {
             R::step();
-            links.bend(self.aims, self.postures, i);
+            links.bend::<STILL>(self.aims, self.postures, i);
         }
         for i in 0..BLOCK {
             R::step();
-            links.turn(self.aims, self.postures, i);
+            links.turn::<STILL>(self.aims, self.postures, i);
         }
         for i in 0..BLOCK {
             R::step();
-            links.wrist(self.aims, self.postures, i);
+            links.wrist::<STILL>(self.aims, self.postures, i);
         }
     }
 }
@@ -267,9 +268,9 @@ impl<T: Float> Work<T> for Solve<'_, T> {
 impl<R: Real> Links<R> {
     /// Signed distance `r` of the wrist centre from axis 1 in the arm's plane.
     #[inline(always)]
-    fn reach(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+    fn reach<const STILL: bool>(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
         let zero = R::of(0.0);
-        let p = wrist_of::<R>(aims, i);
+        let p = wrist_of::<R, STILL>(aims, i);
         let r2 = p.x.mul_add(p.x, p.y.mul_add(p.y, -self.b2));
         let r = R::load(postures.signs[0][i]) * r2.max(zero).sqrt();
         postures.r[i] = r.store();
@@ -280,9 +281,9 @@ impl<R: Real> Links<R> {
 
     /// Length of the forearm times the sine of the elbow's bend.
     #[inline(always)]
-    fn bend(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+    fn bend<const STILL: bool>(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
         let zero = R::of(0.0);
-        let (u, v) = (R::load(postures.r[i]) - self.a1, wrist_of::<R>(aims, i).z);
+        let (u, v) = (R::load(postures.r[i]) - self.a1, wrist_of::<R, STILL>(aims, i).z);
         let d2 = u.mul_add(u, v * v);
         let (stretched, folded) = (self.reach2 - d2, d2 - self.fold2);
         // Bending the forearm forwards lifts the elbow if the wrist is before the shoulder.
@@ -297,11 +298,11 @@ impl<R: Real> Links<R> {
 
     /// Turns of the arm; verifies that links have their lengths.
     #[inline(always)]
-    fn turn(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+    fn turn<const STILL: bool>(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
         let (zero, one) = (R::of(0.0), R::of(1.0));
         let nothing = R::of(<R::Float as Float>::NOTHING);
         let (r, across) = (R::load(postures.r[i]), R::load(postures.across[i]));
-        let p = wrist_of::<R>(aims, i);
+        let p = wrist_of::<R, STILL>(aims, i);
         let (u, v) = (r - self.a1, p.z);
         let h2 = p.x.mul_add(p.x, p.y * p.y);
         let d2 = u.mul_add(u, v * v);
@@ -334,10 +335,10 @@ impl<R: Real> Links<R> {
 
     /// Axis 4, and the wrist's bend.
     #[inline(always)]
-    fn wrist(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
+    fn wrist<const STILL: bool>(&self, aims: &Aims<R::Float>, postures: &mut Postures<R::Float>, i: usize) {
         let Solved { c1, s1, cc, sc, .. } = Solved::<R>::load(postures, i);
         let z4 = turned(self.forearm[0], cc, sc, c1, s1);
-        let n = z4.cross(vector(&aims[6..9], i));
+        let n = z4.cross(aim::<R, STILL>(aims, i).out);
         let n2 = n.dot(n);
         put(&mut postures.solved[6..9], i, z4);
         put(&mut postures.solved[9..12], i, n);
@@ -352,8 +353,9 @@ impl<R: Real> Links<R> {
 
 /// The wrist centre asked for.
 #[inline(always)]
-fn wrist_of<R: Real>(aims: &Aims<R::Float>, i: usize) -> Vector<R> {
-    vector::<R>(&aims[0..3], i) - vector(&aims[3..6], i)
+fn wrist_of<R: Real, const STILL: bool>(aims: &Aims<R::Float>, i: usize) -> Vector<R> {
+    let aim = aim::<R, STILL>(aims, i);
+    aim.tcp - aim.lever
 }
 
 /// `flags` with `bit` where the condition holds.

@@ -10,6 +10,7 @@ use super::solve::{Links, Postures, Solved};
 
 /// How the postures of a block stand.
 #[derive(Clone, Debug)]
+#[repr(align(64))]
 pub(super) struct Stances<T> {
     /// Joint positions, rad.
     pub joints: Planes<T, 6>,
