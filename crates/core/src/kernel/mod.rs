@@ -8,6 +8,8 @@
 
 mod answer;
 mod general;
+// Loops over lanes index many planes at once.
+#[allow(clippy::needless_range_loop)]
 pub mod lanes;
 mod question;
 mod solver;

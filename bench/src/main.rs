@@ -1,0 +1,110 @@
+//! `armill-bench FOLDER [--quick]`: writes the workload into FOLDER for peers in other languages, checks that all
+//! candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`.
+
+// Rows go to stdout, what is going on to stderr.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+use std::hint::black_box;
+use std::path::Path;
+use std::process::ExitCode;
+use std::{env, fs};
+
+use armill_bench::armill::{Arm, ONE_POSTURE, candidates as of_armill, isometry};
+use armill_bench::clock::{Candidate, rates, row};
+use armill_bench::lanes::{self, Places};
+use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
+use armill_bench::workload::{COUNT, Pose, poses};
+use armill_bench::{agreement, files, peers, yardstick};
+use rayon::prelude::*;
+use rayon::{ThreadPool, ThreadPoolBuilder};
+
+/// Rounds after the one that warms up.
+const ROUNDS: usize = 15;
+const QUICK_ROUNDS: usize = 3;
+/// How many poses are checked for agreement.
+const CHECKED: usize = 500;
+/// Poses whose results share a block of memory: results stay in cache, so that work is timed and not the RAM.
+const BLOCK: usize = 256;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let (folder, quick) = match arguments.as_slice() {
+        [folder] => (folder, false),
+        [folder, option] if option == "--quick" => (folder, true),
+        _ => {
+            eprintln!("usage: armill-bench FOLDER [--quick]");
+            return ExitCode::from(2);
+        }
+    };
+    match run(Path::new(folder), if quick { QUICK_ROUNDS } else { ROUNDS }) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(folder: &Path, rounds: usize) -> Result<(), String> {
+    let (arm, poses) = (Arm::mh12(), poses(COUNT));
+    fs::create_dir_all(folder)
+        .and_then(|()| files::write(folder, &poses))
+        .map_err(|problem| format!("cannot write into {}: {problem}", folder.display()))?;
+    for line in agreement::check(&arm, &poses[..CHECKED])? {
+        eprintln!("{line}");
+    }
+    let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build();
+    let pools = [
+        pool(1).map_err(|problem| problem.to_string())?,
+        pool(2).map_err(|problem| problem.to_string())?,
+    ];
+    let angles: Vec<[f64; 6]> = poses.iter().map(yardstick::joints).collect();
+    let isometries: Vec<_> = poses.iter().map(isometry).collect();
+    let (double, single) = (Places::of(&poses), Places::of(&poses));
+
+    let mut all = of_yardstick(&poses, &angles, &pools[1]);
+    let question = arm.question(ONE_POSTURE);
+    all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
+    all.extend(of_armill(&arm, &isometries, &pools));
+    all.extend(peers::candidates(&poses));
+    let rates = rates(&mut all, rounds);
+    for (candidate, rate) in all.iter().zip(&rates) {
+        println!("{}", row(candidate, rate));
+    }
+    Ok(())
+}
+
+/// Rows of the yardstick.
+fn of_yardstick<'a>(
+    poses: &'a [Pose],
+    angles: &'a [[f64; 6]],
+    two_threads: &'a ThreadPool,
+) -> Vec<Candidate<'a>> {
+    const WHO: &str = "plain Rust with trigonometry";
+    let in_parallel = move || {
+        two_threads.install(|| {
+            poses
+                .par_chunks(BLOCK)
+                .for_each(|block| in_blocks(block, yardstick::dev));
+        });
+    };
+    vec![
+        Candidate::new(WHO, DEV, poses.len(), || in_blocks(poses, yardstick::dev)),
+        Candidate::new(WHO, DEV8, poses.len(), || in_blocks(poses, yardstick::dev8)),
+        Candidate::new(WHO, C66, poses.len(), || in_blocks(poses, yardstick::c66)),
+        Candidate::new(WHO, IK8, poses.len(), || in_blocks(poses, yardstick::ik8)),
+        Candidate::new(WHO, DEV_AT, poses.len(), || in_blocks(angles, yardstick::dev_at)),
+        Candidate::new(WHO, C66_AT, poses.len(), || in_blocks(angles, yardstick::c66_at)),
+        Candidate::new(WHO, DEV, poses.len(), in_parallel).threads(two_threads.current_num_threads()),
+    ]
+}
+
+/// Does `work` on every one of `all`; the results of a block overwrite those of the block before.
+fn in_blocks<T, R: Copy>(all: &[T], work: impl Fn(&T) -> R) {
+    let mut results = Vec::with_capacity(BLOCK);
+    for block in all.chunks(BLOCK) {
+        results.clear();
+        results.extend(block.iter().map(&work));
+        black_box(&results);
+    }
+}

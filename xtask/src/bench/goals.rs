@@ -1,0 +1,185 @@
+//! The goals: how many times another's rate armill must reach. A goal shows once both sides were measured.
+
+use super::row::{Row, digits};
+
+/// Whose row: how the name begins and ends (a version stands between), the work, the threads.
+struct Side {
+    begins: &'static str,
+    ends: &'static str,
+    work: &'static str,
+    threads: usize,
+}
+
+/// One goal.
+struct Goal {
+    text: &'static str,
+    ours: Side,
+    theirs: Side,
+    must: f64,
+    stretch: f64,
+}
+
+const LANES: &str = "armill lanes f64";
+const PLAIN: &str = "plain Rust with trigonometry";
+
+const fn side(begins: &'static str, ends: &'static str, work: &'static str) -> Side {
+    Side {
+        begins,
+        ends,
+        work,
+        threads: 1,
+    }
+}
+
+const fn lanes(work: &'static str) -> Side {
+    side(LANES, LANES, work)
+}
+
+const GOALS: &[Goal] = &[
+    Goal {
+        text: "dev against plain Rust with trigonometry",
+        ours: lanes("dev"),
+        theirs: side(PLAIN, PLAIN, "dev"),
+        must: 50.0,
+        stretch: 70.0,
+    },
+    Goal {
+        text: "dev against blocked numpy",
+        ours: lanes("dev"),
+        theirs: side("numpy", "blocked", "dev"),
+        must: 75.0,
+        stretch: 100.0,
+    },
+    Goal {
+        text: "dev against trig-free numba",
+        ours: lanes("dev"),
+        theirs: side("numba", "trig-free", "dev"),
+        must: 1.0,
+        stretch: 1.15,
+    },
+    Goal {
+        text: "C66 with inverse against Pinocchio C++ without",
+        ours: lanes("C66"),
+        theirs: side("Pinocchio", "C++", "C66 from angles"),
+        must: 40.0,
+        stretch: 65.0,
+    },
+    Goal {
+        text: "ik8 against ik-geo",
+        ours: lanes("ik8"),
+        theirs: side("ik-geo", "", "ik8"),
+        must: 30.0,
+        stretch: 60.0,
+    },
+    Goal {
+        text: "ik8 against rs-opw-kinematics",
+        ours: lanes("ik8"),
+        theirs: side("rs-opw-kinematics", "", "ik8"),
+        must: 50.0,
+        stretch: 100.0,
+    },
+    Goal {
+        text: "ik8 against EAIK",
+        ours: lanes("ik8"),
+        theirs: side("EAIK", "", "ik8"),
+        must: 80.0,
+        stretch: 150.0,
+    },
+    Goal {
+        text: "dev, two threads against one",
+        ours: Side {
+            threads: 2,
+            ..lanes("dev")
+        },
+        theirs: lanes("dev"),
+        must: 1.8,
+        stretch: 1.95,
+    },
+    Goal {
+        text: "dev, AVX2 path against the widest",
+        ours: side("armill lanes f64 AVX2", "", "dev"),
+        theirs: lanes("dev"),
+        must: 0.4,
+        stretch: 0.5,
+    },
+];
+
+/// The goals of which both sides stand in `rows`, as a Markdown table; empty if there is none.
+pub fn table(rows: &[Row]) -> String {
+    let mut lines = String::new();
+    for goal in GOALS {
+        let (Some(ours), Some(theirs)) = (goal.ours.rate(rows), goal.theirs.rate(rows)) else {
+            continue;
+        };
+        let ratio = ours / theirs;
+        let verdict = if ratio >= goal.stretch {
+            "beyond"
+        } else if ratio >= goal.must {
+            "held"
+        } else {
+            "missed"
+        };
+        lines += &format!(
+            "| {} | {} | {} | {} | {verdict} |\n",
+            goal.text,
+            digits(ratio),
+            digits(goal.must),
+            digits(goal.stretch),
+        );
+    }
+    if lines.is_empty() {
+        return lines;
+    }
+    format!("| goal | measured | must | stretch | |\n|---|--:|--:|--:|---|\n{lines}")
+}
+
+impl Side {
+    fn rate(&self, rows: &[Row]) -> Option<f64> {
+        let is = |row: &&Row| {
+            row.who.starts_with(self.begins)
+                && row.who.ends_with(self.ends)
+                && row.work == self.work
+                && row.threads == self.threads
+        };
+        rows.iter().find(is).map(|row| row.median)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(lines: &[&str]) -> Vec<Row> {
+        lines
+            .iter()
+            .filter_map(|line| Row::read(&format!("{line}\t1\t1\t")))
+            .collect()
+    }
+
+    #[test]
+    fn a_goal_shows_once_both_sides_were_measured() {
+        let plain = "plain Rust with trigonometry\tdev\t1\t4.0";
+        assert_eq!(table(&rows(&[plain])), "");
+        let both = table(&rows(&[plain, "armill lanes f64\tdev\t1\t240.0"]));
+        assert!(both.contains("| 60.0 | 50.0 | 70.0 | held |"), "{both}");
+    }
+
+    #[test]
+    fn a_variant_of_the_lanes_does_not_pass_for_them() {
+        let avx2 = "armill lanes f64 AVX2\tdev\t1\t100.0";
+        assert_eq!(
+            table(&rows(&[avx2, "plain Rust with trigonometry\tdev\t1\t4.0"])),
+            ""
+        );
+        let both = table(&rows(&["armill lanes f64\tdev\t1\t200.0", avx2]));
+        assert!(both.contains("| 0.500 | 0.400 | 0.500 | beyond |"), "{both}");
+    }
+
+    #[test]
+    fn versions_in_names_do_not_matter_but_variants_do() {
+        let lanes = "armill lanes f64\tdev\t1\t300.0";
+        let numpy = "numpy 2.4.6, blocked\tdev\t1\t3.0";
+        let other = "numpy 2.4.6, blocked, trig-free\tdev\t1\t30.0";
+        assert!(table(&rows(&[lanes, other, numpy])).contains("| 100 | 75.0 | 100 | beyond |"));
+    }
+}

@@ -1,0 +1,181 @@
+//! Instructions a pose costs, counted by Valgrind: a measure that no other load on the machine disturbs.
+//!
+//! Compared with what `bench/instructions.tsv` records (function, instructions per pose, compiler); `--record` writes it
+//! anew. Valgrind emulates AVX2 and FMA but not AVX-512: it is the AVX2 path that is counted.
+
+use super::{bench_cargo, output};
+use crate::command::cargo;
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use std::path::Path;
+use std::process::{Command, ExitCode};
+use std::{env, fs};
+
+const RECORD: &str = "bench/instructions.tsv";
+const TOOLS: &str = "target/tools";
+/// Must be the version of gungraun in `bench/Cargo.toml`.
+const RUNNER: &str = "0.20.0";
+/// A rise above this share is a regression: smaller ones come with any change of the compiler's mind.
+const ALLOWED: f64 = 0.02;
+
+/// What one function costs.
+#[derive(Debug, PartialEq)]
+struct Count {
+    function: String,
+    per_pose: f64,
+}
+
+/// Counts, and compares or records.
+pub fn run(record: bool) -> ExitCode {
+    let counts = match counted() {
+        Ok(counts) if !counts.is_empty() => counts,
+        Ok(_) => return could_not_run("no function was counted"),
+        Err(problem) => return could_not_run(&problem),
+    };
+    let compiler = output(Command::new("rustc").arg("--version")).unwrap_or_default();
+    if record {
+        return match fs::write(RECORD, written(&counts, compiler.trim())) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(problem) => could_not_run(&format!("cannot write {RECORD}: {problem}")),
+        };
+    }
+    let recorded = read(&fs::read_to_string(RECORD).unwrap_or_default());
+    let mut regressed = false;
+    for count in &counts {
+        let before = recorded.iter().find(|other| other.function == count.function);
+        let (line, worse) = compared(count, before);
+        println!("{line}");
+        regressed |= worse;
+    }
+    if regressed {
+        println!("if the rise is meant: cargo xtask bench --instructions --record");
+        return ExitCode::from(FOUND_WRONG);
+    }
+    ExitCode::SUCCESS
+}
+
+fn could_not_run(problem: &str) -> ExitCode {
+    eprintln!("{problem}");
+    ExitCode::from(COULD_NOT_RUN)
+}
+
+/// Installs the runner if it is not there, and counts.
+fn counted() -> Result<Vec<Count>, String> {
+    let runner = env::current_dir()
+        .unwrap_or_default()
+        .join(TOOLS)
+        .join("bin/gungraun-runner");
+    if !Path::new(&runner).is_file() {
+        let install = [
+            "install",
+            "--locked",
+            "--root",
+            TOOLS,
+            "--version",
+            RUNNER,
+            "gungraun-runner",
+        ];
+        output(&mut cargo(&install))?;
+    }
+    let mut command = bench_cargo(&["bench", "--bench", "instructions"]);
+    output(command.env("GUNGRAUN_RUNNER", runner)).map(|printed| parse(&printed))
+}
+
+/// Reads `instructions::group::function poses_100:...` and the line `Instructions: 123|...` after it.
+fn parse(printed: &str) -> Vec<Count> {
+    let mut counts = Vec::new();
+    let mut counting: Option<(&str, f64)> = None;
+    for line in printed.lines() {
+        if let Some(heading) = line.strip_prefix("instructions::") {
+            counting = named(heading);
+        } else if let (Some(rest), Some((function, poses))) =
+            (line.trim().strip_prefix("Instructions:"), counting)
+        {
+            let total = rest
+                .split('|')
+                .next()
+                .and_then(|total| total.trim().parse::<f64>().ok());
+            counts.extend(total.map(|total| Count {
+                function: function.to_owned(),
+                per_pose: total / poses,
+            }));
+            counting = None;
+        }
+    }
+    counts
+}
+
+/// Function and number of poses of a heading.
+fn named(heading: &str) -> Option<(&str, f64)> {
+    let (path, case) = heading.split_once(' ')?;
+    let poses = case.strip_prefix("poses_")?.split(':').next()?.parse().ok()?;
+    Some((path.rsplit("::").next()?, poses))
+}
+
+/// One line for a person, and whether it is a regression.
+fn compared(count: &Count, before: Option<&Count>) -> (String, bool) {
+    let now = format!("{}: {:.0} instructions a pose", count.function, count.per_pose);
+    let Some(before) = before else {
+        return (format!("{now}, not recorded yet"), false);
+    };
+    let rise = count.per_pose / before.per_pose - 1.0;
+    let worse = rise > ALLOWED;
+    let verdict = if worse { ": REGRESSION" } else { "" };
+    (
+        format!(
+            "{now}, recorded {:.0}, {:+.1} %{verdict}",
+            before.per_pose,
+            100.0 * rise
+        ),
+        worse,
+    )
+}
+
+fn written(counts: &[Count], compiler: &str) -> String {
+    let mut text = String::from("function\tinstructions_per_pose\tcompiler\n");
+    for count in counts {
+        text += &format!("{}\t{:.1}\t{compiler}\n", count.function, count.per_pose);
+    }
+    text
+}
+
+fn read(text: &str) -> Vec<Count> {
+    let row = |line: &str| {
+        let mut fields = line.split('\t');
+        Some(Count {
+            function: fields.next()?.to_owned(),
+            per_pose: fields.next()?.parse().ok()?,
+        })
+    };
+    text.lines().filter_map(row).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn count(per_pose: f64) -> Count {
+        Count {
+            function: "evaluate".to_owned(),
+            per_pose,
+        }
+    }
+
+    #[test]
+    fn counts_are_read_per_pose() {
+        let printed = "instructions::per_pose::evaluate poses_200:(setup(200))\n  Instructions:   5000|N/A  (*)\n  L1 Hits: 3|N/A\n";
+        assert_eq!(parse(printed), [count(25.0)]);
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        assert_eq!(read(&written(&[count(25.0)], "rustc 1.95.0")), [count(25.0)]);
+    }
+
+    #[test]
+    fn only_a_rise_above_two_percent_is_a_regression() {
+        assert!(compared(&count(102.5), Some(&count(100.0))).1);
+        assert!(!compared(&count(101.5), Some(&count(100.0))).1);
+        assert!(!compared(&count(50.0), Some(&count(100.0))).1);
+        assert!(!compared(&count(50.0), None).1);
+    }
+}

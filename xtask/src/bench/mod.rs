@@ -1,0 +1,194 @@
+//! Speed: armill and its peers at the same work on the same poses, in one run.
+//!
+//! `bench/` holds what runs: a Cargo package of its own (never built with armill), Python and C++. Each prints rows; here
+//! they are called, put side by side ([`page`]) and held against the goals ([`goals`]). What a peer needs is installed
+//! under `target/` ([`peers`]); a peer that cannot be had is left out in plain words.
+
+mod goals;
+mod instructions;
+mod machine;
+mod page;
+mod peers;
+mod row;
+
+use crate::command::{cargo, command_line};
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use row::Row;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+
+/// What `--help` says.
+pub const ABOUT: &str = "Times armill and its peers: [--quick] [--only rust] | --instructions [--record].";
+
+/// The page that a full run writes.
+const PAGE: &str = "docs/performance.md";
+/// Where the poses lie that all peers read.
+const WORKLOAD: &str = "target/bench-workload";
+/// Where `bench/` is built.
+const TARGET: &str = "target/bench";
+
+/// What was asked for.
+#[derive(Debug, Default, PartialEq)]
+struct Options {
+    quick: bool,
+    only_rust: bool,
+    instructions: bool,
+    record: bool,
+}
+
+/// What a run found.
+#[derive(Default)]
+struct Found {
+    rows: Vec<Row>,
+    /// Who is missing, and why.
+    skipped: Vec<String>,
+}
+
+/// Runs all benchmarks and writes the page, or prints it alone if the run was not a full one.
+pub fn run(arguments: &[String]) -> ExitCode {
+    let Some(options) = options(arguments) else {
+        eprintln!("usage: cargo xtask bench [--quick] [--only rust] | --instructions [--record]");
+        return ExitCode::from(COULD_NOT_RUN);
+    };
+    if options.instructions {
+        return instructions::run(options.record);
+    }
+    match measured(&options).and_then(|found| publish(&options, &found)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::from(FOUND_WRONG)
+        }
+    }
+}
+
+fn options(arguments: &[String]) -> Option<Options> {
+    let mut options = Options::default();
+    let mut arguments = arguments.iter().map(String::as_str);
+    while let Some(argument) = arguments.next() {
+        match argument {
+            "--quick" => options.quick = true,
+            "--only" if arguments.next() == Some("rust") => options.only_rust = true,
+            "--instructions" => options.instructions = true,
+            "--record" => options.record = true,
+            _ => return None,
+        }
+    }
+    (options.instructions || !options.record).then_some(options)
+}
+
+/// Rows of all who could be had.
+fn measured(options: &Options) -> Result<Found, String> {
+    let mut found = Found::default();
+    let venv = if options.only_rust {
+        Err("left out by --only rust".to_owned())
+    } else {
+        peers::virtual_environment()
+    };
+    rust(options, &mut found)?;
+    match venv {
+        Ok(()) => {
+            found.read(&output(options.quicken(&mut peers::python()))?);
+            match peers::pinocchio() {
+                Ok(mut command) => found.read(&output(options.quicken(&mut command))?),
+                Err(why) => found.skipped.push(format!("Pinocchio: {why}")),
+            }
+        }
+        Err(why) => found.skipped.push(format!("Python and C++ peers: {why}")),
+    }
+    Ok(found)
+}
+
+/// armill and the peers in Rust; writes the poses for the others.
+fn rust(options: &Options, found: &mut Found) -> Result<(), String> {
+    let mut command = bench_cargo(&["run", "--release"]);
+    if let Some(cmake) = peers::cmake() {
+        command.args(["--features", "ik-geo"]).env("CMAKE", cmake);
+    } else {
+        found
+            .skipped
+            .push("ik-geo: its dependency nlopt needs cmake to build".to_owned());
+    }
+    command.args(["--", WORKLOAD]);
+    found.read(&output(options.quicken(&mut command))?);
+    Ok(())
+}
+
+/// `cargo` on the package in `bench/`.
+fn bench_cargo(arguments: &[&str]) -> Command {
+    let mut command = cargo(arguments);
+    command.args(["--manifest-path", "bench/Cargo.toml"]);
+    command.env("CARGO_TARGET_DIR", TARGET);
+    command
+}
+
+/// Runs a program whose talk goes to our stderr, and gives what it printed.
+fn output(command: &mut Command) -> Result<String, String> {
+    let line = command_line(command);
+    eprintln!("+ {line}");
+    let ran = command.stderr(Stdio::inherit()).output();
+    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
+    if !output.status.success() {
+        return Err(format!("{line} failed"));
+    }
+    String::from_utf8(output.stdout).map_err(|problem| format!("{line}: {problem}"))
+}
+
+fn publish(options: &Options, found: &Found) -> Result<(), String> {
+    let page = page::page(&found.rows, &found.skipped, &machine::lines());
+    println!("{page}");
+    if options.quick || options.only_rust {
+        eprintln!("{PAGE} is left as it is: only a full run writes it");
+        return Ok(());
+    }
+    fs::write(Path::new(PAGE), page).map_err(|problem| format!("cannot write {PAGE}: {problem}"))
+}
+
+impl Options {
+    fn quicken<'a>(&self, command: &'a mut Command) -> &'a mut Command {
+        if self.quick {
+            command.arg("--quick");
+        }
+        command
+    }
+}
+
+impl Found {
+    /// Takes the rows, and the words of those who could not run, out of what a program printed.
+    fn read(&mut self, printed: &str) {
+        for line in printed.lines() {
+            if let Some(skipped) = line.strip_prefix("skipped\t") {
+                self.skipped.push(skipped.replace('\t', ": "));
+            } else {
+                self.rows.extend(Row::read(line));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(line: &str) -> Option<Options> {
+        options(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn options_are_understood_and_unknown_ones_refused() {
+        let both = asked("--quick --only rust");
+        assert!(both.is_some_and(|options| options.quick && options.only_rust));
+        assert_eq!(asked(""), Some(Options::default()));
+        assert_eq!(asked("--only python"), None);
+        assert_eq!(asked("--record"), None);
+    }
+
+    #[test]
+    fn rows_and_missing_peers_are_told_apart() {
+        let mut found = Found::default();
+        found.read("a\tdev\t1\t2.0\t1.5\t2.5\tnote\nskipped\tEAIK\tno module\n");
+        assert_eq!(found.rows.len(), 1);
+        assert_eq!(found.skipped, ["EAIK: no module"]);
+    }
+}

@@ -1,0 +1,147 @@
+//! The page of a run: what was measured, on what, the rates side by side, the goals, every row.
+
+use super::goals;
+use super::row::{Row, digits};
+
+/// The columns: work as named in `bench/src/work.rs`.
+const WORKS: &[&str] = &["dev", "dev8", "C66", "ik8", "dev from angles", "C66 from angles"];
+/// Whose rate is 1.
+const YARDSTICK: &str = "plain Rust with trigonometry";
+
+const WHAT: &str = "\
+# Performance
+
+Written by `cargo xtask bench`; do not edit. Million poses per second, median of all rounds; in brackets the ratio to
+plain Rust with trigonometry at the same work on one thread. All candidates work in the same run on the same 200 000
+reachable poses of a Yaskawa MH12: tool axis horizontal, TCP on a vertical plane 1 m in front of the base and 250 mm from
+the wrist centre, four force cases. Before they are timed all are checked to compute the same: armill within 1e-9 of the
+plain version, peers within 1e-6. Rates mean nothing across machines; ratios do, within a few percent.
+
+- **dev**: inverse kinematics of one branch, deviation under four forces, the largest in-plane part
+- **dev8**: the same for all 8 branches
+- **C66**: 6 x 6 compliance at the tool, inverse kinematics included
+- **ik8**: joint angles of all 8 branches
+- **from angles**: the same without inverse kinematics, joint angles given
+
+The packaged libraries verify, treat singular cases or take any geometry; the plain version and the specialised numpy and
+numba ones do not. Results are overwritten block by block: work is timed, not the memory.
+";
+
+/// The whole page, Markdown.
+pub fn page(rows: &[Row], skipped: &[String], machine: &[String]) -> String {
+    let mut page = format!(
+        "{WHAT}\n## Machine\n\n{}\n## Rates\n\n{}",
+        list(machine),
+        side_by_side(rows)
+    );
+    let goals = goals::table(rows);
+    if !goals.is_empty() {
+        page += &format!("\n## Goals\n\nRatios of rates in this run.\n\n{goals}");
+    }
+    if !skipped.is_empty() {
+        page += &format!("\n## Not measured\n\n{}", list(skipped));
+    }
+    page + &format!("\n## Every row\n\n{}", every_row(rows))
+}
+
+fn list(lines: &[String]) -> String {
+    lines.iter().map(|line| format!("- {line}\n")).collect()
+}
+
+/// Who against work, for the work that several do.
+fn side_by_side(rows: &[Row]) -> String {
+    let mut table = format!("| who | {} |\n|---|", WORKS.join(" | "));
+    table += &"--:|".repeat(WORKS.len());
+    table.push('\n');
+    let shared = |row: &&Row| WORKS.contains(&row.work.as_str());
+    let mut who: Vec<(&str, usize)> = Vec::new();
+    for row in rows.iter().filter(shared) {
+        if !who.contains(&(&row.who, row.threads)) {
+            who.push((&row.who, row.threads));
+        }
+    }
+    for (who, threads) in who {
+        let cells: Vec<String> = WORKS
+            .iter()
+            .map(|work| cell(rows, who, (threads, work)))
+            .collect();
+        let threads = if threads == 1 {
+            ""
+        } else {
+            &format!(", {threads} threads")
+        };
+        table += &format!("| {who}{threads} | {} |\n", cells.join(" | "));
+    }
+    table
+}
+
+/// Rate and ratio to the yardstick, or nothing.
+fn cell(rows: &[Row], who: &str, (threads, work): (usize, &str)) -> String {
+    let rate = |who: &str, threads: usize| {
+        let is = |row: &&Row| row.who == who && row.work == work && row.threads == threads;
+        rows.iter().find(is).map(|row| row.median)
+    };
+    match (rate(who, threads), rate(YARDSTICK, 1)) {
+        (None, _) => String::new(),
+        (Some(ours), Some(yardstick)) => format!("{} ({}x)", digits(ours), digits(ours / yardstick)),
+        (Some(ours), None) => digits(ours),
+    }
+}
+
+fn every_row(rows: &[Row]) -> String {
+    let mut table =
+        String::from("| who | work | threads | median | quartiles | note |\n|---|---|--:|--:|--:|---|\n");
+    for row in rows {
+        let [lower, upper] = row.quartiles.map(digits);
+        table += &format!(
+            "| {} | {} | {} | {} | {lower} - {upper} | {} |\n",
+            row.who,
+            row.work,
+            row.threads,
+            digits(row.median),
+            row.note
+        );
+    }
+    table
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows() -> Vec<Row> {
+        let lines = [
+            "plain Rust with trigonometry\tdev\t1\t4.0\t3.9\t4.1\t",
+            "armill evaluate\tdev\t2\t2.0\t1.9\t2.1\tverified",
+            "armill, one pose\tforward\t1\t1.0\t1.0\t1.0\t",
+        ];
+        lines.into_iter().filter_map(Row::read).collect()
+    }
+
+    #[test]
+    fn rates_stand_beside_their_ratio_to_the_yardstick() {
+        let table = side_by_side(&rows());
+        assert!(
+            table.contains("| armill evaluate, 2 threads | 2.00 (0.500x) |  |"),
+            "{table}"
+        );
+        assert!(!table.contains("one pose"), "{table}");
+    }
+
+    #[test]
+    fn the_page_tells_every_row_and_who_is_missing() {
+        let page = page(
+            &rows(),
+            &["EAIK: no module".to_owned()],
+            &["processor: x".to_owned()],
+        );
+        for part in [
+            "armill, one pose | forward",
+            "- EAIK: no module",
+            "- processor: x",
+        ] {
+            assert!(page.contains(part), "{part}");
+        }
+        assert!(!page.contains("## Goals"), "no goal has both sides");
+    }
+}

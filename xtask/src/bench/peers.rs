@@ -1,0 +1,120 @@
+//! What the peers need: a virtual environment under `target/`, a C++ compiler, cmake.
+//!
+//! Pinocchio comes as a wheel that holds its C++ headers, and Eigen's and Boost's beside them; so does cmake.
+
+use super::{WORKLOAD, output};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, fs};
+
+const VENV: &str = "target/bench-venv";
+const REQUIREMENTS: &str = "bench/python/requirements.txt";
+const PINOCCHIO: &str = "bench/cpp/pinocchio.cpp";
+/// The program made of it.
+const PINOCCHIO_PROGRAM: &str = "target/bench-pinocchio";
+/// What every thread pool that numpy and others bring obeys.
+const THREADS: &[&str] = &[
+    "OMP_NUM_THREADS",
+    "MKL_NUM_THREADS",
+    "OPENBLAS_NUM_THREADS",
+    "NUMBA_NUM_THREADS",
+];
+
+/// Makes the virtual environment, or brings it up to date.
+///
+/// # Errors
+/// Why it cannot be had.
+pub fn virtual_environment() -> Result<(), String> {
+    let wanted = fs::read_to_string(REQUIREMENTS).map_err(|problem| problem.to_string())?;
+    // A copy of the list lies beside what was installed from it.
+    let installed = Path::new(VENV).join("requirements.txt");
+    if fs::read_to_string(&installed).is_ok_and(|installed| installed == wanted) {
+        return Ok(());
+    }
+    eprintln!("installing into {VENV}: {}", packages(&wanted).join(", "));
+    output(Command::new("python3").args(["-m", "venv", VENV]))?;
+    output(Command::new(in_venv("python")).args(["-m", "pip", "install", "--quiet", "-r", REQUIREMENTS]))?;
+    fs::write(installed, wanted).map_err(|problem| problem.to_string())
+}
+
+/// The peers in Python, on one thread.
+pub fn python() -> Command {
+    let mut command = Command::new(in_venv("python"));
+    command.args(["bench/python/peers.py", WORKLOAD]);
+    command.envs(THREADS.iter().map(|name| (name, "1")));
+    command.env("PYTHONDONTWRITEBYTECODE", "1");
+    command
+}
+
+/// Pinocchio in C++, compiled if it is not yet.
+///
+/// # Errors
+/// Why it cannot be compiled.
+pub fn pinocchio() -> Result<Command, String> {
+    let modified = |path: &str| fs::metadata(path).and_then(|file| file.modified()).ok();
+    let fresh = modified(PINOCCHIO_PROGRAM) > modified(PINOCCHIO);
+    if !fresh {
+        let include = headers().ok_or("the wheel has no headers")?;
+        let mut compiler = Command::new("c++");
+        compiler.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG"]);
+        // As Pinocchio's own build has it: a joint is one of more kinds than Boost's lists hold by default.
+        compiler.args([
+            "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
+            "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
+        ]);
+        // Warnings about the headers' templates are not ours to mend.
+        compiler.arg("-w");
+        compiler.arg("-isystem").arg(&include);
+        compiler.arg("-isystem").arg(include.join("eigen3"));
+        output(compiler.args([PINOCCHIO, "-o", PINOCCHIO_PROGRAM]))?;
+    }
+    let mut command = Command::new(PINOCCHIO_PROGRAM);
+    command.arg(WORKLOAD);
+    Ok(command)
+}
+
+/// A cmake, if there is one: the virtual environment's or the system's.
+pub fn cmake() -> Option<PathBuf> {
+    let here = env::current_dir().unwrap_or_default().join(in_venv("cmake"));
+    if here.is_file() {
+        return Some(here);
+    }
+    let mut command = Command::new("cmake");
+    let there = command
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    there.is_ok_and(|status| status.success()).then(|| "cmake".into())
+}
+
+fn in_venv(program: &str) -> PathBuf {
+    Path::new(VENV).join("bin").join(program)
+}
+
+/// Where the wheels put their C++ headers; the Python version is in the path.
+fn headers() -> Option<PathBuf> {
+    let versions = fs::read_dir(Path::new(VENV).join("lib")).ok()?;
+    versions
+        .filter_map(Result::ok)
+        .map(|version| version.path().join("site-packages/cmeel.prefix/include"))
+        .find(|include| include.is_dir())
+}
+
+/// The lines that name a package.
+fn packages(requirements: &str) -> Vec<&str> {
+    requirements
+        .lines()
+        .filter(|line| !line.starts_with('#'))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn comments_name_no_package() {
+        assert_eq!(packages("# why\nnumpy==2\npin==4\n"), ["numpy==2", "pin==4"]);
+    }
+}
