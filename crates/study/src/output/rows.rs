@@ -46,18 +46,26 @@ impl<'a> Rows<'a> {
             Err(miss) => miss.reason(),
         }
     }
+}
 
-    /// A value of each point that has a posture.
-    pub(super) fn of_held(&self, value: impl Fn(usize, &Held) -> f64) -> Vec<Option<f64>> {
-        let of = |(index, point): (usize, &Result<Held, Unreachable>)| {
-            point
-                .as_ref()
-                .ok()
-                .map(|held| value(index, held))
-                .filter(|value| value.is_finite())
-        };
-        self.answers.points.iter().enumerate().map(of).collect()
+/// Something of each point of several series, one series after the other.
+pub(super) fn of_points<T>(series: &[Rows<'_>], value: impl Fn(&Rows<'_>, usize) -> T) -> Vec<T> {
+    let mut values = Vec::with_capacity(series.iter().map(|rows| rows.at_mm.len()).sum());
+    for rows in series {
+        values.extend((0..rows.at_mm.len()).map(|index| value(rows, index)));
     }
+    values
+}
+
+/// A number of each point that has a posture.
+pub(super) fn of_held(
+    series: &[Rows<'_>],
+    value: impl Fn(&Rows<'_>, usize, &Held) -> f64,
+) -> Vec<Option<f64>> {
+    of_points(series, |rows, index| {
+        let held = rows.answers.points[index].as_ref().ok()?;
+        Some(value(rows, index, held)).filter(|value| value.is_finite())
+    })
 }
 
 /// A length without the rounding of frame changes.

@@ -11,7 +11,7 @@ use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 
 use super::Csv;
-use super::rows::{Rows, rows};
+use super::rows::{Rows, of_held, of_points, rows};
 use crate::error::StudyError;
 use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::Found;
@@ -42,12 +42,15 @@ fn has_csv(ask: &Ask, csv: Csv) -> bool {
     few || csv == Csv::Every || cfg!(not(feature = "parquet"))
 }
 
+/// Takes the bytes of a file that ends in this.
+type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
+
 /// Hands the files of one ask to `save`, extension and bytes.
 pub(super) fn files(
     study: &Study,
     (ask, found): (&Ask, &Found),
     csv: Csv,
-    save: &(dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync),
+    save: &Save<'_>,
 ) -> Result<(), StudyError> {
     let series = rows(ask, found);
     let rows_of_table = || {
@@ -125,31 +128,25 @@ fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
-    let scalar = |name: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| PointArray {
+    let scalar = |name: &str, um: fn(&Held) -> f64| PointArray {
         name: name.to_owned(),
-        values: PointValues::OptionalScalar(series.iter().flat_map(value).collect()),
+        values: PointValues::OptionalScalar(of_held(series, |_, _, held| um(held) * 1e6)),
     };
     let mut arrays = vec![
-        scalar("in_plane_um", &|rows| rows.of_held(|_, held| held.in_plane * 1e6)),
-        scalar("in_plane_u_um", &|rows| {
-            rows.of_held(|_, held| held.in_plane_uncertainty * 1e6)
-        }),
-        scalar("normal_um", &|rows| rows.of_held(|_, held| held.normal * 1e6)),
-        scalar("full_um", &|rows| rows.of_held(|_, held| held.full * 1e6)),
+        scalar("in_plane_um", |held| held.in_plane),
+        scalar("in_plane_u_um", |held| held.in_plane_uncertainty),
+        scalar("normal_um", |held| held.normal),
+        scalar("full_um", |held| held.full),
     ];
     let cases = series.first().map_or(0, |rows| rows.answers.case_count);
-    arrays.extend((0..cases).map(|case| {
+    arrays.par_extend((0..cases).into_par_iter().map(|case| {
         let vector = |rows: &Rows<'_>, index: usize| {
             let reached = rows.answers.points[index].is_ok();
             reached.then(|| rows.answers.deviations_at(index)[case].map(|c| c * 1e6).into())
         };
-        let values = series
-            .iter()
-            .flat_map(|rows| (0..rows.at_mm.len()).map(move |i| vector(rows, i)))
-            .collect();
         PointArray {
             name: format!("deviation_case_{}_um", case + 1),
-            values: PointValues::OptionalVector(values),
+            values: PointValues::OptionalVector(of_points(series, vector)),
         }
     }));
     arrays
@@ -171,7 +168,7 @@ struct Numbers<'a> {
     values: Values<'a>,
 }
 
-type Values<'a> = Box<dyn Fn(&Rows<'_>) -> Vec<Option<f64>> + Send + Sync + 'a>;
+type Values<'a> = Box<dyn Fn(&[Rows<'_>]) -> Vec<Option<f64>> + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
     fn um(
@@ -184,7 +181,7 @@ impl<'a> Numbers<'a> {
             unit: Some("um"),
             decimals: UM_DECIMALS,
             description,
-            values: Box::new(move |rows| rows.of_held(|index, held| um(rows, index, held))),
+            values: Box::new(move |series| of_held(series, &um)),
         }
     }
 
@@ -206,7 +203,7 @@ impl<'a> Numbers<'a> {
             unit: self.unit.map(str::to_owned),
             description: self.description.to_owned(),
             decimals: Some(self.decimals),
-            data: ColumnData::OptionalFloat(series.iter().flat_map(|rows| (self.values)(rows)).collect()),
+            data: ColumnData::OptionalFloat((self.values)(series)),
         }
     }
 }
@@ -218,15 +215,12 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         columns.push(section(series));
     }
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = series
-            .iter()
-            .flat_map(|rows| rows.at_mm.iter().map(move |at| at[axis]));
         columns.push(Column {
             name: format!("{letter}_mm"),
             unit: Some("mm".to_owned()),
             description: format!("{letter} of the TCP in the frame that the study counts from"),
             decimals: Some(MM_DECIMALS),
-            data: ColumnData::Float(values.collect()),
+            data: ColumnData::Float(of_points(series, |rows, index| rows.at_mm[index][axis])),
         });
     }
     columns.push(words(
