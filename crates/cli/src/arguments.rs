@@ -64,6 +64,9 @@ pub(crate) struct RunArguments {
     /// Write tables only: no pictures, no report
     #[arg(long)]
     pub no_pictures: bool,
+    /// Write a CSV of series and volumes too, not of maps and paths only
+    #[arg(long)]
+    pub csv: bool,
     /// Threads to use (all processors if left out)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,

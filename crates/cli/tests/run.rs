@@ -10,6 +10,8 @@ use serde_json::Value;
 
 const TABLES_ONLY: [&str; 3] = ["run", "study.toml", "--no-pictures"];
 
+const EVERY_CSV: [&str; 4] = ["run", "study.toml", "--no-pictures", "--csv"];
+
 fn every_kind() -> String {
     format!("{SMALL}{EVERY_KIND}")
 }
@@ -139,13 +141,48 @@ fn without_pictures_there_are_tables_and_the_answer_only() {
     extensions.sort_unstable();
     extensions.dedup();
     assert_eq!(extensions, ["csv", "json", "parquet", "vti", "vtp"]);
-    assert_eq!(files.len(), 4 * 3 + 1);
+    // Parquet and VTK of four asks, CSV of the map and the path, the answer.
+    assert_eq!(files.len(), 4 * 2 + 2 + 1);
+}
+
+#[test]
+fn series_and_volumes_have_a_csv_when_it_is_asked_for() {
+    let cell = Cell::with_study(&every_kind());
+    cell.armill(&TABLES_ONLY).fine();
+    let usual = cell.files("out");
+    assert!(!usual.contains_key("space.csv") && !usual.contains_key("distances.csv"));
+    cell.armill(&EVERY_CSV).fine();
+    let mut every = cell.files("out");
+    assert!(every.remove("space.csv").is_some() && every.remove("distances.csv").is_some());
+    assert!(every == usual, "the flag changes other files");
+}
+
+#[test]
+fn files_that_a_run_no_longer_writes_are_removed_and_those_of_others_stay() {
+    let cell = Cell::with_study(&every_kind());
+    cell.armill(&["run", "study.toml"]).fine();
+    cell.file("out/notes.txt", "mine");
+    cell.file("out/groove.txt", "mine");
+    cell.file("out/.armill-a1B2c3.part", "half a file of a killed run");
+    cell.file("study.toml", SMALL);
+    cell.armill(&TABLES_ONLY).fine();
+    let names: Vec<String> = cell.files("out").into_keys().collect();
+    let expected = [
+        "groove.txt",
+        "map.csv",
+        "map.parquet",
+        "map.vtp",
+        "notes.txt",
+        "result.json",
+    ];
+    assert_eq!(names, expected);
+    assert!(!cell.at("out/.armill-a1B2c3.part").exists());
 }
 
 #[test]
 fn a_table_has_one_row_a_point() {
     let cell = Cell::with_study(&every_kind());
-    cell.armill(&TABLES_ONLY).fine();
+    cell.armill(&EVERY_CSV).fine();
     for (name, points) in [
         ("plate.csv", 25),
         ("distances.csv", 50),

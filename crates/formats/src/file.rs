@@ -2,10 +2,16 @@
 //!
 //! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in one
 //! step: whoever reads it sees the old content or the new one, also after a power cut.
+//!
+//! [`write_atomically`] writes one file. Of many files [`PartFile`] does the same in two steps, since the disk is what
+//! one waits for: while some are forced to it, others can be made. A run that is killed leaves temporary files;
+//! [`remove_abandoned`] knows them by their name and by the lock that nobody holds any more.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
 
 /// Why a file or folder was not written: what failed, and what to try.
 #[derive(Debug, thiserror::Error)]
@@ -129,10 +135,81 @@ impl FileError {
 /// What stood in the way; then the old content is untouched and no temporary file remains.
 pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), FileError> {
     let path = path.as_ref();
-    write_beside(path, &mut |out| out.write_all(bytes)).map_err(|failure| match failure {
-        Failure::Named(error) => error,
-        Failure::System(source) => FileError::of(path, bytes.len(), source),
-    })
+    PartFile::write(path, bytes)?.take_name()?;
+    sync_folder(&folder_of(path));
+    Ok(())
+}
+
+/// A file that is written and does not have its name yet. Dropped before, it is gone.
+#[derive(Debug)]
+pub struct PartFile {
+    path: PathBuf,
+    bytes: usize,
+    /// The temporary file and the name that it is to take; none for a device, which is written already.
+    part: Option<(NamedTempFile, PathBuf)>,
+}
+
+impl PartFile {
+    /// Writes `bytes` beside `path`; see [`write_atomically`].
+    ///
+    /// # Errors
+    /// What stood in the way; then no temporary file remains.
+    pub fn write(path: impl AsRef<Path>, bytes: &[u8]) -> Result<PartFile, FileError> {
+        let path = path.as_ref();
+        let part = told(
+            path,
+            bytes.len(),
+            write_beside(path, &mut |out| out.write_all(bytes)),
+        )?;
+        Ok(PartFile {
+            path: path.to_owned(),
+            bytes: bytes.len(),
+            part,
+        })
+    }
+
+    /// Forces the bytes to the disk and gives them their name. The name itself is safe after [`sync_folder`].
+    ///
+    /// # Errors
+    /// What stood in the way; then the old content is untouched and no temporary file remains.
+    pub fn take_name(self) -> Result<(), FileError> {
+        let Some((part, target)) = self.part else {
+            return Ok(());
+        };
+        let named = || {
+            part.as_file().sync_all()?;
+            part.persist(&target).map_err(|error| error.error)?;
+            Ok(())
+        };
+        told(&self.path, self.bytes, named())
+    }
+}
+
+/// Forces the names in a folder to the disk; not every file system can be asked for that.
+pub fn sync_folder(folder: &Path) {
+    #[cfg(unix)]
+    let _ = File::open(folder).and_then(|folder| folder.sync_all());
+    #[cfg(not(unix))]
+    let _ = folder;
+}
+
+/// Removes the temporary files in `folder` that nobody writes any more, as a killed run leaves them.
+///
+/// What cannot be looked at, locked or removed stays: it does no harm.
+pub fn remove_abandoned(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        let ours = name.starts_with(PART_PREFIX) && name.ends_with(PART_SUFFIX);
+        if !ours || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            continue;
+        }
+        let path = entry.path();
+        let unlocked = File::open(&path).is_ok_and(|file| file.try_lock().is_ok());
+        if unlocked {
+            let _ = fs::remove_file(path);
+        }
+    }
 }
 
 /// Creates a folder and those above it; success if it is there already.
@@ -150,6 +227,9 @@ pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
     })
 }
 
+const PART_PREFIX: &str = ".armill-";
+const PART_SUFFIX: &str = ".part";
+
 /// Either a situation that was recognised, or what the operating system said.
 enum Failure {
     Named(FileError),
@@ -162,7 +242,18 @@ impl From<io::Error> for Failure {
     }
 }
 
-fn write_beside(path: &Path, write: &mut dyn FnMut(&mut File) -> io::Result<()>) -> Result<(), Failure> {
+fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
+    result.map_err(|failure| match failure {
+        Failure::Named(error) => error,
+        Failure::System(source) => FileError::of(path, bytes, source),
+    })
+}
+
+/// The temporary file and the name that it is to take; none where a device was written.
+fn write_beside(
+    path: &Path,
+    write: &mut dyn FnMut(&mut File) -> io::Result<()>,
+) -> Result<Option<(NamedTempFile, PathBuf)>, Failure> {
     if path.file_name().is_none() {
         let path = path.to_owned();
         return Err(Failure::Named(if path.is_dir() {
@@ -179,7 +270,8 @@ fn write_beside(path: &Path, write: &mut dyn FnMut(&mut File) -> io::Result<()>)
     }
     if old.as_ref().is_some_and(|old| !old.is_file()) {
         // A device or pipe must keep its place: there is nothing to replace.
-        return Ok(write(&mut File::options().write(true).open(path)?)?);
+        write(&mut File::options().write(true).open(path)?)?;
+        return Ok(None);
     }
     if old.as_ref().is_some_and(|old| old.permissions().readonly()) {
         // Renaming would replace it all the same: the folder alone decides about that.
@@ -194,21 +286,18 @@ fn write_beside(path: &Path, write: &mut dyn FnMut(&mut File) -> io::Result<()>)
     };
     let folder = folder_of(&target);
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".armill-").suffix(".part");
+    builder.prefix(PART_PREFIX).suffix(PART_SUFFIX);
     // Without this the file would be readable by its owner alone; the user's mask still applies.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut part = builder.tempfile_in(&folder)?;
+    // Says to others that somebody writes it; where there are no locks it stays untold.
+    let _ = part.as_file().try_lock();
     write(part.as_file_mut())?;
     if let Some(old) = old {
         part.as_file().set_permissions(old.permissions())?;
     }
-    part.as_file().sync_all()?;
-    part.persist(&target).map_err(|error| error.error)?;
-    // The new name is safe only when the folder is on the disk too; not every file system can be asked for that.
-    #[cfg(unix)]
-    let _ = File::open(&folder).and_then(|folder| folder.sync_all());
-    Ok(())
+    Ok(Some((part, target)))
 }
 
 fn folder_of(path: &Path) -> PathBuf {
@@ -261,6 +350,34 @@ mod tests {
         assert!(matches!(failure, Err(Failure::System(error)) if error.kind() == io::ErrorKind::StorageFull));
         assert_eq!(fs::read(&path).unwrap(), b"old");
         assert_eq!(names_in(folder.path()), ["result.csv"]);
+    }
+
+    #[test]
+    fn a_part_takes_its_name_when_it_is_told_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.csv");
+        drop(PartFile::write(&path, b"given up").unwrap());
+        assert!(names_in(folder.path()).is_empty());
+        let part = PartFile::write(&path, b"one").unwrap();
+        assert!(!path.exists());
+        part.take_name().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"one");
+    }
+
+    #[test]
+    fn what_a_killed_run_left_is_removed_and_what_somebody_writes_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in [".armill-a1B2c3.part", ".armill-files", "a.part", "map.csv"] {
+            fs::write(folder.path().join(name), "half").unwrap();
+        }
+        let part = PartFile::write(folder.path().join("plate.csv"), b"whole").unwrap();
+        remove_abandoned(folder.path());
+        part.take_name().unwrap();
+        assert_eq!(
+            names_in(folder.path()),
+            [".armill-files", "a.part", "map.csv", "plate.csv"]
+        );
+        remove_abandoned(&folder.path().join("nowhere"));
     }
 
     #[test]

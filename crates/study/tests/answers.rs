@@ -9,7 +9,7 @@ use std::sync::atomic::AtomicBool;
 use armill_core::watch::Watch;
 use armill_study::answer::{MapAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
-use armill_study::output::{Pictures, write};
+use armill_study::output::{Wanted, write};
 use armill_study::run::{Found, point_count, run};
 use armill_study::{ErrorKind, StudyError, library};
 
@@ -487,7 +487,7 @@ fn the_same_study_gives_the_same_files() {
             &study,
             &found,
             &answer(&study, &found),
-            (folder.path(), Pictures::None),
+            (folder.path(), Wanted::TABLES),
             &|_| (),
         )
         .unwrap();
@@ -497,7 +497,8 @@ fn the_same_study_gives_the_same_files() {
         .map(|entry| entry.unwrap().file_name())
         .collect();
     names.sort();
-    assert_eq!(names.len(), 2 * 3 + 1, "{names:?}");
+    // Three tables an ask, the answer, the list of files.
+    assert_eq!(names.len(), 2 * 3 + 2, "{names:?}");
     for name in names {
         let [a, b] = [0, 1].map(|i: usize| std::fs::read(folders[i].path().join(&name)).unwrap());
         assert!(a == b, "{}", name.display());

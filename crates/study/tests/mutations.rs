@@ -8,7 +8,7 @@ use std::path::Path;
 use armill_core::watch::Watch;
 use armill_study::answer::answer;
 use armill_study::file::resolve::{Study, read};
-use armill_study::output::{self, Pictures};
+use armill_study::output::{self, Wanted};
 use armill_study::run::{point_count, run};
 use armill_study::{ErrorKind, StudyError};
 use proptest::prelude::*;
@@ -278,7 +278,7 @@ proptest! {
         prop_assume!(point_count(&study) <= MOST_POINTS);
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Pictures::None), &|_| ());
+        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Wanted::TABLES), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }
@@ -297,7 +297,7 @@ proptest! {
         study.asks.truncate(2);
         let found = run(&study, Watch::NONE).unwrap();
         let folder = tempfile::tempdir().unwrap();
-        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Pictures::Drawn), &|_| ());
+        let written = output::write(&study, &found, &answer(&study, &found), (folder.path(), Wanted::USUAL), &|_| ());
         prop_assert!(written.is_ok(), "{}\n{}", written.unwrap_err(), text);
     }
 }

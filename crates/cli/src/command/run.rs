@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use armill_study::answer::{StudyAnswer, answer};
-use armill_study::output::{self, Pictures};
+use armill_study::output::{self, Csv, Pictures, Wanted};
 use armill_study::run::{point_count, run as run_study};
 use armill_study::{Study, StudyError};
 
@@ -53,12 +53,14 @@ fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnsw
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    let pictures = if arguments.no_pictures {
-        Pictures::None
-    } else {
-        Pictures::Drawn
-    };
-    let written = output::write(study, &found, &answer, (out, pictures), &|name| {
+    let mut wanted = Wanted::USUAL;
+    if arguments.no_pictures {
+        wanted.pictures = Pictures::None;
+    }
+    if arguments.csv {
+        wanted.csv = Csv::Every;
+    }
+    let written = output::write(study, &found, &answer, (out, wanted), &|name| {
         progress.tell(name);
     });
     progress.clear();

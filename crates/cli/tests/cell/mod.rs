@@ -175,9 +175,11 @@ impl Cell {
         serde_json::from_slice(&std::fs::read(path).expect("a result.json")).expect("JSON")
     }
 
-    /// Every file of the folder `out` by name.
+    /// Every file of the folder `out` by name, but for those that armill keeps for itself.
     pub fn files(&self, out: &str) -> BTreeMap<String, Vec<u8>> {
-        files_in(&self.at(out))
+        let mut files = files_in(&self.at(out));
+        files.retain(|name, _| !name.starts_with(".armill-"));
+        files
     }
 }
 

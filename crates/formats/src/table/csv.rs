@@ -2,57 +2,147 @@
 //!
 //! | value | cell |
 //! |---|---|
-//! | number | the fewest digits that give the same number back: `0.1`, `1e300` |
+//! | number | the decimals of its column that mean something, without zeros at the end; where the column does not say, the fewest digits that give the same number back: `0.1`, `1e300` |
 //! | missing | empty; `""` where the table has a single column, since readers skip empty lines |
 //! | flag | `true`, `false` |
 //! | category | its label |
 //!
 //! Source: RFC 4180; lines end with CR LF. Units are in the header; descriptions have no place here.
 
-use super::{ColumnData, Table};
+use std::io::Write;
+
+use super::{Column, ColumnData, Table};
 
 /// The table as UTF-8 text, a header and one line for each row.
 pub fn write(table: &Table) -> Vec<u8> {
-    let mut out = ::csv::WriterBuilder::new()
-        .terminator(::csv::Terminator::CRLF)
-        .from_writer(Vec::new());
-    let mut line = |cells: Vec<String>| {
-        out.write_record(cells)
-            .expect("writing to memory does not fail, and all lines have the same number of cells");
-    };
-    line(table.columns().iter().map(|column| column.name.clone()).collect());
+    let columns = table.columns();
+    let mut out = Vec::with_capacity((table.row_count() + 1) * columns.len() * BYTES_PER_CELL);
+    for (index, column) in columns.iter().enumerate() {
+        separate(&mut out, index);
+        text(&mut out, &column.name);
+    }
+    out.extend_from_slice(END_OF_LINE);
     for row in 0..table.row_count() {
-        line(
-            table
-                .columns()
-                .iter()
-                .map(|column| cell(&column.data, row))
-                .collect(),
-        );
+        let start = out.len();
+        for (index, column) in columns.iter().enumerate() {
+            separate(&mut out, index);
+            cell(&mut out, column, row);
+        }
+        if columns.len() == 1 && out.len() == start {
+            out.extend_from_slice(b"\"\"");
+        }
+        out.extend_from_slice(END_OF_LINE);
     }
-    out.into_inner().expect("memory flushes without an error")
+    out
 }
 
-fn cell(data: &ColumnData, row: usize) -> String {
-    match data {
-        ColumnData::Float(values) => number(values[row]),
-        ColumnData::OptionalFloat(values) => values[row].map_or_else(String::new, number),
-        ColumnData::Integer(values) => values[row].to_string(),
-        ColumnData::Flag(values) => values[row].to_string(),
-        ColumnData::Text(values) => values[row].clone(),
-        ColumnData::Category { codes, labels } => labels[codes[row] as usize].clone(),
+/// What a cell of a table of deviations takes, about; only the first allocation depends on it.
+const BYTES_PER_CELL: usize = 9;
+
+const END_OF_LINE: &[u8] = b"\r\n";
+
+fn separate(out: &mut Vec<u8>, index: usize) {
+    if index > 0 {
+        out.push(b',');
     }
 }
 
-/// Debug gives the shortest text that reads back equal, with an exponent where that is shorter.
-fn number(value: f64) -> String {
-    let text = format!("{value:?}");
-    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+fn cell(out: &mut Vec<u8>, column: &Column, row: usize) {
+    let float = |out: &mut Vec<u8>, value| match column.decimals {
+        Some(decimals) => rounded(out, value, usize::from(decimals)),
+        None => number(out, value),
+    };
+    match &column.data {
+        ColumnData::Float(values) => float(out, values[row]),
+        ColumnData::OptionalFloat(values) => values[row].into_iter().for_each(|value| float(out, value)),
+        ColumnData::Integer(values) => formatted(out, format_args!("{}", values[row])),
+        ColumnData::Flag(values) => out.extend_from_slice(if values[row] { b"true" } else { b"false" }),
+        ColumnData::Text(values) => text(out, &values[row]),
+        ColumnData::Category { codes, labels } => text(out, &labels[codes[row] as usize]),
+    }
+}
+
+/// Text in quotes where a reader would take it apart otherwise.
+fn text(out: &mut Vec<u8>, text: &str) {
+    let parts = |c: u8| matches!(c, b',' | b'"' | b'\r' | b'\n');
+    if !text.bytes().any(parts) {
+        return out.extend_from_slice(text.as_bytes());
+    }
+    out.push(b'"');
+    for byte in text.bytes() {
+        if byte == b'"' {
+            out.push(b'"');
+        }
+        out.push(byte);
+    }
+    out.push(b'"');
+}
+
+/// The shortest text that reads back equal, with an exponent where that is shorter.
+fn number(out: &mut Vec<u8>, value: f64) {
+    let start = out.len();
+    formatted(out, format_args!("{value:?}"));
+    if out[start..].ends_with(b".0") {
+        out.truncate(out.len() - 2);
+    }
+}
+
+const POWERS_OF_TEN: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
+/// Below this a whole number of the last decimal is exact.
+const EXACT: f64 = 9e15;
+
+/// At most so many decimals, without zeros at the end; numbers that are too large for that in full.
+fn rounded(out: &mut Vec<u8>, value: f64, decimals: usize) {
+    let scaled = match POWERS_OF_TEN.get(decimals) {
+        Some(power) => (value * power).abs() + 0.5,
+        None => f64::INFINITY,
+    };
+    if scaled < EXACT {
+        decimal(out, value < 0.0, scaled as u64, decimals);
+    } else {
+        number(out, value);
+    }
+}
+
+/// So many parts of the last decimal.
+fn decimal(out: &mut Vec<u8>, negative: bool, parts: u64, decimals: usize) {
+    // Sixteen digits at most, a point, a sign, and zeros after the point.
+    let mut digits = [b'0'; 32];
+    let mut first = digits.len();
+    let (mut rest, mut place) = (parts, 0);
+    while rest > 0 || place <= decimals {
+        if place == decimals && decimals > 0 {
+            first -= 1;
+            digits[first] = b'.';
+        }
+        first -= 1;
+        digits[first] = b'0' + (rest % 10) as u8;
+        rest /= 10;
+        place += 1;
+    }
+    if negative && parts > 0 {
+        first -= 1;
+        digits[first] = b'-';
+    }
+    let mut end = digits.len();
+    if decimals > 0 {
+        while digits[end - 1] == b'0' {
+            end -= 1;
+        }
+        if digits[end - 1] == b'.' {
+            end -= 1;
+        }
+    }
+    out.extend_from_slice(&digits[first..end]);
+}
+
+fn formatted(out: &mut Vec<u8>, arguments: std::fmt::Arguments<'_>) {
+    out.write_fmt(arguments).expect("writing to memory does not fail");
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Column, sample};
+    use super::super::sample;
     use super::*;
 
     /// The cells of a column, read back by the csv crate.
@@ -117,13 +207,61 @@ mod tests {
         assert!(text.ends_with("\r\n"));
     }
 
+    fn shown(value: f64, decimals: usize) -> String {
+        let mut out = Vec::new();
+        rounded(&mut out, value, decimals);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn decimals_that_mean_nothing_are_left_out() {
+        let cases = [
+            (179.312_345_6, 3, "179.312"),
+            (-0.000_6, 3, "-0.001"),
+            (-0.000_4, 3, "0"),
+            (-0.0, 6, "0"),
+            (1000.0, 6, "1000"),
+            (1000.0, 0, "1000"),
+            (999.999_6, 3, "1000"),
+            (0.05, 6, "0.05"),
+            (-102.5, 1, "-102.5"),
+            (1e300, 3, "1e300"),
+            (0.1, 200, "0.1"),
+        ];
+        for (value, decimals, text) in cases {
+            assert_eq!(shown(value, decimals), text, "{value} to {decimals} decimals");
+        }
+    }
+
+    #[test]
+    fn a_rounded_number_is_the_one_that_formatting_gives() {
+        for n in 0..100_000_u32 {
+            // Odd 1/1024ths are never halfway between two decimals of at most 6 digits.
+            let value = (f64::from(n * 2 + 1) / 1024.0 - 60.0) * 1.7;
+            for decimals in [0, 3, 6] {
+                let text = format!("{value:.decimals$}");
+                let bare = if decimals > 0 {
+                    text.trim_end_matches('0').trim_end_matches('.')
+                } else {
+                    &text
+                };
+                let bare = if bare == "-0" { "0" } else { bare };
+                assert_eq!(shown(value, decimals), bare, "{value} to {decimals} decimals");
+            }
+        }
+    }
+
     #[test]
     fn numbers_are_as_short_as_they_can_be() {
-        let shown: Vec<String> = [0.0, 2.0, 1e20, 0.1 + 0.2, 5e-324, 1234567.0]
-            .map(number)
+        let texts: Vec<String> = [0.0, 2.0, 1e20, 0.1 + 0.2, 5e-324, 1234567.0]
+            .map(|value| {
+                let mut out = Vec::new();
+                number(&mut out, value);
+                String::from_utf8(out).unwrap()
+            })
             .to_vec();
         assert_eq!(
-            shown,
+            texts,
             ["0", "2", "1e20", "0.30000000000000004", "5e-324", "1234567"]
         );
     }
@@ -135,6 +273,7 @@ mod tests {
             name: "a_mm".to_owned(),
             unit: None,
             description: String::new(),
+            decimals: None,
             data,
         };
         assert_eq!(
@@ -149,6 +288,7 @@ mod tests {
             name: "a".to_owned(),
             unit: None,
             description: String::new(),
+            decimals: None,
             data: ColumnData::Flag(vec![]),
         };
         assert_eq!(write(&Table::new("t", vec![column]).unwrap()), b"a\r\n");

@@ -22,6 +22,7 @@ pub mod vtk;
 ///     name: "in_plane_um".to_owned(),
 ///     unit: Some("um".to_owned()),
 ///     description: "deviation within the plane".to_owned(),
+///     decimals: Some(3),
 ///     data: ColumnData::OptionalFloat(vec![Some(12.5), None]),
 /// };
 /// let table = Table::new("map", vec![deviation])?;
@@ -44,6 +45,8 @@ pub struct Column {
     pub unit: Option<String>,
     /// What the values mean, in one sentence.
     pub description: String,
+    /// How many decimals of its numbers mean something; files keep these and may drop the rest. None: all of them.
+    pub decimals: Option<u8>,
     /// One value for each row.
     pub data: ColumnData,
 }
@@ -256,6 +259,7 @@ fn sample() -> Table {
         name: name.to_owned(),
         unit: unit.map(str::to_owned),
         description: format!("what {name} means, \"quoted\""),
+        decimals: None,
         data,
     };
     let text = ["", "comma, \"quote\"", "line\r\nbreak", " \u{e4}\u{1f600} "]
@@ -307,6 +311,7 @@ mod tests {
             name: name.to_owned(),
             unit: None,
             description: String::new(),
+            decimals: None,
             data,
         }
     }

@@ -6,22 +6,30 @@
 //! | integer, flag, text | Int64, Boolean, Utf8 |
 //! | category | Utf8 of labels; all labels, in order, are a JSON list in the field's metadata `labels` |
 //!
-//! Each field's metadata has its `unit` and `description`; the file's has `table` and what the caller adds. Same table,
+//! Numbers of a column that says how many decimals mean something are kept to a power of two below the last decimal
+//! (1/1024 for three decimals): the bytes that are then zero take no room. Numbers are split into streams of bytes
+//! (`BYTE_STREAM_SPLIT`), except where few differ: there a dictionary is shorter.
+//!
+//! Each field's metadata has its `unit`, `description` and `decimals`; the file's has `table` and what the caller adds. Same table,
 //! same bytes, for one version of the `parquet` crate.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ops::Range;
 use std::sync::Arc;
 
 use ::parquet::arrow::ArrowWriter;
 use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use ::parquet::basic::Compression;
+use ::parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
+use ::parquet::basic::{Compression, Encoding};
 use ::parquet::file::metadata::KeyValue;
-use ::parquet::file::properties::WriterProperties;
+use ::parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
+use ::parquet::schema::types::ColumnPath;
 use arrow_array::cast::AsArray;
 use arrow_array::types::{Float64Type, Int64Type};
 use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
 use arrow_schema::{DataType, Field, Schema};
 use bytes::Bytes;
+use rayon::prelude::*;
 
 use super::{Column, ColumnData, Table, TableError};
 
@@ -31,6 +39,7 @@ const ROW_GROUP_ROWS: usize = 65_536;
 const TABLE_KEY: &str = "table";
 const UNIT_KEY: &str = "unit";
 const DESCRIPTION_KEY: &str = "description";
+const DECIMALS_KEY: &str = "decimals";
 const LABELS_KEY: &str = "labels";
 
 /// Facts about a whole file, such as the version that made it and the hash of its study.
@@ -97,16 +106,68 @@ pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError
         .map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        .set_max_row_group_row_count(Some(ROW_GROUP_ROWS))
+        .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_created_by(concat!("armill-formats version ", env!("CARGO_PKG_VERSION")).to_owned())
-        .set_key_value_metadata(Some(std::iter::once(name).chain(facts).collect()))
-        .build();
+        .set_key_value_metadata(Some(std::iter::once(name).chain(facts).collect()));
+    let properties = table.columns().iter().fold(properties, encoded).build();
     let schema = Arc::new(Schema::new(table.columns().iter().map(field).collect::<Vec<_>>()));
-    let arrays = table.columns().iter().map(|column| array(&column.data)).collect();
-    let batch = RecordBatch::try_new(Arc::clone(&schema), arrays)?;
-    let mut writer = ArrowWriter::try_new(Vec::new(), schema, Some(properties))?;
-    writer.write(&batch)?;
-    Ok(writer.into_inner()?)
+    let writer = ArrowWriter::try_new(Vec::new(), Arc::clone(&schema), Some(properties))?;
+    let (mut file, groups) = writer.into_serialized_writer()?;
+    for (index, start) in (0..table.row_count()).step_by(ROW_GROUP_ROWS).enumerate() {
+        let rows = start..table.row_count().min(start + ROW_GROUP_ROWS);
+        let writers = groups.create_column_writers(index)?;
+        let chunks = writers
+            .into_par_iter()
+            .zip(table.columns())
+            .zip(schema.fields().par_iter());
+        let chunks: Vec<ArrowColumnChunk> = chunks
+            .map(|((writer, column), field)| chunk(writer, field, array(column, rows.clone())))
+            .collect::<Result<_, _>>()?;
+        let mut group = file.next_row_group()?;
+        for chunk in chunks {
+            chunk.append_to_row_group(&mut group)?;
+        }
+        group.close()?;
+    }
+    Ok(file.into_inner()?)
+}
+
+/// The values of a column in one row group, encoded.
+fn chunk(
+    mut writer: ArrowColumnWriter,
+    field: &Field,
+    values: ArrayRef,
+) -> Result<ArrowColumnChunk, ParquetError> {
+    for leaf in compute_leaves(field, &values)? {
+        writer.write(&leaf)?;
+    }
+    Ok(writer.close()?)
+}
+
+/// How many rows are looked at to tell whether a dictionary of numbers is worth it, and how many may differ.
+const LOOKED_AT: usize = 512;
+const FEW: usize = 128;
+
+/// The properties with the encoding that suits a column.
+fn encoded(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
+    let bits = |row: usize| match &column.data {
+        ColumnData::Float(values) => Some(values[row].to_bits()),
+        ColumnData::OptionalFloat(values) => values[row].map(f64::to_bits),
+        _ => None,
+    };
+    if !matches!(column.data, ColumnData::Float(_) | ColumnData::OptionalFloat(_)) {
+        return properties;
+    }
+    let every = column.data.row_count().div_ceil(LOOKED_AT).max(1);
+    let rows = (0..column.data.row_count()).step_by(every);
+    let different: BTreeSet<u64> = rows.filter_map(bits).collect();
+    if different.len() <= FEW {
+        return properties;
+    }
+    let path = ColumnPath::new(vec![column.name.clone()]);
+    properties
+        .set_column_dictionary_enabled(path.clone(), false)
+        .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT)
 }
 
 /// The table in the bytes of a Parquet file, and the file's metadata.
@@ -152,6 +213,8 @@ fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
 fn field(column: &Column) -> Field {
     let mut metadata = HashMap::from([(DESCRIPTION_KEY.to_owned(), column.description.clone())]);
     metadata.extend(column.unit.clone().map(|unit| (UNIT_KEY.to_owned(), unit)));
+    let decimals = column.decimals.map(|decimals| decimals.to_string());
+    metadata.extend(decimals.map(|decimals| (DECIMALS_KEY.to_owned(), decimals)));
     let (kind, nullable) = match &column.data {
         ColumnData::Float(_) => (DataType::Float64, false),
         ColumnData::OptionalFloat(_) => (DataType::Float64, true),
@@ -166,16 +229,38 @@ fn field(column: &Column) -> Field {
     Field::new(&column.name, kind, nullable).with_metadata(metadata)
 }
 
-fn array(data: &ColumnData) -> ArrayRef {
-    match data {
-        ColumnData::Float(values) => Arc::new(Float64Array::from(values.clone())),
-        ColumnData::OptionalFloat(values) => Arc::new(Float64Array::from(values.clone())),
-        ColumnData::Integer(values) => Arc::new(Int64Array::from(values.clone())),
-        ColumnData::Flag(values) => Arc::new(BooleanArray::from(values.clone())),
-        ColumnData::Text(values) => Arc::new(StringArray::from_iter_values(values)),
-        ColumnData::Category { codes, labels } => Arc::new(StringArray::from_iter_values(
-            codes.iter().map(|code| &labels[*code as usize]),
+fn array(column: &Column, rows: Range<usize>) -> ArrayRef {
+    let kept = kept(column.decimals);
+    match &column.data {
+        ColumnData::Float(values) => Arc::new(Float64Array::from_iter_values(
+            values[rows].iter().map(|value| kept(*value)),
         )),
+        ColumnData::OptionalFloat(values) => Arc::new(
+            values[rows]
+                .iter()
+                .map(|value| value.map(&kept))
+                .collect::<Float64Array>(),
+        ),
+        ColumnData::Integer(values) => Arc::new(Int64Array::from_iter_values(values[rows].iter().copied())),
+        ColumnData::Flag(values) => Arc::new(BooleanArray::from(values[rows].to_vec())),
+        ColumnData::Text(values) => Arc::new(StringArray::from_iter_values(&values[rows])),
+        ColumnData::Category { codes, labels } => Arc::new(StringArray::from_iter_values(
+            codes[rows].iter().map(|code| &labels[*code as usize]),
+        )),
+    }
+}
+
+/// What is kept of a number when so many decimals mean something: multiples of the largest power of two that is not
+/// above the last decimal.
+fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
+    // Adding a number whose last bit is worth the step rounds to it; taking it off again is exact.
+    let large = decimals.filter(|decimals| *decimals < 12).map(|decimals| {
+        let step = 2_f64.powi(-(f64::from(decimals) * std::f64::consts::LOG2_10).ceil() as i32);
+        1.5 * step / f64::EPSILON
+    });
+    move |value| match large {
+        Some(large) if value.abs() < large * 0.25 => (value + large) - large,
+        _ => value,
     }
 }
 
@@ -236,6 +321,7 @@ fn read_column(field: &Field, parts: &[&ArrayRef]) -> Result<Column, ParquetErro
         name: field.name().clone(),
         unit: metadata.get(UNIT_KEY).map(ToString::to_string),
         description,
+        decimals: metadata.get(DECIMALS_KEY).and_then(|text| text.parse().ok()),
         data,
     })
 }
@@ -312,6 +398,7 @@ mod tests {
             name: "x_mm".to_owned(),
             unit: None,
             description: String::new(),
+            decimals: None,
             data: ColumnData::Float(values),
         };
         let table = Table::new("long", vec![column]).unwrap();
@@ -329,6 +416,62 @@ mod tests {
             Compression::SNAPPY
         );
         assert_eq!(read(&bytes).unwrap().0, table);
+    }
+
+    /// A column of 100 000 numbers that all differ, every fifth missing.
+    fn deviations(decimals: Option<u8>) -> Table {
+        let value = |i: u32| (!i.is_multiple_of(5)).then(|| (f64::from(i) * 0.618).sin() * 200.0);
+        let column = Column {
+            name: "in_plane_um".to_owned(),
+            unit: Some("um".to_owned()),
+            description: String::new(),
+            decimals,
+            data: ColumnData::OptionalFloat((0..100_000).map(value).collect()),
+        };
+        Table::new("map", vec![column]).unwrap()
+    }
+
+    #[test]
+    fn numbers_without_decimals_read_back_bit_for_bit() {
+        let table = deviations(None);
+        assert_eq!(read(&write(&table, &Metadata::new()).unwrap()).unwrap().0, table);
+    }
+
+    #[test]
+    fn numbers_with_decimals_read_back_to_them_and_take_half_the_room() {
+        let (exact, table) = (deviations(None), deviations(Some(3)));
+        let bytes = write(&table, &Metadata::new()).unwrap();
+        let back = read(&bytes).unwrap().0;
+        assert_eq!(back.columns()[0].decimals, Some(3));
+        let numbers = |table: &Table| match &table.columns()[0].data {
+            ColumnData::OptionalFloat(values) => values.clone(),
+            _ => panic!("the column has numbers"),
+        };
+        for (kept, value) in numbers(&back).into_iter().zip(numbers(&table)) {
+            // Half of 2^-10.
+            assert!(
+                kept.zip(value)
+                    .is_none_or(|(kept, value)| (kept - value).abs() <= 0.5 / 1024.0)
+            );
+            assert_eq!(kept.is_some(), value.is_some());
+        }
+        let all = write(&exact, &Metadata::new()).unwrap();
+        assert!(
+            bytes.len() * 2 < all.len(),
+            "{} of {} bytes",
+            bytes.len(),
+            all.len()
+        );
+    }
+
+    #[test]
+    fn numbers_too_large_for_their_decimals_are_kept_whole() {
+        let kept = kept(Some(3));
+        assert_eq!(
+            (kept(1e300), kept(-1e13), kept(-0.2)),
+            (1e300, -1e13, -205.0 / 1024.0)
+        );
+        assert_eq!(kept(179.312), 183_615.0 / 1024.0);
     }
 
     #[test]

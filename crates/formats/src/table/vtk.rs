@@ -3,8 +3,8 @@
 //! - [`Image`]: a regular grid in three dimensions, `.vti`.
 //! - [`PolyData`]: points anywhere, joined to quadrilaterals and lines, `.vtp`.
 //!
-//! Lengths of the geometry are millimetres; arrays carry their unit in their name. VTK has no missing values: they are
-//! written as NaN, and a second array `<name>_valid` is 1 where there is a value and 0 where there is none.
+//! Lengths of the geometry are millimetres; arrays carry their unit in their name. Numbers at the points have 32 bits,
+//! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array `<name>_valid` is 1 where there is a value and 0 where there is none.
 //!
 //! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
@@ -197,18 +197,19 @@ fn mask_name(name: &str) -> String {
     format!("{name}_valid")
 }
 
-/// The whole file around its one data set.
-fn file(kind: &str, body: &str) -> Vec<u8> {
-    format!(
+/// The whole file around its one data set, which `body` writes.
+fn file(kind: &str, body: impl FnOnce(&mut String)) -> Vec<u8> {
+    let mut out = format!(
         "<?xml version=\"1.0\"?>\n\
-         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-         {body}</VTKFile>\n"
-    )
-    .into_bytes()
+         <VTKFile type=\"{kind}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n"
+    );
+    body(&mut out);
+    out += "</VTKFile>\n";
+    out.into_bytes()
 }
 
 /// The `PointData` element; the first scalar is the one ParaView shows first.
-fn point_data(arrays: &[PointArray]) -> String {
+fn point_data(out: &mut String, arrays: &[PointArray]) {
     let scalar = |array: &&PointArray| {
         matches!(
             array.values,
@@ -219,60 +220,62 @@ fn point_data(arrays: &[PointArray]) -> String {
         .iter()
         .find(scalar)
         .map(|array| format!(" Scalars=\"{}\"", escaped(&array.name)));
-    let mut out = format!("<PointData{}>\n", shown.unwrap_or_default());
+    *out += &format!("<PointData{}>\n", shown.unwrap_or_default());
     for PointArray { name, values } in arrays {
-        out += &match values {
-            PointValues::Scalar(values) => floats(name, 1, values.iter().copied()),
+        match values {
+            PointValues::Scalar(values) => floats(out, name, 1, values.iter().copied()),
             PointValues::OptionalScalar(values) => {
-                floats(name, 1, values.iter().map(|v| v.unwrap_or(f64::NAN)))
+                floats(out, name, 1, values.iter().map(|v| v.unwrap_or(f64::NAN)));
             }
-            PointValues::Vector(values) => floats(name, 3, values.iter().flatten().copied()),
-            PointValues::OptionalVector(values) => floats(
-                name,
-                3,
-                values.iter().flat_map(|value| value.unwrap_or([f64::NAN; 3])),
-            ),
-            PointValues::Integer(values) => integers(name, values.iter().copied()),
-            PointValues::Flag(values) => flags(name, values),
-        };
+            PointValues::Vector(values) => floats(out, name, 3, values.iter().flatten().copied()),
+            PointValues::OptionalVector(values) => {
+                let all = values.iter().flat_map(|value| value.unwrap_or([f64::NAN; 3]));
+                floats(out, name, 3, all);
+            }
+            PointValues::Integer(values) => {
+                data_array(out, ("Int64", name, 1), values.iter().map(|v| v.to_le_bytes()));
+            }
+            PointValues::Flag(values) => flags(out, name, values),
+        }
         if let Some(valid) = values.valid() {
-            out += &flags(&mask_name(name), &valid);
+            flags(out, &mask_name(name), &valid);
         }
     }
-    out + "</PointData>\n"
+    *out += "</PointData>\n";
 }
 
-fn floats(name: &str, components: usize, values: impl Iterator<Item = f64>) -> String {
+fn floats(out: &mut String, name: &str, components: usize, values: impl Iterator<Item = f64>) {
+    let bytes = values.map(|value| (value as f32).to_le_bytes());
+    data_array(out, ("Float32", name, components), bytes);
+}
+
+fn flags(out: &mut String, name: &str, values: &[bool]) {
     data_array(
-        "Float64",
-        name,
-        components,
-        values.flat_map(f64::to_le_bytes).collect(),
-    )
+        out,
+        ("UInt8", name, 1),
+        values.iter().map(|value| [u8::from(*value)]),
+    );
 }
 
-fn integers(name: &str, values: impl Iterator<Item = i64>) -> String {
-    data_array("Int64", name, 1, values.flat_map(i64::to_le_bytes).collect())
-}
-
-fn flags(name: &str, values: &[bool]) -> String {
-    data_array(
-        "UInt8",
-        name,
-        1,
-        values.iter().map(|value| u8::from(*value)).collect(),
-    )
-}
-
-/// One array: the count of its bytes and the bytes themselves, together in base64.
-fn data_array(kind: &str, name: &str, components: usize, bytes: Vec<u8>) -> String {
-    let mut block = (bytes.len() as u64).to_le_bytes().to_vec();
-    block.extend(bytes);
+/// One array (type, name, components): the count of its bytes and the bytes themselves, together in base64.
+fn data_array<const BYTES: usize>(
+    out: &mut String,
+    (kind, name, components): (&str, &str, usize),
+    values: impl Iterator<Item = [u8; BYTES]>,
+) {
+    let mut block = vec![0; size_of::<u64>()];
+    block.reserve(values.size_hint().0 * BYTES);
+    for value in values {
+        block.extend_from_slice(&value);
+    }
+    let count = (block.len() - size_of::<u64>()) as u64;
+    block[..size_of::<u64>()].copy_from_slice(&count.to_le_bytes());
     let name = escaped(name);
-    format!(
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">\n{}\n</DataArray>\n",
-        STANDARD.encode(block)
-    )
+    *out += &format!(
+        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" format=\"binary\">\n"
+    );
+    STANDARD.encode_string(block, out);
+    *out += "\n</DataArray>\n";
 }
 
 /// Text for an XML attribute; characters that XML cannot hold at all become a question mark.

@@ -16,10 +16,12 @@ pub use point::{PointAnswer, SettingAnswer};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
+use armill_core::map::PlaneMap;
 use armill_formats::robot::Source;
+use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::file::resolve::{Study, Subject};
+use crate::file::resolve::{Ask, Sheet, Study, Subject};
 use crate::run::Found;
 
 /// The whole answer.
@@ -75,33 +77,40 @@ pub struct JointAnswer {
     pub compliance_source: String,
 }
 
+/// The answer to one ask.
+enum Told {
+    Maps(Vec<MapAnswer>),
+    Path(PathResult),
+    Volume(VolumeAnswer),
+}
+
 /// The answer to `study` from what was found for each of its asks.
 pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
-    let mut maps = Vec::new();
-    let mut paths = Vec::new();
-    let mut volumes = Vec::new();
-    for (ask, found) in study.asks.iter().zip(found) {
-        match (&ask.subject, found) {
-            (Subject::Map(sheet), Found::Map(map)) => {
-                maps.push(map::answer(study, &ask.name, &sheet.setting, map));
-            }
-            (Subject::Sections(sections), Found::Sections(found)) => {
-                for ((label, sheet), map) in sections.iter().zip(found) {
-                    maps.push(map::answer(
-                        study,
-                        &format!("{}: {label}", ask.name),
-                        &sheet.setting,
-                        map,
-                    ));
-                }
-            }
-            (Subject::Volume(setting, _), Found::Volume(volume)) => {
-                volumes.push(volume::answer(study, &ask.name, setting, volume));
-            }
-            (Subject::Path(setting, ..), Found::Path(path)) => {
-                paths.push(path::answer(study, &ask.name, setting, path));
-            }
-            _ => {}
+    let told = |(ask, found): (&Ask, &Found)| match (&ask.subject, found) {
+        (Subject::Map(sheet), Found::Map(map)) => {
+            Told::Maps(vec![map::answer(study, &ask.name, &sheet.setting, map)])
+        }
+        (Subject::Sections(sections), Found::Sections(found)) => {
+            let section = |((label, sheet), map): (&(String, Sheet), &PlaneMap)| {
+                map::answer(study, &format!("{}: {label}", ask.name), &sheet.setting, map)
+            };
+            Told::Maps(sections.par_iter().zip(found).map(section).collect())
+        }
+        (Subject::Volume(setting, _), Found::Volume(volume)) => {
+            Told::Volume(volume::answer(study, &ask.name, setting, volume))
+        }
+        (Subject::Path(setting, ..), Found::Path(path)) => {
+            Told::Path(path::answer(study, &ask.name, setting, path))
+        }
+        _ => Told::Maps(Vec::new()),
+    };
+    let all: Vec<Told> = study.asks.par_iter().zip(found).map(told).collect();
+    let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
+    for told in all {
+        match told {
+            Told::Maps(told) => maps.extend(told),
+            Told::Path(told) => paths.push(told),
+            Told::Volume(told) => volumes.push(told),
         }
     }
     StudyAnswer {

@@ -1,9 +1,11 @@
 //! What a study leaves behind: `result.json`, tables, pictures and a report in one folder.
 //!
 //! Every file is written beside its place and renamed, and `result.json` comes last: a study that was killed
-//! leaves no half file, and a folder without `result.json` is not finished.
+//! leaves no half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does
+//! not write are removed.
 
 mod arm;
+mod folder;
 mod pictures;
 mod plates;
 mod report;
@@ -13,16 +15,49 @@ mod tables;
 pub use arm::{arm_drawing, arm_posture, posture_drawing};
 pub use pictures::Picture;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use armill_formats::file::{create_folder, write_atomically};
+use armill_formats::file::{create_folder, remove_abandoned, write_atomically};
+use rayon::prelude::*;
 
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
 use crate::run::Found;
 
-/// What to write beside the tables.
+/// What to write beside `result.json`, Parquet and VTK.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Whether there are pictures and a report.
+    pub pictures: Pictures,
+    /// Which asks get a CSV.
+    pub csv: Csv,
+}
+
+impl Wanted {
+    /// What a run writes unless it is told otherwise.
+    pub const USUAL: Wanted = Wanted {
+        pictures: Pictures::Drawn,
+        csv: Csv::MapsAndPaths,
+    };
+    /// No pictures, no report.
+    pub const TABLES: Wanted = Wanted {
+        pictures: Pictures::None,
+        ..Wanted::USUAL
+    };
+}
+
+/// Which asks get a CSV; Parquet has the same columns and a third of the size or less.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Csv {
+    /// Maps and paths, which one looks through in a spreadsheet.
+    MapsAndPaths,
+    /// Series and volumes too.
+    Every,
+}
+
+/// Whether pictures are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pictures {
     /// Pictures and the report.
@@ -64,6 +99,7 @@ pub fn slug(name: &str) -> String {
 /// The folder cannot be made or written to.
 pub fn prepare(out: &Path) -> Result<(), StudyError> {
     create_folder(out)?;
+    remove_abandoned(out);
     let probe = out.join(".armill-probe");
     write_atomically(&probe, b"")?;
     // A probe that cannot be removed again does no harm.
@@ -71,7 +107,7 @@ pub fn prepare(out: &Path) -> Result<(), StudyError> {
     Ok(())
 }
 
-/// Writes everything into `out` and gives the names of the files; `note` hears each name as it comes.
+/// Writes everything into `out` and gives the paths of the files; `note` hears each name as it comes, from any thread.
 ///
 /// # Errors
 /// A file cannot be written.
@@ -79,40 +115,88 @@ pub fn write(
     study: &Study,
     found: &[Found],
     answer: &StudyAnswer,
-    place: (&Path, Pictures),
-    note: &dyn Fn(&str),
+    (out, wanted): (&Path, Wanted),
+    note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    let (out, pictures) = place;
     // An older answer beside newer tables would pass for theirs if this run were killed; what cannot be removed
     // cannot be replaced either, and writing it will say so.
-    let _ = std::fs::remove_file(out.join("result.json"));
-    let mut written = Vec::new();
-    let mut save = |name: &str, bytes: &[u8]| -> Result<(), StudyError> {
-        let path = out.join(name);
-        write_atomically(&path, bytes)?;
-        note(name);
-        written.push(path);
-        Ok(())
+    let _ = std::fs::remove_file(out.join(RESULT));
+    let drawn = match wanted.pictures {
+        Pictures::Drawn => pictures::draw(study, found, answer),
+        Pictures::None => Vec::new(),
     };
-    for (ask, found) in study.asks.iter().zip(found) {
-        for (extension, bytes) in tables::files(study, ask, found)? {
-            save(&format!("{}.{extension}", slug(&ask.name)), &bytes)?;
-        }
+    let names = names(study, &drawn, wanted);
+    let mine: BTreeSet<String> = names.iter().cloned().collect();
+    // What this run and those before it wrote, in case this one is killed.
+    let earlier = folder::listed(out);
+    folder::list(out, &earlier.union(&mine).cloned().collect())?;
+
+    let mut json_text = Ok(String::new());
+    folder::write_together(out, note, |files| {
+        let tables = || {
+            let asks = study.asks.par_iter().zip(found).with_max_len(1);
+            asks.try_for_each(|(ask, found)| {
+                let slug = slug(&ask.name);
+                tables::files(study, (ask, found), wanted.csv, &|extension, bytes| {
+                    files.save(&format!("{slug}.{extension}"), bytes)
+                })
+            })
+        };
+        let pictures = || match wanted.pictures {
+            Pictures::Drawn => save_pictures(study, answer, &drawn, files),
+            Pictures::None => Ok(()),
+        };
+        let (tables, (pictures, text)) = rayon::join(tables, || rayon::join(pictures, || json(answer)));
+        json_text = text;
+        tables.and(pictures)
+    })?;
+    folder::remove(out, earlier.difference(&mine));
+    if earlier != mine {
+        folder::list(out, &mine)?;
     }
-    if pictures == Pictures::Drawn {
-        let drawn = pictures::draw(study, found, answer);
-        for picture in &drawn {
-            save(&format!("{}.svg", picture.name), picture.svg.as_bytes())?;
-            #[cfg(feature = "png")]
-            save(
-                &format!("{}.png", picture.name),
-                &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
-            )?;
-        }
-        save("report.html", report::html(study, answer, &drawn).as_bytes())?;
-    }
-    save("result.json", json(answer)?.as_bytes())?;
-    Ok(written)
+    write_atomically(out.join(RESULT), json_text?.as_bytes())?;
+    note(RESULT);
+    Ok(names.iter().map(|name| out.join(name)).collect())
+}
+
+/// The answer, written last.
+const RESULT: &str = "result.json";
+const REPORT: &str = "report.html";
+
+/// The names of all files, the answer last.
+fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
+    let tables = study.asks.iter().flat_map(|ask| {
+        let slug = slug(&ask.name);
+        let extensions = tables::extensions(ask, wanted.csv).into_iter();
+        extensions.map(move |extension| format!("{slug}.{extension}"))
+    });
+    let pictures = drawn.iter().flat_map(|picture| {
+        let png = cfg!(feature = "png").then(|| format!("{}.png", picture.name));
+        std::iter::once(format!("{}.svg", picture.name)).chain(png)
+    });
+    let report = (wanted.pictures == Pictures::Drawn).then(|| REPORT.to_owned());
+    tables
+        .chain(pictures)
+        .chain(report)
+        .chain([RESULT.to_owned()])
+        .collect()
+}
+
+fn save_pictures(
+    study: &Study,
+    answer: &StudyAnswer,
+    drawn: &[Picture],
+    files: &folder::Folder<'_>,
+) -> Result<(), StudyError> {
+    drawn.par_iter().with_max_len(1).try_for_each(|picture| {
+        #[cfg(feature = "png")]
+        files.save(
+            &format!("{}.png", picture.name),
+            &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
+        )?;
+        files.save(&format!("{}.svg", picture.name), picture.svg.as_bytes())
+    })?;
+    files.save(REPORT, report::html(study, answer, drawn).as_bytes())
 }
 
 /// The answer as JSON, one line.

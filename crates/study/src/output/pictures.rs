@@ -10,10 +10,12 @@ use armill_report::{
     ShareBars, StiffnessEllipse, VectorField, View,
 };
 
+use rayon::prelude::*;
+
 use super::arm::arm_posture;
 use super::plates::{axes, base_y, map_pictures, section_panel, sheet, slices, subtitle};
 use crate::answer::{MapAnswer, PathResult, PointAnswer, StudyAnswer};
-use crate::file::resolve::{Setting, Study, Subject};
+use crate::file::resolve::{Ask, Setting, Study, Subject};
 use crate::run::Found;
 
 /// A picture with its file name (without extension) and caption.
@@ -34,43 +36,62 @@ const GHOSTS: usize = 5;
 
 /// The pictures of every ask, in order.
 pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<Picture> {
-    let mut pictures = Vec::new();
-    let (mut maps, mut paths) = (answer.maps.iter(), answer.paths.iter());
-    for (ask, found) in study.asks.iter().zip(found) {
-        match (&ask.subject, found) {
-            (Subject::Map(plate), Found::Map(map)) => {
-                let Some(told) = maps.next() else { continue };
-                pictures.extend(map_pictures(
-                    told,
-                    &plate.setting,
-                    map,
-                    overlays(study, &plate.setting),
-                ));
-                pictures.extend(worst_point(study, &plate.setting, told, map));
-            }
-            (Subject::Sections(sections), Found::Sections(found)) => {
-                let panels = sections.iter().zip(found).filter_map(|((label, plate), map)| {
-                    maps.next()
-                        .map(|told| section_panel(label, map, &plate.setting, told.fraction_within))
-                });
-                let panels: Vec<_> = panels.collect();
-                pictures.extend(
-                    sections
-                        .first()
-                        .map(|(_, first)| sheet(&ask.name, panels, &first.setting, axes(&first.setting))),
-                );
-            }
-            (Subject::Volume(setting, _), Found::Volume(volume)) => {
-                pictures.push(slices(&ask.name, volume, setting));
-            }
-            (Subject::Path(setting, ..), Found::Path(path)) => {
-                let Some(told) = paths.next() else { continue };
-                pictures.extend(path_pictures(study, setting, told, path));
-            }
-            _ => {}
+    // What was told of each ask: maps and paths stand in the answer in the order of the asks.
+    let (mut maps, mut paths) = (answer.maps.as_slice(), answer.paths.iter());
+    let asks = study.asks.iter().zip(found).map(|(ask, found)| {
+        let count = match found {
+            Found::Map(_) => 1,
+            Found::Sections(found) => found.len(),
+            Found::Volume(_) | Found::Path(_) => 0,
+        };
+        let (of_ask, others) = maps.split_at(count.min(maps.len()));
+        maps = others;
+        let path = matches!(found, Found::Path(_)).then(|| paths.next()).flatten();
+        (ask, found, of_ask, path)
+    });
+    let asks: Vec<_> = asks.collect();
+    asks.into_par_iter()
+        .with_max_len(1)
+        .flat_map_iter(|(ask, found, maps, path)| pictures_of(study, (ask, found), maps, path))
+        .collect()
+}
+
+fn pictures_of(
+    study: &Study,
+    (ask, found): (&Ask, &Found),
+    maps: &[MapAnswer],
+    path_result: Option<&PathResult>,
+) -> Vec<Picture> {
+    match (&ask.subject, found) {
+        (Subject::Map(plate), Found::Map(map)) => {
+            let Some(told) = maps.first() else {
+                return Vec::new();
+            };
+            let mut pictures: Vec<Picture> =
+                map_pictures(told, &plate.setting, map, overlays(study, &plate.setting))
+                    .into_iter()
+                    .collect();
+            pictures.extend(worst_point(study, &plate.setting, told, map));
+            pictures
         }
+        (Subject::Sections(sections), Found::Sections(found)) => {
+            let panels = sections.iter().zip(found).zip(maps);
+            let panels = panels.map(|(((label, plate), map), told)| {
+                section_panel(label, map, &plate.setting, told.fraction_within)
+            });
+            let panels: Vec<_> = panels.collect();
+            let drawn = sections
+                .first()
+                .map(|(_, first)| sheet(&ask.name, panels, &first.setting, axes(&first.setting)));
+            drawn.into_iter().collect()
+        }
+        (Subject::Volume(setting, _), Found::Volume(volume)) => vec![slices(&ask.name, volume, setting)],
+        (Subject::Path(setting, ..), Found::Path(path)) => match path_result {
+            Some(told) => path_pictures(study, setting, told, path),
+            None => Vec::new(),
+        },
+        _ => Vec::new(),
     }
-    pictures
 }
 
 /// Paths of the study that lie on the same plane as a map, to be drawn on it.

@@ -1,6 +1,7 @@
 //! The points of an ask, one after the other, as every table and picture needs them.
 
 use armill_core::kernel::{Answers, Held};
+use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::Unreachable;
 
@@ -15,11 +16,27 @@ pub(super) struct Rows<'a> {
     pub setting: &'a Setting,
     /// What came out.
     pub answers: &'a Answers,
-    /// TCP of each point, m, base.
-    pub tcp: Vec<Point3<f64>>,
+    /// TCP of each point, mm, in the frame that the study counts from.
+    pub at_mm: Vec<[f64; 3]>,
 }
 
-impl Rows<'_> {
+impl<'a> Rows<'a> {
+    /// The answers at these points, m, base.
+    fn new(
+        label: &str,
+        setting: &'a Setting,
+        answers: &'a Answers,
+        points: impl Iterator<Item = Point3<f64>>,
+    ) -> Rows<'a> {
+        let mm = |at: Point3<f64>| setting.counted(&at).coords.map(|c| rounded(c * 1e3)).into();
+        Rows {
+            label: label.to_owned(),
+            setting,
+            answers,
+            at_mm: points.map(mm).collect(),
+        }
+    }
+
     /// Points against the limit, by reason.
     pub(super) fn state(&self, index: usize) -> &'static str {
         match &self.answers.points[index] {
@@ -29,37 +46,39 @@ impl Rows<'_> {
             Err(miss) => miss.reason(),
         }
     }
+}
 
-    /// A value of each point that has a posture.
-    pub(super) fn of_held(&self, value: impl Fn(usize, &Held) -> f64) -> Vec<Option<f64>> {
-        let of = |(index, point): (usize, &Result<Held, Unreachable>)| {
-            point
-                .as_ref()
-                .ok()
-                .map(|held| value(index, held))
-                .filter(|value| value.is_finite())
-        };
-        self.answers.points.iter().enumerate().map(of).collect()
+/// Something of each point of several series, one series after the other.
+pub(super) fn of_points<T>(series: &[Rows<'_>], value: impl Fn(&Rows<'_>, usize) -> T) -> Vec<T> {
+    let mut values = Vec::with_capacity(series.iter().map(|rows| rows.at_mm.len()).sum());
+    for rows in series {
+        values.extend((0..rows.at_mm.len()).map(|index| value(rows, index)));
     }
+    values
+}
+
+/// A number of each point that has a posture.
+pub(super) fn of_held(
+    series: &[Rows<'_>],
+    value: impl Fn(&Rows<'_>, usize, &Held) -> f64,
+) -> Vec<Option<f64>> {
+    of_points(series, |rows, index| {
+        let held = rows.answers.points[index].as_ref().ok()?;
+        Some(value(rows, index, held)).filter(|value| value.is_finite())
+    })
+}
+
+/// A length without the rounding of frame changes.
+fn rounded(value: f64) -> f64 {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 { 0.0 } else { rounded }
 }
 
 /// Every series of points of an ask.
 pub(super) fn rows<'a>(ask: &'a Ask, found: &'a Found) -> Vec<Rows<'a>> {
-    let map = |label: &str, setting: &'a Setting, map: &'a armill_core::map::PlaneMap| {
-        let at = |index| {
-            map.plane
-                .base_from_tool(map.grid.point(index), 0.0)
-                .translation
-                .vector
-                .into()
-        };
-        let tcp = (0..map.grid.len()).map(at).collect();
-        Rows {
-            label: label.to_owned(),
-            setting,
-            answers: &map.answers,
-            tcp,
-        }
+    let map = |label: &str, setting: &'a Setting, map: &'a PlaneMap| {
+        let points = (0..map.grid.len()).map(|index| map.plane.at(map.grid.point(index)));
+        Rows::new(label, setting, &map.answers, points)
     };
     match (&ask.subject, found) {
         (Subject::Map(sheet), Found::Map(found)) => vec![map("", &sheet.setting, found)],
@@ -69,27 +88,12 @@ pub(super) fn rows<'a>(ask: &'a Ask, found: &'a Found) -> Vec<Rows<'a>> {
             .map(|((label, sheet), found)| map(label, &sheet.setting, found))
             .collect(),
         (Subject::Volume(setting, _), Found::Volume(volume)) => {
-            let tcp = (0..volume.grid.len())
-                .map(|index| volume.grid.point(index))
-                .collect();
-            vec![Rows {
-                label: String::new(),
-                setting,
-                answers: &volume.answers,
-                tcp,
-            }]
+            let points = (0..volume.grid.len()).map(|index| volume.grid.point(index));
+            vec![Rows::new("", setting, &volume.answers, points)]
         }
         (Subject::Path(setting, ..), Found::Path(path)) => {
-            let at = |s: &armill_core::path::Sample| {
-                path.plane.base_from_tool(s.at, 0.0).translation.vector.into()
-            };
-            let tcp = path.samples.iter().map(at).collect();
-            vec![Rows {
-                label: String::new(),
-                setting,
-                answers: &path.answers,
-                tcp,
-            }]
+            let points = path.samples.iter().map(|sample| path.plane.at(sample.at));
+            vec![Rows::new("", setting, &path.answers, points)]
         }
         _ => Vec::new(),
     }

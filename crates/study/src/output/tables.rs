@@ -1,45 +1,89 @@
-//! Tables of an ask: CSV and Parquet with one row a point, VTK for planes, paths and boxes.
+//! Tables of an ask: Parquet and CSV with one row a point, VTK for planes, paths and boxes.
 //!
 //! Positions count from the frame that the study names; deviations are in base axes, micrometres.
 
+use std::fmt::Display;
+
+use armill_core::kernel::Held;
 use armill_core::robot::Singularity;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
+use rayon::prelude::*;
 
-use super::rows::{Rows, rows};
+use super::Csv;
+use super::rows::{Rows, of_held, of_points, rows};
 use crate::error::StudyError;
 use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::Found;
 
-/// The files of one ask: extension and bytes.
+/// The file of an ask for ParaView.
+const IMAGE: &str = "vti";
+const POLY_DATA: &str = "vtp";
+
+/// What the files of an ask end in.
+pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
+    let mut extensions = Vec::new();
+    if has_csv(ask, csv) {
+        extensions.push("csv");
+    }
+    if cfg!(feature = "parquet") {
+        extensions.push("parquet");
+    }
+    extensions.push(match &ask.subject {
+        Subject::Volume(..) => IMAGE,
+        Subject::Map(_) | Subject::Sections(_) | Subject::Path(..) => POLY_DATA,
+    });
+    extensions
+}
+
+/// Many points are for programs; without Parquet they have nothing else to read.
+fn has_csv(ask: &Ask, csv: Csv) -> bool {
+    let few = matches!(ask.subject, Subject::Map(_) | Subject::Path(..));
+    few || csv == Csv::Every || cfg!(not(feature = "parquet"))
+}
+
+/// Takes the bytes of a file that ends in this.
+type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
+
+/// Hands the files of one ask to `save`, extension and bytes.
 pub(super) fn files(
     study: &Study,
-    ask: &Ask,
-    found: &Found,
-) -> Result<Vec<(&'static str, Vec<u8>)>, StudyError> {
+    (ask, found): (&Ask, &Found),
+    csv: Csv,
+    save: &Save<'_>,
+) -> Result<(), StudyError> {
     let series = rows(ask, found);
-    let table = table(study, &ask.name, &series)?;
-    let mut files = vec![("csv", csv::write(&table))];
-    #[cfg(feature = "parquet")]
-    files.push((
-        "parquet",
-        armill_formats::table::parquet::write(&table, &metadata(study, ask))?,
-    ));
-    files.push(match (&ask.subject, found) {
+    let rows_of_table = || {
+        let table = table(study, &ask.name, &series)?;
+        #[cfg(feature = "parquet")]
+        save(
+            "parquet",
+            &armill_formats::table::parquet::write(&table, &metadata(study, ask))?,
+        )?;
+        if has_csv(ask, csv) {
+            save("csv", &csv::write(&table))?;
+        }
+        Ok(())
+    };
+    let field = || match (&ask.subject, found) {
         (Subject::Volume(setting, _), Found::Volume(volume)) => {
             let mm = |v: armill_core::nalgebra::Point3<f64>| v.coords.map(|c| c * 1e3).into();
             let step = volume.grid.step * 1e3;
             let origin = mm(setting.counted(&volume.grid.origin));
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
-            ("vti", write_image(&image))
+            save(IMAGE, &write_image(&image))
         }
         (_, Found::Path(_)) => {
-            let paths: Vec<Vec<[f64; 3]>> = series.iter().map(points_mm).collect();
-            ("vtp", write_poly_data(&PolyData::paths(&paths, arrays(&series))?))
+            let paths: Vec<Vec<[f64; 3]>> = series.iter().map(|rows| rows.at_mm.clone()).collect();
+            save(
+                POLY_DATA,
+                &write_poly_data(&PolyData::paths(&paths, arrays(&series))?),
+            )
         }
-        (_, found) => ("vtp", write_poly_data(&sheets(found, &series)?)),
-    });
-    Ok(files)
+        (_, found) => save(POLY_DATA, &write_poly_data(&sheets(found, &series)?)),
+    };
+    let (of_table, of_field) = rayon::join(rows_of_table, field);
+    of_table.and(of_field)
 }
 
 #[cfg(feature = "parquet")]
@@ -75,212 +119,246 @@ fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
         }
         first += map.grid.len();
     }
-    let points = series.iter().flat_map(points_mm).collect();
-    Ok(PolyData::new(points, Vec::new(), quads, arrays(series))?)
-}
-
-fn points_mm(rows: &Rows<'_>) -> Vec<[f64; 3]> {
-    rows.tcp
+    let points = series
         .iter()
-        .map(|tcp| rows.setting.counted(tcp).coords.map(|c| rounded(c * 1e3)).into())
-        .collect()
+        .flat_map(|rows| rows.at_mm.iter().copied())
+        .collect();
+    Ok(PolyData::new(points, Vec::new(), quads, arrays(series))?)
 }
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
-    let scalar = |name: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| PointArray {
+    let scalar = |name: &str, um: fn(&Held) -> f64| PointArray {
         name: name.to_owned(),
-        values: PointValues::OptionalScalar(series.iter().flat_map(value).collect()),
+        values: PointValues::OptionalScalar(of_held(series, |_, _, held| um(held) * 1e6)),
     };
     let mut arrays = vec![
-        scalar("in_plane_um", &|rows| rows.of_held(|_, held| held.in_plane * 1e6)),
-        scalar("in_plane_u_um", &|rows| {
-            rows.of_held(|_, held| held.in_plane_uncertainty * 1e6)
-        }),
-        scalar("normal_um", &|rows| rows.of_held(|_, held| held.normal * 1e6)),
-        scalar("full_um", &|rows| rows.of_held(|_, held| held.full * 1e6)),
+        scalar("in_plane_um", |held| held.in_plane),
+        scalar("in_plane_u_um", |held| held.in_plane_uncertainty),
+        scalar("normal_um", |held| held.normal),
+        scalar("full_um", |held| held.full),
     ];
     let cases = series.first().map_or(0, |rows| rows.answers.case_count);
-    arrays.extend((0..cases).map(|case| {
+    arrays.par_extend((0..cases).into_par_iter().map(|case| {
         let vector = |rows: &Rows<'_>, index: usize| {
             let reached = rows.answers.points[index].is_ok();
             reached.then(|| rows.answers.deviations_at(index)[case].map(|c| c * 1e6).into())
         };
-        let values = series
-            .iter()
-            .flat_map(|rows| (0..rows.tcp.len()).map(move |i| vector(rows, i)))
-            .collect();
         PointArray {
             name: format!("deviation_case_{}_um", case + 1),
-            values: PointValues::OptionalVector(values),
+            values: PointValues::OptionalVector(of_points(series, vector)),
         }
     }));
     arrays
 }
 
+/// Decimals that mean something: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's length), a
+/// position as it was asked.
+const UM_DECIMALS: u8 = 3;
+const DEG_DECIMALS: u8 = 6;
+const MM_DECIMALS: u8 = 6;
+
+/// A column of numbers that is yet to be filled.
+struct Numbers<'a> {
+    name: String,
+    unit: Option<&'static str>,
+    decimals: u8,
+    description: &'static str,
+    /// Its value at each point.
+    values: Values<'a>,
+}
+
+type Values<'a> = Box<dyn Fn(&[Rows<'_>]) -> Vec<Option<f64>> + Send + Sync + 'a>;
+
+impl<'a> Numbers<'a> {
+    fn um(
+        name: String,
+        description: &'static str,
+        um: impl Fn(&Rows<'_>, usize, &Held) -> f64 + Send + Sync + 'a,
+    ) -> Numbers<'a> {
+        Numbers {
+            name,
+            unit: Some("um"),
+            decimals: UM_DECIMALS,
+            description,
+            values: Box::new(move |series| of_held(series, &um)),
+        }
+    }
+
+    fn deg(
+        name: String,
+        description: &'static str,
+        deg: impl Fn(&Rows<'_>, usize, &Held) -> f64 + Send + Sync + 'a,
+    ) -> Numbers<'a> {
+        Numbers {
+            unit: Some("deg"),
+            decimals: DEG_DECIMALS,
+            ..Numbers::um(name, description, deg)
+        }
+    }
+
+    fn column(&self, series: &[Rows<'_>]) -> Column {
+        Column {
+            name: self.name.clone(),
+            unit: self.unit.map(str::to_owned),
+            description: self.description.to_owned(),
+            decimals: Some(self.decimals),
+            data: ColumnData::OptionalFloat((self.values)(series)),
+        }
+    }
+}
+
 /// One row a point.
 fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyError> {
-    let robot = &study.robot.robot;
     let mut columns = Vec::new();
     if series.len() > 1 {
-        let labels: Vec<String> = series.iter().map(|rows| rows.label.clone()).collect();
-        let codes = series
-            .iter()
-            .zip(0..)
-            .flat_map(|(rows, code)| std::iter::repeat_n(code, rows.tcp.len()))
-            .collect();
-        columns.push(column(
-            "section",
-            None,
-            "which section",
-            ColumnData::Category { codes, labels },
-        ));
+        columns.push(section(series));
     }
     for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-        let values = series
-            .iter()
-            .flat_map(|rows| points_mm(rows).into_iter().map(move |p| p[axis]))
-            .collect();
-        let text = format!("{letter} of the TCP in the frame that the study counts from");
-        columns.push(column(
-            &format!("{letter}_mm"),
-            Some("mm"),
-            &text,
-            ColumnData::Float(values),
-        ));
+        columns.push(Column {
+            name: format!("{letter}_mm"),
+            unit: Some("mm".to_owned()),
+            description: format!("{letter} of the TCP in the frame that the study counts from"),
+            decimals: Some(MM_DECIMALS),
+            data: ColumnData::Float(of_points(series, |rows, index| rows.at_mm[index][axis])),
+        });
     }
     columns.push(words(
-        "state",
-        "within the limit, over it, or why there is no posture",
+        ("state", "within the limit, over it, or why there is no posture"),
         series,
-        |rows, i| Some(rows.state(i).to_owned()),
+        |rows, i| Some(rows.state(i)),
     ));
-    columns.push(words("branch", "branch of the posture", series, |rows, i| {
-        rows.answers.points[i]
-            .as_ref()
-            .ok()
-            .map(|held| held.branch.to_string())
+    columns.push(words(("branch", "branch of the posture"), series, |rows, i| {
+        rows.answers.points[i].as_ref().ok().map(|held| held.branch)
     }));
     columns.push(words(
-        "singularity",
-        "near which singularity the posture stands",
+        ("singularity", "near which singularity the posture stands"),
         series,
         |rows, i| {
             let near = rows.answers.points[i].as_ref().ok()?.singularity?;
             Some(match near {
-                Singularity::Shoulder => "shoulder".to_owned(),
-                Singularity::Elbow => "elbow".to_owned(),
-                Singularity::Wrist => "wrist".to_owned(),
+                Singularity::Shoulder => "shoulder",
+                Singularity::Elbow => "elbow",
+                Singularity::Wrist => "wrist",
             })
         },
     ));
-    let mut number =
-        |name: &str, unit: Option<&str>, text: &str, value: &dyn Fn(&Rows<'_>) -> Vec<Option<f64>>| {
-            let values = series
-                .iter()
-                .flat_map(value)
-                .map(|value| value.map(rounded))
-                .collect();
-            columns.push(column(name, unit, text, ColumnData::OptionalFloat(values)));
-        };
-    number(
-        "limit_margin_deg",
-        Some("deg"),
-        "least distance of a joint to its limit, negative outside",
-        &|rows| rows.of_held(|_, held| held.limit_margin.to_degrees()),
-    );
-    number(
-        "deciding_case",
-        None,
-        "load case with the largest in-plane deviation, from 1",
-        &|rows| rows.of_held(|_, held| held.deciding_case as f64 + 1.0),
-    );
-    number(
-        "in_plane_um",
-        Some("um"),
-        "largest in-plane deviation of all cases",
-        &|rows| rows.of_held(|_, held| held.in_plane * 1e6),
-    );
-    number(
-        "in_plane_u_um",
-        Some("um"),
-        "its standard uncertainty from the compliances",
-        &|rows| rows.of_held(|_, held| held.in_plane_uncertainty * 1e6),
-    );
-    number(
-        "normal_um",
-        Some("um"),
-        "deviation along the outward normal, of the case where it is largest",
-        &|rows| rows.of_held(|_, held| held.normal * 1e6),
-    );
-    number(
-        "full_um",
-        Some("um"),
-        "largest length of the deviation of all cases",
-        &|rows| rows.of_held(|_, held| held.full * 1e6),
-    );
-    for (i, joint) in robot.joints().iter().enumerate() {
-        let name = &joint.name;
-        number(
-            &format!("joint_{name}_deg"),
-            Some("deg"),
-            "joint position in the robot file's counting",
-            &|rows| rows.of_held(|index, _| rows.answers.joints_at(index)[i].to_degrees()),
-        );
-    }
-    for (i, joint) in robot.joints().iter().enumerate() {
-        let text = "share of the joint in the in-plane deviation; the shares add up to it";
-        number(&format!("share_{}_um", joint.name), Some("um"), text, &|rows| {
-            rows.of_held(|index, _| rows.answers.shares_at(index)[i] * 1e6)
-        });
-    }
-    for case in 0..series.first().map_or(0, |rows| rows.answers.case_count) {
-        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
-            let name = format!("deviation_{letter}_case_{}_um", case + 1);
-            number(
-                &name,
-                Some("um"),
-                "deviation under this load case, base axes",
-                &|rows| rows.of_held(|index, _| rows.answers.deviations_at(index)[case][axis] * 1e6),
-            );
-        }
-    }
+    let numbers = numbers(study, series.first().map_or(0, |rows| rows.answers.case_count));
+    columns.par_extend(numbers.par_iter().map(|numbers| numbers.column(series)));
     Ok(Table::new(name, columns)?)
 }
 
-/// To the digits that mean something: 1e-6 um, mm or deg; the rest is rounding.
-fn rounded(value: f64) -> f64 {
-    let rounded = (value * 1e6).round() / 1e6;
-    if rounded == 0.0 { 0.0 } else { rounded }
+fn numbers(study: &Study, cases: usize) -> Vec<Numbers<'_>> {
+    let mut columns = vec![
+        Numbers::deg(
+            "limit_margin_deg".to_owned(),
+            "least distance of a joint to its limit, negative outside",
+            |_, _, held| held.limit_margin.to_degrees(),
+        ),
+        Numbers {
+            unit: None,
+            decimals: 0,
+            ..Numbers::um(
+                "deciding_case".to_owned(),
+                "load case with the largest in-plane deviation, from 1",
+                |_, _, held| held.deciding_case as f64 + 1.0,
+            )
+        },
+        Numbers::um(
+            "in_plane_um".to_owned(),
+            "largest in-plane deviation of all cases",
+            |_, _, held| held.in_plane * 1e6,
+        ),
+        Numbers::um(
+            "in_plane_u_um".to_owned(),
+            "its standard uncertainty from the compliances",
+            |_, _, held| held.in_plane_uncertainty * 1e6,
+        ),
+        Numbers::um(
+            "normal_um".to_owned(),
+            "deviation along the outward normal, of the case where it is largest",
+            |_, _, held| held.normal * 1e6,
+        ),
+        Numbers::um(
+            "full_um".to_owned(),
+            "largest length of the deviation of all cases",
+            |_, _, held| held.full * 1e6,
+        ),
+    ];
+    let joints = study.robot.robot.joints();
+    columns.extend(joints.iter().enumerate().map(|(i, joint)| {
+        let name = format!("joint_{}_deg", joint.name);
+        Numbers::deg(
+            name,
+            "joint position in the robot file's counting",
+            move |rows, index, _| rows.answers.joints_at(index)[i].to_degrees(),
+        )
+    }));
+    columns.extend(joints.iter().enumerate().map(|(i, joint)| {
+        let name = format!("share_{}_um", joint.name);
+        Numbers::um(
+            name,
+            "share of the joint in the in-plane deviation; the shares add up to it",
+            move |rows, index, _| rows.answers.shares_at(index)[i] * 1e6,
+        )
+    }));
+    for case in 0..cases {
+        columns.extend(["x", "y", "z"].into_iter().enumerate().map(|(axis, letter)| {
+            let name = format!("deviation_{letter}_case_{}_um", case + 1);
+            Numbers::um(
+                name,
+                "deviation under this load case, base axes",
+                move |rows, index, _| rows.answers.deviations_at(index)[case][axis] * 1e6,
+            )
+        }));
+    }
+    columns
 }
 
-fn column(name: &str, unit: Option<&str>, description: &str, data: ColumnData) -> Column {
+fn section(series: &[Rows<'_>]) -> Column {
+    let codes = series
+        .iter()
+        .zip(0..)
+        .flat_map(|(rows, code)| std::iter::repeat_n(code, rows.at_mm.len()));
     Column {
-        name: name.to_owned(),
-        unit: unit.map(str::to_owned),
-        description: description.to_owned(),
-        data,
+        name: "section".to_owned(),
+        unit: None,
+        description: "which section".to_owned(),
+        decimals: None,
+        data: ColumnData::Category {
+            codes: codes.collect(),
+            labels: series.iter().map(|rows| rows.label.clone()).collect(),
+        },
     }
 }
 
-/// A column of few words; points without one get an empty word.
-fn words(
-    name: &str,
-    description: &str,
+/// A column of few words, by name and description; points without one get an empty word.
+fn words<W: PartialEq + Display>(
+    (name, description): (&str, &str),
     series: &[Rows<'_>],
-    word: impl Fn(&Rows<'_>, usize) -> Option<String>,
+    word: impl Fn(&Rows<'_>, usize) -> Option<W>,
 ) -> Column {
-    let mut labels: Vec<String> = Vec::new();
+    let mut words: Vec<Option<W>> = Vec::new();
     let mut codes = Vec::new();
     for rows in series {
-        for index in 0..rows.tcp.len() {
-            let word = word(rows, index).unwrap_or_default();
-            let code = labels.iter().position(|label| *label == word).unwrap_or_else(|| {
-                labels.push(word);
-                labels.len() - 1
+        for index in 0..rows.at_mm.len() {
+            let word = word(rows, index);
+            let code = words.iter().position(|known| *known == word).unwrap_or_else(|| {
+                words.push(word);
+                words.len() - 1
             });
             codes.push(code as u32);
         }
     }
-    column(name, None, description, ColumnData::Category { codes, labels })
+    let label = |word: &Option<W>| word.as_ref().map_or(String::new(), W::to_string);
+    Column {
+        name: name.to_owned(),
+        unit: None,
+        description: description.to_owned(),
+        decimals: None,
+        data: ColumnData::Category {
+            codes,
+            labels: words.iter().map(label).collect(),
+        },
+    }
 }

@@ -56,12 +56,13 @@ pub fn write_image(image: &Image) -> Vec<u8> {
     let [nx, ny, nz] = image.point_counts.map(|count| count - 1);
     let extent = format!("0 {nx} 0 {ny} 0 {nz}");
     let three = |values: [f64; 3]| format!("{:?} {:?} {:?}", values[0], values[1], values[2]);
-    let body = format!(
-        "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{}\">\n\
-         <Piece Extent=\"{extent}\">\n{}</Piece>\n</ImageData>\n",
-        three(image.origin_mm),
-        three(image.spacing_mm),
-        point_data(&image.arrays)
-    );
-    file("ImageData", &body)
+    file("ImageData", |out| {
+        *out += &format!(
+            "<ImageData WholeExtent=\"{extent}\" Origin=\"{}\" Spacing=\"{}\">\n<Piece Extent=\"{extent}\">\n",
+            three(image.origin_mm),
+            three(image.spacing_mm),
+        );
+        point_data(out, &image.arrays);
+        *out += "</Piece>\n</ImageData>\n";
+    })
 }

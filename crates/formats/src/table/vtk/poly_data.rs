@@ -1,6 +1,6 @@
 //! Points joined to quadrilaterals and lines as VTK poly data, `.vtp`.
 
-use super::{PointArray, VtkError, check_arrays, check_positions, data_array, file, floats, point_data};
+use super::{PointArray, VtkError, check_arrays, check_positions, data_array, file, point_data};
 
 /// Points, the lines and quadrilaterals that join them, and values at the points.
 ///
@@ -96,35 +96,45 @@ impl PolyData {
     }
 }
 
-/// The points and cells as the bytes of a `.vtp` file.
+/// The points and cells as the bytes of a `.vtp` file. Positions keep all their digits.
 pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
-    let body = format!(
-        "<PolyData>\n\
-         <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n\
-         {}<Points>\n{}</Points>\n{}{}</Piece>\n</PolyData>\n",
-        data.points_mm.len(),
-        data.lines.len(),
-        data.quads.len(),
-        point_data(&data.arrays),
-        floats("points_mm", 3, data.points_mm.iter().flatten().copied()),
-        cells("Lines", data.lines.iter().map(Vec::as_slice)),
-        cells("Polys", data.quads.iter().map(<[usize; 4]>::as_slice)),
-    );
-    file("PolyData", &body)
+    file("PolyData", |out| {
+        *out += &format!(
+            "<PolyData>\n\
+             <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+            data.points_mm.len(),
+            data.lines.len(),
+            data.quads.len(),
+        );
+        point_data(out, &data.arrays);
+        *out += "<Points>\n";
+        let positions = data.points_mm.iter().flatten().map(|at| at.to_le_bytes());
+        data_array(out, ("Float64", "points_mm", 3), positions);
+        *out += "</Points>\n";
+        cells(out, "Lines", data.lines.iter().map(Vec::as_slice));
+        cells(out, "Polys", data.quads.iter().map(<[usize; 4]>::as_slice));
+        *out += "</Piece>\n</PolyData>\n";
+    })
 }
 
 /// The points of all cells in a row, and where in that row each cell ends.
-fn cells<'a>(element: &str, cells: impl Iterator<Item = &'a [usize]>) -> String {
-    let mut connectivity: Vec<u8> = Vec::new();
-    let mut offsets: Vec<u8> = Vec::new();
-    let mut end = 0_u64;
-    for cell in cells {
-        connectivity.extend(cell.iter().flat_map(|index| (*index as u64).to_le_bytes()));
-        end += cell.len() as u64;
-        offsets.extend(end.to_le_bytes());
-    }
+fn cells<'a>(out: &mut String, element: &str, cells: impl Iterator<Item = &'a [usize]> + Clone) {
+    *out += &format!("<{element}>\n");
+    let ends = cells.clone().scan(0, |end, cell| {
+        *end += cell.len();
+        Some(*end)
+    });
+    let last = ends.clone().last().unwrap_or_default();
+    let connectivity = cells.flatten().copied();
     // Indices are far below 2^63, where signed and unsigned bytes are the same.
-    let connectivity = data_array("Int64", "connectivity", 1, connectivity);
-    let offsets = data_array("Int64", "offsets", 1, offsets);
-    format!("<{element}>\n{connectivity}{offsets}</{element}>\n")
+    if i32::try_from(last).is_ok() {
+        let bytes = |index: usize| (index as u32).to_le_bytes();
+        data_array(out, ("Int32", "connectivity", 1), connectivity.map(bytes));
+        data_array(out, ("Int32", "offsets", 1), ends.map(bytes));
+    } else {
+        let bytes = |index: usize| (index as u64).to_le_bytes();
+        data_array(out, ("Int64", "connectivity", 1), connectivity.map(bytes));
+        data_array(out, ("Int64", "offsets", 1), ends.map(bytes));
+    }
+    *out += &format!("</{element}>\n");
 }

@@ -53,20 +53,24 @@ impl ReadBack {
 
     fn floats(&self, parent: &str, name: &str) -> Vec<f64> {
         let (kind, _, bytes) = self.array(parent, name);
-        assert_eq!(kind, "Float64");
-        bytes
-            .chunks_exact(8)
-            .map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap()))
-            .collect()
+        let four = |chunk: &[u8]| f64::from(f32::from_le_bytes(chunk.try_into().unwrap()));
+        let eight = |chunk: &[u8]| f64::from_le_bytes(chunk.try_into().unwrap());
+        match kind.as_str() {
+            "Float32" => bytes.chunks_exact(4).map(four).collect(),
+            "Float64" => bytes.chunks_exact(8).map(eight).collect(),
+            other => panic!("{name} is {other}"),
+        }
     }
 
     fn integers(&self, parent: &str, name: &str) -> Vec<i64> {
         let (kind, _, bytes) = self.array(parent, name);
-        assert_eq!(kind, "Int64");
-        bytes
-            .chunks_exact(8)
-            .map(|chunk| i64::from_le_bytes(chunk.try_into().unwrap()))
-            .collect()
+        let four = |chunk: &[u8]| i64::from(i32::from_le_bytes(chunk.try_into().unwrap()));
+        let eight = |chunk: &[u8]| i64::from_le_bytes(chunk.try_into().unwrap());
+        match kind.as_str() {
+            "Int32" => bytes.chunks_exact(4).map(four).collect(),
+            "Int64" => bytes.chunks_exact(8).map(eight).collect(),
+            other => panic!("{name} is {other}"),
+        }
     }
 }
 

@@ -1,0 +1,138 @@
+//! Many files into one folder: made on all threads, forced to the disk meanwhile, and nothing left of earlier runs.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Mutex, PoisonError};
+
+use armill_formats::file::{FileError, PartFile, sync_folder, write_atomically};
+
+use crate::error::StudyError;
+
+/// Threads that wait for the disk: enough that a small file need not wait for a large one.
+const WAITING: usize = 4;
+/// Files that are written and wait for their name at most: each is open, and systems allow some hundred.
+const QUEUE: usize = 64;
+
+/// The list of files that a run wrote, in its folder.
+const LIST: &str = ".armill-files";
+
+/// A folder that takes files from any thread.
+pub(super) struct Folder<'a> {
+    out: &'a Path,
+    queue: SyncSender<(String, PartFile)>,
+}
+
+impl Folder<'_> {
+    /// Writes a file beside its place; it takes its name soon after.
+    pub(super) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+        let part = PartFile::write(self.out.join(name), bytes)?;
+        // The other end is open as long as this one.
+        let _ = self.queue.send((name.to_owned(), part));
+        Ok(())
+    }
+}
+
+/// Runs `work`, which saves files into `out`; when this returns they have their names. `note` hears each.
+///
+/// # Errors
+/// That of `work`; or of the first file, by name, that could not be written.
+pub(super) fn write_together(
+    out: &Path,
+    note: &(dyn Fn(&str) + Sync),
+    work: impl FnOnce(&Folder<'_>) -> Result<(), StudyError>,
+) -> Result<(), StudyError> {
+    let (queue, waiting) = sync_channel(QUEUE);
+    let waiting = Mutex::new(waiting);
+    let (worked, refused) = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..WAITING)
+            .map(|_| scope.spawn(|| name_all(&waiting, note)))
+            .collect();
+        let worked = work(&Folder { out, queue });
+        let refused = threads
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap_or_default());
+        (worked, refused.min_by(|a, b| a.0.cmp(&b.0)))
+    });
+    sync_folder(out);
+    worked?;
+    refused.map_or(Ok(()), |(_, error)| Err(error.into()))
+}
+
+/// Names files until no more come; what could not be named, with the reason.
+fn name_all(
+    waiting: &Mutex<Receiver<(String, PartFile)>>,
+    note: &(dyn Fn(&str) + Sync),
+) -> Vec<(String, FileError)> {
+    let mut refused = Vec::new();
+    loop {
+        let next = waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
+        let Ok((name, part)) = next else { return refused };
+        match part.take_name() {
+            Ok(()) => note(&name),
+            Err(error) => refused.push((name, error)),
+        }
+    }
+}
+
+/// The files in `out` that earlier runs say they wrote.
+pub(super) fn listed(out: &Path) -> BTreeSet<String> {
+    let text = std::fs::read_to_string(out.join(LIST)).unwrap_or_default();
+    // A name with a folder in it is none of ours, whoever wrote it there.
+    let ours = |name: &&str| Path::new(name).file_name().is_some_and(|file| file == *name);
+    text.lines().filter(ours).map(str::to_owned).collect()
+}
+
+/// Notes in `out` which files are of armill.
+///
+/// # Errors
+/// The list cannot be written.
+pub(super) fn list(out: &Path, names: &BTreeSet<String>) -> Result<(), StudyError> {
+    let text: String = names.iter().map(|name| format!("{name}\n")).collect();
+    Ok(write_atomically(out.join(LIST), text.as_bytes())?)
+}
+
+/// Removes files of `out`; one that cannot be removed stays listed by nobody and does no harm.
+pub(super) fn remove<'a>(out: &Path, names: impl Iterator<Item = &'a String>) {
+    for name in names {
+        let _ = std::fs::remove_file(out.join(name));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_list_names_files_of_its_own_folder_only() {
+        let folder = tempfile::tempdir().unwrap();
+        let text = "plate.csv\n../study.toml\n/etc/passwd\n..\n\nsub/x\nreport.html\n";
+        std::fs::write(folder.path().join(LIST), text).unwrap();
+        let names = ["plate.csv", "report.html"].map(str::to_owned);
+        assert_eq!(listed(folder.path()), BTreeSet::from(names.clone()));
+        list(folder.path(), &BTreeSet::from(names.clone())).unwrap();
+        assert_eq!(listed(folder.path()), BTreeSet::from(names));
+    }
+
+    #[test]
+    fn of_files_that_cannot_be_written_the_first_by_name_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let said = |name: &str| {
+            let part = PartFile::write(folder.path().join(name), b"x").unwrap();
+            std::fs::create_dir(folder.path().join(name)).unwrap();
+            part
+        };
+        let (b, a) = (said("b"), said("a"));
+        let error = write_together(folder.path(), &|_| (), |files| {
+            let _ = files.queue.send(("b".to_owned(), b));
+            let _ = files.queue.send(("a".to_owned(), a));
+            files.save("c", b"whole")
+        });
+        let error = error.unwrap_err().to_string();
+        assert!(
+            error.contains(&*folder.path().join("a").to_string_lossy()),
+            "{error}"
+        );
+        assert_eq!(std::fs::read(folder.path().join("c")).unwrap(), b"whole");
+    }
+}
