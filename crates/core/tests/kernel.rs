@@ -8,11 +8,11 @@ use std::fmt::Debug;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::lanes::{Arrays, Backend, Batch, Envelopes, Poses, Precision, flag};
-use armill_core::kernel::{AT_LIMIT, BranchChoice, Question, evaluate};
+use armill_core::kernel::{AT_LIMIT, BranchChoice, Loaded, Question, at_joints, evaluate};
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
-use armill_core::robot::{Branch, Posture, Robot};
+use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Motion, Posture, Robot};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Plane, Split};
@@ -501,4 +501,52 @@ fn a_pose_that_lanes_cannot_decide_is_finite_and_flagged() {
             assert!(answers.points[1].is_err());
         },
     );
+}
+
+#[test]
+fn any_chain_at_known_joint_positions_agrees_with_predict() {
+    // Seven axes, one of them a rail: no closed form.
+    let motions = vec![
+        Motion::Along(Axis::Y, Amount::Joint(0)),
+        Motion::Along(Axis::Z, Amount::Constant(0.4)),
+        Motion::About(Axis::Z, Amount::Joint(1)),
+        Motion::About(Axis::Y, Amount::Joint(2)),
+        Motion::Along(Axis::Z, Amount::Constant(0.5)),
+        Motion::About(Axis::X, Amount::Joint(3)),
+        Motion::About(Axis::Y, Amount::Joint(4)),
+        Motion::Along(Axis::X, Amount::Constant(0.6)),
+        Motion::About(Axis::X, Amount::Joint(5)),
+        Motion::About(Axis::Z, Amount::Joint(6)),
+    ];
+    let joints = ["rail", "a", "b", "c", "d", "e", "f"].map(Joint::plain).to_vec();
+    let robot = Robot::new("made-up/seven", motions, joints).unwrap();
+    let compliance = vec![
+        JointCompliance {
+            value: 2e-6,
+            standard_uncertainty: 0.0,
+        };
+        7
+    ];
+    let (tool, cases) = (arms::bent_tool(), cases(5));
+    let loaded = Loaded {
+        robot: &robot,
+        compliance: &compliance,
+        flange_from_tool: &tool,
+        cases: &cases,
+    };
+    let mut stream = Stream(3);
+    let q: Vec<f64> = (0..7 * 1000).map(|_| 4.0 * stream.next() - 2.0).collect();
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    let out = one_thread.install(|| at_joints(&loaded, &q, Watch::NONE).unwrap());
+    for (i, q) in q.chunks(7).enumerate() {
+        let posture = posture_at(&robot, q, &tool);
+        assert_eq!(posture.base_from_tool, out.base_from_tool[i]);
+        assert_eq!(posture.screws, out.screws[7 * i..7 * i + 7]);
+        for (case, wrench) in cases.iter().enumerate() {
+            let witness = predict(&posture, &compliance, wrench).twist.linear;
+            assert!((out.deviations[5 * i + case] - witness).norm() < 1e-15 * witness.norm() * 10.0);
+        }
+    }
+    let again = at_joints(&loaded, &q, Watch::NONE).unwrap();
+    assert_eq!(again.deviations, out.deviations);
 }

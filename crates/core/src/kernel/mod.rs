@@ -2,11 +2,13 @@
 //!
 //! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
 //! envelope over the cases and what decides it. Ortho-parallel arms go through [`lanes`], many points in one
-//! instruction; where those cannot decide, `general` takes one point after the other. Blocks run on all
+//! instruction; where those cannot decide, `general` takes one point after the other. [`at_joints`] takes any chain at
+//! joint positions that are known. Blocks run on all
 //! threads of the current rayon pool; every point is written by index, so any number of threads gives the same
 //! bits.
 
 mod answer;
+mod at_joints;
 mod general;
 // Loops over lanes index many planes at once.
 #[allow(clippy::needless_range_loop)]
@@ -15,6 +17,7 @@ mod question;
 mod solver;
 
 pub use answer::{AT_LIMIT, Answers, Held};
+pub use at_joints::{AtJoints, Loaded, at_joints};
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

@@ -106,7 +106,7 @@ pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError
         .map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
-        .set_statistics_enabled(EnabledStatistics::Chunk)
+        .set_statistics_enabled(EnabledStatistics::None)
         .set_created_by(concat!("armill-formats version ", env!("CARGO_PKG_VERSION")).to_owned())
         .set_key_value_metadata(Some(std::iter::once(name).chain(facts).collect()));
     let properties = table.columns().iter().fold(properties, encoded).build();

@@ -1,5 +1,7 @@
 //! The points of an ask, one after the other, as every table and picture needs them.
 
+use std::ops::Range;
+
 use armill_core::kernel::{Answers, Held};
 use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
@@ -57,12 +59,13 @@ pub(super) fn of_points<T>(series: &[Rows<'_>], value: impl Fn(&Rows<'_>, usize)
     values
 }
 
-/// A number of each point that has a posture.
-pub(super) fn of_held(
-    series: &[Rows<'_>],
-    value: impl Fn(&Rows<'_>, usize, &Held) -> f64,
-) -> Vec<Option<f64>> {
-    of_points(series, |rows, index| {
+/// A number of each of these points that has a posture.
+pub(super) fn of_held<'r>(
+    rows: &'r Rows<'_>,
+    points: Range<usize>,
+    value: impl Fn(&Rows<'_>, usize, &Held) -> f64 + 'r,
+) -> impl Iterator<Item = Option<f64>> + 'r {
+    points.map(move |index| {
         let held = rows.answers.points[index].as_ref().ok()?;
         Some(value(rows, index, held)).filter(|value| value.is_finite())
     })

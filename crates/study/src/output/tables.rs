@@ -3,6 +3,7 @@
 //! Positions count from the frame that the study names; deviations are in base axes, micrometres.
 
 use std::fmt::Display;
+use std::ops::Range;
 
 use armill_core::kernel::Held;
 use armill_core::robot::Singularity;
@@ -130,7 +131,12 @@ fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
     let scalar = |name: &str, um: fn(&Held) -> f64| PointArray {
         name: name.to_owned(),
-        values: PointValues::OptionalScalar(of_held(series, |_, _, held| um(held) * 1e6)),
+        values: PointValues::OptionalScalar(
+            series
+                .iter()
+                .flat_map(|rows| of_held(rows, 0..rows.at_mm.len(), |_, _, held| um(held) * 1e6))
+                .collect(),
+        ),
     };
     let mut arrays = vec![
         scalar("in_plane_um", |held| held.in_plane),
@@ -164,11 +170,11 @@ struct Numbers<'a> {
     unit: Option<&'static str>,
     decimals: u8,
     description: &'static str,
-    /// Its value at each point.
-    values: Values<'a>,
+    /// Appends its values at these points.
+    fill: Fill<'a>,
 }
 
-type Values<'a> = Box<dyn Fn(&[Rows<'_>]) -> Vec<Option<f64>> + Send + Sync + 'a>;
+type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
     fn um(
@@ -181,7 +187,7 @@ impl<'a> Numbers<'a> {
             unit: Some("um"),
             decimals: UM_DECIMALS,
             description,
-            values: Box::new(move |series| of_held(series, &um)),
+            fill: Box::new(move |rows, points, values| values.extend(of_held(rows, points, &um))),
         }
     }
 
@@ -197,15 +203,41 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    fn column(&self, series: &[Rows<'_>]) -> Column {
+    fn column(&self, values: Vec<Option<f64>>) -> Column {
         Column {
             name: self.name.clone(),
             unit: self.unit.map(str::to_owned),
             description: self.description.to_owned(),
             decimals: Some(self.decimals),
-            data: ColumnData::OptionalFloat((self.values)(series)),
+            data: ColumnData::OptionalFloat(values),
         }
     }
+}
+
+/// Points whose answers stay in the cache while all columns take their values from them.
+const POINTS_AT_ONCE: usize = 512;
+
+/// The columns of these numbers, filled on all threads.
+fn filled(numbers: &[Numbers<'_>], series: &[Rows<'_>]) -> Vec<Column> {
+    let count = series.iter().map(|rows| rows.at_mm.len()).sum();
+    let fill = |numbers: &[Numbers<'_>]| -> Vec<Column> {
+        let mut values = vec![Vec::with_capacity(count); numbers.len()];
+        for rows in series {
+            for first in (0..rows.at_mm.len()).step_by(POINTS_AT_ONCE) {
+                let points = first..rows.at_mm.len().min(first + POINTS_AT_ONCE);
+                for (numbers, values) in numbers.iter().zip(&mut values) {
+                    (numbers.fill)(rows, points.clone(), values);
+                }
+            }
+        }
+        numbers
+            .iter()
+            .zip(values)
+            .map(|(numbers, values)| numbers.column(values))
+            .collect()
+    };
+    let share = numbers.len().div_ceil(rayon::current_num_threads());
+    numbers.par_chunks(share).flat_map_iter(fill).collect()
 }
 
 /// One row a point.
@@ -244,7 +276,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         },
     ));
     let numbers = numbers(study, series.first().map_or(0, |rows| rows.answers.case_count));
-    columns.par_extend(numbers.par_iter().map(|numbers| numbers.column(series)));
+    columns.extend(filled(&numbers, series));
     Ok(Table::new(name, columns)?)
 }
 

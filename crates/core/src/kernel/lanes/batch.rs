@@ -9,7 +9,7 @@ use super::block::{Aims, BLOCK, Plane, Planes, planes};
 use super::compliance::Compliances;
 use super::envelope::{Largest, Rows};
 use super::forward::{Forward, POSE, SCREWS};
-use super::limits::LimitsByCosines;
+use super::limits::{CosineLimits, LimitsByCosines};
 use super::positions::{LimitsByPositions, Position, Positions};
 use super::prepared::Prepared;
 use super::solve::{Postures, Solve};
@@ -296,28 +296,8 @@ impl<T: Precision> Batch<T> {
             ..
         } = &mut *self.scratch;
         match &prepared.cosines {
-            Some(limits) => match (still, limits.swivels) {
-                (true, true) => backend.run(LimitsByCosines::<T, true, true> {
-                    limits,
-                    aims,
-                    postures,
-                }),
-                (true, false) => backend.run(LimitsByCosines::<T, true, false> {
-                    limits,
-                    aims,
-                    postures,
-                }),
-                (false, true) => backend.run(LimitsByCosines::<T, false, true> {
-                    limits,
-                    aims,
-                    postures,
-                }),
-                (false, false) => backend.run(LimitsByCosines::<T, false, false> {
-                    limits,
-                    aims,
-                    postures,
-                }),
-            },
+            Some(limits) if still => limit::<T, true>(backend, limits, aims, postures),
+            Some(limits) => limit::<T, false>(backend, limits, aims, postures),
             None => {
                 backend.run(Position {
                     prepared,
@@ -479,6 +459,37 @@ pub(super) struct Solved<'a> {
     pub postures: &'a Postures<f64>,
     pub positions: &'a Positions<f64>,
     pub backend: Backend,
+}
+
+/// Flags the joint limits, told by cosines.
+fn limit<T: Precision, const STILL: bool>(
+    backend: Backend,
+    limits: &CosineLimits,
+    aims: &Aims<T>,
+    postures: &mut Postures<T>,
+) {
+    match (limits.swivels, limits.askew) {
+        (true, true) => backend.run(LimitsByCosines::<T, STILL, true, true> {
+            limits,
+            aims,
+            postures,
+        }),
+        (true, false) => backend.run(LimitsByCosines::<T, STILL, true, false> {
+            limits,
+            aims,
+            postures,
+        }),
+        (false, true) => backend.run(LimitsByCosines::<T, STILL, false, true> {
+            limits,
+            aims,
+            postures,
+        }),
+        (false, false) => backend.run(LimitsByCosines::<T, STILL, false, false> {
+            limits,
+            aims,
+            postures,
+        }),
+    }
 }
 
 fn is_still<T>(poses: &Poses<'_, T>) -> bool {

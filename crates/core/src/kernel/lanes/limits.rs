@@ -21,6 +21,8 @@ pub(super) struct CosineLimits {
     pub tool_middle: Vector3<f64>,
     /// Whether joint 4 or 6 has less than a turn.
     pub swivels: bool,
+    /// Whether the range of joint 5 is not the same to both sides of the straight wrist.
+    pub askew: bool,
 }
 
 impl CosineLimits {
@@ -43,6 +45,8 @@ impl CosineLimits {
             rows: [row(0), row(1), row(2), fourth, row(4), sixth],
             third_from_vertical,
             swivels: counting.cosine_limit(3).is_some() || counting.cosine_limit(5).is_some(),
+            // A middle that a file rounds to 1e-12 rad from zero is at zero.
+            askew: row(4)[1].abs() > 1e-12,
             forearm_middle: a5 * fourth[1] - a3 * fourth[0],
             tool_middle: second * sixth[0] + second.cross(&out) * sixth[1],
         })
@@ -76,9 +80,9 @@ impl<R: Real> Cosines<R> {
     }
 
     /// `flags` with the bits of the joint limits, for the wrist not flipped and flipped; `SWIVELS` where joint 4 or 6
-    /// has less than a turn.
+    /// has less than a turn, `ASKEW` where joint 5 goes farther to one side.
     #[inline(always)]
-    fn flags<const SWIVELS: bool>(&self, flags: R, aim: &Aim<R>, solved: &Solved<R>) -> R {
+    fn flags<const SWIVELS: bool, const ASKEW: bool>(&self, flags: R, aim: &Aim<R>, solved: &Solved<R>) -> R {
         let zero = R::of(0.0);
         let Solved { cc, sc, cp, sp, .. } = *solved;
         let row = |i: usize, c: R, s: R| {
@@ -93,13 +97,23 @@ impl<R: Real> Cosines<R> {
         );
         let arm = row(0, solved.c1, solved.s1).min(row(1, cp, sp)).min(third);
 
-        let bent = solved.n2.sqrt();
         let along = solved.z4.dot(aim.out);
-        let (mut wrist, mut flipped) = (row(4, along, bent), row(4, along, -bent));
+        let (mut wrist, mut flipped) = if ASKEW {
+            let bent = solved.n2.sqrt();
+            (row(4, along, bent), row(4, along, -bent))
+        } else {
+            let [to_cos, _, least] = self.rows[4];
+            let both = along.mul_add(to_cos, -least);
+            (both, both)
+        };
         if SWIVELS {
+            // Cosines times the sine of the bend; squared with their sign, for the sine is known as a square.
+            let squared = |x: R| x * x.abs();
             let middle = turned(self.forearm_middle, cc, sc, solved.c1, solved.s1);
-            let (fourth, sixth) = (aim.out.dot(middle), solved.n.dot(aim.second));
-            let (least_4, least_6) = (self.rows[3][2] * bent, self.rows[5][2] * bent);
+            let fourth = squared(aim.out.dot(middle));
+            let sixth = squared(solved.n.dot(aim.second));
+            let least_4 = squared(self.rows[3][2]) * solved.n2;
+            let least_6 = squared(self.rows[5][2]) * solved.n2;
             wrist = wrist.min(fourth - least_4).min(sixth - least_6);
             flipped = flipped.min(-fourth - least_4).min(-sixth - least_6);
         }
@@ -110,13 +124,15 @@ impl<R: Real> Cosines<R> {
 
 /// Adds the flags of the joint limits, told by cosines. Not checked: the aims' axis 5 must be
 /// [`CosineLimits::tool_middle`].
-pub(super) struct LimitsByCosines<'a, T, const STILL: bool, const SWIVELS: bool> {
+pub(super) struct LimitsByCosines<'a, T, const STILL: bool, const SWIVELS: bool, const ASKEW: bool> {
     pub limits: &'a CosineLimits,
     pub aims: &'a Aims<T>,
     pub postures: &'a mut Postures<T>,
 }
 
-impl<T: Float, const STILL: bool, const SWIVELS: bool> Work<T> for LimitsByCosines<'_, T, STILL, SWIVELS> {
+impl<T: Float, const STILL: bool, const SWIVELS: bool, const ASKEW: bool> Work<T>
+    for LimitsByCosines<'_, T, STILL, SWIVELS, ASKEW>
+{
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let cosines = Cosines::<R>::new(self.limits);
@@ -124,7 +140,7 @@ impl<T: Float, const STILL: bool, const SWIVELS: bool> Work<T> for LimitsByCosin
             R::step();
             let (aim, solved) = (aim::<R, STILL>(self.aims, i), Solved::load(self.postures, i));
             let flags = R::load(self.postures.flags[i]);
-            self.postures.flags[i] = cosines.flags::<SWIVELS>(flags, &aim, &solved).store();
+            self.postures.flags[i] = cosines.flags::<SWIVELS, ASKEW>(flags, &aim, &solved).store();
         }
     }
 }
