@@ -13,7 +13,6 @@ use super::limits::{CosineLimits, LimitsByCosines};
 use super::positions::{LimitsByPositions, Position, Positions};
 use super::prepared::Prepared;
 use super::solve::{Postures, Solve};
-use crate::frame::Isometry;
 use crate::kernel::Question;
 use crate::robot::posture::{Branch, Elbow, Shoulder};
 
@@ -26,25 +25,25 @@ use crate::robot::posture::{Branch, Elbow, Shoulder};
 /// tell where they mean something.
 #[derive(Clone, Debug)]
 pub struct Batch<T> {
-    prepared: Prepared,
-    backend: Backend,
-    scratch: Box<Scratch<T>>,
+    pub(super) prepared: Prepared,
+    pub(super) backend: Backend,
+    pub(super) scratch: Box<Scratch<T>>,
     /// Joint positions in; poses and screws out. Made when first asked for.
     forward: Option<Box<(Planes<T, 6>, Planes<T, { POSE + SCREWS }>)>>,
 }
 
 #[derive(Clone, Debug)]
 #[repr(align(64))]
-struct Scratch<T> {
-    aims: Aims<T>,
-    postures: Postures<T>,
-    rotations: Planes<T, 9>,
-    positions: Positions<T>,
-    in_plane: Plane<T>,
-    case: Plane<T>,
-    state: Plane<T>,
+pub(super) struct Scratch<T> {
+    pub aims: Aims<T>,
+    pub postures: Postures<T>,
+    pub rotations: Planes<T, 9>,
+    pub positions: Positions<T>,
+    pub in_plane: Plane<T>,
+    pub case: Plane<T>,
+    pub state: Plane<T>,
     /// In-plane rows or upper triangles of compliances.
-    out: Planes<T, 21>,
+    pub out: Planes<T, 21>,
 }
 
 /// Scratch that leaves room in the second cache, and fits the first of many machines with what is worked on.
@@ -229,7 +228,7 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    fn place(&mut self, at: [&Plane<T>; 3]) {
+    pub(super) fn place(&mut self, at: [&Plane<T>; 3]) {
         let (prepared, aims) = (&self.prepared, &mut self.scratch.aims);
         if prepared.turned {
             self.backend.run(Places::<T, true> { prepared, at, aims });
@@ -264,7 +263,7 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Solves the aimed block with the signs that its postures have.
-    fn solve_signed(&mut self, still: bool) {
+    pub(super) fn solve_signed(&mut self, still: bool) {
         let Scratch { aims, postures, .. } = &mut *self.scratch;
         let prepared = &self.prepared;
         if still {
@@ -283,7 +282,7 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Envelope of the solved block; without a place to go it stays in the scratch.
-    fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
+    pub(super) fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
         let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch {
             aims,
@@ -396,69 +395,6 @@ impl<T: Precision> Batch<T> {
             positions,
         });
     }
-}
-
-impl Batch<f64> {
-    /// Places the block's aims at these poses; the rest repeats the last. [`Batch::orient`] must follow.
-    pub(super) fn aim_at(&mut self, poses: &[Isometry]) {
-        let mut places: Planes<f64, 3> = planes();
-        let last = poses.last();
-        for (i, pose) in poses
-            .iter()
-            .chain(last.into_iter().cycle())
-            .take(BLOCK)
-            .enumerate()
-        {
-            for (plane, value) in places.iter_mut().zip(pose.translation.vector.iter()) {
-                plane[i] = *value;
-            }
-            // Columns of the transpose are rows of the rotation.
-            let rotation = pose.rotation.to_rotation_matrix().matrix().transpose();
-            for (plane, value) in self.scratch.rotations.iter_mut().zip(rotation.iter()) {
-                plane[i] = *value;
-            }
-        }
-        self.place(places.each_ref());
-    }
-
-    /// In-plane envelope and flags of the aimed block in the postures with these signs.
-    pub(super) fn envelope_of_aimed(&mut self, signs: [f64; 2]) -> (&Plane<f64>, &Plane<f64>) {
-        self.solve(signs, false);
-        self.envelope(false, None);
-        (&self.scratch.in_plane, &self.scratch.postures.flags)
-    }
-
-    /// Solves the aimed block with these signs, one pair a point.
-    pub(super) fn solve_each(&mut self, signs: &Planes<f64, 2>) {
-        self.scratch.postures.signs = *signs;
-        self.solve_signed(false);
-    }
-
-    /// What other work on the solved block needs.
-    pub(super) fn solved(&self) -> Solved<'_> {
-        let Scratch {
-            aims,
-            postures,
-            positions,
-            ..
-        } = &*self.scratch;
-        Solved {
-            prepared: &self.prepared,
-            aims,
-            postures,
-            positions,
-            backend: self.backend,
-        }
-    }
-}
-
-/// A solved block.
-pub(super) struct Solved<'a> {
-    pub prepared: &'a Prepared,
-    pub aims: &'a Aims<f64>,
-    pub postures: &'a Postures<f64>,
-    pub positions: &'a Positions<f64>,
-    pub backend: Backend,
 }
 
 /// Flags the joint limits, told by cosines.

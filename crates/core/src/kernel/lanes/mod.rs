@@ -1,5 +1,6 @@
 //! The closed form over lanes: ortho-parallel arms with spherical wrist, many poses at once.
 
+mod aimed;
 mod aims;
 mod angle;
 mod arm;

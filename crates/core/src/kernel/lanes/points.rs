@@ -2,7 +2,8 @@
 
 use nalgebra::Vector3;
 
-use super::batch::{Batch, Second, Solved};
+use super::aimed::Solved;
+use super::batch::{Batch, Second};
 use super::block::{BLOCK, Plane, Planes, planes};
 use super::deviation::{OneCase, Shares, Worst};
 use super::solve::flag;
