@@ -16,6 +16,9 @@ use crate::clock::Candidate;
 use crate::work::{C66, DEV, DEV8, IK8};
 use crate::workload::Pose;
 
+/// How often the poses are gone through in a round: a few milliseconds would measure how long a processor takes to
+/// change its clock for wide vectors.
+const REPEATED: usize = 10;
 /// Poses whose results share memory: whole blocks of the kernel.
 const TOGETHER: usize = 240;
 const BRANCH: Branch = Branch::ALL[0];
@@ -47,10 +50,10 @@ impl<T: Precision> Places<T> {
         self.from(0, self.len())
     }
 
-    /// Blocks at a time.
+    /// Blocks at a time, all poses again and again.
     fn chunks(&self) -> impl Iterator<Item = Poses<'_, T>> {
-        (0..self.len())
-            .step_by(TOGETHER)
+        (0..REPEATED)
+            .flat_map(|_| (0..self.len()).step_by(TOGETHER))
             .map(|first| self.from(first, TOGETHER))
     }
 
@@ -123,10 +126,10 @@ fn works<'a, T: Precision>(
         }
     };
     vec![
-        Candidate::new(who, DEV, places.len(), dev).note(NOTE),
-        Candidate::new(who, DEV8, places.len(), dev8).note(NOTE),
-        Candidate::new(who, C66, places.len(), c66).note(NOTE),
-        Candidate::new(who, IK8, places.len(), ik8).note(NOTE),
+        Candidate::new(who, DEV, REPEATED * places.len(), dev).note(NOTE),
+        Candidate::new(who, DEV8, REPEATED * places.len(), dev8).note(NOTE),
+        Candidate::new(who, C66, REPEATED * places.len(), c66).note(NOTE),
+        Candidate::new(who, IK8, REPEATED * places.len(), ik8).note(NOTE),
     ]
 }
 
@@ -137,15 +140,16 @@ fn on_threads<'a>(
     pool: &'a ThreadPool,
 ) -> Candidate<'a> {
     /// Enough for a hand-over between threads to cost nothing.
-    const SHARE: usize = 40 * TOGETHER;
+    const SHARE: usize = 20_000;
     let threads = pool.current_num_threads();
     let batch = Batch::<f64>::new(question, backend);
     let run = move || {
         pool.install(|| {
-            let starts = (0..places.len()).into_par_iter().step_by(SHARE);
+            let starts = (0..REPEATED * places.len()).into_par_iter().step_by(SHARE);
             starts.for_each_init(
                 || (batch.clone(), Envelopes::default()),
                 |(batch, out), first| {
+                    let first = first % places.len();
                     for part in (first..places.len().min(first + SHARE)).step_by(TOGETHER) {
                         batch.envelopes(&places.from(part, TOGETHER), BRANCH, out);
                         black_box(&*out);
@@ -154,7 +158,7 @@ fn on_threads<'a>(
             );
         });
     };
-    Candidate::new("armill lanes f64", DEV, places.len(), run)
+    Candidate::new("armill lanes f64", DEV, REPEATED * places.len(), run)
         .threads(threads)
         .note(NOTE)
 }

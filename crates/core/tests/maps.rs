@@ -255,3 +255,17 @@ fn progress_counts_every_point_once() {
     .unwrap();
     assert_eq!(counted.into_inner(), grid.len());
 }
+
+#[test]
+fn of_a_point_and_its_mirror_image_the_first_is_the_worst() {
+    let (robot, plane) = (arms::mh12(), Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0));
+    let grid = Grid::within([0.2, 0.2], 0.1);
+    ask(&robot, &plane, branch("front elbow-up"), |question| {
+        let map = plane_map(question, plane, grid, Watch::NONE).unwrap();
+        let (worst, held) = map.answers.worst().unwrap();
+        let (row, column) = (worst / grid.columns, worst % grid.columns);
+        let mirrored = row * grid.columns + grid.columns - 1 - column;
+        let other = map.answers.points[mirrored].as_ref().unwrap().in_plane;
+        assert!((held.in_plane - other).abs() < 1e-12 * other && worst < mirrored);
+    });
+}

@@ -8,6 +8,9 @@ use crate::robot::{Branch, Singularity, Unreachable};
 /// How far (rad) outside a limit still counts as at it: rounding of a joint that stands at its limit.
 pub const AT_LIMIT: f64 = 1e-9;
 
+/// Deviations that differ by less than this, relative, differ by rounding alone.
+const SAME: f64 = 1e-10;
+
 /// A point where the arm holds the tool. Lengths m, angles rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
@@ -89,14 +92,24 @@ impl Answers {
         &self.shares[index * self.joint_count..][..self.joint_count]
     }
 
-    /// The point with the largest in-plane deviation, if any point is reached.
+    /// The point with the largest in-plane deviation, if any point is reached. Of points that differ by rounding alone (a
+    /// plane and its mirror image) it is the first, on every machine.
     pub fn worst(&self) -> Option<(usize, &Held)> {
-        self.held().max_by(|a, b| a.1.in_plane.total_cmp(&b.1.in_plane))
+        let most = self
+            .held()
+            .map(|(_, held)| held.in_plane)
+            .max_by(f64::total_cmp)?;
+        self.held().find(|(_, held)| held.in_plane >= most * (1.0 - SAME))
     }
 
-    /// The point with the least in-plane deviation, if any point is reached.
+    /// The point with the least in-plane deviation, if any point is reached; of equal ones the first, likewise.
     pub fn best(&self) -> Option<(usize, &Held)> {
-        self.held().min_by(|a, b| a.1.in_plane.total_cmp(&b.1.in_plane))
+        let least = self
+            .held()
+            .map(|(_, held)| held.in_plane)
+            .min_by(f64::total_cmp)?;
+        self.held()
+            .find(|(_, held)| held.in_plane <= least * (1.0 + SAME))
     }
 
     /// The points where the arm holds the tool, with their index.

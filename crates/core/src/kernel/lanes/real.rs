@@ -85,7 +85,7 @@ pub trait Real:
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// Square root; NaN below zero.
     fn sqrt(self) -> Self;
-    /// Stands at the head of every loop over a block; keeps [`Alone`] from being vectorised.
+    /// Stands at the head of every loop over a block; keeps the scalar back end from being vectorised.
     fn step() {}
 
     /// A constant.
