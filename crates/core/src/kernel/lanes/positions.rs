@@ -87,16 +87,19 @@ impl<T: Float> Work<T> for Position<'_, T> {
             let (room, nearest) = (&mut room[flip], &mut nearest[flip]);
             for joint in 0..6 {
                 let row = Counting::<R>::new(self.prepared, joint, flip == 1);
+                let coupling = &self.prepared.arm.coupling[joint][..joint];
+                if coupling.iter().all(|factor| *factor == 0.0) {
+                    row.stand(&phi[joint], &mut joints[joint], [room, nearest]);
+                    continue;
+                }
                 row.count(&phi[joint], &mut joints[joint]);
-                for other in 0..joint {
-                    let factor = self.prepared.arm.coupling[joint][other];
-                    if factor != 0.0 {
-                        let (before, from) = joints.split_at_mut(joint);
-                        uncouple::<R>(factor, &before[other], &mut from[0]);
+                let (before, from) = joints.split_at_mut(joint);
+                for (factor, other) in coupling.iter().zip(before) {
+                    if *factor != 0.0 {
+                        uncouple::<R>(*factor, other, &mut from[0]);
                     }
                 }
-                row.near_the_middle(&mut joints[joint]);
-                row.room(&joints[joint], room, nearest);
+                row.settle(&mut from[0], [room, nearest]);
             }
             let at_limit = R::of(-<T as Float>::AT_LIMIT);
             for i in 0..BLOCK {
@@ -161,6 +164,24 @@ impl<R: Real> Counting<R> {
         }
     }
 
+    /// Joint positions of an uncoupled joint; keeps the least room of the joints so far and whose it is.
+    #[inline(always)]
+    fn stand(
+        &self,
+        phi: &Plane<R::Float>,
+        joint: &mut Plane<R::Float>,
+        [room, nearest]: [&mut Plane<R::Float>; 2],
+    ) {
+        for i in 0..BLOCK {
+            R::step();
+            let q = self.near_the_middle(self.gain.mul_add(R::load(phi[i]), self.start));
+            joint[i] = q.store();
+            let kept = self.least(q, [R::load(room[i]), R::load(nearest[i])]);
+            (room[i], nearest[i]) = (kept[0].store(), kept[1].store());
+        }
+    }
+
+    /// Joint positions before coupling.
     #[inline(always)]
     fn count(&self, phi: &Plane<R::Float>, joint: &mut Plane<R::Float>) {
         for i in 0..BLOCK {
@@ -169,31 +190,32 @@ impl<R: Real> Counting<R> {
         }
     }
 
-    /// Takes whole turns away until the joint is within half a turn of the middle of its range.
+    /// [`Counting::stand`] of a joint that is counted and uncoupled.
     #[inline(always)]
-    fn near_the_middle(&self, joint: &mut Plane<R::Float>) {
-        use std::f64::consts::TAU;
+    fn settle(&self, joint: &mut Plane<R::Float>, [room, nearest]: [&mut Plane<R::Float>; 2]) {
         for i in 0..BLOCK {
             R::step();
-            let at = R::load(joint[i]);
-            let turns = at.mul_add(R::of(1.0 / TAU), -self.middle_turns).round();
-            joint[i] = (-turns).mul_add(R::of(TAU), at).store();
+            let q = self.near_the_middle(R::load(joint[i]));
+            joint[i] = q.store();
+            let kept = self.least(q, [R::load(room[i]), R::load(nearest[i])]);
+            (room[i], nearest[i]) = (kept[0].store(), kept[1].store());
         }
     }
 
-    /// Keeps the least room of the joints so far; the first starts.
+    /// Takes whole turns away until the joint is within half a turn of the middle of its range.
     #[inline(always)]
-    fn room(&self, joint: &Plane<R::Float>, room: &mut Plane<R::Float>, nearest: &mut Plane<R::Float>) {
-        let first = self.index == R::of(0.0);
-        let most = R::of(f64::from(f32::MAX));
-        for i in 0..BLOCK {
-            R::step();
-            let this = self.half - (R::load(joint[i]) - self.middle).abs();
-            let so_far = R::either(first, most, R::load(room[i]));
-            let less = this < so_far;
-            room[i] = R::either(less, this, so_far).store();
-            nearest[i] = R::either(less, self.index, R::load(nearest[i])).store();
-        }
+    fn near_the_middle(&self, at: R) -> R {
+        use std::f64::consts::TAU;
+        let turns = at.mul_add(R::of(1.0 / TAU), -self.middle_turns).round();
+        (-turns).mul_add(R::of(TAU), at)
+    }
+
+    /// The lesser of the room that this joint leaves and the room so far, with its joint; the first joint starts.
+    #[inline(always)]
+    fn least(&self, q: R, [so_far, whose]: [R; 2]) -> [R; 2] {
+        let room = self.half - (q - self.middle).abs();
+        let less = (room < so_far) | (self.index == R::of(0.0));
+        [R::either(less, room, so_far), R::either(less, self.index, whose)]
     }
 }
 
