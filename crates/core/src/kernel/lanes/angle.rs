@@ -4,7 +4,7 @@
 //! |z| <= tan(pi/8) with relative error 1.3e-18, `sin` and `cos` on |x| <= pi/4 with 3.5e-18 and 5e-20 of the
 //! series' rest. What remains is rounding: below 9e-16 rad for [`atan2`], 2e-16 for [`sin_cos`] up to 1e5 rad.
 
-use super::real::Real;
+use super::real::{Float, Real};
 
 const ATAN: [f64; 11] = [
     -0.333_333_333_333_332,
@@ -69,7 +69,7 @@ pub(super) fn atan2<R: Real>(y: R, x: R) -> R {
     let top = R::either(from_diagonal, lesser - greater, lesser);
     let bottom = R::either(from_diagonal, lesser + greater, greater);
     let start = R::either(from_diagonal, R::of(FRAC_PI_4), zero);
-    let z = top / R::either(bottom > zero, bottom, R::of(1.0));
+    let z = top / bottom.max(R::of(<R::Float as Float>::LEAST));
     let z2 = z * z;
     let angle = start + (z * z2).mul_add(polynomial(z2, ATAN), z);
     let angle = R::either(ay > ax, R::of(FRAC_PI_2) - angle, angle);

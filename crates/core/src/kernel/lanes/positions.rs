@@ -83,25 +83,21 @@ impl<T: Float> Work<T> for Position<'_, T> {
             R::step();
             fore[i] = (R::load(fore[i]) - R::load(upper[i])).store();
         }
-        for (flip, joints) in joints.iter_mut().enumerate() {
+        // Arm first: its joints stand alike whether the wrist is flipped or not.
+        let [plain, flipped] = joints;
+        for joint in 0..3 {
+            let row = Counting::<R>::new(self.prepared, joint, false);
+            row.stand(&phi[joint], &mut plain[..=joint], [&mut room[0], &mut nearest[0]]);
+        }
+        flipped[..3].copy_from_slice(&plain[..3]);
+        (room[1], nearest[1]) = (room[0], nearest[0]);
+        let at_limit = R::of(-<T as Float>::AT_LIMIT);
+        for (flip, joints) in [plain, flipped].into_iter().enumerate() {
             let (room, nearest) = (&mut room[flip], &mut nearest[flip]);
-            for joint in 0..6 {
+            for joint in 3..6 {
                 let row = Counting::<R>::new(self.prepared, joint, flip == 1);
-                let coupling = &self.prepared.arm.coupling[joint][..joint];
-                if coupling.iter().all(|factor| *factor == 0.0) {
-                    row.stand(&phi[joint], &mut joints[joint], [room, nearest]);
-                    continue;
-                }
-                row.count(&phi[joint], &mut joints[joint]);
-                let (before, from) = joints.split_at_mut(joint);
-                for (factor, other) in coupling.iter().zip(before) {
-                    if *factor != 0.0 {
-                        uncouple::<R>(*factor, other, &mut from[0]);
-                    }
-                }
-                row.settle(&mut from[0], [room, nearest]);
+                row.stand(&phi[joint], &mut joints[..=joint], [room, nearest]);
             }
-            let at_limit = R::of(-<T as Float>::AT_LIMIT);
             for i in 0..BLOCK {
                 R::step();
                 let before = R::load(self.postures.flags[i]);
@@ -132,7 +128,9 @@ fn uncouple<R: Real>(factor: f64, other: &Plane<R::Float>, joint: &mut Plane<R::
 
 /// How one joint counts and how far it goes, in every lane.
 #[derive(Clone, Copy)]
-struct Counting<R> {
+struct Counting<'a, R> {
+    /// What earlier joints add.
+    coupling: &'a [f64; 6],
     index: R,
     gain: R,
     start: R,
@@ -142,10 +140,10 @@ struct Counting<R> {
     middle_turns: R,
 }
 
-impl<R: Real> Counting<R> {
+impl<'a, R: Real> Counting<'a, R> {
     /// Joint `index`; with the wrist flipped joints 4 and 6 stand half a turn away, and joint 5 bends the other way.
     #[inline(always)]
-    fn new(prepared: &Prepared, index: usize, flipped: bool) -> Self {
+    fn new(prepared: &'a Prepared, index: usize, flipped: bool) -> Self {
         use std::f64::consts::{PI, TAU};
         let joint = prepared.arm.joints[index];
         let turned = if flipped && (index == 3 || index == 5) {
@@ -155,6 +153,7 @@ impl<R: Real> Counting<R> {
         };
         let sense = if flipped && index == 4 { -1.0 } else { 1.0 };
         Counting {
+            coupling: &prepared.arm.coupling[index],
             index: R::of(index as f64),
             gain: R::of(sense * joint.gain),
             start: R::of(joint.gain.mul_add(turned, joint.start)),
@@ -164,35 +163,36 @@ impl<R: Real> Counting<R> {
         }
     }
 
-    /// Joint positions of an uncoupled joint; keeps the least room of the joints so far and whose it is.
+    /// Positions of the last of `joints` from its angle; keeps the least room of the joints so far and whose it is.
     #[inline(always)]
     fn stand(
         &self,
         phi: &Plane<R::Float>,
-        joint: &mut Plane<R::Float>,
+        joints: &mut [Plane<R::Float>],
         [room, nearest]: [&mut Plane<R::Float>; 2],
     ) {
-        for i in 0..BLOCK {
-            R::step();
-            let q = self.near_the_middle(self.gain.mul_add(R::load(phi[i]), self.start));
-            joint[i] = q.store();
-            let kept = self.least(q, [R::load(room[i]), R::load(nearest[i])]);
-            (room[i], nearest[i]) = (kept[0].store(), kept[1].store());
+        let Some((joint, before)) = joints.split_last_mut() else {
+            return;
+        };
+        if self.coupling.iter().all(|factor| *factor == 0.0) {
+            for i in 0..BLOCK {
+                R::step();
+                let q = self.near_the_middle(self.gain.mul_add(R::load(phi[i]), self.start));
+                joint[i] = q.store();
+                let kept = self.least(q, [R::load(room[i]), R::load(nearest[i])]);
+                (room[i], nearest[i]) = (kept[0].store(), kept[1].store());
+            }
+            return;
         }
-    }
-
-    /// Joint positions before coupling.
-    #[inline(always)]
-    fn count(&self, phi: &Plane<R::Float>, joint: &mut Plane<R::Float>) {
         for i in 0..BLOCK {
             R::step();
             joint[i] = self.gain.mul_add(R::load(phi[i]), self.start).store();
         }
-    }
-
-    /// [`Counting::stand`] of a joint that is counted and uncoupled.
-    #[inline(always)]
-    fn settle(&self, joint: &mut Plane<R::Float>, [room, nearest]: [&mut Plane<R::Float>; 2]) {
+        for (factor, other) in self.coupling.iter().zip(before) {
+            if *factor != 0.0 {
+                uncouple::<R>(*factor, other, joint);
+            }
+        }
         for i in 0..BLOCK {
             R::step();
             let q = self.near_the_middle(R::load(joint[i]));

@@ -21,6 +21,8 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     const ROUNDER: f64;
     /// Below this a squared length (m^2, or sine squared) counts as zero.
     const NOTHING: f64;
+    /// The least length that anything is divided by.
+    const LEAST: f64;
     /// How far lengths and directions of a verified posture may stray, relative.
     const VERIFIED: f64;
     /// Share of a turn by which half a turn is missed and still is half a turn.
@@ -37,6 +39,7 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
 impl Float for f64 {
     const ROUNDER: f64 = 6_755_399_441_055_744.0;
     const NOTHING: f64 = 1e-18;
+    const LEAST: f64 = 1e-300;
     const VERIFIED: f64 = 1e-9;
     const HALF_TURN_SLACK: f64 = 1e-12;
     const AT_LIMIT: f64 = super::super::AT_LIMIT;
@@ -52,6 +55,7 @@ impl Float for f64 {
 impl Float for f32 {
     const ROUNDER: f64 = 12_582_912.0;
     const NOTHING: f64 = 1e-10;
+    const LEAST: f64 = 1e-30;
     const VERIFIED: f64 = 1e-3;
     const HALF_TURN_SLACK: f64 = 1e-6;
     const AT_LIMIT: f64 = 1e-5;
@@ -85,6 +89,8 @@ pub trait Real:
     fn mul_add(self, a: Self, b: Self) -> Self;
     /// Square root; NaN below zero.
     fn sqrt(self) -> Self;
+    /// Its size.
+    fn abs(self) -> Self;
     /// Stands at the head of every loop over a block; keeps the scalar back end from being vectorised.
     fn step() {}
 
@@ -107,11 +113,6 @@ pub trait Real:
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::either(self < other, self, other)
-    }
-    /// Its size.
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.max(-self)
     }
     /// 1 where `self >= 0`, otherwise -1.
     #[inline(always)]
@@ -191,6 +192,10 @@ macro_rules! real {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 $type(self.0.sqrt())
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $type(self.0.abs())
             }
             #[inline(always)]
             fn step() {
