@@ -210,14 +210,25 @@ impl<'q> Points<'q> {
             backend,
         } = self.batch.solved();
         let stances = &mut self.room.stances;
-        backend.run(Stand {
-            prepared,
-            aims,
-            postures,
-            positions,
-            preference,
-            stances,
-        });
+        if prepared.moments {
+            backend.run(Stand::<f64, true> {
+                prepared,
+                aims,
+                postures,
+                positions,
+                preference,
+                stances,
+            });
+        } else {
+            backend.run(Stand::<f64, false> {
+                prepared,
+                aims,
+                postures,
+                positions,
+                preference,
+                stances,
+            });
+        }
     }
 
     fn deviate(&mut self) {

@@ -15,6 +15,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
+use crate::robot::inverse::ortho_parallel::WRIST_SINGULAR;
+
 /// What a block stores: `f64` or `f32`.
 pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     /// 1.5 times 2 to the mantissa's bits: adding and taking it away rounds to a whole number.
@@ -38,7 +40,7 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
 
 impl Float for f64 {
     const ROUNDER: f64 = 6_755_399_441_055_744.0;
-    const NOTHING: f64 = 1e-18;
+    const NOTHING: f64 = WRIST_SINGULAR * WRIST_SINGULAR;
     const LEAST: f64 = 1e-300;
     const VERIFIED: f64 = 1e-9;
     const HALF_TURN_SLACK: f64 = 1e-12;

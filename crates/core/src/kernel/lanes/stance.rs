@@ -32,7 +32,7 @@ pub(super) struct Preference {
 }
 
 /// Fills [`Stances`].
-pub(super) struct Stand<'a, T> {
+pub(super) struct Stand<'a, T, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
     pub postures: &'a Postures<T>,
@@ -41,7 +41,7 @@ pub(super) struct Stand<'a, T> {
     pub stances: &'a mut Stances<T>,
 }
 
-impl<T: Float> Work<T> for Stand<'_, T> {
+impl<T: Float, const MOMENTS: bool> Work<T> for Stand<'_, T, MOMENTS> {
     #[inline(always)]
     fn run<R: Real<Float = T>>(self) {
         let (plain, flipped) = (R::of(self.preference.plain), R::of(self.preference.flipped));
@@ -77,7 +77,9 @@ impl<T: Float> Work<T> for Stand<'_, T> {
                     (linear, axis) = (linear.scaled(per_bent), axis.scaled(per_bent));
                 }
                 put(&mut stances.linear[3 * k..3 * k + 3], i, linear);
-                put(&mut stances.axes[3 * k..3 * k + 3], i, axis);
+                if MOMENTS {
+                    put(&mut stances.axes[3 * k..3 * k + 3], i, axis);
+                }
                 k += 1;
             }
         }
