@@ -90,9 +90,14 @@ fn measured(options: &Options) -> Result<Found, String> {
     match venv {
         Ok(()) => {
             found.read(&output(options.quicken(&mut peers::python()))?);
-            match peers::pinocchio() {
-                Ok(mut command) => found.read(&output(options.quicken(&mut command))?),
-                Err(why) => found.skipped.push(format!("Pinocchio: {why}")),
+            for (who, peer) in [
+                ("Pinocchio", peers::pinocchio()),
+                ("C++ by hand", peers::by_hand()),
+            ] {
+                match peer {
+                    Ok(mut command) => found.read(&output(options.quicken(&mut command))?),
+                    Err(why) => found.skipped.push(format!("{who}: {why}")),
+                }
             }
         }
         Err(why) => found.skipped.push(format!("Python and C++ peers: {why}")),

@@ -9,9 +9,14 @@ use std::{env, fs};
 
 const VENV: &str = "target/bench-venv";
 const REQUIREMENTS: &str = "bench/python/requirements.txt";
-const PINOCCHIO: &str = "bench/cpp/pinocchio.cpp";
-/// The program made of it.
-const PINOCCHIO_PROGRAM: &str = "target/bench-pinocchio";
+const PINOCCHIO: CppPeer = CppPeer {
+    source: "bench/cpp/pinocchio.cpp",
+    program: "target/bench-pinocchio",
+};
+const BY_HAND: CppPeer = CppPeer {
+    source: "bench/cpp/limit.cpp",
+    program: "target/bench-limit",
+};
 /// What every thread pool that numpy and others bring obeys.
 const THREADS: &[&str] = &[
     "OMP_NUM_THREADS",
@@ -46,31 +51,54 @@ pub fn python() -> Command {
     command
 }
 
-/// Pinocchio in C++, compiled if it is not yet.
+/// A source in C++ and the program made of it.
+struct CppPeer {
+    source: &'static str,
+    program: &'static str,
+}
+
+impl CppPeer {
+    /// Compiles it for this processor if it is not yet, with these arguments besides.
+    fn command(&self, arguments: impl FnOnce(&mut Command)) -> Result<Command, String> {
+        let modified = |path: &str| fs::metadata(path).and_then(|file| file.modified()).ok();
+        if modified(self.program) <= modified(self.source) {
+            let mut compiler = Command::new("c++");
+            // Warnings about the headers of others are not ours to mend.
+            compiler.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w"]);
+            arguments(&mut compiler);
+            output(compiler.args([self.source, "-o", self.program]))?;
+        }
+        let mut command = Command::new(self.program);
+        command.arg(WORKLOAD);
+        Ok(command)
+    }
+}
+
+/// Pinocchio in C++.
 ///
 /// # Errors
 /// Why it cannot be compiled.
 pub fn pinocchio() -> Result<Command, String> {
-    let modified = |path: &str| fs::metadata(path).and_then(|file| file.modified()).ok();
-    let fresh = modified(PINOCCHIO_PROGRAM) > modified(PINOCCHIO);
-    if !fresh {
-        let include = headers().ok_or("the wheel has no headers")?;
-        let mut compiler = Command::new("c++");
-        compiler.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG"]);
+    let include = headers().ok_or("the wheel has no headers")?;
+    PINOCCHIO.command(|compiler| {
         // As Pinocchio's own build has it: a joint is one of more kinds than Boost's lists hold by default.
         compiler.args([
             "-DBOOST_MPL_LIMIT_LIST_SIZE=30",
             "-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS",
         ]);
-        // Warnings about the headers' templates are not ours to mend.
-        compiler.arg("-w");
         compiler.arg("-isystem").arg(&include);
         compiler.arg("-isystem").arg(include.join("eigen3"));
-        output(compiler.args([PINOCCHIO, "-o", PINOCCHIO_PROGRAM]))?;
-    }
-    let mut command = Command::new(PINOCCHIO_PROGRAM);
-    command.arg(WORKLOAD);
-    Ok(command)
+    })
+}
+
+/// The same work by hand, for one arm and one processor: what lanes could reach.
+///
+/// # Errors
+/// Why it cannot be compiled.
+pub fn by_hand() -> Result<Command, String> {
+    BY_HAND.command(|compiler| {
+        compiler.arg("-mprefer-vector-width=512");
+    })
 }
 
 /// A cmake, if there is one: the virtual environment's or the system's.

@@ -31,9 +31,9 @@ impl Batch<f64> {
         self.place(places.each_ref());
     }
 
-    /// In-plane envelope and flags of the aimed block in the postures with these signs.
-    pub(super) fn envelope_of_aimed(&mut self, signs: [f64; 2]) -> (&Plane<f64>, &Plane<f64>) {
-        self.solve(signs, false);
+    /// In-plane envelope and flags of the aimed block in one after the other of the four postures.
+    pub(super) fn envelope_in_turn(&mut self, four: usize) -> (&Plane<f64>, &Plane<f64>) {
+        self.solve_in_turn(four, false);
         self.envelope(false, None);
         (&self.scratch.in_plane, &self.scratch.postures.flags)
     }

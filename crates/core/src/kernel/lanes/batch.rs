@@ -12,7 +12,7 @@ use super::forward::{Forward, POSE, SCREWS};
 use super::limits::{CosineLimits, LimitsByCosines};
 use super::positions::{LimitsByPositions, Position, Positions};
 use super::prepared::Prepared;
-use super::solve::{Postures, Solve};
+use super::solve::{Postures, Reach, Solve};
 use crate::kernel::Question;
 use crate::robot::posture::{Branch, Elbow, Shoulder};
 
@@ -119,8 +119,8 @@ impl<T: Precision> Batch<T> {
         }
         for first in (0..poses.len()).step_by(BLOCK) {
             self.aim(poses, first, Second::InTheMiddle);
-            for (signs, one) in FOUR.into_iter().zip(out.iter_mut()) {
-                self.solve(signs, is_still(poses));
+            for (four, one) in out.iter_mut().enumerate() {
+                self.solve_in_turn(four, is_still(poses));
                 self.envelope(is_still(poses), one.block(first));
             }
         }
@@ -152,9 +152,9 @@ impl<T: Precision> Batch<T> {
         out.resize(56, poses.len());
         for first in (0..poses.len()).step_by(BLOCK) {
             let used = self.aim(poses, first, Second::AtZero);
-            for (four, signs) in FOUR.into_iter().enumerate() {
-                self.solve(signs, is_still(poses));
-                self.position();
+            for four in 0..FOUR.len() {
+                let same_shoulder = self.solve_in_turn(four, is_still(poses));
+                self.position(same_shoulder);
                 let Positions { joints, flags, .. } = &self.scratch.positions;
                 out.take(12 * four, joints.as_flattened(), (first, used));
                 out.take(48 + 2 * four, flags, (first, used));
@@ -251,29 +251,70 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Solves the aimed block with these signs everywhere.
-    pub(super) fn solve(&mut self, signs: [f64; 2], still: bool) {
-        for (plane, sign) in self.scratch.postures.signs.iter_mut().zip(signs) {
-            let sign = T::from_f64(sign);
-            // Filled from call to call, unless the signs change.
-            if plane.iter().any(|one| *one != sign) {
-                plane.fill(sign);
-            }
+    pub(super) fn solve(&mut self, [shoulder, elbow]: [f64; 2], still: bool) {
+        self.sign(0, shoulder);
+        self.reach(still);
+        self.sign(1, elbow);
+        self.bend(still);
+    }
+
+    /// Solves the aimed block for one of [`FOUR`] after the other; true where the shoulder is that of the one before.
+    pub(super) fn solve_in_turn(&mut self, four: usize, still: bool) -> bool {
+        let [shoulder, elbow] = FOUR[four];
+        let same_shoulder = four > 0 && FOUR[four - 1][0] == shoulder;
+        if !same_shoulder {
+            self.sign(0, shoulder);
+            self.reach(still);
         }
-        self.solve_signed(still);
+        self.sign(1, elbow);
+        self.bend(still);
+        same_shoulder
     }
 
     /// Solves the aimed block with the signs that its postures have.
     pub(super) fn solve_signed(&mut self, still: bool) {
+        self.reach(still);
+        self.bend(still);
+    }
+
+    /// Gives all postures one sign of shoulder (0) or elbow (1).
+    fn sign(&mut self, which: usize, sign: f64) {
+        let (plane, sign) = (&mut self.scratch.postures.signs[which], T::from_f64(sign));
+        // Filled from call to call, unless the signs change.
+        if plane.iter().any(|one| *one != sign) {
+            plane.fill(sign);
+        }
+    }
+
+    fn reach(&mut self, still: bool) {
+        let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch { aims, postures, .. } = &mut *self.scratch;
-        let prepared = &self.prepared;
         if still {
-            self.backend.run(Solve::<T, true> {
+            backend.run(Reach::<T, true> {
                 prepared,
                 aims,
                 postures,
             });
         } else {
-            self.backend.run(Solve::<T, false> {
+            backend.run(Reach::<T, false> {
+                prepared,
+                aims,
+                postures,
+            });
+        }
+    }
+
+    fn bend(&mut self, still: bool) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch { aims, postures, .. } = &mut *self.scratch;
+        if still {
+            backend.run(Solve::<T, true> {
+                prepared,
+                aims,
+                postures,
+            });
+        } else {
+            backend.run(Solve::<T, false> {
                 prepared,
                 aims,
                 postures,
@@ -302,6 +343,7 @@ impl<T: Precision> Batch<T> {
                     prepared,
                     aims,
                     postures,
+                    same_shoulder: false,
                     positions,
                 });
                 backend.run(LimitsByPositions { positions, postures });
@@ -379,8 +421,8 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    /// Joint positions of the solved block.
-    pub(super) fn position(&mut self) {
+    /// Joint positions of the solved block; joint 1 stands as it did for the same shoulder.
+    pub(super) fn position(&mut self, same_shoulder: bool) {
         let Scratch {
             aims,
             postures,
@@ -392,6 +434,7 @@ impl<T: Precision> Batch<T> {
             prepared,
             aims,
             postures,
+            same_shoulder,
             positions,
         });
     }

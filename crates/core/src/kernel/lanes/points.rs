@@ -150,8 +150,8 @@ impl<'q> Points<'q> {
         let Room { chosen, score, .. } = &mut *self.room;
         score.fill(f64::INFINITY);
         self.batch.orient(Second::InTheMiddle);
-        for signs in super::batch::FOUR {
-            let (in_plane, flags) = self.batch.envelope_of_aimed(signs);
+        for (four, signs) in super::batch::FOUR.into_iter().enumerate() {
+            let (in_plane, flags) = self.batch.envelope_in_turn(four);
             for i in 0..BLOCK {
                 let flags = flags[i] as u32;
                 let outside = flag::OUTSIDE_LIMITS | flag::OUTSIDE_LIMITS_FLIPPED;
@@ -201,7 +201,7 @@ impl<'q> Points<'q> {
     }
 
     fn stand(&mut self, preference: Preference) {
-        self.batch.position();
+        self.batch.position(false);
         let Solved {
             prepared,
             aims,

@@ -45,6 +45,8 @@ pub(super) struct Position<'a, T> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
     pub postures: &'a Postures<T>,
+    /// Whether phi1 is there from the posture with the other elbow.
+    pub same_shoulder: bool,
     pub positions: &'a mut Positions<T>,
 }
 
@@ -73,7 +75,9 @@ impl<T: Float> Work<T> for Position<'_, T> {
         }
         let [c1, s1, cp, sp, cc, sc] = self.postures.turns();
         let [first, upper, fore, fourth, bend, sixth] = phi;
-        angle_of::<R>(s1, c1, first);
+        if !self.same_shoulder {
+            angle_of::<R>(s1, c1, first);
+        }
         angle_of::<R>(sp, cp, upper);
         angle_of::<R>(sc, cc, fore);
         angle_of::<R>(&tangents[0], &tangents[1], fourth);

@@ -58,6 +58,8 @@ pub(super) struct Postures<T> {
     /// 1 for front, -1 for back; 1 for elbow up, -1 for elbow down: chosen by the caller.
     pub signs: Planes<T, 2>,
     r: Plane<T>,
+    /// Flags that the shoulder alone decides.
+    reached: Plane<T>,
     across: Plane<T>,
     solved: Planes<T, SOLVED>,
     /// Bits of [`flag`], as a number.
@@ -76,6 +78,7 @@ impl<T: Float> Postures<T> {
         Postures {
             signs: planes(),
             r: [T::default(); BLOCK],
+            reached: [T::default(); BLOCK],
             across: [T::default(); BLOCK],
             solved: planes(),
             flags: [T::default(); BLOCK],
@@ -233,7 +236,25 @@ pub(super) fn turned<R: Real>(v: Vector<R>, cc: R, sc: R, c1: R, s1: R) -> Vecto
     Vector::new(c1.mul_add(x, -(s1 * v.y)), s1.mul_add(x, c1 * v.y), z)
 }
 
-/// Solves every posture of a block, told by its signs.
+/// Finds how far before or behind axis 1 the wrist stands: the same for either elbow.
+pub(super) struct Reach<'a, T, const STILL: bool> {
+    pub prepared: &'a Prepared,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a mut Postures<T>,
+}
+
+impl<T: Float, const STILL: bool> Work<T> for Reach<'_, T, STILL> {
+    #[inline(always)]
+    fn run<R: Real<Float = T>>(self) {
+        let links = Links::<R>::new(&self.prepared.arm);
+        for i in 0..BLOCK {
+            R::step();
+            links.reach::<STILL>(self.aims, self.postures, i);
+        }
+    }
+}
+
+/// Solves every posture of a block, told by its signs, after [`Reach`].
 pub(super) struct Solve<'a, T, const STILL: bool> {
     pub prepared: &'a Prepared,
     pub aims: &'a Aims<T>,
@@ -246,10 +267,6 @@ impl<T: Float, const STILL: bool> Work<T> for Solve<'_, T, STILL> {
         let links = Links::<R>::new(&self.prepared.arm);
         // Loops of one root or quotient each: they are slow, and a processor that looks a hundred instructions
         // ahead then works on those of several points at once.
-        for i in 0..BLOCK {
-            R::step();
-            links.reach::<STILL>(self.aims, self.postures, i);
-        }
         for i in 0..BLOCK {
             R::step();
             links.bend::<STILL>(self.aims, self.postures, i);
@@ -276,7 +293,7 @@ impl<R: Real> Links<R> {
         postures.r[i] = r.store();
         let flags = flagged(zero, r2 < zero, flag::INSIDE_LATERAL_OFFSET);
         let flags = flagged(flags, r.abs() < self.near_shoulder, flag::NEAR_SHOULDER);
-        postures.flags[i] = flags.store();
+        postures.reached[i] = flags.store();
     }
 
     /// Length of the forearm times the sine of the elbow's bend.
@@ -290,7 +307,7 @@ impl<R: Real> Links<R> {
         let side = R::load(postures.signs[1][i]) * u.sign();
         let across = side * ((stretched * folded).max(zero).sqrt() * self.half_per_l2);
         postures.across[i] = across.store();
-        let flags = flagged(R::load(postures.flags[i]), stretched < zero, flag::TOO_FAR);
+        let flags = flagged(R::load(postures.reached[i]), stretched < zero, flag::TOO_FAR);
         let flags = flagged(flags, folded < zero, flag::TOO_NEAR);
         let flags = flagged(flags, across.abs() < self.near_elbow, flag::NEAR_ELBOW);
         postures.flags[i] = flags.store();
