@@ -8,12 +8,12 @@ mod arms;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_in_order};
-use armill_core::map::{BoxGrid, Counts, along_path, plane_map, volume_map};
+use armill_core::map::{BoxGrid, Counts, along_path, plane_map, probability_within, volume_map};
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
 use armill_core::path::Shape;
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
-use armill_core::robot::{Robot, Unreachable};
+use armill_core::robot::{JointCompliance, Robot, Unreachable};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::{Grid, Plane, Split};
@@ -43,6 +43,67 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
 
 fn branch(words: &str) -> BranchChoice {
     BranchChoice::Of(words.parse().unwrap())
+}
+
+/// Draw number `draw` of six numbers from the standard normal distribution: Box and Muller's transform of Weyl
+/// sequences, a prime's root for each.
+fn normals(draw: usize) -> [f64; 6] {
+    const PRIMES: [f64; 12] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0, 23.0, 29.0, 31.0, 37.0];
+    let weyl = |prime: f64| ((draw + 1) as f64 * prime.sqrt()).fract();
+    std::array::from_fn(|joint| {
+        let (a, b) = (weyl(PRIMES[2 * joint]), weyl(PRIMES[2 * joint + 1]));
+        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+    })
+}
+
+#[test]
+fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
+    const DRAWS: usize = 2000;
+    let [robot, ..] = arms::all();
+    let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
+    let grid = Grid::within([0.3, 0.3], 0.1);
+    let uncertain: Vec<JointCompliance> = robot.compliance().unwrap().to_vec();
+    // One case, then four of which another may decide from draw to draw.
+    for cases in [&cases()[..1], &cases()] {
+        let map_of = |compliance: &[JointCompliance]| {
+            let question = Question {
+                robot: &robot,
+                arm: robot.ortho_parallel().unwrap(),
+                compliance,
+                flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
+                cases,
+                normal: plane.normal(),
+                choice: branch("front elbow-up"),
+            };
+            plane_map(&question, plane, grid, Watch::NONE).unwrap()
+        };
+        let map = map_of(&uncertain);
+        let limit = map.answers.worst().unwrap().1.in_plane * 0.7;
+        let mut within = vec![0usize; grid.len()];
+        for normal in (0..DRAWS).map(normals) {
+            let compliances = uncertain.iter().zip(normal).map(|(c, n)| JointCompliance {
+                value: (c.value + n * c.standard_uncertainty).max(0.0),
+                standard_uncertainty: 0.0,
+            });
+            for (index, held) in map_of(&compliances.collect::<Vec<_>>()).answers.held() {
+                within[index] += usize::from(held.in_plane <= limit);
+            }
+        }
+        for (index, held) in map.answers.held() {
+            let counted = within[index] as f64 / DRAWS as f64;
+            let told = probability_within(held, limit);
+            // Standard deviation of the count: at most 0.011. Other cases can only take away.
+            let (least, most) = (told - if cases.len() == 1 { 0.03 } else { 0.15 }, told + 0.03);
+            assert!(
+                (least..most).contains(&counted),
+                "point {index}: {counted} counted, {told} told"
+            );
+        }
+        let certainty = map.certainty(limit);
+        assert!(certainty.fraction_surely < certainty.expected_fraction);
+        assert!(certainty.expected_fraction < certainty.fraction_possibly);
+        assert!(certainty.surely.area < certainty.possibly.area);
+    }
 }
 
 #[test]

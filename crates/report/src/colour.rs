@@ -12,6 +12,8 @@ pub(crate) const GRID: &str = "#e3e3e3";
 pub(crate) const LIMIT: &str = "#c8102e";
 /// Permissible region.
 pub(crate) const WITHIN: &str = "#b7dcc9";
+/// Within the limit or over it: the uncertainty does not tell.
+pub(crate) const DOUBTFUL: &str = "#f2e3b3";
 /// Over the limit.
 pub(crate) const OVER: &str = "#d9d9d9";
 

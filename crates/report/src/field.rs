@@ -1,6 +1,6 @@
 //! One field in one plane: bands or region, iso-lines with labels, the limit, and the zones that cannot be used.
 
-use crate::colour::{ColourScale, INK, LIMIT, OVER, WITHIN};
+use crate::colour::{ColourScale, DOUBTFUL, INK, LIMIT, OVER, WITHIN};
 use crate::contours::{Lattice, Ring};
 use crate::grid::{Grid, PointState};
 use crate::levels::Levels;
@@ -33,19 +33,17 @@ pub(crate) struct Look<'a> {
     pub(crate) paint: Paint,
     pub(crate) iso_lines: IsoLines,
     pub(crate) limit_um: Option<f64>,
+    /// The least and the greatest that each value may be, where a region tells what is doubtful.
+    pub(crate) doubt: Option<&'a [Grid; 2]>,
     /// Points that labels keep clear of: what is drawn on top afterwards.
     pub(crate) obstacles: &'a [Point],
 }
 
 /// Draws `grid` into `plane`; the frame comes afterwards, on top.
 pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<'_>) {
-    let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64);
-    let surface = Surface::refine(grid, steps as usize);
-    let values = Lattice {
-        horizontal_mm: &surface.horizontal_mm,
-        vertical_mm: &surface.vertical_mm,
-        samples: &surface.value_um,
-    };
+    let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64) as usize;
+    let surface = Surface::refine(grid, steps);
+    let values = lattice(&surface);
     let level_lines = |levels: &[f64]| -> Vec<Vec<Vec<Point>>> {
         let all = values.lines_at(levels);
         all.into_iter()
@@ -74,8 +72,19 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
             }
             Paint::Region => {
                 svg.rect(plane.area, &Style::fill(WITHIN));
-                for rings in values.areas_from(&limit) {
-                    svg.path(&rings_path(plane, &rings), &Style::fill(OVER));
+                let over_limit = |svg: &mut Svg, values: &Lattice<'_>, colour: &str| {
+                    for rings in values.areas_from(&limit) {
+                        svg.path(&rings_path(plane, &rings), &Style::fill(colour));
+                    }
+                };
+                match look.doubt {
+                    Some([least, greatest]) => {
+                        for (of, colour) in [(greatest, DOUBTFUL), (least, OVER)] {
+                            let surface = Surface::refine(of, steps);
+                            over_limit(svg, &lattice(&surface), colour);
+                        }
+                    }
+                    None => over_limit(svg, &values, OVER),
                 }
             }
         }
@@ -131,6 +140,14 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
                 obstacles: look.obstacles,
             },
         );
+    }
+}
+
+fn lattice(surface: &Surface) -> Lattice<'_> {
+    Lattice {
+        horizontal_mm: &surface.horizontal_mm,
+        vertical_mm: &surface.vertical_mm,
+        samples: &surface.value_um,
     }
 }
 

@@ -67,6 +67,19 @@ impl Grid {
         None
     }
 
+    /// The same points with every value this much higher.
+    pub(crate) fn raised(&self, by_um: &[f64], times: f64) -> Grid {
+        let raise = |(point, by): (&PointState, &f64)| match point {
+            PointState::Reached(value) => PointState::Reached(value + times * by),
+            PointState::OutsideJointLimits(value) => PointState::OutsideJointLimits(value + times * by),
+            PointState::Unreachable => PointState::Unreachable,
+        };
+        Grid {
+            points: self.points.iter().zip(by_um).map(raise).collect(),
+            ..self.clone()
+        }
+    }
+
     /// The finite values in um.
     pub(crate) fn values_um(&self) -> impl Iterator<Item = f64> + '_ {
         self.points.iter().filter_map(|p| p.value_um())

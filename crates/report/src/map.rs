@@ -109,6 +109,7 @@ impl DeviationMap {
             paint,
             iso_lines: IsoLines::Labelled,
             limit_um: self.limit_um,
+            doubt: None,
             obstacles: &obstacles,
         };
         draw_field(&mut svg, &plane, &self.grid, &look);

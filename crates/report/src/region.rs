@@ -1,7 +1,7 @@
 //! The permissible region of a plane: where the deviation keeps within the limit, and what part fits in there.
 
 use crate::axis::plain;
-use crate::colour::{INK, OVER, WITHIN};
+use crate::colour::{DOUBTFUL, INK, OVER, WITHIN};
 use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
 use crate::grid::Grid;
 use crate::levels::Levels;
@@ -41,6 +41,9 @@ pub struct RegionMap {
     pub subtitle: String,
     /// The points and their values in um.
     pub grid: Grid,
+    /// How far each value may stray to either side, in um, by point; empty where that is not known. Where the limit
+    /// lies in between is painted as doubtful.
+    pub spread_um: Vec<f64>,
     /// Axis labels with units.
     pub axes: AxisLabels,
     /// Permissible deviation in um.
@@ -81,11 +84,15 @@ impl RegionMap {
             .iter()
             .flat_map(|(at, text)| points_under(*at, text, SMALL_PX))
             .collect();
+        let doubt = self
+            .is_doubtful()
+            .then(|| [-1.0, 1.0].map(|times| self.grid.raised(&self.spread_um, times)));
         let look = Look {
             levels: &levels,
             paint: Paint::Region,
             iso_lines,
             limit_um: Some(self.limit_um),
+            doubt: doubt.as_ref(),
             obstacles: &obstacles,
         };
         draw_field(&mut svg, &plane, &self.grid, &look);
@@ -102,14 +109,23 @@ impl RegionMap {
         svg.finish(width, bottom + BORDER_PX, &self.title)
     }
 
+    fn is_doubtful(&self) -> bool {
+        self.spread_um.len() == self.grid.points.len()
+            && self.spread_um.iter().all(|spread| spread.is_finite())
+            && self.spread_um.iter().any(|spread| *spread > 0.0)
+    }
+
     fn entries(&self) -> Vec<Entry> {
         let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
         let limit = plain(self.limit_um);
-        let mut entries = vec![
-            Entry::new(field(WITHIN), format!("within {limit} µm")),
+        let mut entries = vec![Entry::new(field(WITHIN), format!("within {limit} µm"))];
+        if self.is_doubtful() {
+            entries.push(Entry::new(field(DOUBTFUL), "within the uncertainty (95 %)"));
+        }
+        entries.extend([
             Entry::new(field(OVER), format!("over {limit} µm")),
             Entry::new(Key::Line(vec![limit_style()]), format!("limit {limit} µm")),
-        ];
+        ]);
         if self.rectangle.is_some() {
             entries.push(Entry::new(
                 Key::Line(vec![rectangle_style()]),

@@ -158,6 +158,7 @@ impl Sheet {
                     paint,
                     iso_lines: IsoLines::Thin,
                     limit_um: self.limit_um,
+                    doubt: None,
                     obstacles: &[],
                 };
                 draw_field(svg, plane, &panel.grid, &look);

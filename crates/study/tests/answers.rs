@@ -77,6 +77,23 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
             "{}",
             map.name
         );
+        let certainty = &map.certainty;
+        assert!(
+            certainty.fraction_surely_within <= map.fraction_within,
+            "{}",
+            map.name
+        );
+        assert!(
+            map.fraction_within <= certainty.fraction_possibly_within,
+            "{}",
+            map.name
+        );
+        let expected: f64 = map.grid.probability_within.iter().flatten().sum();
+        assert!(
+            (certainty.expected_fraction_within * 81.0 - expected).abs() < 1e-2,
+            "{}",
+            map.name
+        );
         let named: usize = map.grid.remarks.iter().map(|remark| remark.points.len()).sum();
         assert_eq!(
             named,

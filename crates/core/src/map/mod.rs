@@ -1,9 +1,11 @@
 //! Where does the tolerance hold?
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path on a plane, with radial
-//! deviation and roundness on a circle; [`region`]: the part within a limit, its area, boundary and what fits.
+//! deviation and roundness on a circle; [`region`]: the part within a limit, its area, boundary and what fits;
+//! [`certainty`]: how sure that is.
 
 pub mod along;
+pub mod certainty;
 mod inscribed;
 mod marching_squares;
 pub mod plane;
@@ -11,6 +13,7 @@ pub mod region;
 pub mod volume;
 
 pub use along::{PathAnswer, RadialDeviation, along_path};
+pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use region::{Region, region_within};
 pub use volume::{BoxGrid, VolumeMap, volume_map};

@@ -100,6 +100,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         title: "Permissible region on the plate at x = 900 mm".into(),
         subtitle: "Made-up field; rectangle and circle lie inside the region".into(),
         grid: grid(41, 900.0),
+        spread_um: vec![4.0; 41 * 41],
         axes: axes(),
         limit_um: 50.0,
         show_iso_lines: true,

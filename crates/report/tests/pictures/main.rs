@@ -167,6 +167,27 @@ fn sizes_of_the_inscribed_shapes_are_written() {
 }
 
 #[test]
+fn what_is_doubtful_is_painted_and_named_only_where_values_are_uncertain() {
+    let sure = region(grid(5, 4, slope)).to_svg();
+    let doubtful = RegionMap {
+        spread_um: vec![5.0; 20],
+        ..region(grid(5, 4, slope))
+    }
+    .to_svg();
+    assert!(!sure.contains("uncertainty") && doubtful.contains("within the uncertainty (95 %)"));
+    for spread_um in [vec![0.0; 20], vec![f64::NAN; 20], vec![5.0; 3]] {
+        let of = |spread_um| {
+            RegionMap {
+                spread_um,
+                ..region(grid(5, 4, slope))
+            }
+            .to_svg()
+        };
+        assert_eq!(of(spread_um), sure);
+    }
+}
+
+#[test]
 fn a_sheet_has_one_colour_bar_and_a_region_under_each_map() {
     let grids = vec![grid(5, 4, slope), grid(5, 4, slope), Grid::default()];
     let svg = Sheet {

@@ -1,6 +1,6 @@
 //! A map in the answer.
 
-use armill_core::map::{Counts, PlaneMap, Region};
+use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
 use armill_core::robot::Unreachable;
 use serde::Serialize;
@@ -36,6 +36,8 @@ pub struct MapAnswer {
     pub best: Option<PointAnswer>,
     /// The region within the limit.
     pub region: RegionAnswer,
+    /// How sure that is.
+    pub certainty: CertaintyAnswer,
     /// What all points share.
     pub setting: SettingAnswer,
     /// The points.
@@ -84,6 +86,27 @@ pub struct RegionAnswer {
     pub circle_radius_mm: Option<f64>,
 }
 
+/// How sure the region is, from the standard uncertainties of the points.
+#[derive(Clone, Debug, Serialize)]
+pub struct CertaintyAnswer {
+    /// Multiple of the standard uncertainty that counts as sure.
+    pub coverage_factor: f64,
+    /// Points that hold the limit with so much to spare, over all points.
+    pub fraction_surely_within: f64,
+    /// Points that would hold it with so much taken away, over all points.
+    pub fraction_possibly_within: f64,
+    /// Mean probability of all points to be within.
+    pub expected_fraction_within: f64,
+    /// Area that surely holds the limit.
+    pub area_surely_mm2: f64,
+    /// Its boundary.
+    pub boundary_surely_mm: Vec<Vec<[f64; 2]>>,
+    /// Area that possibly holds it.
+    pub area_possibly_mm2: f64,
+    /// Its boundary.
+    pub boundary_possibly_mm: Vec<Vec<[f64; 2]>>,
+}
+
 /// The points of a map, row by row along z', in each row along y'.
 #[derive(Clone, Debug, Serialize)]
 pub struct GridAnswer {
@@ -95,6 +118,10 @@ pub struct GridAnswer {
     pub z_mm: Vec<f64>,
     /// In-plane deviation; none without posture.
     pub in_plane_um: Vec<Option<f64>>,
+    /// Its standard uncertainty.
+    pub in_plane_u_um: Vec<Option<f64>>,
+    /// Probability that it is within the limit.
+    pub probability_within: Vec<Option<f64>>,
     /// Deviation along the outward normal.
     pub normal_um: Vec<Option<f64>>,
     /// Length of the deviation.
@@ -136,23 +163,38 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
         worst,
         best,
         region: region_answer(&map.region(setting.limit)),
+        certainty: certainty_answer(&map.certainty(setting.limit)),
         setting: SettingAnswer::of(setting),
-        grid: grid_answer(map),
+        grid: grid_answer(map, setting.limit),
     }
 }
 
 fn region_answer(region: &Region) -> RegionAnswer {
     RegionAnswer {
         area_mm2: region.area * 1e6,
-        boundary_mm: region
-            .boundary
-            .iter()
-            .map(|line| line.iter().map(in_plane).collect())
-            .collect(),
+        boundary_mm: boundary(region),
         rectangle_mm: region.rectangle.map(|r| [in_plane(&r.lower), in_plane(&r.upper)]),
         circle_centre_mm: region.disc.map(|d| in_plane(&d.centre)),
         circle_radius_mm: region.disc.map(|d| tidy(d.radius * 1e3)),
     }
+}
+
+fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
+    CertaintyAnswer {
+        coverage_factor: COVERAGE,
+        fraction_surely_within: certainty.fraction_surely,
+        fraction_possibly_within: certainty.fraction_possibly,
+        expected_fraction_within: certainty.expected_fraction,
+        area_surely_mm2: certainty.surely.area * 1e6,
+        boundary_surely_mm: boundary(&certainty.surely),
+        area_possibly_mm2: certainty.possibly.area * 1e6,
+        boundary_possibly_mm: boundary(&certainty.possibly),
+    }
+}
+
+fn boundary(region: &Region) -> Vec<Vec<[f64; 2]>> {
+    let lines = region.boundary.iter();
+    lines.map(|line| line.iter().map(in_plane).collect()).collect()
 }
 
 /// Part coordinates as y', z' in mm.
@@ -160,14 +202,14 @@ fn in_plane(at: &Point2<f64>) -> [f64; 2] {
     [tidy(-at.x * 1e3), tidy(at.y * 1e3)]
 }
 
-fn grid_answer(map: &PlaneMap) -> GridAnswer {
+fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
     let grid = &map.grid;
-    let um = |value: f64| (value * 1e10).round() / 1e4;
+    let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
     let of = |get: &dyn Fn(&armill_core::kernel::Held) -> f64| -> Vec<Option<f64>> {
         map.answers
             .points
             .iter()
-            .map(|point| point.as_ref().ok().map(|held| um(get(held))))
+            .map(|point| point.as_ref().ok().map(|held| four_decimals(get(held))))
             .collect()
     };
     GridAnswer {
@@ -178,9 +220,11 @@ fn grid_answer(map: &PlaneMap) -> GridAnswer {
         z_mm: (0..grid.rows)
             .map(|i| tidy(grid.coordinate(i, grid.rows) * 1e3))
             .collect(),
-        in_plane_um: of(&|held| held.in_plane),
-        normal_um: of(&|held| held.normal),
-        full_um: of(&|held| held.full),
+        in_plane_um: of(&|held| held.in_plane * 1e6),
+        in_plane_u_um: of(&|held| held.in_plane_uncertainty * 1e6),
+        probability_within: of(&|held| probability_within(held, limit)),
+        normal_um: of(&|held| held.normal * 1e6),
+        full_um: of(&|held| held.full * 1e6),
         remarks: remarks(map),
     }
 }

@@ -3,7 +3,7 @@
 //! Drawn as seen from the tool side: part x to the right, which is base y to the left on a tilted plane.
 
 use armill_core::kernel::Held;
-use armill_core::map::{PlaneMap, VolumeMap};
+use armill_core::map::{COVERAGE, PlaneMap, VolumeMap};
 use armill_core::robot::Unreachable;
 use armill_report::{
     AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState,
@@ -68,6 +68,14 @@ pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     }
 }
 
+/// How far each deviation may stray to either side; none where no point is uncertain.
+fn spread_um(map: &PlaneMap) -> Vec<f64> {
+    let points = map.answers.points.iter();
+    let uncertainty =
+        |point: &Result<Held, Unreachable>| point.as_ref().map_or(0.0, |held| held.in_plane_uncertainty);
+    points.map(|point| COVERAGE * uncertainty(point) * 1e6).collect()
+}
+
 /// Base y of the plane's centre where the horizontal axis is base y, otherwise 0; mm.
 pub(super) fn base_y(setting: &Setting) -> f64 {
     let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
@@ -127,6 +135,7 @@ pub(super) fn map_pictures(
         title: format!("{}: where {limit_um:.0} µm hold", answer.name),
         subtitle: subtitle(setting),
         grid: grid(map, setting),
+        spread_um: spread_um(map),
         axes: axes(setting),
         limit_um,
         show_iso_lines: true,

@@ -6,6 +6,7 @@ use std::fmt::Display;
 use std::ops::Range;
 
 use armill_core::kernel::Held;
+use armill_core::map::probability_within;
 use armill_core::robot::Singularity;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
@@ -303,9 +304,18 @@ fn numbers(study: &Study, cases: usize) -> Vec<Numbers<'_>> {
         ),
         Numbers::um(
             "in_plane_u_um".to_owned(),
-            "its standard uncertainty from the compliances",
+            "its standard uncertainty",
             |_, _, held| held.in_plane_uncertainty * 1e6,
         ),
+        Numbers {
+            unit: None,
+            decimals: 4,
+            ..Numbers::um(
+                "probability_within".to_owned(),
+                "probability that the in-plane deviation is within the limit",
+                |rows, _, held| probability_within(held, rows.setting.limit),
+            )
+        },
         Numbers::um(
             "normal_um".to_owned(),
             "deviation along the outward normal, of the case where it is largest",
