@@ -118,8 +118,10 @@ impl RegionMap {
     fn entries(&self) -> Vec<Entry> {
         let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
         let limit = plain(self.limit_um);
-        let mut entries = vec![Entry::new(field(WITHIN), format!("within {limit} µm"))];
-        if self.is_doubtful() {
+        let doubtful = self.is_doubtful();
+        let within = if doubtful { "surely within" } else { "within" };
+        let mut entries = vec![Entry::new(field(WITHIN), format!("{within} {limit} µm"))];
+        if doubtful {
             entries.push(Entry::new(field(DOUBTFUL), "within the uncertainty (95 %)"));
         }
         entries.extend([
