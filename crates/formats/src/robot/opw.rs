@@ -27,6 +27,9 @@ use crate::document::{Problem, Problems, Source};
 /// Longest link of an arm, m: a file in mm has one beyond.
 const LONGEST_LINK: f64 = 100.0;
 
+/// Offsets beyond two turns, rad, are degrees without `deg(...)`.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
 const LENGTHS: [&str; 7] = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
 const OFFSETS: &str = "opw_kinematics_joint_offsets";
 const SIGNS: &str = "opw_kinematics_joint_sign_corrections";
@@ -154,10 +157,20 @@ fn list(
     let judged = |Scalar { text, place }: &Scalar<'_>| {
         of(text).map_err(|what| {
             let message = format!("`{text}` of `{key}` is not {what}");
-            vec![file.problem(place.clone(), message, None)]
+            Box::new(file.problem(place.clone(), message, None))
         })
     };
-    entry.values.iter().map(judged).collect()
+    let (mut values, mut problems) = (Vec::new(), Vec::new());
+    for scalar in &entry.values {
+        match judged(scalar) {
+            Ok(value) => values.push(value),
+            Err(problem) => problems.push(*problem),
+        }
+    }
+    match problems.is_empty() {
+        true => Ok(values),
+        false => Err(problems),
+    }
 }
 
 fn length(text: &str) -> Result<f64, &'static str> {
@@ -183,8 +196,8 @@ fn angle(text: &str) -> Result<f64, &'static str> {
         (_, Some(radians)) => radians.trim().parse::<f64>(),
         _ => text.parse::<f64>(),
     };
-    let value = value.ok().filter(|value| value.is_finite());
-    value.ok_or("an angle such as -1.5708 (rad) or deg(-90.0)")
+    let value = value.ok().filter(|value| value.abs() <= TWO_TURNS);
+    value.ok_or("an angle within two turns, such as -1.5708 (rad) or deg(-90.0)")
 }
 
 fn sign(text: &str) -> Result<f64, &'static str> {

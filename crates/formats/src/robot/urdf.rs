@@ -64,6 +64,10 @@ pub fn read_to_tip(
         motions.extend(displacement(joint));
         match moved(joint, moving.len()) {
             Ok(Some((motion, described))) => {
+                if moving.iter().any(|other: &Joint| other.name == described.name) {
+                    let message = format!("another joint is called `{}`", described.name);
+                    problems.push(file.problem(joint.place.clone(), message, None));
+                }
                 motions.extend(motion);
                 moving.push(described);
             }

@@ -36,13 +36,10 @@ pub fn read_to_tip(
     tip: Option<&str>,
 ) -> Result<RobotDescription, Problems> {
     let shown = path.display().to_string();
-    let main = Source::new(&shown, text);
-    let Flat {
-        xml,
-        sources,
+    let Expanded {
+        urdf: expanded,
         remarks,
-    } = flatten::flatten(&main, path)?;
-    let expanded = expand::expand(&main, &sources, path, xml)?;
+    } = expand(path, text)?;
     let mut found = urdf::read_to_tip(&format!("{shown} (expanded)"), id, &expanded, tip)?;
     for source in &mut found.sources {
         source.key = "xacro".to_owned();
@@ -54,6 +51,31 @@ pub fn read_to_tip(
     found.note = Some("xacro: no compliance; the base is its root link".to_owned());
     found.remarks.extend(remarks);
     Ok(found)
+}
+
+/// What a xacro file comes to.
+#[derive(Clone, Debug)]
+pub struct Expanded {
+    /// The text of a URDF: links by name alone, joints with what moves them.
+    pub urdf: String,
+    /// Files that were not found and are not needed.
+    pub remarks: Vec<String>,
+}
+
+/// The URDF that this xacro text, which was read from `path`, stands for.
+///
+/// # Errors
+/// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
+/// worked out.
+pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
+    let main = Source::new(&path.display().to_string(), text);
+    let Flat {
+        xml,
+        sources,
+        remarks,
+    } = flatten::flatten(&main, path)?;
+    let urdf = expand::expand(&main, &sources, path, xml)?;
+    Ok(Expanded { urdf, remarks })
 }
 
 #[cfg(test)]

@@ -223,7 +223,7 @@ fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
     let found = decimals
         .filter(|text| {
             text.parse::<f64>()
-                .is_ok_and(|value| (to_si(value) - si).abs() <= within * si.abs().max(1.0))
+                .is_ok_and(|value| (to_si(value) - si).abs() <= within)
         })
         .min_by_key(String::len);
     match found.unwrap_or_else(|| format!("{shown:?}")) {

@@ -59,6 +59,9 @@ const UNITS: [(&str, Kind); 4] = [
     ("_rad", Kind::Angle),
 ];
 
+/// Angles beyond two turns, rad, are degrees under the wrong name.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
 /// What an unknown column might have been.
 const COLUMNS: &str = "columns: a_mm, alpha_deg, d_mm, theta_deg (or _m, _rad); optional: joint, type, sign, lower_deg, upper_deg";
 
@@ -184,16 +187,28 @@ impl RowReader<'_> {
             }
             _ => None,
         };
-        Ok(Row {
-            joint,
-            moves,
-            a: self.value("a")?,
-            alpha: self.value("alpha")?,
-            d: self.value("d")?,
-            theta: self.value("theta")?,
-            against,
-            limits,
-        })
+        let (a, alpha, d, theta) = (
+            self.value("a"),
+            self.value("alpha"),
+            self.value("d"),
+            self.value("theta"),
+        );
+        match (a, alpha, d, theta) {
+            (Ok(a), Ok(alpha), Ok(d), Ok(theta)) => Ok(Row {
+                joint,
+                moves,
+                a,
+                alpha,
+                d,
+                theta,
+                against,
+                limits,
+            }),
+            (a, alpha, d, theta) => {
+                let refused = [a, alpha, d, theta].into_iter().filter_map(Result::err);
+                Err(refused.flatten().collect())
+            }
+        }
     }
 
     /// The cell below the column of `quantity`, with the column's name.
@@ -244,9 +259,11 @@ impl RowReader<'_> {
             Some(("_deg", _)) => value / 90.0 * std::f64::consts::FRAC_PI_2,
             _ => value,
         };
-        match si.abs() <= LONGEST {
+        let angle = name.ends_with("deg") || name.ends_with("rad");
+        match si.abs() <= if angle { TWO_TURNS } else { LONGEST } {
             true => Ok(si),
-            false => Err(self.refused(cell, "is beyond 1000 m (1000 rad)")),
+            false if angle => Err(self.refused(cell, "is an angle beyond two turns")),
+            false => Err(self.refused(cell, "is beyond 1000 m")),
         }
     }
 

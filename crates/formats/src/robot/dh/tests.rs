@@ -178,7 +178,8 @@ fn every_cell_that_is_wrong_is_told() {
         .replace("0; -1; -85; 150", "0; -2; -85; 150")
         .replace("0; -1; -180; 180", "0; -1; 180; -180")
         .replace("B;", "S;")
-        .replace("100; 0;", "1e9; 0;");
+        .replace("100; 0;", "1e9; 0;")
+        .replace("T; -90", "T; -900");
     let text = refusal(&broken);
     for words in [
         "a.dh:5:4: `ninety` is not a number",
@@ -186,6 +187,7 @@ fn every_cell_that_is_wrong_is_told() {
         "`-180` is an upper limit not above the lower one",
         "another joint is called `S`",
         "`1e9` is beyond 1000 m",
+        "`-900` is an angle beyond two turns",
     ] {
         assert!(text.contains(words), "no `{words}` in {text}");
     }

@@ -54,7 +54,7 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
         match content.split_once('=') {
             // `A = A3(H) A6(phi) ...`: what stands before is the name of the whole.
             Some((before, after)) if after.contains('(') => {
-                products.push(range.start + before.len() + 1..range.end)
+                products.push(range.start + before.len() + 1..range.end);
             }
             Some((name, value)) => match definition(name, value) {
                 Some((name, value)) => {
@@ -62,7 +62,7 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
                 }
                 None => {
                     let message = format!("`{}` defines nothing", content.trim());
-                    problems.push(file.problem(range, message, Some(SHAPE.to_owned())).into());
+                    problems.push(file.problem(range, message, Some(SHAPE.to_owned())));
                 }
             },
             None => products.push(range),

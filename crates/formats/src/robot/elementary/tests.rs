@@ -81,7 +81,7 @@ fn the_form_of_the_paper_is_the_same_arm() {
 fn a_length_without_value_is_no_slide() {
     let text = refusal(&PAPER.replace("sx = 155\n", ""));
     assert!(
-        text.contains("a.chain:9:28: the length `sx` has no value") && text.contains("sx = 155"),
+        text.contains("a.chain:9:25: the length `sx` has no value") && text.contains("sx = 155"),
         "{text}"
     );
 }

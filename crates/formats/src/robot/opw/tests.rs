@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use armill_core::frame::Isometry;
-use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use armill_core::robot::inverse::posture_at;
 
 use super::*;
@@ -29,7 +29,7 @@ fn refusal(text: &str) -> String {
 fn the_flange_at_zero_is_where_its_maker_puts_it() {
     let robot = read("a.yaml", "a", MH12).unwrap().robot;
     let flange = posture_at(&robot, &[0.0; 6], &Isometry::identity()).base_from_tool;
-    let expected = armill_core::nalgebra::Vector3::new(0.895, 0.0, 1.264);
+    let expected = Vector3::new(0.895, 0.0, 1.264);
     assert!((flange.translation.vector - expected).norm() < 1e-15, "{flange}");
     assert!(robot.ortho_parallel().is_some());
 }
@@ -91,15 +91,17 @@ fn every_problem_is_told_at_its_place() {
         .replace("a1: 0.155", "a1: 155.0")
         .replace("c2: 0.614", "c2: 0,614")
         .replace("c4: 0.100", "c4: far")
-        .replace("deg(-90.0)", "deg(ninety)")
-        .replace("[1, 1, -1,", "[1, 2, -1,");
+        .replace("deg(-90.0)", "-90")
+        .replace("[1, 1, -1,", "[1, 2, -1,")
+        .replace("deg(180.0)", "deg(half)");
     let text = refusal(&broken);
     for words in [
         "a.yaml:3:7: `155.0` of `a1` is not a length within 100 m",
         "a.yaml:7:3: `c2` has 2 values where 1 are wanted",
         "a.yaml:9:7: `far` of `c4`",
-        "a.yaml:10:41: `deg(ninety)`",
+        "a.yaml:10:42: `-90`",
         "is not 1 or -1",
+        "`deg(half)`",
     ] {
         assert!(text.contains(words), "no `{words}` in\n{text}");
     }

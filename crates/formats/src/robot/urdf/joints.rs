@@ -9,6 +9,9 @@ use roxmltree::Node;
 use super::super::xml::{children, numbers, required, tag, value_place};
 use crate::document::{Problems, Source};
 
+/// Angles beyond two turns, rad, are degrees.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
 /// How a joint moves.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
@@ -88,11 +91,15 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     };
     let limit = children(node, "limit").next();
     let number = |attribute: &str| {
-        let text = limit.and_then(|limit| limit.attribute(attribute));
-        match (limit, text.map(str::trim)) {
+        match limit.filter(|limit| limit.has_attribute(attribute)) {
             // URDF 1.2 writes an open end so.
-            (_, Some("inf" | "-inf")) | (None, _) | (_, None) => Ok(None),
-            (Some(limit), Some(_)) => numbers(file, limit, attribute, [0.0]).map(|[value]| Some(value)),
+            Some(limit) if matches!(limit.attribute(attribute).map(str::trim), Some("inf" | "-inf")) => {
+                Ok(None)
+            }
+            // Files without limits write numbers that nothing reaches.
+            Some(limit) => numbers(file, limit, attribute, [0.0])
+                .map(|[value]| Some(value).filter(|value| value.abs() <= LONGEST)),
+            None => Ok(None),
         }
     };
     let limits = match (number("lower")?, number("upper")?) {
@@ -131,6 +138,13 @@ fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3])
             .into());
     }
     let rpy = numbers(file, origin, "rpy", [0.0; 3])?;
+    if let Some(far) = rpy.iter().find(|value| value.abs() > TWO_TURNS) {
+        let message = format!("a turn by {far} rad is beyond two turns");
+        let hint = "angles of a URDF are in rad".to_owned();
+        return Err(file
+            .problem(value_place(origin, "rpy"), message, Some(hint))
+            .into());
+    }
     if origin.attribute("quat_xyzw").is_none() {
         return Ok((xyz, rpy));
     }

@@ -92,9 +92,23 @@ fn told(error: &XacroError) -> String {
         other => (other, None),
     };
     let text = error.to_string();
+    if let Some((_, rest)) = text.split_once("<xacro:")
+        && let Some((name, _)) = rest.split_once('>')
+        && matches!(error, XacroError::UnimplementedFeature(_))
+    {
+        return match name {
+            "element" | "attribute" => format!("`xacro:{name}` is not understood"),
+            _ => format!("no macro is called `{name}`"),
+        };
+    }
     let first = text.split("\n\n").next().unwrap_or_default();
     let line = first.split_whitespace().collect::<Vec<_>>().join(" ");
-    format!("{line}{}", place.unwrap_or_default())
+    // The evaluator says it twice.
+    let once = line
+        .find("Failed to evaluate")
+        .and_then(|at| line.get(at..))
+        .unwrap_or(&line);
+    format!("cannot expand the xacro: {once}{}", place.unwrap_or_default())
 }
 
 /// The problem at the first text that the message quotes and a file holds.

@@ -96,7 +96,11 @@ fn files_are_found_beside_and_in_the_packages_around() {
 #[test]
 fn what_cannot_be_worked_out_is_told_where_it_stands() {
     for (from, to, words) in [
-        ("${h + 0.1", "${height + 0.1", "arm.xacro:15:25"),
+        (
+            "${h + 0.1",
+            "${height + 0.1",
+            "arm.xacro:14:26: cannot expand the xacro: Failed to evaluate",
+        ),
         ("${h + 0.1", "${height + 0.1", "height"),
         ("${-pi/2.0}", "${-pi/}", "-pi/"),
         (
@@ -108,12 +112,11 @@ fn what_cannot_be_worked_out_is_told_where_it_stands() {
         (
             "<axis xyz=\"0 0 -1\"/>",
             "<xacro:axis_of_maker/>",
-            "axis_of_maker",
+            "arm.xacro:17:14: no macro is called `axis_of_maker`",
         ),
     ] {
         let text = refusal(&MACRO.replace(from, to));
         assert!(text.contains(words), "no `{words}` in {text}");
-        assert!(text.contains("maker_arm") || words.contains(':'), "{text}");
     }
 }
 
