@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use armill_formats::robot::format::Format;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
@@ -28,7 +29,7 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Make a folder with a commented study that runs
     New(NewArguments),
-    /// List the robot library, or show one robot
+    /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
     /// Every posture of one pose: joints, compliance, deviation
     Pose(PoseArguments),
@@ -42,7 +43,10 @@ impl Command {
             Command::Run(a) => a.json,
             Command::Check(a) => a.json,
             Command::New(a) => a.json,
-            Command::Robots(a) => a.json,
+            Command::Robots(a) => match &a.action {
+                Some(RobotsAction::Import(import)) => import.json,
+                None => a.json,
+            },
             Command::Pose(a) => a.json,
             Command::Completions(_) => false,
         }
@@ -103,7 +107,7 @@ Examples:
 pub(crate) struct NewArguments {
     /// Folder to make
     pub dir: PathBuf,
-    /// Library name, or a robot file (.toml, .urdf)
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
     #[arg(long, value_name = "NAME", default_value = "yaskawa/mh12")]
     pub robot: String,
     /// Print what was made as JSON on stdout
@@ -112,18 +116,60 @@ pub(crate) struct NewArguments {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "\
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
 Examples:
   armill robots
   armill robots yaskawa/mh12
-  armill robots my-arm.urdf --drawing arm.svg")]
+  armill robots my-arm.urdf --drawing arm.svg
+  armill robots import my-arm.urdf --out my-arm.toml"
+)]
 pub(crate) struct RobotsArguments {
-    /// Library name, or a robot file (.toml, .urdf)
+    #[command(subcommand)]
+    pub action: Option<RobotsAction>,
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
     pub name: Option<String>,
     /// Write a drawing of the arm to this file (.svg, .png)
     #[arg(long, value_name = "FILE", requires = "name")]
     pub drawing: Option<PathBuf>,
     /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum RobotsAction {
+    /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain
+    Import(ImportArguments),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The format follows from the ending: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
+.chain, .fsf (elementary motions). The file made says in comments what was assumed and what is missing.
+
+Examples:
+  armill robots import kr120.urdf --out kr120.toml
+  armill robots import m20ia_macro.xacro --tip tool0 --out m20ia.toml
+  armill robots import opw_parameters_mh12.yaml > mh12.toml
+  armill robots import table.txt --format dh --out arm.toml --force")]
+pub(crate) struct ImportArguments {
+    /// Robot file of another format
+    pub file: PathBuf,
+    /// Link of a URDF or xacro that is the flange (the end with the most moving joints if left out)
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// Format: urdf, xacro, opw, dh, chain (by ending and content if left out)
+    #[arg(long, value_name = "NAME")]
+    pub format: Option<Format>,
+    /// Robot file to make (printed on stdout if left out)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Overwrite the file if it is there
+    #[arg(long, requires = "out")]
+    pub force: bool,
+    /// Print what was made as JSON on stdout
     #[arg(long)]
     pub json: bool,
 }
@@ -143,7 +189,7 @@ Examples:
   armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json"
 )]
 pub(crate) struct PoseArguments {
-    /// Library name, or a robot file (.toml, .urdf)
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
     pub robot: String,
     /// Joint positions A,B,... in degrees (mm for sliding joints)
     #[arg(

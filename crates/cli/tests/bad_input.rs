@@ -464,12 +464,13 @@ fn a_broken_urdf_is_told_with_its_file() {
     let half = &MH12_URDF[..MH12_URDF.len() / 2];
     let loop_of_joints = MH12_URDF.replace("<child link=\"tool0\"/>", "<child link=\"l2\"/>");
     for (text, word) in [
-        ("", "not a URDF"),
-        ("<robot", "not a URDF"),
-        (half, "not a URDF"),
+        ("", "the file is empty"),
+        ("<robot", "not XML"),
+        (half, "not XML"),
+        ("<sdf/>", "not a URDF: its root is <sdf>"),
         (&MH12_URDF.replace("0.450", "0,450"), "arm.urdf:"),
-        (&MH12_URDF.replace("0.450", "nan"), "motion"),
-        (&MH12_URDF.replace("0.450", "1e305"), "motion"),
+        (&MH12_URDF.replace("0.450", "nan"), "`nan` in xyz"),
+        (&MH12_URDF.replace("0.450", "1e305"), "lengths of a URDF are in m"),
         (
             &MH12_URDF.replace("<parent link=\"l2\"/>", "<parent link=\"gone\"/>"),
             "`gone`",
@@ -478,7 +479,7 @@ fn a_broken_urdf_is_told_with_its_file() {
             &MH12_URDF.replace("xyz=\"0 -1 0\"", "xyz=\"0 0 0\""),
             "axis of length zero",
         ),
-        (&MH12_URDF.replacen("revolute", "floating", 1), "Floating"),
+        (&MH12_URDF.replacen("revolute", "floating", 1), "`floating`"),
         (&loop_of_joints, "arm.urdf:"),
     ] {
         cell.file("arm.urdf", text);

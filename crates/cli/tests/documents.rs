@@ -1,6 +1,6 @@
 //! The documents run: every `console` block of README and guide gives what it shows.
 //!
-//! A page gets one empty folder. A line `$ ...` is a command of `armill` (a shell runs it, so `>` and `&&` work);
+//! A page gets one folder, empty but for the URDFs of `validation/urdf-forward`. A line `$ ...` is a command of `armill` (a shell runs it, so `>` and `&&` work);
 //! the lines after it are its output, stdout and stderr in either order; `...` stands for any lines.
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -45,6 +45,12 @@ fn fits(shown: &[String], real: &[&str]) -> bool {
 fn run_page(path: &str) {
     let text = std::fs::read_to_string(repository().join(path)).unwrap();
     let folder = tempfile::tempdir().unwrap();
+    let urdfs = "validation/urdf-forward";
+    std::fs::create_dir_all(folder.path().join(urdfs)).unwrap();
+    for name in ["mh12.urdf", "kr120r2500pro.urdf"] {
+        let file = Path::new(urdfs).join(name);
+        std::fs::copy(repository().join(&file), folder.path().join(&file)).unwrap();
+    }
     let program = Path::new(assert_cmd::cargo::cargo_bin!("armill"))
         .parent()
         .unwrap()
@@ -83,7 +89,7 @@ fn readme_runs() {
 
 #[test]
 fn guide_runs() {
-    for page in ["predict", "study-file", "robot-file", "results"] {
+    for page in ["predict", "study-file", "your-robot", "robot-file", "results"] {
         run_page(&format!("docs/guide/{page}.md"));
     }
 }
@@ -93,7 +99,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 4, "name the new page in `guide_runs`");
+    assert_eq!(pages, 5, "name the new page in `guide_runs`");
 }
 
 #[test]

@@ -1,14 +1,14 @@
-//! Finding a robot: by library name, or by the path of a robot file.
+//! Finding a robot: by library name, or by the path of a robot file of any format.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use armill_formats::document::Document;
-use armill_formats::robot::{RobotDescription, armill, urdf};
+use armill_formats::robot::RobotDescription;
+use armill_formats::robot::format::{self, Format, Wanted};
 
 use crate::error::StudyError;
 use crate::library;
 
-/// The robot `name`: of the library, or a `.toml` or `.urdf` file (relative to `folder`).
+/// The robot `name`: of the library, or a robot file of any format (relative to `folder`).
 ///
 /// # Errors
 /// An unknown name, a file that cannot be read, the problems of the file.
@@ -16,40 +16,58 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
     if let Some(found) = library::robot(name) {
         return Ok(found?);
     }
-    let lower = name.to_lowercase();
-    let (is_urdf, is_toml) = (lower.ends_with(".urdf"), lower.ends_with(".toml"));
-    if !is_urdf && !is_toml {
-        let message = format!("robot `{name}` is neither in the library nor a .toml or .urdf file");
-        let hint = match library::most_like(name) {
-            Some(like) => format!("did you mean `{like}`? `armill robots` lists all"),
-            None => "`armill robots` lists the library".to_owned(),
-        };
-        return Err(StudyError::value(message, hint));
-    }
     // A file of the current folder is called as the user called it.
     let path = if folder == Path::new(".") {
-        Path::new(name).to_owned()
+        PathBuf::from(name)
     } else {
         folder.join(name)
     };
-    let shown = path.display().to_string();
-    let bytes = std::fs::read(&path).map_err(|error| {
+    if !Format::has_ending(Path::new(name)) && !path.is_file() {
+        let message = format!("robot `{name}` is neither in the library nor a robot file");
+        let hint = match library::most_like(name) {
+            Some(like) => format!("did you mean `{like}`? `armill robots` lists all"),
+            None => format!(
+                "`armill robots` lists the library; robot files end in {}",
+                format::ENDINGS
+            ),
+        };
+        return Err(StudyError::value(message, hint));
+    }
+    read(&path, &Wanted::default())
+}
+
+/// The robot of a foreign robot file, to be kept as one of ours.
+///
+/// # Errors
+/// As [`find`] of a file; a file that is ours already.
+pub fn import(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
+    let ours = path
+        .extension()
+        .is_some_and(|ending| ending.eq_ignore_ascii_case("toml"));
+    if wanted.format == Some(Format::Armill) || (ours && wanted.format.is_none()) {
+        let message = format!(
+            "{} is a robot file of armill already: nothing to import",
+            path.display()
+        );
+        return Err(StudyError::value(
+            message,
+            "use it as it is: `armill robots FILE`, `armill pose FILE`",
+        ));
+    }
+    read(path, wanted)
+}
+
+/// The robot of the file at `path`, called after it.
+fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
+    let shown = path.display();
+    let bytes = std::fs::read(path).map_err(|error| {
         let hint = "in a study, paths count from the folder of the study file";
         StudyError::value(format!("cannot read robot file {shown}: {error}"), hint)
     })?;
     let id = path
         .file_stem()
-        .map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    if is_toml {
-        // Only to refuse bytes that are no text with their place.
-        Document::from_bytes(&shown, &bytes)?;
-    }
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(if is_urdf {
-        urdf::read(&shown, &id, &text)?
-    } else {
-        armill::read(&shown, &id, &text)?
-    })
+        .map_or_else(|| shown.to_string(), |stem| stem.to_string_lossy().into_owned());
+    Ok(format::read(path, &id, &bytes, wanted)?)
 }
 
 #[cfg(test)]
@@ -71,5 +89,25 @@ mod tests {
             .unwrap_err()
             .to_string();
         assert!(error.contains("/nowhere/no-such.urdf"), "{error}");
+    }
+
+    #[test]
+    fn an_ending_that_nobody_reads_says_what_is_understood() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("arm.step"), "ISO-10303-21;").unwrap();
+        let error = find("arm.step", folder.path()).unwrap_err().to_string();
+        assert!(
+            error.contains("`.step` is the ending of no robot file"),
+            "{error}"
+        );
+        assert!(error.contains(".xacro"), "{error}");
+    }
+
+    #[test]
+    fn a_file_of_ours_is_not_imported() {
+        let error = import(Path::new("arm.toml"), &Wanted::default())
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("already"), "{error}");
     }
 }

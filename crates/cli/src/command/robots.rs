@@ -1,4 +1,4 @@
-//! `armill robots`: the library, or one robot with everything that is known of it.
+//! `armill robots`: the library, one robot with everything that is known of it, or the import of one.
 
 use armill_core::robot::{Amount, Axis, Motion};
 use armill_formats::robot::RobotDescription;
@@ -7,10 +7,13 @@ use armill_study::{StudyError, library, robots};
 use serde_json::{Value, json};
 
 use crate::Outcome;
-use crate::arguments::RobotsArguments;
+use crate::arguments::{RobotsAction, RobotsArguments};
 use crate::terminal::print;
 
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
+    if let Some(RobotsAction::Import(import)) = &arguments.action {
+        return super::import::run(import);
+    }
     let Some(name) = &arguments.name else {
         return list(arguments.json);
     };
@@ -158,6 +161,7 @@ fn as_text(found: &RobotDescription) -> String {
             tidy(at.z)
         ));
     }
+    lines.extend(found.remarks.iter().map(|remark| format!("Assumed: {remark}")));
     lines.push(String::new());
     lines.push("Sources:".to_owned());
     lines.extend(
@@ -210,6 +214,7 @@ fn as_json(found: &RobotDescription) -> Value {
             "origin_mm": (f.base_from_frame.translation.vector * 1e3).as_slice(),
         })).collect::<Vec<_>>(),
         "payload_kg": found.payload_kg,
+        "assumed": found.remarks,
         "sources": found.sources,
     })
 }

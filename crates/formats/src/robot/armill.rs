@@ -4,6 +4,7 @@
 
 mod checks;
 mod file;
+mod write;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
@@ -12,6 +13,7 @@ use armill_core::robot::model::NamedFrame;
 
 use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
+pub use self::write::write;
 use super::description::{JointNote, RobotDescription, Source};
 use crate::document::{Document, Problems};
 
@@ -49,6 +51,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         robot,
         title: file.name,
         note: file.note.map(|note| note.trim().to_owned()),
+        remarks: Vec::new(),
         payload_kg: file.payload.map(|payload| payload.mass_kg),
         symbols: file
             .chain

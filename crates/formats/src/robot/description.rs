@@ -11,6 +11,8 @@ pub struct RobotDescription {
     pub title: String,
     /// What a user should know before trusting it.
     pub note: Option<String>,
+    /// What its reader assumed or left out, one sentence each; empty for our own robot files.
+    pub remarks: Vec<String>,
     /// Payload, kg, if known.
     pub payload_kg: Option<f64>,
     /// Symbol of each elementary motion in its source, by index in the chain; empty where it has none.
@@ -35,6 +37,31 @@ pub struct JointNote {
     pub compliance_u_source: Option<String>,
     /// Limits by other sources: degrees (mm), source key, note.
     pub other_limits: Vec<([f64; 2], String, Option<String>)>,
+}
+
+impl RobotDescription {
+    /// A robot read from a foreign file at `place`, which is the one source (`key`) of all its numbers.
+    pub(super) fn of_one_source(robot: Robot, key: &str, place: &str, what: &str) -> RobotDescription {
+        let note = JointNote {
+            source: Some(key.to_owned()),
+            ..JointNote::default()
+        };
+        RobotDescription {
+            title: robot.name().to_owned(),
+            note: None,
+            remarks: Vec::new(),
+            payload_kg: None,
+            symbols: vec![None; robot.chain().motions().len()],
+            joints: vec![note; robot.joints().len()],
+            sources: vec![Source {
+                key: key.to_owned(),
+                what: what.to_owned(),
+                place: place.to_owned(),
+                licence: "the user's file".to_owned(),
+            }],
+            robot,
+        }
+    }
 }
 
 /// Where numbers come from.

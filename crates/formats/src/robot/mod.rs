@@ -1,11 +1,20 @@
-//! Robot descriptions in: our own robot file, and URDF.
+//! Robot descriptions in: our own robot file, URDF, xacro, OPW parameters, Denavit-Hartenberg tables, chains of
+//! elementary motions.
 //!
 //! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
-//! [`RobotDescription`]: the robot of the core, with the source of its numbers.
+//! [`RobotDescription`]: the robot of the core, with the source of its numbers. [`format`](mod@format) tells which
+//! of them a file is.
 
 pub mod armill;
+pub mod dh;
+pub mod elementary;
+pub mod format;
+pub mod opw;
 pub mod urdf;
+#[cfg(feature = "xacro")]
+pub mod xacro;
 
 mod description;
+mod xml;
 
 pub use description::{JointNote, RobotDescription, Source, Symbol};

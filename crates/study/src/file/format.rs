@@ -16,7 +16,7 @@ pub struct StudyFile {
     pub title: Option<String>,
     /// The question in words, for the report.
     pub question: Option<String>,
-    /// Name of a library robot (`armill robots`), or a robot file (.toml, .urdf) relative to the study.
+    /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
     /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,

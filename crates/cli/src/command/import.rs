@@ -1,0 +1,77 @@
+//! `armill robots import`: a robot file of ours from one of another format.
+
+use armill_formats::file::write_atomically;
+use armill_formats::robot::RobotDescription;
+use armill_formats::robot::armill;
+use armill_formats::robot::format::Wanted;
+use armill_study::{StudyError, robots};
+use serde_json::json;
+
+use crate::Outcome;
+use crate::arguments::ImportArguments;
+use crate::terminal::{print, say};
+
+pub(crate) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
+    let out = arguments.out.as_deref();
+    if let Some(path) = out.filter(|path| path.exists() && !arguments.force) {
+        let message = format!("{} exists already", path.display());
+        return Err(StudyError::value(
+            message,
+            "choose another name, or overwrite it with --force",
+        ));
+    }
+    let wanted = Wanted {
+        format: arguments.format,
+        tip: arguments.tip.clone(),
+    };
+    let found = robots::import(&arguments.file, &wanted)?;
+    let text = armill::write(&found);
+    let shown = out.map(|path| path.display().to_string());
+    // What cannot be read again is not written.
+    armill::read(
+        shown.as_deref().unwrap_or("imported robot"),
+        found.robot.name(),
+        &text,
+    )?;
+    if let Some(path) = out {
+        write_atomically(path, text.as_bytes())?;
+    }
+    if arguments.json {
+        print(&as_json(&found, shown.as_deref(), &text).to_string())?;
+    } else if out.is_none() {
+        print(text.trim_end())?;
+    }
+    for line in summary(&found, shown.as_deref()) {
+        say(&line);
+    }
+    Ok(Outcome::Fine)
+}
+
+fn as_json(found: &RobotDescription, file: Option<&str>, text: &str) -> serde_json::Value {
+    let joints = found.robot.joints();
+    json!({
+        "file": file,
+        "text": if file.is_none() { Some(text) } else { None },
+        "title": found.title,
+        "joints": joints.iter().map(|joint| &joint.name).collect::<Vec<_>>(),
+        "closed_form_inverse": found.robot.ortho_parallel().is_some(),
+        "assumed": found.remarks,
+        "without_limits": joints.iter().filter(|j| j.limits.is_none()).map(|j| &j.name).collect::<Vec<_>>(),
+    })
+}
+
+/// What a user should know of the robot that was made.
+fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
+    let inverse = match found.robot.ortho_parallel() {
+        Some(_) => "closed-form inverse",
+        None => "no closed-form inverse: posed by joints only",
+    };
+    let count = found.robot.joints().len();
+    let mut lines = vec![format!("{}: {count} joints, {inverse}", found.title)];
+    lines.extend(found.remarks.iter().map(|remark| format!("assumed: {remark}")));
+    lines.push("missing: joint compliances; see the comments in the file".to_owned());
+    lines.extend(file.map(|file| {
+        format!("made {file}; compare it with the pendant: armill pose {file} --joints-deg ...")
+    }));
+    lines
+}

@@ -1,0 +1,261 @@
+//! Our robot file, written: what a foreign file gave, and in comments what it did not.
+//!
+//! Numbers are the shortest decimals that come back as the same motion: lengths and angles of the chain within
+//! 1e-15 m and rad, limits and speeds within 1e-9.
+
+use std::fmt::Write;
+
+use armill_core::frame::Isometry;
+use armill_core::robot::{Amount, Axis, Joint, Motion};
+
+use super::super::description::RobotDescription;
+use super::checks::exact_radians;
+
+/// How far (m, rad) a number of the chain may be from its decimal.
+const CHAIN: f64 = 1e-15;
+/// The same for limits and speeds, rad (rad/s), m (m/s).
+const RANGE: f64 = 1e-9;
+
+/// The text of a robot file, format 1, for a robot that came from one foreign source.
+///
+/// Not written: compliance, payload and limits by other sources, which no foreign format has.
+pub fn write(found: &RobotDescription) -> String {
+    let mut text = String::new();
+    head(&mut text, found);
+    chain(&mut text, found);
+    for index in 0..found.robot.joints().len() {
+        joint(&mut text, found, index);
+    }
+    for frame in found.robot.frames() {
+        let (origin, angles) = pose(&frame.base_from_frame);
+        line(&mut text, "\n[[frame]]");
+        line(&mut text, &format!("name = {}", quoted(&frame.name)));
+        line(&mut text, &format!("origin_mm = {origin}"));
+        line(&mut text, &format!("rotation_deg = {angles}"));
+        line(&mut text, &format!("source = {}", quoted(source(found))));
+    }
+    for source in &found.sources {
+        line(&mut text, &format!("\n[sources.{}]", quoted(&source.key)));
+        line(&mut text, &format!("what = {}", quoted(&source.what)));
+        line(&mut text, &format!("where = {}", quoted(&source.place)));
+        line(&mut text, &format!("licence = {}", quoted(&source.licence)));
+    }
+    text
+}
+
+/// Adds a line; writing to a text cannot fail.
+fn line(text: &mut String, content: &str) {
+    text.push_str(content);
+    text.push('\n');
+}
+
+fn head(text: &mut String, found: &RobotDescription) {
+    let robot = &found.robot;
+    let place = found.sources.first().map_or("", |source| source.place.as_str());
+    line(
+        text,
+        &format!("# {}, imported from {}.", one_line(&found.title), one_line(place)),
+    );
+    line(
+        text,
+        "# armill robot file, format 1. Lengths in mm, angles in degrees.",
+    );
+    if !found.remarks.is_empty() {
+        line(text, "#\n# Assumed:");
+        for remark in &found.remarks {
+            line(text, &format!("# - {}", one_line(remark)));
+        }
+    }
+    let without = |known: fn(&Joint) -> bool| robot.joints().iter().filter(|joint| !known(joint)).count();
+    let count = robot.joints().len();
+    line(text, "#\n# Missing, to be added where known:");
+    line(
+        text,
+        "# - the joints' compliances: no deviation can be predicted without them",
+    );
+    for (missing, what) in [
+        (
+            without(|joint| joint.limits.is_some()),
+            "limits: postures are not checked against any there",
+        ),
+        (without(|joint| joint.max_speed.is_some()), "greatest speeds"),
+    ] {
+        if missing > 0 {
+            line(text, &format!("# - {missing} of {count} joints: {what}"));
+        }
+    }
+    if robot.ortho_parallel().is_none() {
+        line(
+            text,
+            "#\n# This arm has no closed-form inverse: it can be posed by its joints, not by a point.",
+        );
+    }
+    line(text, "\nformat = 1");
+    line(text, &format!("name = {}", quoted(&found.title)));
+    line(
+        text,
+        &format!("nominal_branch = {}", quoted(&robot.nominal_branch().to_string())),
+    );
+    line(
+        text,
+        "# Remove this note when two poses of the pendant, all joints away from zero, agree with `armill pose`.",
+    );
+    let note = format!(
+        "imported from {}: signs and zeros of its joints were not compared with the pendant yet",
+        one_line(place)
+    );
+    line(text, &format!("note = {}", quoted(&note)));
+}
+
+fn chain(text: &mut String, found: &RobotDescription) {
+    line(text, "\n[chain]");
+    line(text, &format!("source = {}", quoted(source(found))));
+    line(text, "motions = [");
+    let motions = found.robot.chain().motions();
+    for (index, motion) in motions.iter().enumerate() {
+        let (word, axis) = match motion {
+            Motion::Along(axis, _) => ("along", axis),
+            Motion::About(axis, _) => ("about", axis),
+        };
+        let axis = match axis {
+            Axis::X => "x",
+            Axis::Y => "y",
+            Axis::Z => "z",
+        };
+        let amount = match (motion, motion.amount()) {
+            (Motion::Along(..), Amount::Constant(m)) => format!("length_mm = {}", millimetres(m, CHAIN)),
+            (Motion::About(..), Amount::Constant(rad)) => format!("angle_deg = {}", degrees(rad, CHAIN)),
+            (_, Amount::Joint(joint)) => {
+                let name = found
+                    .robot
+                    .joints()
+                    .get(joint)
+                    .map_or("", |joint| joint.name.as_str());
+                format!("joint = {}", quoted(name))
+            }
+        };
+        let symbol = match found.symbols.get(index) {
+            Some(Some(symbol)) => format!(", symbol = {}", quoted(symbol)),
+            _ => String::new(),
+        };
+        line(text, &format!("  {{ {word} = \"{axis}\", {amount}{symbol} }},"));
+    }
+    line(text, "]");
+}
+
+fn joint(text: &mut String, found: &RobotDescription, index: usize) {
+    let Some(joint) = found.robot.joints().get(index) else {
+        return;
+    };
+    let slides = found.robot.slides(index);
+    let (unit, number): (&str, fn(f64, f64) -> String) = match slides {
+        true => ("mm", millimetres),
+        false => ("deg", degrees),
+    };
+    line(text, "\n[[joint]]");
+    line(text, &format!("name = {}", quoted(&joint.name)));
+    line(
+        text,
+        &format!("sign = {}", if joint.sign.factor() < 0.0 { "-1" } else { "1" }),
+    );
+    if joint.zero_offset != 0.0 {
+        line(
+            text,
+            &format!("zero_offset_{unit} = {}", number(joint.zero_offset, CHAIN)),
+        );
+    }
+    if !joint.coupling.is_empty() {
+        let names = found.robot.joints();
+        let coupled = joint.coupling.iter().filter_map(|c| {
+            let name = quoted(&names.get(c.joint)?.name);
+            Some(format!("{{ joint = {name}, factor = {:?} }}", c.factor))
+        });
+        line(
+            text,
+            &format!("coupling = [{}]", coupled.collect::<Vec<_>>().join(", ")),
+        );
+    }
+    match joint.limits {
+        Some(limits) => {
+            let (lower, upper) = (number(limits.lower, RANGE), number(limits.upper, RANGE));
+            line(text, &format!("limits_{unit} = [{lower}, {upper}]"));
+        }
+        None => line(text, &format!("# limits_{unit} = [lower, upper]")),
+    }
+    match joint.max_speed {
+        Some(speed) => line(
+            text,
+            &format!("max_speed_{unit}_per_s = {}", number(speed, RANGE)),
+        ),
+        None => line(text, &format!("# max_speed_{unit}_per_s = ...")),
+    }
+    line(text, &format!("source = {}", quoted(source(found))));
+    let compliance = if slides { "um_per_n" } else { "rad_per_n_m" };
+    line(text, &format!("# compliance_{compliance} = ..."));
+    line(text, "# compliance_source = \"...\"");
+}
+
+fn source(found: &RobotDescription) -> &str {
+    found.sources.first().map_or("", |source| source.key.as_str())
+}
+
+fn pose(base_from_frame: &Isometry) -> (String, String) {
+    let at = base_from_frame.translation.vector;
+    let (rx, ry, rz) = base_from_frame.rotation.euler_angles();
+    let three = |values: [String; 3]| format!("[{}]", values.join(", "));
+    (
+        three([at.x, at.y, at.z].map(|m| millimetres(m, CHAIN))),
+        three([rx, ry, rz].map(|rad| degrees(rad, CHAIN))),
+    )
+}
+
+fn millimetres(m: f64, within: f64) -> String {
+    shortest(m, m * 1e3, within, |mm| mm * 1e-3)
+}
+
+fn degrees(rad: f64, within: f64) -> String {
+    shortest(rad, rad.to_degrees(), within, exact_radians)
+}
+
+/// The shortest decimal of `shown` that `to_si` takes back to `si`.
+fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
+    let decimals = (0..=15).map(|digits| format!("{shown:.digits$}"));
+    let found = decimals
+        .filter(|text| {
+            text.parse::<f64>()
+                .is_ok_and(|value| (to_si(value) - si).abs() <= within)
+        })
+        .min_by_key(String::len);
+    match found.unwrap_or_else(|| format!("{shown:?}")) {
+        text if text == "-0" => "0".to_owned(),
+        text => text,
+    }
+}
+
+/// A TOML string.
+fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' => quoted.push_str("\\\""),
+            '\\' => quoted.push_str("\\\\"),
+            '\n' => quoted.push_str("\\n"),
+            '\t' => quoted.push_str("\\t"),
+            // Writing to a text cannot fail.
+            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// A text that fits into a comment.
+fn one_line(text: &str) -> String {
+    text.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,275 @@
+//! The rows of a table in SI, each column with the unit of its name.
+
+use std::collections::BTreeSet;
+
+use armill_core::robot::chain::LONGEST;
+
+use super::table::{Cell, Table};
+use crate::document::{Problems, Source};
+
+/// Which part of a row a joint moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Moves {
+    /// theta.
+    Turns,
+    /// d.
+    Slides,
+    /// Nothing.
+    Not,
+}
+
+/// One row; m and rad.
+#[derive(Clone, Debug)]
+pub(super) struct Row {
+    pub joint: String,
+    pub moves: Moves,
+    pub a: f64,
+    pub alpha: f64,
+    pub d: f64,
+    pub theta: f64,
+    /// The controller counts against the right hand.
+    pub against: bool,
+    pub limits: Option<[f64; 2]>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Length,
+    Angle,
+    /// That of the joint.
+    OfJoint,
+}
+
+/// What a column holds.
+const QUANTITIES: [(&str, Kind); 6] = [
+    ("a", Kind::Length),
+    ("alpha", Kind::Angle),
+    ("d", Kind::Length),
+    ("theta", Kind::Angle),
+    ("lower", Kind::OfJoint),
+    ("upper", Kind::OfJoint),
+];
+const WORDS: [&str; 3] = ["joint", "type", "sign"];
+
+/// A unit by its ending, with the kind that it measures.
+const UNITS: [(&str, Kind); 4] = [
+    ("_mm", Kind::Length),
+    ("_m", Kind::Length),
+    ("_deg", Kind::Angle),
+    ("_rad", Kind::Angle),
+];
+
+/// Angles beyond two turns, rad, are degrees under the wrong name.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
+/// What an unknown column might have been.
+const COLUMNS: &str = "columns: a_mm, alpha_deg, d_mm, theta_deg (or _m, _rad); optional: joint, type, sign, lower_deg, upper_deg";
+
+/// The rows of the table.
+///
+/// # Errors
+/// Every column that is unknown, missing or without unit; then every cell that holds something else.
+pub(super) fn read(file: &Source, table: &Table) -> Result<Vec<Row>, Problems> {
+    let mut problems = Vec::new();
+    let mut seen = BTreeSet::new();
+    for cell in &table.header {
+        let name = cell.text.to_lowercase();
+        if let Some((message, hint)) = column_problem(&name) {
+            problems.push(file.problem(cell.place.clone(), message, Some(hint)));
+        }
+        if !seen.insert(quantity(&name).to_owned()) {
+            let message = format!("two columns hold `{}`", quantity(&name));
+            problems.push(file.problem(cell.place.clone(), message, None));
+        }
+    }
+    for needed in ["a", "alpha", "d", "theta"] {
+        if !seen.contains(needed) {
+            let place = table.header.first().map_or(0..0, |cell| cell.place.clone());
+            let message = format!("no column holds `{needed}`");
+            problems.push(file.problem(place, message, Some(COLUMNS.to_owned())));
+        }
+    }
+    Problems::from(problems).into_result()?;
+
+    let mut problems = Vec::new();
+    let mut rows: Vec<Row> = Vec::new();
+    for (index, cells) in table.rows.iter().enumerate() {
+        let reader = RowReader { file, table, cells };
+        match reader.row(index) {
+            Ok(row)
+                if rows.iter().any(|other| {
+                    other.moves != Moves::Not && other.joint == row.joint && row.moves != Moves::Not
+                }) =>
+            {
+                let place = cells.first().map_or(0..0, |cell| cell.place.clone());
+                problems.push(file.problem(place, format!("another joint is called `{}`", row.joint), None));
+            }
+            Ok(row) => rows.push(row),
+            Err(found) => problems.extend(found),
+        }
+    }
+    Problems::from(problems).into_result().map(|()| rows)
+}
+
+/// The name of a column without its unit.
+fn quantity(name: &str) -> &str {
+    UNITS
+        .iter()
+        .find_map(|(unit, _)| name.strip_suffix(unit))
+        .unwrap_or(name)
+}
+
+fn column_problem(name: &str) -> Option<(String, String)> {
+    if WORDS.contains(&name) {
+        return None;
+    }
+    let bare = quantity(name);
+    let Some((_, kind)) = QUANTITIES.iter().find(|(known, _)| *known == bare) else {
+        return Some((format!("unknown column `{name}`"), COLUMNS.to_owned()));
+    };
+    let fitting: Vec<String> = UNITS
+        .iter()
+        .filter(|(_, of)| *kind == Kind::OfJoint || of == kind)
+        .map(|(unit, _)| format!("{bare}{unit}"))
+        .collect();
+    let hint = format!("write one of {}", fitting.join(", "));
+    if bare == name {
+        return Some((format!("column `{name}` names no unit"), hint));
+    }
+    let fits = fitting.iter().any(|known| known == name);
+    (!fits).then(|| {
+        (
+            format!("column `{name}` has a unit that does not fit `{bare}`"),
+            hint,
+        )
+    })
+}
+
+struct RowReader<'a> {
+    file: &'a Source,
+    table: &'a Table,
+    cells: &'a [Cell],
+}
+
+impl RowReader<'_> {
+    fn row(&self, index: usize) -> Result<Row, Problems> {
+        let moves = match self
+            .cell("type")
+            .map(|(_, cell)| (cell, cell.text.to_lowercase()))
+        {
+            None => Moves::Turns,
+            Some((cell, word)) => match word.as_str() {
+                "r" | "revolute" => Moves::Turns,
+                "p" | "prismatic" => Moves::Slides,
+                "f" | "fixed" => Moves::Not,
+                _ => return Err(self.refused(cell, "is not revolute, prismatic or fixed")),
+            },
+        };
+        let against = match self.cell("sign") {
+            Some((_, cell)) if moves != Moves::Not => match cell.text.as_str() {
+                "1" | "+1" => false,
+                "-1" => true,
+                _ => return Err(self.refused(cell, "is not 1 or -1")),
+            },
+            _ => false,
+        };
+        let joint = match self.cell("joint") {
+            Some((_, cell)) if moves != Moves::Not && cell.text.is_empty() => {
+                return Err(self.refused(cell, "is no name of a joint"));
+            }
+            Some((_, cell)) => cell.text.clone(),
+            None => format!("joint_{}", index + 1),
+        };
+        let limits = match (self.limit("lower", moves)?, self.limit("upper", moves)?) {
+            (Some((lower, _)), Some((upper, _))) if lower < upper => Some([lower, upper]),
+            (Some(_), Some((_, cell))) => {
+                return Err(self.refused(cell, "is an upper limit not above the lower one"));
+            }
+            _ => None,
+        };
+        let (a, alpha, d, theta) = (
+            self.value("a"),
+            self.value("alpha"),
+            self.value("d"),
+            self.value("theta"),
+        );
+        match (a, alpha, d, theta) {
+            (Ok(a), Ok(alpha), Ok(d), Ok(theta)) => Ok(Row {
+                joint,
+                moves,
+                a,
+                alpha,
+                d,
+                theta,
+                against,
+                limits,
+            }),
+            (a, alpha, d, theta) => {
+                let refused = [a, alpha, d, theta].into_iter().filter_map(Result::err);
+                Err(refused.flatten().collect())
+            }
+        }
+    }
+
+    /// The cell below the column of `quantity`, with the column's name.
+    fn cell(&self, of: &str) -> Option<(&Cell, &Cell)> {
+        let names = self.table.header.iter();
+        names
+            .zip(self.cells)
+            .find(|(name, _)| quantity(&name.text.to_lowercase()) == of)
+    }
+
+    fn value(&self, of: &str) -> Result<f64, Problems> {
+        match self.cell(of) {
+            Some((name, cell)) => self.si(name, cell),
+            None => Ok(0.0),
+        }
+    }
+
+    /// A limit in SI; `None` where the column or the cell is empty.
+    fn limit(&self, of: &str, moves: Moves) -> Result<Option<(f64, &Cell)>, Problems> {
+        let Some((name, cell)) = self.cell(of).filter(|(_, cell)| !cell.text.is_empty()) else {
+            return Ok(None);
+        };
+        let length = name.text.to_lowercase().ends_with('m');
+        match moves {
+            Moves::Not => Ok(None),
+            Moves::Slides if !length => {
+                Err(self.refused(cell, "is an angle, but the joint slides: leave it empty"))
+            }
+            Moves::Turns if length => {
+                Err(self.refused(cell, "is a length, but the joint turns: leave it empty"))
+            }
+            _ => Ok(Some((self.si(name, cell)?, cell))),
+        }
+    }
+
+    fn si(&self, name: &Cell, cell: &Cell) -> Result<f64, Problems> {
+        let text = match self.table.decimal_comma {
+            true => cell.text.replace(',', "."),
+            false => cell.text.clone(),
+        };
+        let Some(value) = text.parse::<f64>().ok().filter(|value| value.is_finite()) else {
+            return Err(self.refused(cell, "is not a number"));
+        };
+        let name = name.text.to_lowercase();
+        let si = match UNITS.iter().find(|(unit, _)| name.ends_with(unit)) {
+            Some(("_mm", _)) => value * 1e-3,
+            // A whole quarter turn exactly.
+            Some(("_deg", _)) => value / 90.0 * std::f64::consts::FRAC_PI_2,
+            _ => value,
+        };
+        let angle = name.ends_with("deg") || name.ends_with("rad");
+        match si.abs() <= if angle { TWO_TURNS } else { LONGEST } {
+            true => Ok(si),
+            false if angle => Err(self.refused(cell, "is an angle beyond two turns")),
+            false => Err(self.refused(cell, "is beyond 1000 m")),
+        }
+    }
+
+    fn refused(&self, cell: &Cell, what: &str) -> Problems {
+        self.file
+            .problem(cell.place.clone(), format!("`{}` {what}", cell.text), None)
+            .into()
+    }
+}

@@ -1,0 +1,184 @@
+//! The lines of a table: settings, header, cells; each with its place.
+
+use std::ops::Range;
+
+use crate::document::{Problem, Problems, Source};
+
+/// What a row means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Convention {
+    Standard,
+    Modified,
+}
+
+/// A piece of the text and where it stands.
+#[derive(Clone, Debug)]
+pub(super) struct Cell {
+    pub text: String,
+    pub place: Range<usize>,
+}
+
+/// The file as a table.
+#[derive(Debug)]
+pub(super) struct Table {
+    pub convention: Convention,
+    pub name: Option<String>,
+    pub header: Vec<Cell>,
+    pub rows: Vec<Vec<Cell>>,
+    /// A comma is a decimal sign here, because `;` separates.
+    pub decimal_comma: bool,
+}
+
+const CONVENTIONS: &str = "write `convention = standard` (a row is Rz(theta) Tz(d) Tx(a) Rx(alpha): a and alpha lead to the \
+     next axis) or `convention = modified` (Craig: Rx(alpha) Tx(a) Rz(theta) Tz(d): a and alpha lead from the axis before)";
+
+/// The table of this text: `#` starts a comment, `key = value` is a setting, the first other line is the header.
+///
+/// # Errors
+/// No convention, an unknown setting, no header, no row, a row of another length than the header.
+pub(super) fn read(file: &Source) -> Result<Table, Problems> {
+    let mut problems = Vec::new();
+    let mut convention = None;
+    let mut name = None;
+    let mut lines = Vec::new();
+    for line in lines_of(file.text()) {
+        match line.text.split_once('=') {
+            Some((key, value)) => {
+                let value = value.trim().trim_matches('"');
+                match key.trim().to_lowercase().as_str() {
+                    "convention" => match convention_of(value) {
+                        Some(known) => convention = Some(known),
+                        None => {
+                            let message =
+                                format!("convention `{value}` is neither `standard` nor `modified`");
+                            problems.push(file.problem(line.place, message, Some(CONVENTIONS.to_owned())));
+                            // Told already: not missing as well.
+                            convention = Some(Convention::Standard);
+                        }
+                    },
+                    "name" => name = Some(value.to_owned()),
+                    other => {
+                        let message = format!("unknown setting `{other}`");
+                        let hint = "settings are `convention` and `name`".to_owned();
+                        problems.push(file.problem(line.place, message, Some(hint)));
+                    }
+                }
+            }
+            None => lines.push(line),
+        }
+    }
+    if convention.is_none() {
+        let message = "the table does not say which convention it follows: the same numbers are another arm in the other";
+        problems.push(file.problem(0..0, message, Some(CONVENTIONS.to_owned())));
+    }
+    let mut lines = lines.into_iter();
+    let Some(first) = lines.next() else {
+        let hint = "such as `joint, alpha_deg, a_mm, theta_deg, d_mm`".to_owned();
+        problems.push(file.problem(0..0, "the table has no header", Some(hint)));
+        return Err(problems.into());
+    };
+    let separator = separator(&first.text);
+    let header = cells(&first, separator);
+    let mut rows = Vec::new();
+    for line in lines {
+        let cells = cells(&line, separator);
+        match cells.len() == header.len() {
+            true => rows.push(cells),
+            false => problems.push(uneven(file, &line, cells.len(), header.len())),
+        }
+    }
+    if rows.is_empty() && problems.is_empty() {
+        let hint = "a row for every joint, base to flange".to_owned();
+        problems.push(file.problem(first.place, "the table has no row", Some(hint)));
+    }
+    match convention {
+        Some(convention) if problems.is_empty() => Ok(Table {
+            convention,
+            name,
+            header,
+            rows,
+            decimal_comma: separator == Separator::Char(';'),
+        }),
+        _ => Err(problems.into()),
+    }
+}
+
+fn uneven(file: &Source, line: &Cell, found: usize, wanted: usize) -> Problem {
+    let message = format!("the row has {found} cells where the header has {wanted}");
+    let hint = "write 0 where nothing is; with decimal commas separate cells by `;`".to_owned();
+    file.problem(line.place.clone(), message, Some(hint))
+}
+
+fn convention_of(word: &str) -> Option<Convention> {
+    match word.to_lowercase().as_str() {
+        "standard" => Some(Convention::Standard),
+        "modified" => Some(Convention::Modified),
+        _ => None,
+    }
+}
+
+/// The lines that hold something, without comments.
+fn lines_of(text: &str) -> Vec<Cell> {
+    let mut start = 0;
+    let mut lines = Vec::new();
+    for line in text.split_inclusive('\n') {
+        let content = line.split('#').next().unwrap_or_default();
+        let trimmed = content.trim();
+        let at = start + content.len() - content.trim_start().len();
+        if !trimmed.is_empty() {
+            lines.push(Cell {
+                text: trimmed.to_owned(),
+                place: at..at + trimmed.len(),
+            });
+        }
+        start += line.len();
+    }
+    lines
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Separator {
+    Char(char),
+    Blanks,
+}
+
+fn separator(header: &str) -> Separator {
+    match [';', ',', '\t'].into_iter().find(|c| header.contains(*c)) {
+        Some(c) => Separator::Char(c),
+        None => Separator::Blanks,
+    }
+}
+
+fn cells(line: &Cell, separator: Separator) -> Vec<Cell> {
+    let pieces: Vec<&str> = match separator {
+        Separator::Char(c) => line.text.split_inclusive(c).collect(),
+        Separator::Blanks => line.text.split_inclusive(char::is_whitespace).collect(),
+    };
+    let mut at = line.place.start;
+    let mut cells = Vec::new();
+    for piece in pieces {
+        let content = match separator {
+            Separator::Char(c) => piece.strip_suffix(c).unwrap_or(piece),
+            Separator::Blanks => piece,
+        };
+        let text = content.trim();
+        let start = at + content.len() - content.trim_start().len();
+        at += piece.len();
+        if !(separator == Separator::Blanks && text.is_empty()) {
+            cells.push(Cell {
+                text: text.trim_matches('"').to_owned(),
+                place: start..start + text.len(),
+            });
+        }
+    }
+    // An empty last cell has no separator behind it.
+    if let Separator::Char(c) = separator
+        && line.text.ends_with(c)
+    {
+        cells.push(Cell {
+            text: String::new(),
+            place: at..at,
+        });
+    }
+    cells
+}

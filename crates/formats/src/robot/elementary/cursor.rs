@@ -1,0 +1,87 @@
+//! Walks over a text character by character and knows where it is.
+
+use std::ops::Range;
+
+/// A place in a text.
+#[derive(Clone, Debug)]
+pub(super) struct Cursor<'a> {
+    text: &'a str,
+    at: usize,
+    end: usize,
+}
+
+impl<'a> Cursor<'a> {
+    /// The start of a range of `text`.
+    pub fn over(text: &'a str, range: Range<usize>) -> Cursor<'a> {
+        let end = range.end.min(text.len());
+        Cursor {
+            text,
+            at: range.start.min(end),
+            end,
+        }
+    }
+
+    pub fn at(&self) -> usize {
+        self.at
+    }
+
+    fn rest(&self) -> &'a str {
+        self.text.get(self.at..self.end).unwrap_or_default()
+    }
+
+    pub fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    /// Steps over `wanted` if it stands here.
+    pub fn take(&mut self, wanted: char) -> bool {
+        let here = self.peek() == Some(wanted);
+        if here {
+            self.at += wanted.len_utf8();
+        }
+        here
+    }
+
+    /// Steps over characters as long as they are `of` a kind.
+    pub fn while_of(&mut self, of: impl Fn(char) -> bool) -> &'a str {
+        let rest = self.rest();
+        let length = rest.find(|c| !of(c)).unwrap_or(rest.len());
+        self.at += length;
+        rest.get(..length).unwrap_or_default()
+    }
+
+    pub fn skip_blanks(&mut self) {
+        self.while_of(char::is_whitespace);
+    }
+
+    /// A number without sign: digits, point, exponent.
+    pub fn number(&mut self) -> Option<f64> {
+        let rest = self.rest();
+        let mut length = 0;
+        let mut before = ' ';
+        for c in rest.chars() {
+            let part = c.is_ascii_digit()
+                || c == '.'
+                || (matches!(c, 'e' | 'E') && length > 0)
+                || (matches!(c, '+' | '-') && matches!(before, 'e' | 'E'));
+            if !part {
+                break;
+            }
+            length += c.len_utf8();
+            before = c;
+        }
+        let value = rest
+            .get(..length)?
+            .parse::<f64>()
+            .ok()
+            .filter(|value| value.is_finite())?;
+        self.at += length;
+        Some(value)
+    }
+
+    /// A name: letters, digits, `_`, `'`; a letter first.
+    pub fn name(&mut self) -> Option<&'a str> {
+        self.peek().filter(|c| c.is_alphabetic() || *c == '_')?;
+        Some(self.while_of(|c| c.is_alphanumeric() || matches!(c, '_' | '\'')))
+    }
+}

@@ -1,0 +1,219 @@
+//! The factors of a chain and the symbols they use.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use armill_core::robot::Axis;
+use armill_core::robot::chain::LONGEST;
+
+use super::cursor::Cursor;
+use crate::document::{Problems, Source};
+
+/// One factor: an axis, and how far along or about it.
+#[derive(Debug)]
+pub(super) struct Factor {
+    pub slides: bool,
+    pub axis: Axis,
+    pub argument: Argument,
+    pub place: Range<usize>,
+}
+
+/// What stands in the brackets.
+#[derive(Debug, Default)]
+pub(super) struct Argument {
+    /// mm or deg.
+    pub constant: f64,
+    /// Name of the joint, and whether it counts against the chain.
+    pub joint: Option<(String, bool)>,
+    /// The symbol, where the argument is one alone.
+    pub symbol: Option<String>,
+}
+
+/// More problems than this are not told: what is no chain at all has one in every word.
+const MOST_PROBLEMS: usize = 20;
+
+const SHAPE: &str =
+    "a factor is Tx(155), Ry(q2), or A1(155), A5(q2) as in the paper; a symbol is `H = 450` on its own line";
+
+type Symbols<'a> = BTreeMap<&'a str, f64>;
+
+/// Every factor, in order.
+///
+/// # Errors
+/// What is neither factor nor definition, lengths without value, numbers that are none.
+pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
+    let text = file.text();
+    let mut symbols = Symbols::new();
+    let mut products = Vec::new();
+    let mut problems = Vec::new();
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let content = line.split('#').next().unwrap_or_default();
+        let range = start..start + content.len();
+        start += line.len();
+        match content.split_once('=') {
+            // `A = A3(H) A6(phi) ...`: what stands before is the name of the whole.
+            Some((before, after)) if after.contains('(') => {
+                products.push(range.start + before.len() + 1..range.end);
+            }
+            Some((name, value)) => match definition(name, value) {
+                Some((name, value)) => {
+                    symbols.insert(name, value);
+                }
+                None => {
+                    let message = format!("`{}` defines nothing", content.trim());
+                    problems.push(file.problem(range, message, Some(SHAPE.to_owned())));
+                }
+            },
+            None => products.push(range),
+        }
+    }
+    let mut factors = Vec::new();
+    for range in products {
+        let mut cursor = Cursor::over(text, range);
+        loop {
+            cursor.while_of(|c| c.is_whitespace() || matches!(c, '*' | '·' | ','));
+            if cursor.peek().is_none() || problems.len() >= MOST_PROBLEMS {
+                break;
+            }
+            match factor(file, &mut cursor, &symbols) {
+                Ok(factor) => factors.push(factor),
+                Err(found) => {
+                    problems.extend(found);
+                    // Goes on behind the next bracket.
+                    cursor.while_of(|c| c != ')' && !c.is_whitespace());
+                    cursor.take(')');
+                }
+            }
+        }
+    }
+    Problems::from(problems).into_result().map(|()| factors)
+}
+
+fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
+    let name = name.trim();
+    let mut cursor = Cursor::over(name, 0..name.len());
+    let whole = cursor.name()? == name;
+    let value = value
+        .trim()
+        .parse::<f64>()
+        .ok()
+        .filter(|value| value.is_finite())?;
+    whole.then_some((name, value))
+}
+
+fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Result<Factor, Problems> {
+    let start = cursor.at();
+    let word = cursor.while_of(|c| !c.is_whitespace() && c != '(' && c != ')');
+    let Some((slides, axis)) = motion(word) else {
+        let message = format!("`{word}` is no elementary motion");
+        return Err(file
+            .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
+            .into());
+    };
+    cursor.skip_blanks();
+    if !cursor.take('(') {
+        let message = format!("`{word}` has no bracket behind it");
+        return Err(file
+            .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
+            .into());
+    }
+    let argument = argument(file, cursor, symbols, slides)?;
+    if !cursor.take(')') {
+        let message = format!("the bracket of `{word}` is not closed");
+        return Err(file
+            .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
+            .into());
+    }
+    Ok(Factor {
+        slides,
+        axis,
+        argument,
+        place: start..cursor.at(),
+    })
+}
+
+/// Which motion a word names; true for a translation.
+fn motion(word: &str) -> Option<(bool, Axis)> {
+    Some(
+        match word.to_ascii_lowercase().replace(['^', '{', '}'], "").as_str() {
+            "tx" | "a1" => (true, Axis::X),
+            "ty" | "a2" => (true, Axis::Y),
+            "tz" | "a3" => (true, Axis::Z),
+            "rx" | "a4" => (false, Axis::X),
+            "ry" | "a5" => (false, Axis::Y),
+            "rz" | "a6" => (false, Axis::Z),
+            _ => return None,
+        },
+    )
+}
+
+/// A sum of numbers, symbols and at most one joint.
+fn argument(
+    file: &Source,
+    cursor: &mut Cursor<'_>,
+    symbols: &Symbols<'_>,
+    slides: bool,
+) -> Result<Argument, Problems> {
+    let start = cursor.at();
+    let mut found = Argument::default();
+    let mut terms = 0;
+    loop {
+        cursor.skip_blanks();
+        let negative = match cursor.peek() {
+            Some('-' | '−') => true,
+            Some('+') => false,
+            _ if terms == 0 => false,
+            _ => break,
+        };
+        cursor.while_of(|c| matches!(c, '-' | '−' | '+'));
+        cursor.skip_blanks();
+        let at = cursor.at();
+        let factor = if negative { -1.0 } else { 1.0 };
+        if let Some(number) = cursor.number() {
+            found.constant += factor * number;
+        } else if let Some(name) = cursor.name() {
+            match symbols.get(name) {
+                Some(value) => {
+                    found.constant += factor * value;
+                    found.symbol = (terms == 0 && !negative).then(|| name.to_owned());
+                }
+                None if slides && !is_joint_number(name) => {
+                    let message = format!("the length `{name}` has no value");
+                    let hint =
+                        format!("add a line `{name} = 155` (mm); joints that slide are called q1, q2, ...");
+                    return Err(file.problem(at..cursor.at(), message, Some(hint)).into());
+                }
+                None if found.joint.is_some() => {
+                    let message = format!("`{name}` is a second joint in one factor");
+                    let hint = format!("if it is a constant, add a line `{name} = ...`");
+                    return Err(file.problem(at..cursor.at(), message, Some(hint)).into());
+                }
+                None => found.joint = Some((name.to_owned(), negative)),
+            }
+        } else {
+            cursor.while_of(|c| !c.is_whitespace() && c != ')');
+            let message = "no number, joint or symbol stands here".to_owned();
+            return Err(file
+                .problem(at..cursor.at(), message, Some(SHAPE.to_owned()))
+                .into());
+        }
+        terms += 1;
+    }
+    if terms > 1 {
+        found.symbol = None;
+    }
+    let longest = if slides { LONGEST * 1e3 } else { 360.0 };
+    if found.constant.abs() > longest {
+        let (value, unit) = (found.constant, if slides { "mm" } else { "deg" });
+        let message = format!("{value} {unit} is beyond {longest} {unit}");
+        return Err(file.problem(start..cursor.at(), message, None).into());
+    }
+    Ok(found)
+}
+
+/// `q1`, `q2`, ...
+fn is_joint_number(name: &str) -> bool {
+    name.strip_prefix(['q', 'Q'])
+        .is_some_and(|digits| !digits.is_empty() && digits.chars().all(|c| c.is_ascii_digit()))
+}

@@ -1,0 +1,221 @@
+//! Which format is a robot file in, and what does it say?
+//!
+//! | ending | format |
+//! |---|---|
+//! | `.toml` | our own robot file |
+//! | `.urdf` | URDF, or xacro if it holds xacro elements |
+//! | `.xacro` | xacro |
+//! | `.xml` | URDF or xacro, by its content |
+//! | `.yaml`, `.yml` | OPW parameters |
+//! | `.dh`, `.csv` | Denavit-Hartenberg table |
+//! | `.chain`, `.fsf` | chain of elementary motions |
+//! | `.txt` | a table if it names a convention or `alpha`, else a chain |
+//!
+//! Text is UTF-8, with or without byte order mark, with any line ends; other bytes of a foreign file are taken as
+//! Latin-1, which only comments and names can hold.
+
+use std::path::Path;
+use std::str::FromStr;
+
+use super::description::RobotDescription;
+use super::{armill, dh, elementary, opw, urdf};
+use crate::document::{Document, Problems, Source};
+
+/// A kind of robot file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Our own robot file.
+    Armill,
+    /// URDF.
+    Urdf,
+    /// xacro: URDF with macros.
+    Xacro,
+    /// OPW parameters in YAML.
+    Opw,
+    /// A Denavit-Hartenberg table.
+    Dh,
+    /// A chain of elementary motions.
+    Chain,
+}
+
+/// The endings that are understood, for people.
+pub const ENDINGS: &str = ".toml, .urdf, .xacro, .xml, .yaml (OPW parameters), .dh or .csv (Denavit-Hartenberg), .chain or .fsf (elementary motions), .txt";
+
+impl Format {
+    /// Every format, in the order of [`ENDINGS`].
+    pub const ALL: [Format; 6] = [
+        Format::Armill,
+        Format::Urdf,
+        Format::Xacro,
+        Format::Opw,
+        Format::Dh,
+        Format::Chain,
+    ];
+
+    /// Its name, as `--format` takes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::Armill => "armill",
+            Format::Urdf => "urdf",
+            Format::Xacro => "xacro",
+            Format::Opw => "opw",
+            Format::Dh => "dh",
+            Format::Chain => "chain",
+        }
+    }
+
+    /// Whether a path ends like a robot file, whatever it holds.
+    pub fn has_ending(path: &Path) -> bool {
+        const KNOWN: [&str; 11] = [
+            "toml", "urdf", "xacro", "xml", "yaml", "yml", "dh", "csv", "chain", "fsf", "txt",
+        ];
+        ending(path).is_some_and(|ending| KNOWN.contains(&ending.as_str()))
+    }
+
+    /// The format of a file by its ending and content; `None` if neither is known.
+    pub fn of(path: &Path, text: &str) -> Option<Format> {
+        let macros = || text.contains("<xacro:") || text.contains("xmlns:xacro");
+        Some(match ending(path)?.as_str() {
+            "toml" => Format::Armill,
+            "urdf" if !text.contains("<xacro:") => Format::Urdf,
+            "xml" if text.contains("<robot") && !macros() => Format::Urdf,
+            "urdf" | "xacro" => Format::Xacro,
+            "xml" if text.contains("<robot") => Format::Xacro,
+            "yaml" | "yml" => Format::Opw,
+            "dh" | "csv" => Format::Dh,
+            "chain" | "fsf" => Format::Chain,
+            "txt" => {
+                let lower = text.to_lowercase();
+                match lower.contains("convention") || lower.contains("alpha") {
+                    true => Format::Dh,
+                    false => Format::Chain,
+                }
+            }
+            _ => return None,
+        })
+    }
+}
+
+impl FromStr for Format {
+    type Err = String;
+
+    fn from_str(name: &str) -> Result<Format, String> {
+        let found = Format::ALL.into_iter().find(|format| format.name() == name);
+        found.ok_or_else(|| {
+            let names = Format::ALL.map(Format::name).join(", ");
+            format!("`{name}` is none of {names}")
+        })
+    }
+}
+
+fn ending(path: &Path) -> Option<String> {
+    Some(path.extension()?.to_str()?.to_lowercase())
+}
+
+/// What a user may say of a robot file beside its path.
+#[derive(Clone, Debug, Default)]
+pub struct Wanted {
+    /// Its format; by ending and content if not said.
+    pub format: Option<Format>,
+    /// The link of a URDF or xacro that is the flange.
+    pub tip: Option<String>,
+}
+
+/// The robot of a file that was read from `path`; `id` is the robot's name in results.
+///
+/// # Errors
+/// Bytes that are no text, an empty file, an unknown format, and the problems of the format.
+pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<RobotDescription, Problems> {
+    let shown = path.display().to_string();
+    let text = text_of(&shown, bytes)?;
+    let whole = |message: String, hint: &str| {
+        Problems::from(Source::new(&shown, &text).problem(0..0, message, Some(hint.to_owned())))
+    };
+    let Some(format) = wanted.format.or_else(|| Format::of(path, &text)) else {
+        let message = match ending(path).as_deref() {
+            Some("xml") => "this XML is no robot: it has no <robot> element".to_owned(),
+            Some(ending) => format!("`.{ending}` is the ending of no robot file"),
+            None => "a robot file without ending".to_owned(),
+        };
+        return Err(whole(
+            message,
+            &format!("understood are {ENDINGS}; or say which with --format"),
+        ));
+    };
+    if wanted.tip.is_some() && !matches!(format, Format::Urdf | Format::Xacro) {
+        let message = format!(
+            "a tip was named, but a file of format {} has no links",
+            format.name()
+        );
+        return Err(whole(message, "leave --tip out"));
+    }
+    match format {
+        Format::Armill => {
+            // Only to refuse bytes that are no text with their place.
+            Document::from_bytes(&shown, bytes)?;
+            armill::read(&shown, id, &text)
+        }
+        Format::Urdf => urdf::read_to_tip(&shown, id, &text, wanted.tip.as_deref()),
+        #[cfg(feature = "xacro")]
+        Format::Xacro => super::xacro::read_to_tip(path, id, &text, wanted.tip.as_deref()),
+        #[cfg(not(feature = "xacro"))]
+        Format::Xacro => Err(whole(
+            "this build of armill does not read xacro".to_owned(),
+            "expand the file to URDF first, or build with the feature `xacro`",
+        )),
+        Format::Opw => opw::read(&shown, id, &text),
+        Format::Dh => dh::read(&shown, id, &text),
+        Format::Chain => elementary::read(&shown, id, &text),
+    }
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// An empty file; bytes that no text has.
+fn text_of(shown: &str, bytes: &[u8]) -> Result<String, Problems> {
+    let ends = bytes
+        .iter()
+        .rposition(|byte| *byte != 0)
+        .map_or(0, |last| last + 1);
+    let text = decoded(bytes.get(..ends).unwrap_or_default());
+    let source = Source::new(shown, &text);
+    let refused = |at: usize, message: String, hint: &str| {
+        Err(Problems::from(source.problem(
+            at..at,
+            message,
+            Some(hint.to_owned()),
+        )))
+    };
+    if source.text().trim().is_empty() {
+        return refused(0, "the file is empty".to_owned(), "a robot file is wanted here");
+    }
+    let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\n' | '\r' | '\x0c');
+    if let Some((at, c)) = source.text().char_indices().find(|(_, c)| strange(*c)) {
+        let hint = match bytes {
+            [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => "this file is UTF-16: save it as UTF-8",
+            _ => "robot files are text: this is a file of another kind",
+        };
+        return refused(
+            at,
+            format!("not a text: it holds the byte 0x{:02x}", u32::from(c)),
+            hint,
+        );
+    }
+    Ok(source.text().to_owned())
+}
+
+/// UTF-8, or Latin-1 where that cannot be; line ends of old Macs as ours.
+fn decoded(bytes: &[u8]) -> String {
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+    };
+    match text.contains('\n') {
+        true => text,
+        false => text.replace('\r', "\n"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,93 @@
+//! The little of YAML that parameter files use: keys with a scalar, a list in brackets, or a list of lines.
+//!
+//! No YAML reader would do: `deg(-90.0)` is text to them, and its place is lost. Indentation, and keys that only
+//! hold other keys, do not matter here.
+
+use std::ops::Range;
+
+/// A key with its values.
+#[derive(Debug, PartialEq)]
+pub(super) struct Entry<'a> {
+    pub key: &'a str,
+    pub place: Range<usize>,
+    pub values: Vec<Scalar<'a>>,
+}
+
+/// A value as it is written.
+#[derive(Debug, PartialEq)]
+pub(super) struct Scalar<'a> {
+    pub text: &'a str,
+    pub place: Range<usize>,
+}
+
+/// Every key of the text, in order.
+pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
+    let mut entries: Vec<Entry<'_>> = Vec::new();
+    let mut in_brackets = false;
+    let mut line_start = 0;
+    for line in text.split_inclusive('\n') {
+        let start = line_start;
+        line_start += line.len();
+        let content = without_comment(line);
+        let (key, rest) = match content.split_once(':') {
+            _ if in_brackets => (None, content),
+            Some((key, rest)) => (Some(key.trim().trim_matches(['\'', '"'])), rest),
+            None => (None, content),
+        };
+        let rest_start = start + content.len() - rest.len();
+        if let Some(key) = key {
+            let at = start + content.find(key).unwrap_or(0);
+            entries.push(Entry {
+                key,
+                place: at..at + key.len(),
+                values: Vec::new(),
+            });
+        }
+        let Some(entry) = entries.last_mut() else { continue };
+        let item = match rest.trim_start().strip_prefix("- ") {
+            Some(item) if key.is_none() && !in_brackets => item,
+            _ => rest,
+        };
+        let item_start = rest_start + rest.len() - item.len();
+        // A line that is neither key nor list item holds nothing that anybody asked for.
+        if key.is_some() || in_brackets || item.len() < rest.len() {
+            entry.values.extend(scalars(item, item_start));
+        }
+        in_brackets = match (item.rfind('['), item.rfind(']')) {
+            (Some(open), Some(close)) => open > close,
+            (Some(_), None) => true,
+            (None, Some(_)) => false,
+            (None, None) => in_brackets,
+        };
+    }
+    entries
+}
+
+/// The values of one line, without brackets and commas.
+fn scalars(item: &str, start: usize) -> impl Iterator<Item = Scalar<'_>> {
+    let mut at = start;
+    item.split_inclusive(['[', ']', ',']).filter_map(move |piece| {
+        let begins = at;
+        at += piece.len();
+        let word = piece.trim_end_matches(['[', ']', ',']);
+        let text = word.trim();
+        let place = begins + word.len() - word.trim_start().len();
+        (!text.is_empty()).then_some(Scalar {
+            text,
+            place: place..place + text.len(),
+        })
+    })
+}
+
+fn without_comment(line: &str) -> &str {
+    let starts = line.char_indices().find(|(at, c)| {
+        *c == '#'
+            && line
+                .get(..*at)
+                .is_none_or(|before| before.is_empty() || before.ends_with([' ', '\t']))
+    });
+    match starts {
+        Some((at, _)) => line.get(..at).unwrap_or(line),
+        None => line,
+    }
+}

@@ -1,0 +1,161 @@
+//! The joints of a URDF as they stand in the file, each with its place.
+
+use std::ops::Range;
+
+use armill_core::nalgebra::{Quaternion, UnitQuaternion};
+use armill_core::robot::chain::LONGEST;
+use roxmltree::Node;
+
+use super::super::xml::{children, numbers, required, tag, value_place};
+use crate::document::{Problems, Source};
+
+/// Angles beyond two turns, rad, are degrees.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
+/// How a joint moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Kind {
+    Fixed,
+    /// `revolute` and `continuous`.
+    Turning,
+    /// `prismatic`.
+    Sliding,
+    /// As the file says it.
+    Other(String),
+}
+
+/// A `<joint>`; lengths m, angles rad.
+#[derive(Clone, Debug)]
+pub(super) struct JointElement {
+    pub name: String,
+    pub kind: Kind,
+    pub parent: String,
+    pub child: String,
+    pub xyz: [f64; 3],
+    pub rpy: [f64; 3],
+    pub axis: [f64; 3],
+    pub limits: Option<[f64; 2]>,
+    /// Greatest speed, rad/s or m/s.
+    pub velocity: Option<f64>,
+    /// The joint that this one follows.
+    pub mimics: Option<String>,
+    /// Its start tag, or what of it will be complained of.
+    pub place: Range<usize>,
+    pub child_place: Range<usize>,
+}
+
+/// Every `<joint>` below the root.
+///
+/// # Errors
+/// All that lack a name, a type or their links, or hold what is no number.
+pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement>, Problems> {
+    let mut problems = Vec::new();
+    let mut joints = Vec::new();
+    for node in children(root, "joint") {
+        match joint(file, node) {
+            Ok(joint) => joints.push(joint),
+            Err(found) => problems.extend(found),
+        }
+    }
+    Problems::from(problems).into_result().map(|()| joints)
+}
+
+fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
+    let name = required(file, node, "name")?.to_owned();
+    let kind = match required(file, node, "type")? {
+        "fixed" => Kind::Fixed,
+        "revolute" | "continuous" => Kind::Turning,
+        "prismatic" => Kind::Sliding,
+        other => Kind::Other(other.to_owned()),
+    };
+    let link = |end: &str| -> Result<_, Problems> {
+        let Some(element) = children(node, end).next() else {
+            let message = format!("joint `{name}` has no <{end} link=\"...\"/>");
+            return Err(file.problem(tag(node), message, None).into());
+        };
+        Ok((
+            required(file, element, "link")?.to_owned(),
+            value_place(element, "link"),
+        ))
+    };
+    let (parent, _) = link("parent")?;
+    let (child, child_place) = link("child")?;
+    let (xyz, rpy) = match children(node, "origin").next() {
+        Some(origin) => origin_of(file, origin)?,
+        None => ([0.0; 3], [0.0; 3]),
+    };
+    let axis_element = children(node, "axis").next();
+    let axis = match axis_element {
+        Some(axis) => numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?,
+        None => [1.0, 0.0, 0.0],
+    };
+    let limit = children(node, "limit").next();
+    let number = |attribute: &str| {
+        match limit.filter(|limit| limit.has_attribute(attribute)) {
+            // URDF 1.2 writes an open end so.
+            Some(limit) if matches!(limit.attribute(attribute).map(str::trim), Some("inf" | "-inf")) => {
+                Ok(None)
+            }
+            // Files without limits write numbers that nothing reaches.
+            Some(limit) => numbers(file, limit, attribute, [0.0])
+                .map(|[value]| Some(value).filter(|value| value.abs() <= LONGEST)),
+            None => Ok(None),
+        }
+    };
+    let limits = match (number("lower")?, number("upper")?) {
+        (Some(lower), Some(upper)) if lower < upper => Some([lower, upper]),
+        _ => None,
+    };
+    let velocity = number("velocity")?.filter(|velocity| *velocity > 0.0);
+    let continuous = node.attribute("type") == Some("continuous");
+    let mimic = children(node, "mimic").next();
+    Ok(JointElement {
+        kind,
+        parent,
+        child,
+        xyz,
+        rpy,
+        axis,
+        limits: limits.filter(|_| !continuous),
+        velocity,
+        mimics: mimic.map(|mimic| mimic.attribute("joint").unwrap_or("another joint").to_owned()),
+        place: match axis_element {
+            Some(element) if axis == [0.0; 3] => value_place(element, "xyz"),
+            _ => value_place(node, "name"),
+        },
+        child_place,
+        name,
+    })
+}
+
+fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
+    let xyz = numbers(file, origin, "xyz", [0.0; 3])?;
+    if let Some(far) = xyz.iter().find(|value| value.abs() > LONGEST) {
+        let message = format!("an origin {far} m away is beyond {LONGEST} m");
+        let hint = "lengths of a URDF are in m".to_owned();
+        return Err(file
+            .problem(value_place(origin, "xyz"), message, Some(hint))
+            .into());
+    }
+    let rpy = numbers(file, origin, "rpy", [0.0; 3])?;
+    if let Some(far) = rpy.iter().find(|value| value.abs() > TWO_TURNS) {
+        let message = format!("a turn by {far} rad is beyond two turns");
+        let hint = "angles of a URDF are in rad".to_owned();
+        return Err(file
+            .problem(value_place(origin, "rpy"), message, Some(hint))
+            .into());
+    }
+    if origin.attribute("quat_xyzw").is_none() {
+        return Ok((xyz, rpy));
+    }
+    // URDF 1.1.
+    let [x, y, z, w] = numbers(file, origin, "quat_xyzw", [0.0, 0.0, 0.0, 1.0])?;
+    let Some(turn) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9) else {
+        let message = "a quaternion of length zero is no orientation";
+        return Err(file
+            .problem(value_place(origin, "quat_xyzw"), message, None)
+            .into());
+    };
+    let (roll, pitch, yaw) = turn.euler_angles();
+    Ok((xyz, [roll, pitch, yaw]))
+}

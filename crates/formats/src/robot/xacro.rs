@@ -1,0 +1,82 @@
+//! xacro: URDF with macros, properties and expressions, expanded and then read as URDF.
+//!
+//! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
+//! includes are looked for beside it and in the packages around it ([`packages`]); missing files of colours, materials
+//! and simulation are remarks. What links look like and weigh is dropped before expansion, so that nothing of it can
+//! fail. Expressions are worked out by the crate `xacro-rs`; `$(env ...)` is not.
+
+mod expand;
+mod flatten;
+mod packages;
+
+use std::path::Path;
+
+use self::flatten::Flat;
+use super::description::RobotDescription;
+use super::urdf;
+use crate::document::{Problems, Source};
+
+/// The robot of this xacro text, which was read from `path`; `id` is the robot's name in results.
+///
+/// # Errors
+/// As [`read_to_tip`].
+pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
+    read_to_tip(Path::new(path), id, text, None)
+}
+
+/// The robot of this xacro text with its flange at the link `tip`.
+///
+/// # Errors
+/// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
+/// worked out; then what [`urdf::read_to_tip`] finds in the expanded text.
+pub fn read_to_tip(
+    path: &Path,
+    id: &str,
+    text: &str,
+    tip: Option<&str>,
+) -> Result<RobotDescription, Problems> {
+    let shown = path.display().to_string();
+    let Expanded {
+        urdf: expanded,
+        remarks,
+    } = expand(path, text)?;
+    let mut found = urdf::read_to_tip(&format!("{shown} (expanded)"), id, &expanded, tip)?;
+    for source in &mut found.sources {
+        source.key = "xacro".to_owned();
+        source.place.clone_from(&shown);
+    }
+    for joint in &mut found.joints {
+        joint.source = Some("xacro".to_owned());
+    }
+    found.note = Some("xacro: no compliance; the base is its root link".to_owned());
+    found.remarks.extend(remarks);
+    Ok(found)
+}
+
+/// What a xacro file comes to.
+#[derive(Clone, Debug)]
+pub struct Expanded {
+    /// The text of a URDF: links by name alone, joints with what moves them.
+    pub urdf: String,
+    /// Files that were not found and are not needed.
+    pub remarks: Vec<String>,
+}
+
+/// The URDF that this xacro text, which was read from `path`, stands for.
+///
+/// # Errors
+/// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
+/// worked out.
+pub fn expand(path: &Path, text: &str) -> Result<Expanded, Problems> {
+    let main = Source::new(&path.display().to_string(), text);
+    let Flat {
+        xml,
+        sources,
+        remarks,
+    } = flatten::flatten(&main, path)?;
+    let urdf = expand::expand(&main, &sources, path, xml)?;
+    Ok(Expanded { urdf, remarks })
+}
+
+#[cfg(test)]
+mod tests;

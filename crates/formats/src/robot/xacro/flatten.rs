@@ -1,0 +1,306 @@
+//! One XML text from a xacro file and all it includes, without what no chain needs, and with a call of its macro if
+//! nothing else calls one.
+
+use std::path::{Path, PathBuf};
+
+use roxmltree::Node;
+
+use super::super::xml;
+use super::packages;
+use crate::document::{Problem, Problems, Source};
+
+/// Files within files deeper than this are a circle.
+const DEEPEST: usize = 16;
+/// More files than this are no robot.
+const MOST_FILES: usize = 100;
+
+/// A file of colours, materials or simulation is not missed.
+const NOT_NEEDED: [&str; 7] = [
+    "colour",
+    "color",
+    "material",
+    "gazebo",
+    "transmission",
+    "control",
+    "inertial",
+];
+
+/// What is kept inside a joint.
+const OF_JOINTS: [&str; 6] = ["origin", "parent", "child", "axis", "limit", "mimic"];
+/// What is dropped wherever it stands outside a link.
+const DROPPED: [&str; 5] = ["material", "gazebo", "transmission", "ros2_control", "sensor"];
+
+/// Everything of a xacro file in one text.
+pub(super) struct Flat {
+    pub xml: String,
+    /// The files included, to find the places of problems.
+    pub sources: Vec<Source>,
+    pub remarks: Vec<String>,
+}
+
+struct Writer<'a> {
+    main: &'a Source,
+    xml: String,
+    sources: Vec<Source>,
+    remarks: Vec<String>,
+    problems: Vec<Problem>,
+    /// The files that include the one at hand, outermost first.
+    inside: Vec<PathBuf>,
+    macros: Vec<Macro>,
+    /// A joint outside all macros, or a call of a macro.
+    makes_something: bool,
+}
+
+/// A macro with joints in it.
+struct Macro {
+    name: String,
+    params: String,
+    place: std::ops::Range<usize>,
+    /// Whether `place` is in the main file.
+    of_main: bool,
+}
+
+/// The text of `main`, read from `path`, and of all it includes.
+///
+/// # Errors
+/// What is not XML, files that are missing, no robot or several.
+pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
+    let document = xml::parse(main)?;
+    let root = document.root_element();
+    if root.tag_name().name() != "robot" {
+        let message = format!(
+            "not a xacro robot: its root is <{}>, not <robot>",
+            root.tag_name().name()
+        );
+        return Err(main.problem(xml::tag(root), message, None).into());
+    }
+    let mut writer = Writer {
+        main,
+        xml: String::new(),
+        sources: Vec::new(),
+        remarks: Vec::new(),
+        problems: Vec::new(),
+        inside: vec![path.to_owned()],
+        macros: Vec::new(),
+        makes_something: false,
+    };
+    for child in root.children() {
+        writer.node(main, child, false);
+    }
+    Problems::from(std::mem::take(&mut writer.problems)).into_result()?;
+    if !writer.makes_something {
+        let call = writer.call(root)?;
+        writer.xml.push_str(&call);
+    }
+    let name = root.attribute("name").unwrap_or_default();
+    Ok(Flat {
+        xml: format!(
+            "<robot xmlns:xacro=\"http://www.ros.org/wiki/xacro\" name=\"{}\">{}</robot>",
+            escaped(name),
+            writer.xml
+        ),
+        sources: writer.sources,
+        remarks: writer.remarks,
+    })
+}
+
+impl Writer<'_> {
+    fn node(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+        if node.is_text() {
+            self.xml.push_str(&escaped(node.text().unwrap_or_default()));
+        }
+        if !node.is_element() {
+            return;
+        }
+        let name = node.tag_name().name();
+        if !is_xacro(node) {
+            let inside_joint = node.parent().is_some_and(|parent| is_plain(parent, "joint"));
+            if DROPPED.contains(&name) || (inside_joint && !OF_JOINTS.contains(&name)) {
+                return;
+            }
+            self.makes_something |= name == "joint" && !in_macro;
+            self.element(file, node, in_macro);
+            return;
+        }
+        match name {
+            "include" => self.include(file, node, in_macro),
+            "macro" => {
+                if node.descendants().any(|inner| is_plain(inner, "joint")) {
+                    self.macros.push(Macro {
+                        name: node.attribute("name").unwrap_or_default().to_owned(),
+                        params: node.attribute("params").unwrap_or_default().to_owned(),
+                        place: xml::value_place(node, "name"),
+                        of_main: self.inside.len() == 1,
+                    });
+                }
+                self.element(file, node, true);
+            }
+            _ => {
+                const DIRECTIVES: [&str; 8] = [
+                    "property",
+                    "arg",
+                    "if",
+                    "unless",
+                    "insert_block",
+                    "element",
+                    "attribute",
+                    "call",
+                ];
+                self.makes_something |= !in_macro && (!DIRECTIVES.contains(&name) || name == "call");
+                self.element(file, node, in_macro);
+            }
+        }
+    }
+
+    /// An element with its attributes; of a link its name alone.
+    fn element(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+        let name = node.tag_name().name();
+        let prefix = if is_xacro(node) { "xacro:" } else { "" };
+        self.xml.push_str(&format!("<{prefix}{name}"));
+        for attribute in node
+            .attributes()
+            .filter(|attribute| attribute.namespace().is_none())
+        {
+            self.xml.push_str(&format!(
+                " {}=\"{}\"",
+                attribute.name(),
+                escaped(attribute.value())
+            ));
+        }
+        self.xml.push('>');
+        if !is_plain(node, "link") {
+            for child in node.children() {
+                self.node(file, child, in_macro);
+            }
+        }
+        self.xml.push_str(&format!("</{prefix}{name}>"));
+    }
+
+    /// The contents of an included file in place of the element.
+    fn include(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+        let place = xml::value_place(node, "filename");
+        let Some(filename) = node.attribute("filename") else {
+            self.problems
+                .push(file.problem(place, "<xacro:include> names no file", None));
+            return;
+        };
+        let folder = self
+            .inside
+            .last()
+            .and_then(|path| path.parent())
+            .unwrap_or(Path::new("."));
+        let Some(candidates) = packages::candidates(folder, filename) else {
+            let message = format!("cannot tell which file `{filename}` is");
+            let hint =
+                "includes are found by `$(find package)/...` or a plain path, not by other expressions"
+                    .to_owned();
+            self.problems.push(file.problem(place, message, Some(hint)));
+            return;
+        };
+        let Some(path) = candidates.iter().find(|path| path.is_file()) else {
+            let lower = filename.to_lowercase();
+            let optional = node
+                .attribute("optional")
+                .is_some_and(|word| word.eq_ignore_ascii_case("true"));
+            if optional || NOT_NEEDED.iter().any(|word| lower.contains(word)) {
+                self.remarks
+                    .push(format!("{filename} was not found: not needed for the chain"));
+            } else {
+                let message = format!("cannot find the included file `{filename}`");
+                let beside = candidates
+                    .last()
+                    .map_or_else(String::new, |path| path.display().to_string());
+                let hint = format!("put it there: {beside}");
+                self.problems.push(file.problem(place, message, Some(hint)));
+            }
+            return;
+        };
+        if self.inside.contains(path) || self.inside.len() >= DEEPEST || self.sources.len() >= MOST_FILES {
+            let message = format!("the file `{filename}` includes itself, or files go too deep");
+            self.problems.push(file.problem(place, message, None));
+            return;
+        }
+        let bytes = match std::fs::read(path) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                let message = format!("cannot read `{}`: {error}", path.display());
+                self.problems.push(file.problem(place, message, None));
+                return;
+            }
+        };
+        let source = Source::new(&path.display().to_string(), &String::from_utf8_lossy(&bytes));
+        match xml::parse(&source) {
+            Ok(document) => {
+                self.inside.push(path.clone());
+                for child in document.root_element().children() {
+                    self.node(&source, child, in_macro);
+                }
+                self.inside.pop();
+            }
+            Err(problems) => self.problems.extend(problems),
+        }
+        self.sources.push(source);
+    }
+
+    /// The call of the one robot macro with an empty prefix.
+    fn call(&self, root: Node<'_, '_>) -> Result<String, Problems> {
+        let refused =
+            |message: &str, hint: String| Err(self.main.problem(xml::tag(root), message, Some(hint)).into());
+        let found = match &self.macros[..] {
+            [] => {
+                let message = "the file makes no robot: it has no joint, only colours, materials, constants or macros without joints";
+                let hint = "give the file that includes it".to_owned();
+                return refused(message, hint);
+            }
+            [one] => one,
+            several => {
+                let names: Vec<&str> = several.iter().map(|found| found.name.as_str()).collect();
+                let hint = format!(
+                    "write a file that includes this one and calls one of them: {}",
+                    names.join(", ")
+                );
+                return refused("the file defines several robot macros and calls none", hint);
+            }
+        };
+        let without_default = |word: &&str| !word.contains('=') && *word != "prefix";
+        let needed: Vec<&str> = found.params.split_whitespace().filter(without_default).collect();
+        if !needed.is_empty() {
+            let message = format!("macro `{}` wants values for {}", found.name, needed.join(", "));
+            let hint = format!(
+                "write a file that includes this one and calls it: <xacro:{} prefix=\"\" {}=\"...\"/>",
+                found.name,
+                needed.join("=\"...\" ")
+            );
+            let place = if found.of_main {
+                found.place.clone()
+            } else {
+                xml::tag(root)
+            };
+            return Err(self.main.problem(place, message, Some(hint)).into());
+        }
+        let takes_prefix = found
+            .params
+            .split_whitespace()
+            .any(|word| word.split([':', '=']).next() == Some("prefix"));
+        let prefix = if takes_prefix { " prefix=\"\"" } else { "" };
+        Ok(format!("<xacro:{}{prefix}/>", found.name))
+    }
+}
+
+fn is_xacro(node: Node<'_, '_>) -> bool {
+    node.tag_name()
+        .namespace()
+        .is_some_and(|uri| uri.contains("xacro"))
+}
+
+/// Whether this is an element of URDF itself, of this name.
+fn is_plain(node: Node<'_, '_>, name: &str) -> bool {
+    node.is_element() && node.tag_name().name() == name && !is_xacro(node)
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
+}

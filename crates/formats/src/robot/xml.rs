@@ -1,0 +1,122 @@
+//! XML with the place of everything that is wrong in it: the ground of URDF and xacro.
+
+use std::ops::Range;
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use crate::document::{Problems, Source};
+
+/// More elements, attributes and texts than this are no robot: the largest of ROS-Industrial has 2000.
+const MOST_NODES: u32 = 1_000_000;
+
+/// The tree of an XML text.
+///
+/// # Errors
+/// What is not well-formed, at its place.
+pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
+    let options = ParsingOptions {
+        nodes_limit: MOST_NODES,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(source.text(), options).map_err(|error| {
+        let at = offset(source.text(), error.pos().row, error.pos().col);
+        // The place stands before the message already.
+        let text = error.to_string();
+        let message = text
+            .rsplit_once(" at ")
+            .map_or(text.as_str(), |(before, _)| before);
+        let hint =
+            "the XML is broken there or just before: a tag left open, a quote or `<` too many".to_owned();
+        source
+            .problem(at..at, format!("not XML: {message}"), Some(hint))
+            .into()
+    })
+}
+
+/// The byte at a line and column, both counted from 1.
+fn offset(text: &str, row: u32, column: u32) -> usize {
+    let before: usize = text
+        .split_inclusive('\n')
+        .take(row.saturating_sub(1) as usize)
+        .map(str::len)
+        .sum();
+    let rest = text.get(before..).unwrap_or_default();
+    let within = rest.char_indices().nth(column.saturating_sub(1) as usize);
+    before + within.map_or(rest.len(), |(at, _)| at)
+}
+
+/// The elements inside `node` that are called `name`, whatever their namespace.
+pub(super) fn children<'a, 'input: 'a>(
+    node: Node<'a, 'input>,
+    name: &'a str,
+) -> impl Iterator<Item = Node<'a, 'input>> {
+    node.children()
+        .filter(move |child| child.is_element() && child.tag_name().name() == name)
+}
+
+/// Where the start tag of an element stands.
+pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
+    let start = node.range().start;
+    start..start + 1 + node.tag_name().name().len()
+}
+
+/// Where the value of an attribute stands; the start tag if there is no such attribute.
+pub(super) fn value_place(node: Node<'_, '_>, attribute: &str) -> Range<usize> {
+    node.attribute_node(attribute)
+        .map_or_else(|| tag(node), |found| found.range_value())
+}
+
+/// The text of an attribute that must be there.
+///
+/// # Errors
+/// The attribute is missing.
+pub(super) fn required<'a>(
+    source: &Source,
+    node: Node<'a, '_>,
+    attribute: &str,
+) -> Result<&'a str, Problems> {
+    node.attribute(attribute).ok_or_else(|| {
+        let message = format!("<{}> has no attribute `{attribute}`", node.tag_name().name());
+        source.problem(tag(node), message, None).into()
+    })
+}
+
+/// The numbers of an attribute, or `default` where it is left out.
+///
+/// # Errors
+/// Another count of numbers than wanted, or what is no finite number.
+pub(super) fn numbers<const N: usize>(
+    source: &Source,
+    node: Node<'_, '_>,
+    attribute: &str,
+    default: [f64; N],
+) -> Result<[f64; N], Problems> {
+    let Some(text) = node.attribute(attribute) else {
+        return Ok(default);
+    };
+    let refused = |message: String| -> Problems {
+        let hint = if text.contains("${") || text.contains("$(") {
+            "an expression that was not worked out: save the file with the ending .xacro"
+        } else {
+            "numbers with a decimal point, blanks between them"
+        };
+        source
+            .problem(value_place(node, attribute), message, Some(hint.to_owned()))
+            .into()
+    };
+    let values: Vec<f64> = text
+        .split_whitespace()
+        .map(|word| match word.parse::<f64>() {
+            Ok(value) if value.is_finite() => Ok(value),
+            _ => Err(refused(format!(
+                "`{word}` in {attribute}=\"{text}\" is not a number"
+            ))),
+        })
+        .collect::<Result<_, _>>()?;
+    let count = values.len();
+    <[f64; N]>::try_from(values).map_err(|_| {
+        refused(format!(
+            "{attribute}=\"{text}\" has {count} numbers where {N} are wanted"
+        ))
+    })
+}
