@@ -1,9 +1,10 @@
-//! Robot descriptions in: our own robot file, and URDF.
+//! Robot descriptions in: our own robot file, and URDF; poses as pendants show them.
 //!
 //! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
 //! [`RobotDescription`]: the robot of the core, with the source of its numbers.
 
 pub mod armill;
+pub mod pendant;
 pub mod urdf;
 
 mod description;
