@@ -5,6 +5,8 @@ pub(crate) mod completions;
 pub(crate) mod new;
 pub(crate) mod pose;
 pub(crate) mod robots;
+pub(crate) mod robots_check;
+pub(crate) mod robots_list;
 pub(crate) mod run;
 
 mod drawing;
