@@ -1,6 +1,7 @@
 //! `armill new`: a commented study that runs.
 
-use armill_core::robot::reach;
+use armill_core::robot::forward::forward;
+use armill_core::robot::{Robot, reach};
 use armill_formats::file::{create_folder, write_atomically};
 use armill_study::{ComplianceClass, StudyError, library, robots};
 
@@ -19,6 +20,8 @@ class = \"CLASS\"
 
 /// Reach of the arm that the plate of the template fits, m: Yaskawa MH12.
 const REACH_OF_TEMPLATE: f64 = 1.44;
+/// Height of its second axis, mm.
+const SHOULDER_OF_TEMPLATE: f64 = 450.0;
 
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
@@ -48,7 +51,7 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
         None => COMPLIANCE.replace("CLASS", class.name()),
     };
     let robot = toml_string(&robot_for(&arguments.robot)?);
-    let text = scaled(reach(&found.robot).unwrap_or(REACH_OF_TEMPLATE))
+    let text = scaled(&found.robot)
         .replace("\"ROBOT\"", &robot)
         .replace("# COMPLIANCE\n", &compliance);
     create_folder(&arguments.dir)?;
@@ -64,11 +67,15 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// The template with its plate in the same place of the working range for an arm of this reach, m.
-fn scaled(reach: f64) -> String {
-    let factor = reach / REACH_OF_TEMPLATE;
+/// The template with its plate in the same place of the working range of `robot`.
+fn scaled(robot: &Robot) -> String {
+    let factor = reach(robot).unwrap_or(REACH_OF_TEMPLATE) / REACH_OF_TEMPLATE;
     let scaled = |mm: f64, step: f64| (mm * factor / step).round().max(1.0) * step;
-    let [x, z, half] = [scaled(1000.0, 50.0), scaled(800.0, 50.0), scaled(200.0, 20.0)];
+    let shoulder = forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z * 1e3;
+    // An arm with a low shoulder does not get as high as it gets far.
+    let height = (800.0 * factor).min(shoulder + (800.0 - SHOULDER_OF_TEMPLATE) * factor);
+    let [x, half] = [scaled(1000.0, 50.0), scaled(200.0, 20.0)];
+    let z = (height / 50.0).round().max(1.0) * 50.0;
     let distances =
         [-200.0, -100.0, 0.0, 100.0].map(|mm| (x + (mm * factor / 10.0).round() * 10.0).to_string());
     TEMPLATE

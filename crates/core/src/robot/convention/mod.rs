@@ -82,3 +82,6 @@ pub struct Comparison<'a> {
     /// How far a reading may lie from its prediction and still agree.
     pub within: Apart,
 }
+
+#[cfg(test)]
+mod tests;
