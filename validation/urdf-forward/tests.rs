@@ -1,5 +1,10 @@
 //! The case holds; and so do the files of the makers, where they are at hand.
 
+#[path = "library.rs"]
+mod library;
+#[path = "xacro.rs"]
+mod xacro;
+
 use std::path::{Path, PathBuf};
 
 use super::{apart, checks, read};

@@ -45,6 +45,7 @@ impl Command {
             Command::New(a) => a.json,
             Command::Robots(a) => match &a.action {
                 Some(RobotsAction::Import(import)) => import.json,
+                Some(RobotsAction::Check(check)) => check.json,
                 None => a.json,
             },
             Command::Pose(a) => a.json,
@@ -123,7 +124,8 @@ Examples:
   armill robots
   armill robots yaskawa/mh12
   armill robots my-arm.urdf --drawing arm.svg
-  armill robots import my-arm.urdf --out my-arm.toml"
+  armill robots import my-arm.urdf --out my-arm.toml
+  armill robots check --help"
 )]
 pub(crate) struct RobotsArguments {
     #[command(subcommand)]
@@ -142,6 +144,8 @@ pub(crate) struct RobotsArguments {
 pub(crate) enum RobotsAction {
     /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain
     Import(ImportArguments),
+    /// Compare a robot file with poses read from its pendant, and say which sign, zero or base differs
+    Check(RobotsCheckArguments),
 }
 
 #[derive(Debug, Args)]
@@ -175,6 +179,50 @@ pub(crate) struct ImportArguments {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "\
+A reading is joint positions, then the pose that the pendant shows with them: X,Y,Z in mm and the orientation
+kuka A,B,C; fanuc W,P,R; yaskawa and staubli Rx,Ry,Rz (deg); abb q1,q2,q3,q4; ur rotation vector (rad).
+Read two or three poses with every joint well away from 0 and 90 deg, base and world frame of the robot, tool 0.
+
+Examples:
+  armill robots check yaskawa/mh12 --convention yaskawa --pose \"10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09\"")]
+pub(crate) struct RobotsCheckArguments {
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
+    pub robot: String,
+    /// What the pendant shows: joints = pose; give it once a reading
+    #[arg(
+        long,
+        value_name = "J1,... = X,Y,Z,...",
+        required = true,
+        allow_hyphen_values = true
+    )]
+    pub pose: Vec<String>,
+    /// Whose pendant: kuka, abb, fanuc, yaskawa, staubli, ur
+    #[arg(long, value_name = "MAKER")]
+    pub convention: String,
+    /// Flange to TCP that the pendant had active
+    #[arg(
+        long,
+        value_name = "X,Y,Z[,RX,RY,RZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub tool_mm: Option<Vec<f64>>,
+    /// Frame that the pendant is believed to count from
+    #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
+    pub base: String,
+    /// Distance within which a reading agrees
+    #[arg(long, value_name = "D", default_value_t = 1.0, allow_hyphen_values = true)]
+    pub within_mm: f64,
+    /// Angle within which a reading agrees
+    #[arg(long, value_name = "A", default_value_t = 0.1, allow_hyphen_values = true)]
+    pub within_deg: f64,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
     after_help = "\
@@ -186,7 +234,8 @@ Joints are in the robot file's own signs and zeros. Heights count from base_link
 Examples:
   armill pose yaskawa/mh12 --joints-deg 0,11.6,-27.8,0,39.4,0
   armill pose yaskawa/mh12 --at-mm 1000,0,800 --tilt-deg 90 --tool-mm 0,0,150 --wrench-n 3,5,5
-  armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json"
+  armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json
+  armill pose kuka/kr16-2 --at-mm 1000,0,900 --compliance-class light --wrench-n 0,0,-50"
 )]
 pub(crate) struct PoseArguments {
     /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
@@ -255,6 +304,9 @@ pub(crate) struct PoseArguments {
         allow_hyphen_values = true
     )]
     pub compliance_rad_per_n_m: Option<Vec<f64>>,
+    /// Assumed joint compliances by payload: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg)
+    #[arg(long, value_name = "CLASS", conflicts_with = "compliance_rad_per_n_m")]
+    pub compliance_class: Option<String>,
     /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,

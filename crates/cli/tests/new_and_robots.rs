@@ -8,8 +8,13 @@ use cell::{Cell, LEVER, MH12_URDF, number, numbers, what_is_half};
 fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
     let cell = Cell::new();
     let robots = cell.armill(&["robots", "--json"]).fine().json();
-    assert!(robots.as_array().unwrap().len() >= 2);
-    for (index, robot) in robots.as_array().unwrap().iter().enumerate() {
+    assert!(robots.as_array().unwrap().len() >= 25);
+    let with_inverse = robots
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|robot| robot["closed_form_inverse"] == true);
+    for (index, robot) in with_inverse.enumerate() {
         let (name, folder) = (robot["name"].as_str().unwrap(), format!("cell {index}"));
         cell.armill(&["new", &folder, "--robot", name]).fine();
         let text = std::fs::read_to_string(cell.at(&folder).join("study.toml")).unwrap();
@@ -101,6 +106,24 @@ fn the_library_is_listed_with_what_is_known_of_each_robot() {
         "{}",
         said.out
     );
+}
+
+#[test]
+fn the_list_of_robots_stays_within_a_line_each() {
+    let said = Cell::new().armill(&["robots"]).fine();
+    let widths: Vec<usize> = said.out.lines().map(|line| line.chars().count()).collect();
+    assert!(
+        widths.len() >= 25 && widths.iter().all(|width| *width <= 120),
+        "{}",
+        said.out
+    );
+    for words in [
+        "120 kg  2501 mm  inverse yes",
+        "Universal Robots UR10e",
+        "inverse no",
+    ] {
+        assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
+    }
 }
 
 #[test]

@@ -1,20 +1,25 @@
 //! What a user asks of armill, from the file to the answer.
 //!
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
-//! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`pose`] answers for a single pose.
-//! The robot library and the example studies travel inside the program ([`library`]).
+//! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`pose`] answers for a single pose,
+//! [`pendant`] compares a robot file with what its pendant shows.
+//! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
+//! joint compliances from it where none are known.
 //!
 //! Everything here is the same whatever the surface: command, Python and web return these bytes.
 
 pub mod answer;
+pub mod compliance_class;
 pub mod error;
 pub mod file;
 pub mod library;
 pub mod output;
+pub mod pendant;
 pub mod pose;
 pub mod robots;
 pub mod run;
 
+pub use compliance_class::ComplianceClass;
 pub use error::{ErrorKind, StudyError};
 pub use file::resolve::Study;
 

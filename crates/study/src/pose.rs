@@ -27,6 +27,8 @@ pub struct PoseQuestion {
     pub wrench: Option<Wrench>,
     /// Frame that positions count from.
     pub base: String,
+    /// What to say of compliances that are assumed, if they are.
+    pub caution: Option<String>,
 }
 
 /// Joints, or where the tool should be.
@@ -54,6 +56,8 @@ pub struct PoseAnswer {
     pub base: String,
     /// Names of the joints.
     pub joint_names: Vec<String>,
+    /// Whether the joint compliances are assumed, not measured.
+    pub compliance_assumed: bool,
     /// Every posture; empty where unreachable.
     pub postures: Vec<PostureAnswer>,
     /// Why there is no posture.
@@ -183,12 +187,13 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
         robot: robot.name().to_owned(),
         base: question.base.clone(),
         joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        compliance_assumed: question.caution.is_some(),
         postures: found
             .iter()
             .map(|p| posture_answer(described, question, &base_from_counted, p))
             .collect(),
         unreachable,
-        notes: notes(described),
+        notes: notes(described, question),
         sources: described.sources.clone(),
     })
 }
@@ -304,10 +309,10 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     }
 }
 
-fn notes(described: &RobotDescription) -> Vec<String> {
-    let mut notes: Vec<String> = described.note.iter().cloned().collect();
+fn notes(described: &RobotDescription, question: &PoseQuestion) -> Vec<String> {
+    let mut notes: Vec<String> = question.caution.iter().chain(&described.note).cloned().collect();
     if described.robot.compliance().is_none() {
-        notes.push("no joint compliance is known: give one with --compliance-rad-per-n-m".to_owned());
+        notes.push("no joint compliance is known: identify it from load tests (`armill identify`) and give it with --compliance-rad-per-n-m, or assume one with --compliance-class light|medium|heavy".to_owned());
     }
     notes
 }

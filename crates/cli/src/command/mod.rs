@@ -2,10 +2,12 @@
 
 pub(crate) mod check;
 pub(crate) mod completions;
-pub(crate) mod import;
 pub(crate) mod new;
 pub(crate) mod pose;
 pub(crate) mod robots;
+pub(crate) mod robots_check;
+pub(crate) mod robots_import;
+pub(crate) mod robots_list;
 pub(crate) mod run;
 
 mod drawing;

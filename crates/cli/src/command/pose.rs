@@ -7,7 +7,7 @@ use armill_core::workpiece::Plane;
 use armill_study::file::quantities::pose_mm_deg;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
-use armill_study::{StudyError, robots};
+use armill_study::{ComplianceClass, StudyError, robots};
 
 use crate::Outcome;
 use crate::arguments::PoseArguments;
@@ -32,6 +32,14 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         };
         found.robot = found.robot.with_compliance(given).map_err(refused)?;
     }
+    let mut caution = None;
+    if let Some(name) = &arguments.compliance_class {
+        let class = ComplianceClass::named(name)?;
+        let assumed = class.compliance_of(&found.robot)?;
+        caution = Some(class.caution()?);
+        let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
+        found.robot = found.robot.with_compliance(assumed).map_err(refused)?;
+    }
     let question = PoseQuestion {
         at: at(arguments)?,
         flange_from_tool: pose_mm_deg(&padded(
@@ -40,6 +48,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         )?),
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
         base: arguments.base.clone(),
+        caution,
     };
     let answer = answer(&found, &question)?;
     if let Some(file) = &arguments.drawing {
@@ -96,7 +105,7 @@ fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
 }
 
 /// Three numbers, or six; the last three are 0 if left out.
-fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
+pub(super) fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
     finite(flag, values)?;
     match values {
         [x, y, z] => Ok([*x, *y, *z, 0.0, 0.0, 0.0]),
@@ -111,7 +120,7 @@ fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
 /// No length, angle or force of a real cell is larger, in the units of the flags.
 const LARGEST: f64 = 1e9;
 
-fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
+pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
     if let Some(value) = values.iter().find(|value| !value.is_finite()) {
         return Err(StudyError::value(
             format!("{flag}: {value} is not a finite number"),

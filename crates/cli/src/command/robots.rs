@@ -1,9 +1,9 @@
-//! `armill robots`: the library, one robot with everything that is known of it, or the import of one.
+//! `armill robots`: one robot with everything that is known of it.
 
-use armill_core::robot::{Amount, Axis, Motion};
+use armill_core::robot::{Amount, Axis, Motion, reach};
 use armill_formats::robot::RobotDescription;
 use armill_study::output::arm_drawing;
-use armill_study::{StudyError, library, robots};
+use armill_study::{StudyError, robots};
 use serde_json::{Value, json};
 
 use crate::Outcome;
@@ -11,11 +11,13 @@ use crate::arguments::{RobotsAction, RobotsArguments};
 use crate::terminal::print;
 
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
-    if let Some(RobotsAction::Import(import)) = &arguments.action {
-        return super::import::run(import);
+    match &arguments.action {
+        Some(RobotsAction::Import(import)) => return super::robots_import::run(import),
+        Some(RobotsAction::Check(check)) => return super::robots_check::run(check),
+        None => {}
     }
     let Some(name) = &arguments.name else {
-        return list(arguments.json);
+        return super::robots_list::run(arguments.json);
     };
     let found = robots::find(name, ".".as_ref())?;
     if let Some(file) = &arguments.drawing {
@@ -25,30 +27,6 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
         as_json(&found).to_string()
     } else {
         as_text(&found)
-    })?;
-    Ok(Outcome::Fine)
-}
-
-fn list(json: bool) -> Result<Outcome, StudyError> {
-    let mut lines = Vec::new();
-    let mut values = Vec::new();
-    for entry in library::ROBOTS {
-        let found = robots::find(entry.name, ".".as_ref())?;
-        let known = if found.robot.compliance().is_some() {
-            "known"
-        } else {
-            "not known"
-        };
-        lines.push(format!(
-            "{:<24} {:<28} joint compliance {known}",
-            entry.name, found.title
-        ));
-        values.push(json!({ "name": entry.name, "title": found.title, "compliance": found.robot.compliance().is_some() }));
-    }
-    print(&if json {
-        Value::from(values).to_string()
-    } else {
-        lines.join("\n")
     })?;
     Ok(Outcome::Fine)
 }
@@ -150,6 +128,7 @@ fn as_text(found: &RobotDescription) -> String {
         "none: forward only"
     };
     lines.push(format!("Inverse kinematics: {inverse}"));
+    lines.extend(reach(robot).map(|m| format!("Reach of the wrist centre from axis 1: {:.0} mm", m * 1e3)));
     lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
     for frame in robot.frames() {
         let at = frame.base_from_frame.translation.vector * 1e3;
@@ -215,6 +194,7 @@ fn as_json(found: &RobotDescription) -> Value {
         })).collect::<Vec<_>>(),
         "payload_kg": found.payload_kg,
         "assumed": found.remarks,
+        "reach_mm": reach(robot).map(|m| tidy(m * 1e3)),
         "sources": found.sources,
     })
 }

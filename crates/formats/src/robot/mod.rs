@@ -1,5 +1,5 @@
 //! Robot descriptions in: our own robot file, URDF, xacro, OPW parameters, Denavit-Hartenberg tables, chains of
-//! elementary motions.
+//! elementary motions; poses as pendants show them.
 //!
 //! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
 //! [`RobotDescription`]: the robot of the core, with the source of its numbers. [`format`](mod@format) tells which
@@ -10,6 +10,7 @@ pub mod dh;
 pub mod elementary;
 pub mod format;
 pub mod opw;
+pub mod pendant;
 pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;

@@ -60,6 +60,8 @@ pub struct RobotAnswer {
     pub name: String,
     /// Maker and type.
     pub title: String,
+    /// Whether its joint compliances are assumed by the study, not measured.
+    pub compliance_assumed: bool,
     /// Its joints, base to flange.
     pub joints: Vec<JointAnswer>,
 }
@@ -131,7 +133,7 @@ pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
 
 fn robot_answer(study: &Study) -> RobotAnswer {
     let robot = &study.robot.robot;
-    let own = study.own_compliance.as_ref().map(|(source, _)| source.clone());
+    let own = study.own_compliance.as_ref().map(|own| own.source.clone());
     let joint = |i: usize, joint: &armill_core::robot::Joint| {
         let compliance = robot.compliance().map(|c| c[i]);
         JointAnswer {
@@ -147,6 +149,7 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     RobotAnswer {
         name: robot.name().to_owned(),
         title: study.robot.title.clone(),
+        compliance_assumed: study.compliance_is_assumed(),
         joints: robot
             .joints()
             .iter()
@@ -168,7 +171,7 @@ fn sources(study: &Study) -> Vec<Source> {
         study
             .own_compliance
             .iter()
-            .map(|(source, _)| own("compliance", source)),
+            .map(|of_study| own("compliance", &of_study.source)),
     );
     sources.extend(study.load_source.iter().map(|source| own("load", source)));
     sources
@@ -176,9 +179,7 @@ fn sources(study: &Study) -> Vec<Source> {
 
 fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<String> {
     let mut warnings = Vec::new();
-    if study.own_compliance.as_ref().is_some_and(|(_, assumed)| *assumed) {
-        warnings.push("The joint compliances are assumed, not measured: every deviation here is a guess of that quality.".to_owned());
-    }
+    warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     for (i, joint) in study.robot.joints.iter().enumerate() {
         for ([lower, upper], source, note) in &joint.other_limits {
             let name = &study.robot.robot.joints()[i].name;

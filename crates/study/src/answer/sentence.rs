@@ -17,8 +17,7 @@ pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) ->
         maps.first().map(|m| of_map(study, m))
     };
     let sentence = sentence.unwrap_or_else(|| "Nothing was asked of a plane or a path.".to_owned());
-    let assumed = study.own_compliance.as_ref().is_some_and(|(_, assumed)| *assumed);
-    if assumed {
+    if study.compliance_is_assumed() {
         sentence + " The joint compliances are assumed, not measured."
     } else {
         sentence

@@ -5,6 +5,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::compliance_class::ComplianceClass;
+
 /// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -41,21 +43,22 @@ pub struct StudyFile {
     pub statement: Vec<StatementTable>,
 }
 
-/// Joint compliances brought by the study.
+/// Joint compliances brought by the study: one a joint, or those of a class.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ComplianceTable {
     /// One a joint, base to flange.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
-    pub rad_per_n_m: Vec<f64>,
+    pub rad_per_n_m: Option<Vec<f64>>,
     /// Standard uncertainty, one a joint.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub u_rad_per_n_m: Option<Vec<f64>>,
+    /// Assumed values by payload in place of `rad_per_n_m`: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg).
+    pub class: Option<ComplianceClass>,
     /// Where they come from.
-    pub source: String,
-    /// Whether they are a guess: every result then says so.
-    #[serde(default)]
-    pub assumed: bool,
+    pub source: Option<String>,
+    /// Whether they are a guess: every result then says so. Those of a class always are.
+    pub assumed: Option<bool>,
 }
 
 /// The tool on the flange.

@@ -1,8 +1,9 @@
 //! What a user writes: the study file, format 1.
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what
-//! each ask means, its [`quantities`] in SI.
+//! each ask means, its [`quantities`] in SI and the [`compliance`] that it brings.
 
+pub mod compliance;
 pub mod format;
 pub mod quantities;
 pub mod resolve;

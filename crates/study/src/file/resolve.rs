@@ -7,22 +7,19 @@ use armill_core::kernel::BranchChoice;
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::Point3;
 use armill_core::path::Shape;
-use armill_core::robot::JointCompliance;
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::robot::RobotDescription;
 
 use super::ask::Resolver;
-use super::format::{AskKind, AskTable, ComplianceTable, StatementTable, StudyFile};
+use super::compliance::{self, OwnCompliance};
+use super::format::{AskKind, AskTable, StatementTable, StudyFile};
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::places::Places;
 use crate::error::StudyError;
 use crate::robots;
-
-/// No joint of an arm yields more, rad/(N m).
-const MOST_COMPLIANT: f64 = 1.0;
 
 /// A study that can be run.
 #[derive(Clone, Debug)]
@@ -33,14 +30,23 @@ pub struct Study {
     pub question: Option<String>,
     /// The robot, with the compliance of the study if it brings one.
     pub robot: RobotDescription,
-    /// Compliances that the study brings: their source, and whether they are assumed.
-    pub own_compliance: Option<(String, bool)>,
+    /// Compliances that the study brings.
+    pub own_compliance: Option<OwnCompliance>,
     /// Where the load comes from.
     pub load_source: Option<String>,
     /// What is asked.
     pub asks: Vec<Ask>,
     /// What others state.
     pub statements: Vec<StatementTable>,
+}
+
+impl Study {
+    /// Whether the study brings joint compliances that nobody measured.
+    pub fn compliance_is_assumed(&self) -> bool {
+        self.own_compliance
+            .as_ref()
+            .is_some_and(|own| own.caution.is_some())
+    }
 }
 
 /// One ask, worked out.
@@ -159,7 +165,7 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
             .title
             .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
         question: file.question,
-        own_compliance: file.compliance.map(|c| (c.source, c.assumed)),
+        own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
         load_source: file.load.source,
         robot,
         asks,
@@ -224,70 +230,10 @@ fn find_robot(
             "maps need six joints in ortho-parallel order with a spherical wrist",
         );
     }
-    let joints = found.robot.joints().len();
-    match &file.compliance {
-        Some(table) => {
-            if let Some(compliance) = compliance(places, table, joints) {
-                let refused =
-                    |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-                found.robot = found.robot.with_compliance(compliance).map_err(refused)?;
-            }
-        }
-        None if found.robot.compliance().is_none() => {
-            let message = format!("no joint compliance is known for robot `{}`", file.robot);
-            let hint = "measure it, or add [compliance] with rad_per_n_m = [...] (one a joint), source = \"...\", assumed = true";
-            places.problem("robot", message, hint);
-        }
-        None => {}
+    let own = compliance::of_study(places, file, &found.robot)?;
+    if let Some(joints) = own {
+        let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
+        found.robot = found.robot.with_compliance(joints).map_err(refused)?;
     }
     Ok(Some(found))
-}
-
-fn compliance(
-    places: &mut Places<'_>,
-    table: &ComplianceTable,
-    joints: usize,
-) -> Option<Vec<JointCompliance>> {
-    let before = places.problems.len();
-    let lists = [
-        ("rad_per_n_m", Some(&table.rad_per_n_m)),
-        ("u_rad_per_n_m", table.u_rad_per_n_m.as_ref()),
-    ];
-    for (key, list) in lists {
-        let Some(list) = list else { continue };
-        let path = format!("compliance.{key}");
-        if list.len() != joints {
-            let message = format!("{} values for the {joints} joints of the robot", list.len());
-            places.problem(&path, message, "one a joint, base to flange; 0 for a rigid joint");
-        }
-        for (index, value) in list.iter().enumerate().filter(|(_, value)| **value < 0.0) {
-            let message = format!("{value} rad/(N m) is below 0");
-            places.problem(
-                &format!("{path}[{index}]"),
-                message,
-                "a joint yields with its load: 0 or more",
-            );
-        }
-        for (index, value) in list
-            .iter()
-            .enumerate()
-            .filter(|(_, value)| **value > MOST_COMPLIANT)
-        {
-            let message = format!("{value} rad/(N m) is above {MOST_COMPLIANT} rad/(N m)");
-            places.problem(
-                &format!("{path}[{index}]"),
-                message,
-                "the joints of an arm yield some 1e-6 rad/(N m)",
-            );
-        }
-    }
-    let u = table.u_rad_per_n_m.clone().unwrap_or_else(|| vec![0.0; joints]);
-    (places.problems.len() == before).then(|| {
-        let both = table.rad_per_n_m.iter().zip(u);
-        both.map(|(value, u)| JointCompliance {
-            value: *value,
-            standard_uncertainty: u,
-        })
-        .collect()
-    })
 }

@@ -72,7 +72,12 @@ fn inputs(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
             "{:.3e} ± {:.1e}",
             joint.compliance_rad_per_n_m, joint.compliance_u_rad_per_n_m
         );
-        let name = format!("compliance of joint {}", joint.name);
+        let assumed = if answer.robot.compliance_assumed {
+            ", assumed"
+        } else {
+            ""
+        };
+        let name = format!("compliance of joint {}{assumed}", joint.name);
         inputs.push(input(&name, value, "rad/(N m)", &place(&joint.compliance_source)));
     }
     let settings = answer

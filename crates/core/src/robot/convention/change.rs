@@ -1,0 +1,131 @@
+//! What may differ between a robot file and its pendant, and the joint positions that follow.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::robot::Robot;
+
+/// One difference between file and pendant: what the file would have to say in place of what it says.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// The joint counts the other way.
+    Sign {
+        /// Index of the joint.
+        joint: usize,
+    },
+    /// The joint's zero stands elsewhere: its chain position is `by` (rad) more at every count.
+    Zero {
+        /// Index of the joint.
+        joint: usize,
+        /// How much, rad.
+        by: f64,
+        /// Whether the value was found from the readings, not taken from the quarter turns.
+        free: bool,
+    },
+    /// The joint counts an earlier joint in, by this factor more than the file says.
+    Coupling {
+        /// Index of the joint.
+        joint: usize,
+        /// Index of the earlier joint.
+        other: usize,
+        /// Factor on top of the file's.
+        factor: f64,
+    },
+    /// The pendant's base lies higher than the frame it was believed to be, by this, m.
+    BaseHeight {
+        /// How much, m.
+        by: f64,
+    },
+    /// The pendant's base lies elsewhere, m.
+    BaseShift {
+        /// From the believed frame to the pendant's.
+        by: Vector3<f64>,
+    },
+    /// The pendant's flange frame is turned against the file's.
+    FlangeTurn {
+        /// File's flange to pendant's flange.
+        turn: UnitQuaternion<f64>,
+    },
+    /// Positions were read in inches.
+    Inches,
+}
+
+impl Change {
+    /// How much it counts against an explanation.
+    pub fn count(&self) -> usize {
+        match self {
+            Change::BaseShift { .. } | Change::Zero { free: true, .. } => 2,
+            _ => 1,
+        }
+    }
+
+    /// Whether both are about the same thing of the same joint, so that no explanation needs both.
+    fn excludes(&self, other: &Change) -> bool {
+        match (self, other) {
+            (Change::Zero { joint: a, .. }, Change::Zero { joint: b, .. })
+            | (Change::Sign { joint: a }, Change::Sign { joint: b })
+            | (Change::Coupling { joint: a, .. }, Change::Coupling { joint: b, .. }) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// Every change of a joint's counting that is tried without a free value.
+pub fn joint_changes(robot: &Robot) -> Vec<Change> {
+    let turning: Vec<usize> = (0..robot.joints().len()).filter(|&i| !robot.slides(i)).collect();
+    let mut changes = Vec::new();
+    for &joint in &turning {
+        changes.push(Change::Sign { joint });
+        let quarters = [1.0, -1.0, 2.0].map(|quarters| quarters * FRAC_PI_2);
+        changes.extend(quarters.map(|by| Change::Zero {
+            joint,
+            by,
+            free: false,
+        }));
+    }
+    if let [_, other, joint, ..] = turning[..] {
+        changes.extend([1.0, -1.0].map(|factor| Change::Coupling { joint, other, factor }));
+    }
+    changes
+}
+
+/// Every set of `count` of these changes that fits together.
+pub fn sets(changes: &[Change], count: usize) -> Vec<Vec<Change>> {
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let mut found = Vec::new();
+    for (index, change) in changes.iter().enumerate() {
+        for mut rest in sets(&changes[index + 1..], count - 1) {
+            if !rest.iter().any(|other| change.excludes(other)) {
+                rest.insert(0, *change);
+                found.push(rest);
+            }
+        }
+    }
+    found
+}
+
+/// The positions at which the file's joints stand where the changed ones stand at `read` (rad, m).
+pub fn positions_of_the_file(robot: &Robot, changes: &[Change], read: &[f64]) -> Vec<f64> {
+    let mut positions: Vec<f64> = Vec::with_capacity(read.len());
+    for index in 0..read.len() {
+        let offset = robot.joints()[index].zero_offset;
+        let mut counted = robot.theta(index, read) - offset;
+        let (mut turned, mut sign) = (0.0, 1.0);
+        for change in changes {
+            match *change {
+                Change::Coupling { joint, other, factor } if joint == index => {
+                    counted += robot.joints()[index].sign.factor() * factor * read[other];
+                }
+                Change::Sign { joint } if joint == index => sign = -1.0,
+                Change::Zero { joint, by, .. } if joint == index => turned += by,
+                _ => {}
+            }
+        }
+        let theta = sign * counted + offset + turned;
+        positions.push(robot.joint_position(index, theta, &positions));
+    }
+    positions
+}

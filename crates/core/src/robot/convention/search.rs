@@ -1,0 +1,215 @@
+//! The simplest set of changes that explains every reading.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::Translation3;
+
+use super::change::{Change, joint_changes, positions_of_the_file, sets};
+use super::frames::{Free, FreeBase, fit};
+use super::{Apart, Comparison};
+use crate::frame::Isometry;
+use crate::robot::forward::{forward, joint_axis};
+use crate::robot::inverse::posture_at;
+
+/// Largest count of changes that is searched: beyond it a file is better typed anew than mended.
+const MOST: usize = 5;
+
+/// A set of changes with which the readings agree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Explanation {
+    /// What the file would have to say otherwise; empty if it is right.
+    pub changes: Vec<Change>,
+    /// How far the readings then lie away at the most.
+    pub apart: Apart,
+}
+
+/// What the readings say of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Verdict {
+    /// One explanation is simpler than any other; without changes, the file agrees.
+    Explained {
+        /// The changes.
+        explanation: Explanation,
+        /// Single changes that would not show in these readings, such as the sign of a joint that stood at zero.
+        unseen: Vec<Change>,
+    },
+    /// Several explanations are equally simple: more readings are needed.
+    Undecided(Vec<Explanation>),
+    /// Nothing in the list explains the readings.
+    Unexplained,
+}
+
+/// What came out of a comparison.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inspection {
+    /// How far each reading lies from what the file makes of its joints.
+    pub as_the_file_has_it: Vec<Apart>,
+    /// What follows.
+    pub verdict: Verdict,
+}
+
+/// Compares readings with a file, and searches for what differs.
+///
+/// # Panics
+/// If a reading has another number of joints than the robot.
+pub fn inspect(comparison: &Comparison<'_>) -> Inspection {
+    let as_the_file_has_it = comparison.readings.iter().map(|reading| {
+        let found = posture_at(comparison.robot, &reading.joints, comparison.flange_from_tool);
+        let read = comparison.base_from_counted * reading.counted_from_tool;
+        Apart::between(&found.base_from_tool, &read)
+    });
+    Inspection {
+        as_the_file_has_it: as_the_file_has_it.collect(),
+        verdict: verdict(comparison),
+    }
+}
+
+fn verdict(comparison: &Comparison<'_>) -> Verdict {
+    let listed = joint_changes(comparison.robot);
+    for count in 0..=MOST {
+        let mut found = explanations(comparison, &listed, count);
+        found.sort_by(|a, b| a.apart.metres.total_cmp(&b.apart.metres));
+        match found.len() {
+            0 => {}
+            1 => {
+                let explanation = found.remove(0);
+                let unseen = unseen(comparison, &listed, &explanation);
+                return Verdict::Explained { explanation, unseen };
+            }
+            _ => return Verdict::Undecided(found),
+        }
+    }
+    Verdict::Unexplained
+}
+
+/// Every explanation that counts `count`.
+fn explanations(comparison: &Comparison<'_>, listed: &[Change], count: usize) -> Vec<Explanation> {
+    let mut found = Vec::new();
+    for of_frames in 0..=count {
+        let free = Free::counting(of_frames);
+        if free.is_empty() {
+            break;
+        }
+        for joints in sets(listed, count - of_frames) {
+            found.extend(
+                free.iter()
+                    .filter_map(|free| explained_by(comparison, &joints, *free)),
+            );
+        }
+        // A zero of any value counts 2; with a turned flange it could not be told from the turn.
+        if let Some(others) = (count - of_frames).checked_sub(2) {
+            for joints in sets(listed, others) {
+                for free in free.iter().filter(|free| !free.flange) {
+                    found.extend(with_one_zero_free(comparison, &joints, *free));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// These changes of joints with the best of these frames, if all readings then agree.
+fn explained_by(comparison: &Comparison<'_>, joints: &[Change], free: Free) -> Option<Explanation> {
+    let flanges = flanges(comparison, joints);
+    let (frames, apart) = fit(comparison, &flanges, free)?;
+    apart.is_within(&comparison.within).then(|| Explanation {
+        changes: joints.iter().copied().chain(frames).collect(),
+        apart,
+    })
+}
+
+/// These changes and the zero of one more joint, off by the angle that the first reading's orientation asks for.
+fn with_one_zero_free(comparison: &Comparison<'_>, joints: &[Change], free: Free) -> Vec<Explanation> {
+    let robot = comparison.robot;
+    let Some(first) = comparison.readings.first() else {
+        return Vec::new();
+    };
+    let positions = positions_of_the_file(robot, joints, &first.joints);
+    let frames = forward(robot, &positions);
+    let found = posture_at(robot, &positions, comparison.flange_from_tool);
+    let read = comparison.base_from_counted.rotation * first.counted_from_tool.rotation;
+    let turned = (read * found.base_from_tool.rotation.inverse()).scaled_axis();
+    let zero_of = |joint: usize| {
+        let by = turned.dot(&joint_axis(robot, &frames, joint));
+        let has_zero = joints
+            .iter()
+            .any(|change| matches!(change, Change::Zero { joint: other, .. } if *other == joint));
+        // An angle below the tolerance is no change; a quarter turn is in the list.
+        let from_quarter = by - (by / FRAC_PI_2).round() * FRAC_PI_2;
+        let free = from_quarter.abs() > comparison.within.radians;
+        (free && !has_zero && !robot.slides(joint)).then_some(Change::Zero {
+            joint,
+            by,
+            free: true,
+        })
+    };
+    (0..robot.joints().len())
+        .filter_map(zero_of)
+        .filter_map(|zero| {
+            let joints: Vec<Change> = joints.iter().copied().chain([zero]).collect();
+            explained_by(comparison, &joints, free)
+        })
+        .collect()
+}
+
+/// Single changes of joints that leave every reading explained.
+fn unseen(comparison: &Comparison<'_>, listed: &[Change], explanation: &Explanation) -> Vec<Change> {
+    let (joints, frames): (Vec<Change>, Vec<Change>) =
+        explanation.changes.iter().copied().partition(|change| {
+            matches!(
+                change,
+                Change::Sign { .. } | Change::Zero { .. } | Change::Coupling { .. }
+            )
+        });
+    let free = free_of(&frames);
+    // A turn of the flange that was found stays: fitted anew, it would hide any zero of the last joint.
+    let turned = frames.iter().find_map(|change| match change {
+        Change::FlangeTurn { turn } => Some(Isometry::from_parts(Translation3::identity(), *turn)),
+        _ => None,
+    });
+    let flange_from_tool = turned.unwrap_or_else(Isometry::identity) * comparison.flange_from_tool;
+    let comparison = &Comparison {
+        flange_from_tool: &flange_from_tool,
+        ..*comparison
+    };
+    let stays = |change: &&Change| {
+        let mut more = joints.clone();
+        match more.iter().position(|known| known == *change) {
+            // Its opposite: the same sign taken back.
+            Some(index) => {
+                more.remove(index);
+            }
+            None => more.push(**change),
+        }
+        explained_by(comparison, &more, free).is_some()
+    };
+    listed.iter().filter(stays).copied().collect()
+}
+
+/// The base and unit of these changes, to be found anew.
+fn free_of(frames: &[Change]) -> Free {
+    let mut free = Free::default();
+    for change in frames {
+        match change {
+            Change::BaseHeight { .. } => free.base = FreeBase::Height,
+            Change::BaseShift { .. } => free.base = FreeBase::Shift,
+            Change::Inches => free.inches = true,
+            _ => {}
+        }
+    }
+    free
+}
+
+/// The file's flange at each reading, its joints standing where the changed ones stand.
+fn flanges(comparison: &Comparison<'_>, joints: &[Change]) -> Vec<Isometry> {
+    let at = |read: &[f64]| {
+        let positions = positions_of_the_file(comparison.robot, joints, read);
+        let flange = forward(comparison.robot, &positions).base_from_flange;
+        Isometry::from_parts(flange.translation, flange.rotation.into())
+    };
+    comparison
+        .readings
+        .iter()
+        .map(|reading| at(&reading.joints))
+        .collect()
+}

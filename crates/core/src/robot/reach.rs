@@ -1,0 +1,99 @@
+//! How far an arm gets: the greatest distance of its wrist centre from its first axis.
+//!
+//! `reach = hypot(a1 + l2 + l3, b)`
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `a1` | distance between axes 1 and 2 | m |
+//! | `l2`, `l3` | upper arm (axis 2 to 3) and forearm (axis 3 to wrist centre), seen along axis 2 | m |
+//! | `b` | how far the wrist centre stands to the side of axis 1 | m |
+//!
+//! Makers name most arms by it (KR 120 R2500: 2.5 m). Joint limits are not looked at: an arm whose elbow cannot
+//! stretch gets less far.
+
+use nalgebra::{Point3, Vector3};
+
+use super::forward::{forward, joint_axis};
+use super::model::Robot;
+
+/// The reach of `robot`, m; `None` where it is no ortho-parallel arm with spherical wrist.
+pub fn reach(robot: &Robot) -> Option<f64> {
+    robot.ortho_parallel()?;
+    let frames = forward(robot, &vec![0.0; robot.joints().len()]);
+    let line = |i: usize| (frames.origin(i), joint_axis(robot, &frames, i));
+    let ((shoulder_1, z1), (shoulder_2, z2), (elbow, _)) = (line(0), line(1), line(2));
+    let wrist = nearest_point(line(3), line(4));
+    let seen_along_z2 = |v: Vector3<f64>| v - z2 * v.dot(&z2);
+    let a1 = (shoulder_2 - shoulder_1).dot(&z1.cross(&z2)).abs();
+    let links = seen_along_z2(elbow - shoulder_2).norm() + seen_along_z2(wrist - elbow).norm();
+    Some((a1 + links).hypot((wrist - shoulder_1).dot(&z2)))
+}
+
+/// The point of the first line nearest to the second; they must not be parallel.
+fn nearest_point(
+    (o1, z1): (Point3<f64>, Vector3<f64>),
+    (o2, z2): (Point3<f64>, Vector3<f64>),
+) -> Point3<f64> {
+    let normal = z1.cross(&z2);
+    o1 + z1 * ((o2 - o1).cross(&z2).dot(&normal) / normal.norm_squared())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Amount, Axis, Joint, Motion};
+
+    /// An arm of lengths 150, 600, 700 and 50 mm across, with its wrist 30 mm to the side.
+    fn arm(wrist_offset: f64) -> Robot {
+        let (along, about) = (
+            |axis, m| Motion::Along(axis, Amount::Constant(m)),
+            |axis, joint| Motion::About(axis, Amount::Joint(joint)),
+        );
+        let motions = vec![
+            along(Axis::Z, 0.4),
+            about(Axis::Z, 0),
+            along(Axis::X, 0.15),
+            about(Axis::Y, 1),
+            along(Axis::Z, 0.6),
+            about(Axis::Y, 2),
+            along(Axis::Y, 0.03),
+            along(Axis::Z, 0.05),
+            about(Axis::X, 3),
+            along(Axis::X, 0.7),
+            about(Axis::Y, 4),
+            along(Axis::Z, wrist_offset),
+            about(Axis::X, 5),
+        ];
+        Robot::new("arm", motions, vec![Joint::plain("j"); 6]).unwrap()
+    }
+
+    #[test]
+    fn stretched_links_and_the_offset_to_the_side_add_up() {
+        let expected = (0.15 + 0.6 + 0.7_f64.hypot(0.05)).hypot(0.03);
+        assert!((reach(&arm(0.0)).unwrap() - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn no_posture_brings_the_wrist_farther() {
+        let robot = arm(0.0);
+        let reach = reach(&robot).unwrap();
+        let mut farthest = 0.0_f64;
+        for i in 0..200 {
+            for j in 0..200 {
+                let q = [0.3, 0.0314 * f64::from(i), 0.0314 * f64::from(j), 0.0, 0.0, 0.0];
+                let wrist = forward(&robot, &q).origin(4);
+                farthest = farthest.max(wrist.x.hypot(wrist.y));
+            }
+        }
+        // A step of 1.8 deg at two joints misses the stretched arm by less than 1.4 m (1 - cos 1.8 deg) = 0.7 mm.
+        assert!(
+            farthest <= reach + 1e-12 && farthest > reach - 0.7e-3,
+            "{farthest} m of {reach} m"
+        );
+    }
+
+    #[test]
+    fn an_arm_without_spherical_wrist_has_none() {
+        assert_eq!(reach(&arm(0.1)), None);
+    }
+}
