@@ -11,6 +11,7 @@
 
 pub mod compliance;
 pub mod frame;
+pub mod identify;
 pub mod kernel;
 pub mod load;
 pub mod map;

@@ -9,6 +9,7 @@
 pub mod answer;
 pub mod error;
 pub mod file;
+pub mod identify;
 pub mod library;
 pub mod output;
 pub mod pose;

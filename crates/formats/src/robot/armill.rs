@@ -4,6 +4,7 @@
 
 mod checks;
 mod file;
+mod identified;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
@@ -14,6 +15,8 @@ use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
 use super::description::{JointNote, RobotDescription, Source};
 use crate::document::{Document, Problems};
+
+pub use self::identified::{IdentifiedSpring, Yields, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
