@@ -177,10 +177,11 @@ fn stated_uncertainties_cover_the_truth_as_often_as_they_say() {
             inside += usize::from((estimate.value - truth).abs() < 2.0 * estimate.standard_uncertainty);
         }
     }
-    // Two standard uncertainties of a normal error hold 95.4 %; with the scatter itself found from some 30 residuals
-    // 94.5 %, and with 12 tests a seventh of their information goes to robustness. 1200 draws scatter by 0.6 %.
+    // Two standard uncertainties of a normal error hold 95.4 %. With three readings a test robust weights of normal
+    // noise are 0.85 in the mean and enlarge the uncertainty by 1.08, which is more than they cost: 97 %. 1200 draws
+    // scatter by 0.6 %, and do not depend on the machine.
     let share = f64::from(inside as u32) / f64::from(all);
-    assert!((0.92..0.975).contains(&share), "{share}");
+    assert!((0.94..0.985).contains(&share), "{share}");
 }
 
 #[test]
@@ -188,7 +189,7 @@ fn uncertainties_of_all_springs_cover_the_truth() {
     let robot = arms::kr120();
     let unknowns = [drives(&robot), bending(&robot), base(&robot)].concat();
     let (mut inside, mut all) = (0, 0);
-    for seed in 0..40 {
+    for seed in 0..12 {
         let mut random = Random(20_000 + seed);
         let truth = some_sizes(&unknowns, &mut random);
         let mut tests = loads(&robot, 40, &mut random);
@@ -482,19 +483,24 @@ fn a_weak_prior_and_robust_weights_predict_real_tests_better() {
         })
         .collect();
     let with_gaps = [springs.clone(), lost_motion(&robot, &torques)].concat();
-    for (name, unknowns) in [("springs", &springs), ("springs and lost motion", &with_gaps)] {
-        for (name2, points) in [("known",Points::Known),("common",Points::Common(0.2)),("sep",Points::Separate(0.2))] {
-        let method = Method {
-            points,
-            ..usual()
-        };
-        let found = identify(&robot, unknowns, &tests, method).unwrap();
-        println!("{name} {name2}: {:.4?}, scale {}", errors(&tests, &found), found.scale);
-        for (u, e) in unknowns.iter().zip(&found.estimates) {
-            println!("{:?} {:?} {:.3e} +- {:.0} % known {:.2}", u.seat, u.role, e.value, 100.0*e.standard_uncertainty/e.value, e.known);
-        }
-        println!("{:?} {:?} {:?}", found.force_shift, found.measured_shift, found.together);
-        println!("{:?}", (0..43).filter(|t| found.tests[*t].outlier).map(|t| t+1).collect::<Vec<_>>());
+    // What plain least squares reach on the same tests, best of all its models: 10.5 %, 0.225 mm.
+    let rows = [
+        ("known points", &springs, Points::Known, [0.307, 16.5]),
+        ("common point", &springs, Points::Common(0.2), [0.208, 9.65]),
+        ("two points", &springs, Points::Separate(0.2), [0.205, 8.9]),
+        ("two points and lost motion", &with_gaps, Points::Separate(0.2), [0.203, 8.55]),
+    ];
+    for (name, unknowns, points, most) in rows {
+        let found = identify(&robot, unknowns, &tests, Method { points, ..usual() }).unwrap();
+        let [fit, rms, relative] = errors(&tests, &found);
+        println!("{name}: fit {fit:.4} mm, left out {rms:.4} mm, {relative:.2} %");
+        assert!(rms < most[0] && relative < most[1], "{name}: {rms} mm, {relative} %");
+        // No spring is rigid, none softer than a drive of a small arm.
+        let springs = found.estimates.iter().take(springs.len());
+        assert!(springs.clone().all(|e| e.value > 1e-8 && e.value < 1e-4), "{name}");
+        if points != Points::Known {
+            let outliers: Vec<usize> = (0..43).filter(|t| found.tests[*t].outlier).map(|t| t + 1).collect();
+            assert_eq!(outliers, [11], "{name}");
         }
     }
 }

@@ -7,6 +7,7 @@
 //! are all found anew.
 
 use nalgebra::{DMatrix, Vector3};
+use rayon::prelude::*;
 
 use super::effect::{Effects, State};
 use super::fit::{Method, Problem, Rest};
@@ -106,7 +107,7 @@ pub fn identify(
     let all: Vec<usize> = (0..tests.len()).collect();
     let rest = problem.at_rest(&all, &problem.start());
     let state = problem.state(&rest.x);
-    let outcomes = all.iter().map(|test| {
+    let outcomes = all.par_iter().map(|test| {
         let others: Vec<usize> = all.iter().copied().filter(|other| other != test).collect();
         let without = problem.state(&problem.at_rest(&others, &rest).x);
         test_outcome(&problem, *test, &rest, [&state, &without])
