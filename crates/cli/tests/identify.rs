@@ -28,8 +28,17 @@ fn filled_in(folder: &Path) {
     let (code, _, stderr) = armill(
         folder,
         &[
-            "identify", "--plan", "14", "--robot", "yaskawa/mh12", "--tool-mm", "0,60,150", "--unknowns", "drives",
-            "--out", "plan.csv",
+            "identify",
+            "--plan",
+            "14",
+            "--robot",
+            "yaskawa/mh12",
+            "--tool-mm",
+            "0,60,150",
+            "--unknowns",
+            "drives",
+            "--out",
+            "plan.csv",
         ],
     );
     assert_eq!(code, 0, "{stderr}");
@@ -55,8 +64,17 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
     let arguments = [
-        "identify", "tests.csv", "--robot", "yaskawa/mh12", "--tool-mm", "0,60,150", "--unknowns", "drives", "--out",
-        "mine.toml", "--json",
+        "identify",
+        "tests.csv",
+        "--robot",
+        "yaskawa/mh12",
+        "--tool-mm",
+        "0,60,150",
+        "--unknowns",
+        "drives",
+        "--out",
+        "mine.toml",
+        "--json",
     ];
     let (code, stdout, stderr) = armill(folder.path(), &arguments);
     assert_eq!(code, 0, "{stderr}");
@@ -67,11 +85,25 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
         // The table gives displacements to 1 um.
         assert!((value - 2e-6).abs() < 4.0 * u && u < 2e-7, "{spring}");
     }
-    assert!(answer["left_out"]["max_um"].as_f64().unwrap() < 3.0, "{}", answer["left_out"]);
+    assert!(
+        answer["left_out"]["max_um"].as_f64().unwrap() < 3.0,
+        "{}",
+        answer["left_out"]
+    );
     let written = std::fs::read_to_string(folder.path().join("mine.toml")).unwrap();
-    assert!(written.contains("14 load tests with 42 readings") && written.contains("tests.csv"), "{written}");
+    assert!(
+        written.contains("14 load tests with 42 readings") && written.contains("tests.csv"),
+        "{written}"
+    );
     assert!(!written.contains("[sources.paper]"), "{written}");
-    let pose = ["pose", "mine.toml", "--joints-deg", "0,11.6,-27.8,0,39.4,0", "--wrench-n", "3,5,5"];
+    let pose = [
+        "pose",
+        "mine.toml",
+        "--joints-deg",
+        "0,11.6,-27.8,0,39.4,0",
+        "--wrench-n",
+        "3,5,5",
+    ];
     let (code, stdout, stderr) = armill(folder.path(), &pose);
     assert_eq!(code, 0, "{stderr}");
     assert!(stdout.contains("deviation"), "{stdout}");
@@ -81,10 +113,26 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
 fn the_table_on_the_screen_names_every_spring_and_the_error_to_expect() {
     let folder = tempfile::tempdir().unwrap();
     filled_in(folder.path());
-    let arguments = ["identify", "tests.csv", "--robot", "yaskawa/mh12", "--tool-mm", "0,60,150"];
+    let arguments = [
+        "identify",
+        "tests.csv",
+        "--robot",
+        "yaskawa/mh12",
+        "--tool-mm",
+        "0,60,150",
+    ];
     let (code, stdout, stderr) = armill(folder.path(), &arguments);
     assert_eq!(code, 0, "{stderr}");
-    for part in ["S drive", "T drive", "L about z", "base about x", "left out", "outliers", "N m/rad", "not told apart"] {
+    for part in [
+        "S drive",
+        "T drive",
+        "L about z",
+        "base about x",
+        "left out",
+        "outliers",
+        "N m/rad",
+        "not told apart",
+    ] {
         assert!(stdout.contains(part), "{part} in\n{stdout}");
     }
 }
@@ -97,7 +145,14 @@ fn readings_a_thousand_times_too_large_are_refused_with_the_unit_as_reason() {
     for (unit, word) in [("_m,", "larger"), ("_um,", "smaller")] {
         let wrong = table.replace("dx_mm,dy_mm,dz_mm,e", &format!("dx{unit}dy{unit}dz{unit}e"));
         std::fs::write(folder.path().join("wrong.csv"), wrong).unwrap();
-        let arguments = ["identify", "wrong.csv", "--robot", "yaskawa/mh12", "--tool-mm", "0,60,150"];
+        let arguments = [
+            "identify",
+            "wrong.csv",
+            "--robot",
+            "yaskawa/mh12",
+            "--tool-mm",
+            "0,60,150",
+        ];
         let (code, stdout, stderr) = armill(folder.path(), &arguments);
         assert_eq!((code, stdout.as_str()), (2, ""), "{stderr}");
         assert!(stderr.contains("1000 times") && stderr.contains(word), "{stderr}");
@@ -115,10 +170,16 @@ fn tests_that_are_too_few_or_in_one_posture_are_refused_with_what_to_do() {
     std::fs::write(folder.path().join("few.csv"), lines[..3].join("\n")).unwrap();
     let (code, _, stderr) = armill(folder.path(), &["identify", "few.csv", "--robot", "yaskawa/mh12"]);
     assert_eq!(code, 2);
-    assert!(stderr.contains("6 readings for ") && stderr.contains("--unknowns drives"), "{stderr}");
+    assert!(
+        stderr.contains("6 readings for ") && stderr.contains("--unknowns drives"),
+        "{stderr}"
+    );
     let same: Vec<&str> = std::iter::once(lines[0]).chain([lines[1]; 12]).collect();
     std::fs::write(folder.path().join("same.csv"), same.join("\n")).unwrap();
-    let (code, _, stderr) = armill(folder.path(), &["identify", "same.csv", "--robot", "yaskawa/mh12"]);
+    let (code, _, stderr) = armill(
+        folder.path(),
+        &["identify", "same.csv", "--robot", "yaskawa/mh12"],
+    );
     assert_eq!(code, 2);
     assert!(stderr.contains("all 12 tests stand in one posture"), "{stderr}");
 }
@@ -130,7 +191,15 @@ fn problems_of_the_table_come_together_with_their_places_and_nothing_is_written(
     std::fs::write(folder.path().join("tests.csv"), table).unwrap();
     let (code, stdout, stderr) = armill(
         folder.path(),
-        &["identify", "tests.csv", "--robot", "yaskawa/mh12", "--out", "mine.toml", "--json"],
+        &[
+            "identify",
+            "tests.csv",
+            "--robot",
+            "yaskawa/mh12",
+            "--out",
+            "mine.toml",
+            "--json",
+        ],
     );
     assert_eq!(code, 2);
     for part in [
@@ -152,11 +221,48 @@ fn options_that_cannot_be_are_refused() {
     filled_in(folder.path());
     let cases: [(&[&str], &str); 6] = [
         (&["identify", "--robot", "yaskawa/mh12"], "required"),
-        (&["identify", "nowhere.csv", "--robot", "yaskawa/mh12"], "cannot read nowhere.csv"),
-        (&["identify", "tests.csv", "--robot", "yaskawa/mh12", "--unknowns", "springs"], "`springs` is no group"),
-        (&["identify", "tests.csv", "--robot", "yaskawa/mh12", "--unknowns", "bending"], "drives are missing"),
-        (&["identify", "--plan", "0", "--robot", "yaskawa/mh12"], "--plan 0 is not from 1 to 500"),
-        (&["identify", "--plan", "5", "--robot", "yaskawa/mh12", "--pull-n", "nan"], "--pull-n"),
+        (
+            &["identify", "nowhere.csv", "--robot", "yaskawa/mh12"],
+            "cannot read nowhere.csv",
+        ),
+        (
+            &[
+                "identify",
+                "tests.csv",
+                "--robot",
+                "yaskawa/mh12",
+                "--unknowns",
+                "springs",
+            ],
+            "`springs` is no group",
+        ),
+        (
+            &[
+                "identify",
+                "tests.csv",
+                "--robot",
+                "yaskawa/mh12",
+                "--unknowns",
+                "bending",
+            ],
+            "drives are missing",
+        ),
+        (
+            &["identify", "--plan", "0", "--robot", "yaskawa/mh12"],
+            "--plan 0 is not from 1 to 500",
+        ),
+        (
+            &[
+                "identify",
+                "--plan",
+                "5",
+                "--robot",
+                "yaskawa/mh12",
+                "--pull-n",
+                "nan",
+            ],
+            "--pull-n",
+        ),
     ];
     for (arguments, part) in cases {
         let (code, _, stderr) = armill(folder.path(), arguments);
@@ -192,9 +298,18 @@ fn real_tests_left_out_are_predicted_better_than_by_least_squares() {
     let Some(table) = fanuc_table() else { return };
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("fanuc.csv"), table).unwrap();
-    let robot = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/fanuc-identification/r2000ic.toml");
+    let robot =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/fanuc-identification/r2000ic.toml");
     let identify = |more: &[&str]| -> Value {
-        let start = ["identify", "fanuc.csv", "--robot", robot.to_str().unwrap(), "--json", "--tool-mm", "6.9,245.3,319.3"];
+        let start = [
+            "identify",
+            "fanuc.csv",
+            "--robot",
+            robot.to_str().unwrap(),
+            "--json",
+            "--tool-mm",
+            "6.9,245.3,319.3",
+        ];
         let (code, stdout, stderr) = armill(folder.path(), &[&start[..], more].concat());
         assert_eq!(code, 0, "{stderr}");
         serde_json::from_str(&stdout).unwrap()

@@ -9,12 +9,12 @@ use armill_core::identify::fit::Scatter;
 use armill_core::identify::outcome::{displacement_errors, measured_over_typical};
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{
-    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Seat, Unknown,
-    identify, plan,
+    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Seat,
+    Unknown, identify, plan,
 };
 use armill_core::nalgebra::{DMatrix, Vector3};
-use armill_core::robot::chain::Axis;
 use armill_core::robot::Robot;
+use armill_core::robot::chain::Axis;
 use armill_core::spatial::Wrench;
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
@@ -124,7 +124,10 @@ fn drives_are_found_exactly_where_nothing_scatters() {
         let found = identify(&robot, &unknowns, &tests, method).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
             // Residuals of 1e-9 of the largest reading count as rounding.
-            assert!((estimate.value / truth - 1.0).abs() < 1e-6, "{estimate:?} against {truth}");
+            assert!(
+                (estimate.value / truth - 1.0).abs() < 1e-6,
+                "{estimate:?} against {truth}"
+            );
         }
     }
 }
@@ -150,14 +153,24 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
     assert_eq!(found.together, [vec![3, 5, 12, 13]]);
     for (k, (estimate, truth)) in found.estimates.iter().zip(&truth.sizes).enumerate() {
         let open = found.together[0].contains(&k);
-        assert!(open || (estimate.value / truth - 1.0).abs() < 1e-4, "{estimate:?} against {truth}");
+        assert!(
+            open || (estimate.value / truth - 1.0).abs() < 1e-4,
+            "{estimate:?} against {truth}"
+        );
     }
     let sum = |of: &dyn Fn(usize) -> f64| of(3) + of(5);
     let (known, truth_of_both) = (sum(&|k| found.estimates[k].value), sum(&|k| truth.sizes[k]));
-    assert!((known / truth_of_both - 1.0).abs() < 1e-4, "{known} against {truth_of_both}");
+    assert!(
+        (known / truth_of_both - 1.0).abs() < 1e-4,
+        "{known} against {truth_of_both}"
+    );
     let (force, measured) = (found.force_shift.unwrap(), found.measured_shift.unwrap());
     assert!((force[0] - truth.force_shift).norm() < 1e-6, "{}", force[0]);
-    assert!((measured[0] - truth.measured_shift).norm() < 1e-6, "{}", measured[0]);
+    assert!(
+        (measured[0] - truth.measured_shift).norm() < 1e-6,
+        "{}",
+        measured[0]
+    );
 }
 
 #[test]
@@ -170,7 +183,9 @@ fn stated_uncertainties_cover_the_truth_as_often_as_they_say() {
         let mut random = Random(1000 + seed);
         let mut tests = loads(&robot, 12, &mut random);
         let mut noise = Random(5000 + seed);
-        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || 2e-5 * noise.normal());
+        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
+            2e-5 * noise.normal()
+        });
         let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
             all += 1;
@@ -194,7 +209,9 @@ fn uncertainties_of_all_springs_cover_the_truth() {
         let truth = some_sizes(&unknowns, &mut random);
         let mut tests = loads(&robot, 40, &mut random);
         let mut noise = Random(30_000 + seed);
-        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || 2e-5 * noise.normal());
+        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
+            2e-5 * noise.normal()
+        });
         let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
             // Of logarithms, since a prior of factors is one of logarithms.
@@ -215,7 +232,9 @@ fn one_wild_test_is_named_and_moves_little() {
     let truth = vec![6e-7, 5e-7, 9e-7, 2e-6, 3e-6, 5e-6];
     let mut tests = loads(&robot, 25, &mut random);
     let mut noise = Random(4);
-    measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || 1e-5 * noise.normal());
+    measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
+        1e-5 * noise.normal()
+    });
     tests[7].readings[1].value += 2e-3;
     let robust = identify(&robot, &unknowns, &tests, usual()).unwrap();
     let named: Vec<usize> = (0..25).filter(|test| robust.tests[*test].outlier).collect();
@@ -227,10 +246,18 @@ fn one_wild_test_is_named_and_moves_little() {
     let squares = identify(&robot, &unknowns, &tests, squares).unwrap();
     let off = |found: &Identified| {
         // The last drive moves these tests by less than the noise.
-        let errors = found.estimates[..5].iter().zip(&truth).map(|(e, t)| (e.value / t - 1.0).abs());
+        let errors = found.estimates[..5]
+            .iter()
+            .zip(&truth)
+            .map(|(e, t)| (e.value / t - 1.0).abs());
         errors.fold(0.0, f64::max)
     };
-    assert!(off(&robust) < 0.3 * off(&squares), "{} against {}", off(&robust), off(&squares));
+    assert!(
+        off(&robust) < 0.3 * off(&squares),
+        "{} against {}",
+        off(&robust),
+        off(&squares)
+    );
 }
 
 #[test]
@@ -253,7 +280,10 @@ fn the_way_of_the_paper_gives_each_joint_by_itself() {
     }
     let found = identify(&robot, &unknowns, &tests, plain()).unwrap();
     for (estimate, truth) in found.estimates.iter().zip(truth) {
-        assert!((estimate.value / truth - 1.0).abs() < 1e-9, "{estimate:?} against {truth}");
+        assert!(
+            (estimate.value / truth - 1.0).abs() < 1e-9,
+            "{estimate:?} against {truth}"
+        );
     }
 }
 
@@ -365,7 +395,11 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
             }
             information += rows.tr_mul(&rows);
         }
-        information.symmetric_eigenvalues().iter().map(|v| v.ln()).sum::<f64>()
+        information
+            .symmetric_eigenvalues()
+            .iter()
+            .map(|v| v.ln())
+            .sum::<f64>()
     };
     let as_test = |joints: &[f64], force| LoadTest {
         joints: joints.to_vec(),
@@ -374,7 +408,11 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         measured_point: asked.tool_point,
         readings: loads(&robot, 1, &mut Random(1))[0].readings.clone(),
     };
-    let best: Vec<LoadTest> = planned.tests.iter().map(|t| as_test(&t.joints, t.force)).collect();
+    let best: Vec<LoadTest> = planned
+        .tests
+        .iter()
+        .map(|t| as_test(&t.joints, t.force))
+        .collect();
     let mut random = Random(77);
     for _ in 0..20 {
         let chance: Vec<LoadTest> = loads(&robot, 12, &mut random)
@@ -443,29 +481,56 @@ fn least_squares_on_43_real_tests_give_what_another_program_gave() {
     let Some(tests) = fanuc_tests() else { return };
     let robot = r2000ic();
     let six = drives(&robot);
-    let both = |axis| {
-        (0..6).map(move |joint| Unknown::about(Seat::Joint(joint), axis, Role::Bending))
-    };
-    let eighteen: Vec<Unknown> = six.iter().copied().chain(both(Axis::X)).chain(both(Axis::Y)).collect();
+    let both = |axis| (0..6).map(move |joint| Unknown::about(Seat::Joint(joint), axis, Role::Bending));
+    let eighteen: Vec<Unknown> = six
+        .iter()
+        .copied()
+        .chain(both(Axis::X))
+        .chain(both(Axis::Y))
+        .collect();
     // Numbers by numpy and scipy (nnls, least_squares), printed to three and one decimals.
     let rows = [
         ("6, points known", &six, Points::Known, [0.372, 0.405, 20.8]),
         ("18, points known", &eighteen, Points::Known, [0.276, 0.305, 16.5]),
         ("6, common point", &six, Points::Common(1.0), [0.298, 0.343, 17.3]),
-        ("18, common point", &eighteen, Points::Common(1.0), [0.191, 0.228, 11.0]),
-        ("18, two points", &eighteen, Points::Separate(1.0), [0.180, 0.225, 10.5]),
+        (
+            "18, common point",
+            &eighteen,
+            Points::Common(1.0),
+            [0.191, 0.228, 11.0],
+        ),
+        (
+            "18, two points",
+            &eighteen,
+            Points::Separate(1.0),
+            [0.180, 0.225, 10.5],
+        ),
     ];
     for (name, unknowns, points, expected) in rows {
         let found = identify(&robot, unknowns, &tests, Method { points, ..plain() }).unwrap();
         let errors = errors(&tests, &found);
         println!("{name}: {errors:.4?}");
         for (found, (expected, half_digit)) in errors.iter().zip(expected.iter().zip([6e-4, 6e-4, 0.06])) {
-            assert!((found - expected).abs() < half_digit, "{name}: {errors:?} against {expected}");
+            assert!(
+                (found - expected).abs() < half_digit,
+                "{name}: {errors:?} against {expected}"
+            );
         }
         if name == "6, points known" {
-            let stiffness = [860_896.0, 2_719_583.0, 1_959_760.0, 270_828.0, 424_693.0, 206_020.0];
+            let stiffness = [
+                860_896.0,
+                2_719_583.0,
+                1_959_760.0,
+                270_828.0,
+                424_693.0,
+                206_020.0,
+            ];
             for (estimate, k) in found.estimates.iter().zip(stiffness) {
-                assert!((estimate.value * k - 1.0).abs() < 2e-6, "{} against {k}", 1.0 / estimate.value);
+                assert!(
+                    (estimate.value * k - 1.0).abs() < 2e-6,
+                    "{} against {k}",
+                    1.0 / estimate.value
+                );
             }
         }
     }
@@ -488,18 +553,32 @@ fn a_weak_prior_and_robust_weights_predict_real_tests_better() {
         ("known points", &springs, Points::Known, [0.307, 16.5]),
         ("common point", &springs, Points::Common(0.2), [0.208, 9.65]),
         ("two points", &springs, Points::Separate(0.2), [0.205, 8.9]),
-        ("two points and lost motion", &with_gaps, Points::Separate(0.2), [0.203, 8.55]),
+        (
+            "two points and lost motion",
+            &with_gaps,
+            Points::Separate(0.2),
+            [0.203, 8.55],
+        ),
     ];
     for (name, unknowns, points, most) in rows {
         let found = identify(&robot, unknowns, &tests, Method { points, ..usual() }).unwrap();
         let [fit, rms, relative] = errors(&tests, &found);
         println!("{name}: fit {fit:.4} mm, left out {rms:.4} mm, {relative:.2} %");
-        assert!(rms < most[0] && relative < most[1], "{name}: {rms} mm, {relative} %");
+        assert!(
+            rms < most[0] && relative < most[1],
+            "{name}: {rms} mm, {relative} %"
+        );
         // No spring is rigid, none softer than a drive of a small arm.
         let springs = found.estimates.iter().take(springs.len());
-        assert!(springs.clone().all(|e| e.value > 1e-8 && e.value < 1e-4), "{name}");
+        assert!(
+            springs.clone().all(|e| e.value > 1e-8 && e.value < 1e-4),
+            "{name}"
+        );
         if points != Points::Known {
-            let outliers: Vec<usize> = (0..43).filter(|t| found.tests[*t].outlier).map(|t| t + 1).collect();
+            let outliers: Vec<usize> = (0..43)
+                .filter(|t| found.tests[*t].outlier)
+                .map(|t| t + 1)
+                .collect();
             assert_eq!(outliers, [11], "{name}");
         }
     }

@@ -61,11 +61,18 @@ pub fn text_of(name: &str) -> Result<[String; 2], StudyError> {
         return Ok([entry.path.to_owned(), entry.text.to_owned()]);
     }
     if !name.to_lowercase().ends_with(".toml") {
-        let message = format!("robot `{name}` is no armill robot file: compliances cannot be written into it");
-        return Err(StudyError::value(message, "make one from it first, see docs/guide/robot-file.md"));
+        let message =
+            format!("robot `{name}` is no armill robot file: compliances cannot be written into it");
+        return Err(StudyError::value(
+            message,
+            "make one from it first, see docs/guide/robot-file.md",
+        ));
     }
     let text = std::fs::read_to_string(name).map_err(|error| {
-        StudyError::value(format!("cannot read robot file {name}: {error}"), "is the path right?")
+        StudyError::value(
+            format!("cannot read robot file {name}: {error}"),
+            "is the path right?",
+        )
     })?;
     Ok([name.to_owned(), text])
 }

@@ -10,7 +10,9 @@ use armill_formats::robot::RobotDescription;
 use armill_formats::table::load_tests;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
-use armill_study::identify::{Answer, PlanAnswer, PointsAsked, PriorAsked, Question, SpringAnswer, Units, answer, plan};
+use armill_study::identify::{
+    Answer, PlanAnswer, PointsAsked, PriorAsked, Question, SpringAnswer, Units, answer, plan,
+};
 use armill_study::{StudyError, robots};
 
 use crate::Outcome;
@@ -50,7 +52,10 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
             ));
         }
     }
-    if let Some(value) = tool_mm.iter().find(|value| !value.is_finite() || value.abs() > LARGEST) {
+    if let Some(value) = tool_mm
+        .iter()
+        .find(|value| !value.is_finite() || value.abs() > LARGEST)
+    {
         return Err(StudyError::value(
             format!("--tool-mm: {value} is not a number up to {LARGEST} mm"),
             "flange to tool point, in the flange frame",
@@ -192,13 +197,19 @@ fn as_text(answer: &Answer) -> String {
         let named: Vec<String> = named
             .map(|test| format!("{} ({:.1} times the scatter)", test.name, test.residual_ratio))
             .collect();
-        lines.push(format!("outliers     {}; they stay in, with limited weight", named.join(", ")));
+        lines.push(format!(
+            "outliers     {}; they stay in, with limited weight",
+            named.join(", ")
+        ));
     }
     for set in &answer.not_told_apart {
         lines.push(if set.len() == 1 {
             format!("not seen     {}: no test loads it", set.join(", "))
         } else {
-            format!("not told apart: {}: only some sums of them are known", set.join(", "))
+            format!(
+                "not told apart: {}: only some sums of them are known",
+                set.join(", ")
+            )
         });
     }
     lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));

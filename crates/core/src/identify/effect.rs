@@ -59,14 +59,21 @@ impl Effects {
     /// Torque (N m; N) of the wrench about each unknown, the force acting where it was said to.
     pub fn torques(&self) -> Vec<f64> {
         let lever = self.flange * self.points[0];
-        self.screws.iter().map(|s| s.moved(lever).dot(&self.wrench)).collect()
+        self.screws
+            .iter()
+            .map(|s| s.moved(lever).dot(&self.wrench))
+            .collect()
     }
 
     /// The readings that `state` predicts, m or rad.
     pub fn readings(&self, unknowns: &[Unknown], state: &State) -> Vec<f64> {
         let jacobian = self.jacobian(unknowns, state);
         (0..self.measured.len())
-            .map(|row| (0..unknowns.len()).map(|k| jacobian[(row, k)] * state.sizes[k]).sum())
+            .map(|row| {
+                (0..unknowns.len())
+                    .map(|k| jacobian[(row, k)] * state.sizes[k])
+                    .sum()
+            })
             .collect()
     }
 

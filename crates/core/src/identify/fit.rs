@@ -118,7 +118,12 @@ impl Linear {
 }
 
 impl<'a> Problem<'a> {
-    pub fn new(unknowns: &'a [Unknown], tests: &'a [LoadTest], effects: Vec<Effects>, method: Method) -> Problem<'a> {
+    pub fn new(
+        unknowns: &'a [Unknown],
+        tests: &'a [LoadTest],
+        effects: Vec<Effects>,
+        method: Method,
+    ) -> Problem<'a> {
         let prior = match method.prior {
             Prior::Typical => typical(unknowns),
             Prior::None => Vec::new(),
@@ -177,7 +182,9 @@ impl<'a> Problem<'a> {
         let readings: usize = used.iter().map(|t| self.tests[*t].readings.len()).sum();
         // Readings have about nine digits that mean something; less scatter than that is rounding.
         let sizes = used.iter().flat_map(|t| &self.tests[*t].readings);
-        let largest = sizes.map(|r| (r.value / r.standard_uncertainty).abs()).fold(0.0, f64::max);
+        let largest = sizes
+            .map(|r| (r.value / r.standard_uncertainty).abs())
+            .fold(0.0, f64::max);
         for _ in 0..MOST_SCALES {
             rest.x = self.descend(used, rest.x, rest.scale);
             let linear = self.linear(used, &rest.x);

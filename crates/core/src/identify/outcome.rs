@@ -102,7 +102,10 @@ pub fn identify(
     method: Method,
 ) -> Result<Identified, Refusal> {
     refuse(unknowns, tests, method)?;
-    let effects = tests.iter().map(|test| Effects::of(robot, unknowns, test)).collect();
+    let effects = tests
+        .iter()
+        .map(|test| Effects::of(robot, unknowns, test))
+        .collect();
     let problem = Problem::new(unknowns, tests, effects, method);
     let all: Vec<usize> = (0..tests.len()).collect();
     let rest = problem.at_rest(&all, &problem.start());
@@ -116,7 +119,9 @@ pub fn identify(
     let slopes = slopes(&state, method, rest.x.len());
     let covariance = &slopes * &rest.spread.covariance * &slopes;
     let shifts = shifts(&state, method, &covariance);
-    let of_sizes = covariance.view((0, 0), (unknowns.len(), unknowns.len())).into_owned();
+    let of_sizes = covariance
+        .view((0, 0), (unknowns.len(), unknowns.len()))
+        .into_owned();
     let estimates = state.sizes.iter().enumerate().map(|(k, value)| Estimate {
         value: *value,
         standard_uncertainty: of_sizes[(k, k)].max(0.0).sqrt(),
@@ -164,7 +169,11 @@ fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]:
     let readings = &problem.tests[test].readings;
     let residuals = |state: &State| -> Vec<f64> {
         let predicted = problem.effects[test].readings(problem.unknowns, state);
-        predicted.iter().zip(readings).map(|(p, reading)| p - reading.value).collect()
+        predicted
+            .iter()
+            .zip(readings)
+            .map(|(p, reading)| p - reading.value)
+            .collect()
     };
     let own = residuals(all);
     let squares = own.iter().zip(readings).map(|(r, reading)| {
@@ -198,7 +207,8 @@ fn shifts(state: &State, method: Method, covariance: &DMatrix<f64>) -> Option<[[
     let unknown = method.points.count();
     let first = covariance.nrows() - unknown;
     let root = |variance: f64| variance.max(0.0).sqrt();
-    let of_force = (unknown > 0).then(|| Vector3::from_fn(|j, _| root(covariance[(first + j, first + j)])))?;
+    let of_force =
+        (unknown > 0).then(|| Vector3::from_fn(|j, _| root(covariance[(first + j, first + j)])))?;
     // The measured point is shifted by the sum of both.
     let of_measured = Vector3::from_fn(|j, _| {
         let (a, b) = (first + j, first + j + 3);

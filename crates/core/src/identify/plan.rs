@@ -99,7 +99,10 @@ pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
         rows.rows_mut(3 * row, 3).copy_from(&candidates[*place].rows);
     }
     Plan {
-        tests: chosen.iter().map(|place| candidates[*place].test.clone()).collect(),
+        tests: chosen
+            .iter()
+            .map(|place| candidates[*place].test.clone())
+            .collect(),
         spread: Spread::of(&rows, &prior, &vec![true; unknowns.len()]),
     }
 }
@@ -151,7 +154,9 @@ fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candida
             let test = test_of(&joints, *pull, asked);
             let effects = Effects::of(robot, unknowns, &test);
             let jacobian = effects.jacobian(unknowns, &state);
-            let rows = DMatrix::from_fn(3, unknowns.len(), |i, k| jacobian[(i, k)] * state.sizes[k] / asked.gauge);
+            let rows = DMatrix::from_fn(3, unknowns.len(), |i, k| {
+                jacobian[(i, k)] * state.sizes[k] / asked.gauge
+            });
             let readings = effects.readings(unknowns, &state);
             found.push(Candidate {
                 posture,
@@ -210,7 +215,8 @@ fn posture_with_room(robot: &Robot, index: u32, tool_point: &Vector3<f64>) -> Op
     let flange = frames.base_from_flange.translation.vector;
     let first = frames.origin(0);
     let reach = |p: &Vector3<f64>| (p.xy() - first.coords.xy()).norm();
-    let clear = tool.z > LOWEST && flange.z > LOWEST && reach(&tool.coords) > NEAREST && reach(&flange) > NEAREST;
+    let clear =
+        tool.z > LOWEST && flange.z > LOWEST && reach(&tool.coords) > NEAREST && reach(&flange) > NEAREST;
     clear.then_some(joints)
 }
 

@@ -117,7 +117,11 @@ mod tests {
         let mean = logs.iter().sum::<f64>() / 12.0;
         let variance = logs.iter().map(|log| (log - mean).powi(2)).sum::<f64>() / 11.0;
         assert!((mean.exp() - STIFFER).abs() < 0.05, "{}", mean.exp());
-        assert!((variance.sqrt() - BENDING_FACTOR).abs() < 0.05, "{}", variance.sqrt());
+        assert!(
+            (variance.sqrt() - BENDING_FACTOR).abs() < 0.05,
+            "{}",
+            variance.sqrt()
+        );
     }
 
     #[test]

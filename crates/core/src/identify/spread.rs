@@ -74,7 +74,9 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     let zero = UNSEEN * 1e-3;
     let inverse = eigen.eigenvalues.map(|v| if v > zero { 1.0 / v } else { 0.0 });
     let whole = &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| whole[(i, j)] * scale[i] * scale[j])
+    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
+        whole[(i, j)] * scale[i] * scale[j]
+    })
 }
 
 /// Directions that no test sees: first single unknowns, then sets that go together.
@@ -108,17 +110,25 @@ mod tests {
 
     #[test]
     fn two_equal_columns_are_known_only_together_and_a_zero_column_not_at_all() {
-        let tests = DMatrix::from_row_slice(4, 4, &[
-            1.0, 2.0, 2.0, 0.0, //
-            0.5, 1.0, 1.0, 0.0, //
-            3.0, -1.0, -1.0, 0.0, //
-            0.1, 0.4, 0.4, 0.0,
-        ]);
+        let tests = DMatrix::from_row_slice(
+            4,
+            4,
+            &[
+                1.0, 2.0, 2.0, 0.0, //
+                0.5, 1.0, 1.0, 0.0, //
+                3.0, -1.0, -1.0, 0.0, //
+                0.1, 0.4, 0.4, 0.0,
+            ],
+        );
         let spread = Spread::of(&tests, &DMatrix::identity(4, 4), &[true; 4]);
         assert_eq!(spread.together, [vec![1, 2], vec![3]]);
         assert_eq!(spread.known[3], 0.0);
         // One sum of the two is known, one difference is not.
-        assert!((spread.known[1] + spread.known[2] - 1.0).abs() < 0.1, "{:?}", spread.known);
+        assert!(
+            (spread.known[1] + spread.known[2] - 1.0).abs() < 0.1,
+            "{:?}",
+            spread.known
+        );
     }
 
     #[test]

@@ -13,9 +13,9 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::robot::Robot;
 use crate::robot::chain::{Axis, Motion};
 use crate::robot::forward::{Frames, forward, joint_axis};
-use crate::robot::Robot;
 use crate::spatial::Twist;
 
 /// Where an unknown sits.
@@ -221,7 +221,12 @@ mod tests {
             about(Axis::Y, 4),
             about(Axis::X, 5),
         ];
-        Robot::new("arm", motions, ["1", "2", "3", "4", "5", "6"].map(Joint::plain).to_vec()).unwrap()
+        Robot::new(
+            "arm",
+            motions,
+            ["1", "2", "3", "4", "5", "6"].map(Joint::plain).to_vec(),
+        )
+        .unwrap()
     }
 
     #[test]

@@ -63,7 +63,9 @@ pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> 
     let source = Source::new(path, text);
     let Some(sheet) = Sheet::of(&source) else {
         let hint = "the first line names the columns; `armill identify --plan 20 --robot ...` makes a table to fill in";
-        return Err(source.problem(0..0, "no table in this file", Some(hint.to_owned())).into());
+        return Err(source
+            .problem(0..0, "no table in this file", Some(hint.to_owned()))
+            .into());
     };
     let mut reader = Reader {
         source: &source,
@@ -86,7 +88,9 @@ pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> 
         let message = format!("none of the {} rows holds a reading", sheet.rows.len());
         let hint = "fill in what was measured: dx_mm, dy_mm, dz_mm; one of them is enough";
         let span = sheet.header_span();
-        reader.problems.push(source.problem(span, message, Some(hint.to_owned())));
+        reader
+            .problems
+            .push(source.problem(span, message, Some(hint.to_owned())));
     }
     Problems::from(reader.problems).into_result()?;
     Ok(found)
@@ -117,13 +121,19 @@ struct Row {
 
 impl Reader<'_> {
     fn tell(&mut self, cell: &Cell, message: String, hint: &str) {
-        let problem = self.source.problem(cell.span.clone(), message, Some(hint.to_owned()));
+        let problem = self
+            .source
+            .problem(cell.span.clone(), message, Some(hint.to_owned()));
         self.problems.push(problem);
     }
 
     fn row(&mut self, cells: &[Cell], sheet: &Sheet, columns: &Columns, found: &mut LoadTests) {
         if cells.len() != sheet.header.len() {
-            let message = format!("{} cells in a table of {} columns", cells.len(), sheet.header.len());
+            let message = format!(
+                "{} cells in a table of {} columns",
+                cells.len(),
+                sheet.header.len()
+            );
             let hint = if sheet.separator == ',' {
                 "decimal commas need `;` between cells; an empty cell is nothing between two separators"
             } else {
@@ -164,14 +174,18 @@ impl Reader<'_> {
         if self.problems.len() > problems {
             return;
         }
-        let (line, _) = self.source.position(cells.first().map_or(0, |cell| cell.span.start));
+        let (line, _) = self
+            .source
+            .position(cells.first().map_or(0, |cell| cell.span.start));
         let (readings, stated) = readings(&row, self.robot);
         if readings.is_empty() {
             found.empty_rows += 1;
             return;
         }
         found.uncertainties_stated &= stated;
-        found.names.push(row.name.unwrap_or_else(|| format!("line {line}")));
+        found
+            .names
+            .push(row.name.unwrap_or_else(|| format!("line {line}")));
         found.tests.push(LoadTest {
             joints: row.joints,
             wrench: Wrench {
@@ -306,7 +320,11 @@ impl Reader<'_> {
             if *scale == 1.0 && largest > TURNS {
                 let name = head.text.trim_end_matches("_rad");
                 let message = format!("`{}` holds {largest} rad, more than two turns", head.text);
-                self.tell(head, message, &format!("these are degrees? call the column `{name}_deg`"));
+                self.tell(
+                    head,
+                    message,
+                    &format!("these are degrees? call the column `{name}_deg`"),
+                );
             }
             if *scale != 1.0 {
                 largest_deg = Some(largest_deg.unwrap_or(0.0).max(largest));

@@ -171,14 +171,21 @@ fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
         return Ok(());
     };
     let (word, guess) = if ratio > TOO_LARGE {
-        ("larger", "are readings in micrometres called mm, or forces in kN called N?")
+        (
+            "larger",
+            "are readings in micrometres called mm, or forces in kN called N?",
+        )
     } else if ratio < TOO_SMALL {
-        ("smaller", "are readings in millimetres called um, or in metres called mm?")
+        (
+            "smaller",
+            "are readings in millimetres called um, or in metres called mm?",
+        )
     } else {
         return Ok(());
     };
     let times = if ratio > 1.0 { ratio } else { 1.0 / ratio };
-    let message = format!("readings are {times:.0} times {word} than those of a typical arm under these loads");
+    let message =
+        format!("readings are {times:.0} times {word} than those of a typical arm under these loads");
     Err(StudyError::value(
         message,
         format!("{guess} The unit stands in the column's name; --trust-units takes them as they are"),
@@ -212,7 +219,10 @@ fn told(
     unknowns: Vec<Unknown>,
     identified: Identified,
 ) -> Answer {
-    let names: Vec<String> = unknowns.iter().map(|unknown| spring_name(robot, unknown)).collect();
+    let names: Vec<String> = unknowns
+        .iter()
+        .map(|unknown| spring_name(robot, unknown))
+        .collect();
     let (mut springs, mut lost_motion) = (Vec::new(), Vec::new());
     for ((unknown, estimate), name) in unknowns.iter().zip(&identified.estimates).zip(&names) {
         let at = seat_name(robot, unknown);
@@ -273,9 +283,19 @@ fn told(
         force_point: point(identified.force_shift),
         gauge_point: point(identified.measured_shift),
         scatter_ratio: identified.scale,
-        residual: errors(displacement_errors(&tests.tests, identified.tests.iter().map(|t| &t.residuals))),
-        left_out: errors(displacement_errors(&tests.tests, identified.tests.iter().map(|t| &t.left_out))),
-        outliers: by_test.iter().filter(|t| t.outlier).map(|t| t.name.clone()).collect(),
+        residual: errors(displacement_errors(
+            &tests.tests,
+            identified.tests.iter().map(|t| &t.residuals),
+        )),
+        left_out: errors(displacement_errors(
+            &tests.tests,
+            identified.tests.iter().map(|t| &t.left_out),
+        )),
+        outliers: by_test
+            .iter()
+            .filter(|t| t.outlier)
+            .map(|t| t.name.clone())
+            .collect(),
         not_told_apart: identified
             .together
             .iter()
@@ -313,7 +333,10 @@ fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer
 fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<String> {
     let mut notes = Vec::new();
     if tests.empty_rows > 0 {
-        notes.push(format!("{} rows without a reading were passed over", tests.empty_rows));
+        notes.push(format!(
+            "{} rows without a reading were passed over",
+            tests.empty_rows
+        ));
     }
     let hardly: Vec<&str> = identified
         .estimates

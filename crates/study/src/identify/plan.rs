@@ -69,9 +69,15 @@ pub fn plan(
     let unknowns = question.unknowns(robot, &[])?;
     let asked = Asked {
         tests: count,
-        pulls: [-Vector3::z(), Vector3::x(), -Vector3::x(), Vector3::y(), -Vector3::y()]
-            .map(|direction| direction * pull)
-            .to_vec(),
+        pulls: [
+            -Vector3::z(),
+            Vector3::x(),
+            -Vector3::x(),
+            Vector3::y(),
+            -Vector3::y(),
+        ]
+        .map(|direction| direction * pull)
+        .to_vec(),
         tool_point: question.tool_point,
         gauge,
     };

@@ -87,7 +87,10 @@ impl Question {
         let groups: Vec<&str> = self.unknowns.split('+').map(str::trim).collect();
         if let Some(unknown) = groups.iter().find(|group| !GROUPS.contains(group)) {
             let message = format!("--unknowns: `{unknown}` is no group of springs");
-            return Err(StudyError::value(message, format!("one or more of {}, such as drives+bending", GROUPS.join(", "))));
+            return Err(StudyError::value(
+                message,
+                format!("one or more of {}, such as drives+bending", GROUPS.join(", ")),
+            ));
         }
         if !groups.contains(&"drives") {
             let message = format!("--unknowns {}: drives are missing", self.unknowns);
@@ -95,7 +98,11 @@ impl Question {
         }
         let drives = drives(robot);
         let mut unknowns = drives.clone();
-        for (name, group) in [("bending", bending(robot)), ("base", base(robot)), ("tool", tool())] {
+        for (name, group) in [
+            ("bending", bending(robot)),
+            ("base", base(robot)),
+            ("tool", tool()),
+        ] {
             if groups.contains(&name) {
                 unknowns.extend(group);
             }
@@ -103,7 +110,10 @@ impl Question {
         if groups.contains(&"lost-motion") {
             let mut torques = vec![0.0; drives.len()];
             for test in tests {
-                for (largest, torque) in torques.iter_mut().zip(Effects::of(robot, &drives, test).torques()) {
+                for (largest, torque) in torques
+                    .iter_mut()
+                    .zip(Effects::of(robot, &drives, test).torques())
+                {
                     *largest = f64::max(*largest, GAP_CLOSES_AT * torque.abs());
                 }
             }

@@ -33,10 +33,19 @@ pub fn robot_file(
             }
         })
         .collect();
-    let turning: Vec<usize> = kept.iter().copied().filter(|k| answer.unknowns[*k].turns()).collect();
+    let turning: Vec<usize> = kept
+        .iter()
+        .copied()
+        .filter(|k| answer.unknowns[*k].turns())
+        .collect();
     let covariance: Vec<Vec<f64>> = turning
         .iter()
-        .map(|a| turning.iter().map(|b| answer.identified.covariance[(*a, *b)]).collect())
+        .map(|a| {
+            turning
+                .iter()
+                .map(|b| answer.identified.covariance[(*a, *b)])
+                .collect()
+        })
         .collect();
     let left_out = answer.left_out.as_ref().map_or(String::new(), |errors| {
         format!(
@@ -49,5 +58,11 @@ pub fn robot_file(
         "compliances identified by armill from {} load tests with {} readings{left_out}",
         answer.tests, answer.readings
     );
-    Ok(with_springs(path, text, &springs, &covariance, [&what, tests_path])?)
+    Ok(with_springs(
+        path,
+        text,
+        &springs,
+        &covariance,
+        [&what, tests_path],
+    )?)
 }

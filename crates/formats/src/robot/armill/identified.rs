@@ -101,7 +101,11 @@ pub fn with_springs(
             sources.remove(&key);
         }
         let mut identified = Table::new();
-        for (key, content) in [("what", what), ("where", place), ("licence", "your own measurement")] {
+        for (key, content) in [
+            ("what", what),
+            ("where", place),
+            ("licence", "your own measurement"),
+        ] {
             identified.insert(key, value(content));
         }
         sources.insert(KEY, Item::Table(identified));
@@ -110,7 +114,11 @@ pub fn with_springs(
 }
 
 fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
-    let name = joint.get("name").and_then(Item::as_str).unwrap_or_default().to_owned();
+    let name = joint
+        .get("name")
+        .and_then(Item::as_str)
+        .unwrap_or_default()
+        .to_owned();
     let drive = |spring: &&IdentifiedSpring| {
         spring.at == name && matches!(spring.yields, Yields::Drive | Yields::SlidingDrive)
     };
@@ -154,7 +162,10 @@ fn covariance_table<'a>(
     covariance: &[Vec<f64>],
 ) -> Item {
     let mut table = Table::new();
-    table.insert("of", value(springs.map(IdentifiedSpring::name).collect::<Array>()));
+    table.insert(
+        "of",
+        value(springs.map(IdentifiedSpring::name).collect::<Array>()),
+    );
     let mut rows = Array::new();
     for row in covariance {
         let mut row: Value = Value::Array(row.iter().map(|entry| number(*entry)).collect());
@@ -247,13 +258,19 @@ mod tests {
             spring("B", Yields::SlidingDrive, 3e-8),
         ];
         let text = with_springs("lever.toml", FILE, &springs, &[], ["43 tests", "tests.csv"]).unwrap();
-        assert!(text.starts_with("# A lever.\n") && text.contains("# turns"), "{text}");
+        assert!(
+            text.starts_with("# A lever.\n") && text.contains("# turns"),
+            "{text}"
+        );
         assert!(!text.contains("guess"), "{text}");
         let read = super::super::read("lever.toml", "lever", &text).unwrap();
         let compliance = read.robot.compliance().unwrap();
         assert!((compliance[0].value - 2.5e-6).abs() < 1e-18, "{text}");
         assert!((compliance[1].value - 3e-8).abs() < 1e-18, "{text}");
-        assert!((compliance[1].standard_uncertainty - 3e-9).abs() < 1e-18, "{text}");
+        assert!(
+            (compliance[1].standard_uncertainty - 3e-9).abs() < 1e-18,
+            "{text}"
+        );
         assert_eq!(read.joints[0].compliance_source.as_deref(), Some("identified"));
     }
 
@@ -271,9 +288,22 @@ mod tests {
         assert_eq!(springs[0]["about"].as_str(), Some("x"));
         assert_eq!(springs[1]["compliance_um_per_n"].as_float(), Some(2e-2));
         assert_eq!(table["covariance"]["of"].to_string(), "[\"A\", \"A about x\"]");
-        assert_eq!(table["covariance"]["matrix_rad2_per_n2_m2"][1][0].as_float(), Some(-2e-16));
+        assert_eq!(
+            table["covariance"]["matrix_rad2_per_n2_m2"][1][0].as_float(),
+            Some(-2e-16)
+        );
         // Identified once more, nothing of the first time is left.
-        let again = with_springs("lever.toml", &text, &[spring("A", Yields::Drive, 1e-6)], &[], ["", ""]).unwrap();
-        assert!(!again.contains("spring") && !again.contains("covariance"), "{again}");
+        let again = with_springs(
+            "lever.toml",
+            &text,
+            &[spring("A", Yields::Drive, 1e-6)],
+            &[],
+            ["", ""],
+        )
+        .unwrap();
+        assert!(
+            !again.contains("spring") && !again.contains("covariance"),
+            "{again}"
+        );
     }
 }

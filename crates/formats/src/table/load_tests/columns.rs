@@ -83,7 +83,10 @@ impl Columns {
             let found = if name.starts_with("expected_") {
                 Some(Column::ForPeople)
             } else {
-                known.iter().find(|(known, _)| *known == name).map(|(_, column)| *column)
+                known
+                    .iter()
+                    .find(|(known, _)| *known == name)
+                    .map(|(_, column)| *column)
             };
             if found.is_none() {
                 let names: Vec<&str> = known.iter().map(|(known, _)| known.as_str()).collect();
@@ -93,9 +96,15 @@ impl Columns {
                 );
                 let message = format!("unknown column `{}`", cell.text);
                 problems.push(source.problem(cell.span.clone(), message, Some(hint)));
-            } else if let Some(first) = found.and_then(|column| columns.iter().position(|c| c.is_some_and(|c| c.same(column)))) {
+            } else if let Some(first) =
+                found.and_then(|column| columns.iter().position(|c| c.is_some_and(|c| c.same(column))))
+            {
                 let message = format!("`{}` tells what `{}` tells", cell.text, sheet.header[first].text);
-                problems.push(source.problem(cell.span.clone(), message, Some("keep one of the two".to_owned())));
+                problems.push(source.problem(
+                    cell.span.clone(),
+                    message,
+                    Some("keep one of the two".to_owned()),
+                ));
             }
             columns.push(found);
         }
@@ -126,16 +135,26 @@ impl Columns {
             .collect();
         if !without.is_empty() {
             let hint = "every test needs its whole posture: one column a joint, in degrees (`_deg`) or radians (`_rad`)";
-            missing.push((format!("joint positions: {}", without.join(", ")), hint.to_owned()));
+            missing.push((
+                format!("joint positions: {}", without.join(", ")),
+                hint.to_owned(),
+            ));
         }
         if !self.has(|column| matches!(column, Column::Force(..) | Column::Moment(_))) {
-            let hint = "what pulled the tool, base axes: `fx_n`, `fy_n`, `fz_n`; a weight of 10 kg is fz_n = -98.1";
+            let hint =
+                "what pulled the tool, base axes: `fx_n`, `fy_n`, `fz_n`; a weight of 10 kg is fz_n = -98.1";
             missing.push(("forces".to_owned(), hint.to_owned()));
         }
-        let turned = [self.has(|c| c == Column::TurnedJoint), self.has(|c| matches!(c, Column::Turn(_)))];
+        let turned = [
+            self.has(|c| c == Column::TurnedJoint),
+            self.has(|c| matches!(c, Column::Turn(_))),
+        ];
         if turned[0] != turned[1] {
             let name = if turned[0] { "`turn_urad`" } else { "`joint`" };
-            missing.push((name.to_owned(), "a turn and the joint that turned belong together".to_owned()));
+            missing.push((
+                name.to_owned(),
+                "a turn and the joint that turned belong together".to_owned(),
+            ));
         }
         if !self.has(|column| matches!(column, Column::Displacement(..) | Column::Turn(_))) {
             let hint = "what moved: `dx_mm`, `dy_mm`, `dz_mm` in base axes, or `joint` and `turn_urad`";

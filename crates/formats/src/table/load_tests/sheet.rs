@@ -32,7 +32,10 @@ impl Sheet {
             at += line.len();
         }
         let (first, rest) = lines.split_first()?;
-        let separator = [';', '\t'].into_iter().find(|c| first.1.contains(*c)).unwrap_or(',');
+        let separator = [';', '\t']
+            .into_iter()
+            .find(|c| first.1.contains(*c))
+            .unwrap_or(',');
         Some(Sheet {
             separator,
             header: cells(*first, separator),

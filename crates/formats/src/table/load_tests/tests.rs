@@ -19,7 +19,12 @@ fn arm() -> Robot {
         ..Joint::plain(name)
     };
     let turn = 170f64.to_radians();
-    Robot::new("arm", motions, vec![limits("A1", turn), limits("A2", turn), limits("Z", 0.8)]).unwrap()
+    Robot::new(
+        "arm",
+        motions,
+        vec![limits("A1", turn), limits("A2", turn), limits("Z", 0.8)],
+    )
+    .unwrap()
 }
 
 fn table(text: &str) -> Result<LoadTests, Problems> {
@@ -85,34 +90,62 @@ fn missing_columns_are_named_all_at_once() {
 #[test]
 fn unknown_and_double_columns_are_told_with_what_was_meant() {
     let told = problems("A1,A2_deg,q2_rad,Z_mm,fz_n,dz_mm,colour\n1,2,3,4,5,6,7\n");
-    assert!(told.contains("1:1: unknown column `A1`") && told.contains("angles carry their unit: write `a1_deg`"), "{told}");
-    assert!(told.contains("1:11: `q2_rad` tells what `A2_deg` tells"), "{told}");
+    assert!(
+        told.contains("1:1: unknown column `A1`") && told.contains("angles carry their unit: write `a1_deg`"),
+        "{told}"
+    );
+    assert!(
+        told.contains("1:11: `q2_rad` tells what `A2_deg` tells"),
+        "{told}"
+    );
     assert!(told.contains("unknown column `colour`"), "{told}");
 }
 
 #[test]
 fn cells_that_are_no_numbers_are_told_with_line_and_column() {
-    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98.1 N,0.1\n,20,0,nan,0.1\n10,20,0,-98,1,0,2\n");
-    assert!(told.contains("tests.csv:2:9: `-98.1 N` is not a number"), "{told}");
+    let told =
+        problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98.1 N,0.1\n,20,0,nan,0.1\n10,20,0,-98,1,0,2\n");
+    assert!(
+        told.contains("tests.csv:2:9: `-98.1 N` is not a number"),
+        "{told}"
+    );
     assert!(told.contains("tests.csv:3:1: no position of joint A1"), "{told}");
-    assert!(told.contains("tests.csv:3:7: `nan` is not a number from"), "{told}");
-    assert!(told.contains("tests.csv:4:1: 7 cells in a table of 5 columns"), "{told}");
+    assert!(
+        told.contains("tests.csv:3:7: `nan` is not a number from"),
+        "{told}"
+    );
+    assert!(
+        told.contains("tests.csv:4:1: 7 cells in a table of 5 columns"),
+        "{told}"
+    );
     assert!(told.contains("decimal commas need `;`"), "{told}");
 }
 
 #[test]
 fn degrees_called_radians_and_radians_called_degrees_are_seen() {
     let told = problems("A1_rad,A2_rad,Z_mm,fz_n,dz_mm\n90,20,0,-98,0.1\n-45,30,0,-98,0.1\n");
-    assert!(told.contains("`A1_rad` holds 90 rad") && told.contains("call the column `A1_deg`"), "{told}");
+    assert!(
+        told.contains("`A1_rad` holds 90 rad") && told.contains("call the column `A1_deg`"),
+        "{told}"
+    );
     let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n1.57,0.3,0,-98,0.1\n-0.7,0.5,0,-98,0.1\n");
-    assert!(told.contains("no joint is further than 1.57 deg") && told.contains("radians?"), "{told}");
+    assert!(
+        told.contains("no joint is further than 1.57 deg") && told.contains("radians?"),
+        "{told}"
+    );
 }
 
 #[test]
 fn a_posture_outside_the_limits_is_told_with_value_limit_and_unit() {
     let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
-    assert!(told.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"), "{told}");
-    assert!(told.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"), "{told}");
+    assert!(
+        told.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
+        "{told}"
+    );
+    assert!(
+        told.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"),
+        "{told}"
+    );
 }
 
 #[test]
@@ -124,7 +157,16 @@ fn files_without_a_table_or_a_reading_are_refused() {
 
 #[test]
 fn no_text_makes_it_panic() {
-    for text in ["", ",", ";", "\"", "a\"b,c\n\"", "A1_deg\n\u{fffd}", "fx_n;\n;;;\n", "é,ü\n1,2\n"] {
+    for text in [
+        "",
+        ",",
+        ";",
+        "\"",
+        "a\"b,c\n\"",
+        "A1_deg\n\u{fffd}",
+        "fx_n;\n;;;\n",
+        "é,ü\n1,2\n",
+    ] {
         assert!(table(text).is_err(), "{text:?}");
     }
 }
