@@ -12,25 +12,26 @@ use crate::check::{Check, Gap, worst, worst_difference};
 
 const WITNESS: &str = "independent computation";
 /// Tool point in the flange frame, m.
-const TOOL_POINT: Vector3<f64> = Vector3::new(0.0069, 0.2453, 0.3193);
+pub(crate) const TOOL_POINT: Vector3<f64> = Vector3::new(0.0069, 0.2453, 0.3193);
 
 /// One measured pose and what follows from it.
-struct Row {
+pub(crate) struct Row {
     /// From 1, as in the data set.
-    number: usize,
+    pub number: usize,
     /// Controller angles, rad: `joint_angles.csv`.
-    joints: [f64; 6],
+    pub joints: [f64; 6],
     /// Force on the tool point, base, N: `forces.csv`.
-    force: [f64; 3],
+    pub force: [f64; 3],
     /// Tool point, m, base.
-    tcp: [f64; 3],
+    pub tcp: [f64; 3],
     /// Torque of the force about each joint axis of the model, N m.
-    torque: [f64; 6],
+    pub torque: [f64; 6],
     /// Predicted deflection, base, mm.
-    predicted_mm: [f64; 3],
+    pub predicted_mm: [f64; 3],
 }
 
-const ROWS: [Row; 5] = [
+/// Every row.
+pub(crate) const ROWS: [Row; 5] = [
     Row {
         number: 1,
         joints: [

@@ -13,6 +13,8 @@ mod studies;
 
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
+#[path = "../fanuc-identification/case.rs"]
+mod fanuc_identification;
 #[path = "../fanuc-rows/case.rs"]
 mod fanuc_rows;
 #[path = "../force-to-deflection/case.rs"]
@@ -58,6 +60,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "fanuc-rows",
         checks: fanuc_rows::checks,
+    },
+    Case {
+        folder: "fanuc-identification",
+        checks: fanuc_identification::checks,
     },
     Case {
         folder: "mh12-regression",

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use armill_formats::robot::format::Format;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 /// How far from the drawing will this robot cut, why, and what can be done about it?
@@ -33,6 +33,8 @@ pub(crate) enum Command {
     Robots(RobotsArguments),
     /// Every posture of one pose: joints, compliance, deviation
     Pose(PoseArguments),
+    /// Joint compliances from load tests, and which tests to do
+    Identify(IdentifyArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -49,6 +51,7 @@ impl Command {
                 None => a.json,
             },
             Command::Pose(a) => a.json,
+            Command::Identify(a) => a.json,
             Command::Completions(_) => false,
         }
     }
@@ -316,6 +319,82 @@ pub(crate) struct PoseArguments {
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+TESTS.csv has one row a test; the unit stands in each column's name: joint positions (A1_deg or q1_deg ...), force on
+the tool in base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
+Springs: drives; bending (about the two axes beside each drive); base (the floor); tool (holder and tool along the
+flange axes); lost-motion (gaps in drives). The guide: docs/guide/measure-stiffness.md
+
+Examples:
+  armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,0,150 --out tests.csv
+  armill identify tests.csv --robot yaskawa/mh12 --tool-mm 0,0,150 --out my-mh12.toml
+  armill identify tests.csv --robot arm.toml --unknowns drives --json"
+)]
+pub(crate) struct IdentifyArguments {
+    /// Table of load tests (CSV)
+    #[arg(required_unless_present = "plan")]
+    pub tests: Option<PathBuf>,
+    /// Library name, or a robot file (.toml, .urdf)
+    #[arg(long, value_name = "NAME")]
+    pub robot: String,
+    /// Springs to find: groups with + between
+    #[arg(long, value_name = "GROUPS", default_value = "drives+bending+base")]
+    pub unknowns: String,
+    /// Whether force point and gauge point are where the tests say
+    #[arg(long, value_enum, default_value_t = PointsArgument::Known)]
+    pub points: PointsArgument,
+    /// How far off they may be (standard uncertainty), where they are not known
+    #[arg(long, value_name = "U", default_value_t = 200.0)]
+    pub point_u_mm: f64,
+    /// What is known of the springs beforehand
+    #[arg(long, value_enum, default_value_t = PriorArgument::Typical)]
+    pub prior: PriorArgument,
+    /// Flange to the point where force acts and displacement is measured
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
+    pub tool_mm: Option<Vec<f64>>,
+    /// Write the robot with its new compliances (with --plan: the table) to this file
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Propose N tests instead
+    #[arg(long, value_name = "N", conflicts_with = "tests")]
+    pub plan: Option<usize>,
+    /// Pull that you can apply (with --plan)
+    #[arg(long, value_name = "F", default_value_t = 150.0)]
+    pub pull_n: f64,
+    /// Standard uncertainty of your gauge (with --plan)
+    #[arg(long, value_name = "U", default_value_t = 10.0)]
+    pub gauge_um: f64,
+    /// Take readings as they are, however far from those of any arm
+    #[arg(long)]
+    pub trust_units: bool,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where force acts and displacement is measured.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PointsArgument {
+    /// As the tests say
+    Known,
+    /// Both off by the same shift, which is found
+    Common,
+    /// Each off by itself, which is found
+    Separate,
+}
+
+/// What is known beforehand.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PriorArgument {
+    /// Arms are alike within powers of ten; tests far off count less
+    Typical,
+    /// Nothing: plain least squares, no compliance negative
+    None,
 }
 
 #[derive(Debug, Args)]

@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::New(new) => command::new::run(new),
         Command::Robots(robots) => command::robots::run(robots),
         Command::Pose(pose) => command::pose::run(pose),
+        Command::Identify(identify) => command::identify::run(identify),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

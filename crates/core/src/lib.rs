@@ -5,12 +5,14 @@
 //! Read [`predict`] first: it is the whole idea in one function. Then, in the order in which a number comes
 //! about: [`frame`] and [`spatial`] (poses, twists, wrenches), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
-//! points at once), [`map`] (planes, sections, volumes, the region within a tolerance).
+//! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
+//! [`identify`] (the springs of an arm from load tests).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
 pub mod compliance;
 pub mod frame;
+pub mod identify;
 pub mod kernel;
 pub mod load;
 pub mod map;

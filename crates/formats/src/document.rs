@@ -28,7 +28,7 @@ mod problem;
 mod shape;
 mod source;
 mod tree;
-mod unit;
+pub(crate) mod unit;
 mod words;
 
 use std::ops::Range;
@@ -77,10 +77,16 @@ impl Document {
     /// # Errors
     /// Those of [`Document::parse`], and bytes that are not UTF-8.
     pub fn from_bytes(name: &str, bytes: &[u8]) -> Result<Self, Problems> {
-        match std::str::from_utf8(bytes) {
-            Ok(text) => Self::parse(name, text),
-            Err(error) => Err(Problems::from(vec![source::not_utf8(name, bytes, &error)])),
-        }
+        Self::parse(name, Self::text_of(name, bytes)?)
+    }
+
+    /// The text of a file as it was read from disk, of whatever format.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, at their place.
+    pub fn text_of<'a>(name: &str, bytes: &'a [u8]) -> Result<&'a str, Problems> {
+        std::str::from_utf8(bytes)
+            .map_err(|error| Problems::from(vec![source::not_utf8(name, bytes, &error)]))
     }
 
     /// The value this document describes.

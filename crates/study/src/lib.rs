@@ -12,6 +12,7 @@ pub mod answer;
 pub mod compliance_class;
 pub mod error;
 pub mod file;
+pub mod identify;
 pub mod library;
 pub mod output;
 pub mod pendant;

@@ -70,6 +70,31 @@ fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
     Ok(format::read(path, &id, &bytes, wanted)?)
 }
 
+/// Path and text of the armill robot file behind `name`: of the library, or a `.toml` file of the current folder.
+///
+/// # Errors
+/// Another format; a file that cannot be read.
+pub fn text_of(name: &str) -> Result<[String; 2], StudyError> {
+    if let Some(entry) = library::ROBOTS.iter().find(|robot| robot.name == name) {
+        return Ok([entry.path.to_owned(), entry.text.to_owned()]);
+    }
+    if !name.to_lowercase().ends_with(".toml") {
+        let message =
+            format!("robot `{name}` is no armill robot file: compliances cannot be written into it");
+        return Err(StudyError::value(
+            message,
+            "make one from it first, see docs/guide/robot-file.md",
+        ));
+    }
+    let text = std::fs::read_to_string(name).map_err(|error| {
+        StudyError::value(
+            format!("cannot read robot file {name}: {error}"),
+            "is the path right?",
+        )
+    })?;
+    Ok([name.to_owned(), text])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

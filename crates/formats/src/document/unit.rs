@@ -80,7 +80,7 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
 }
 
 /// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
-pub(super) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
+pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_");
     let wanted = plain(unknown);
     let base = split(&wanted).map_or(wanted.as_str(), |(base, _)| base);

@@ -4,6 +4,7 @@
 
 mod checks;
 mod file;
+mod identified;
 mod write;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
@@ -16,6 +17,8 @@ use self::file::{FrameEntry, JointEntry, RobotFile};
 pub use self::write::write;
 use super::description::{JointNote, RobotDescription, Source};
 use crate::document::{Document, Problems};
+
+pub use self::identified::{IdentifiedSpring, Yields, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///

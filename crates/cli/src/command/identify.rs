@@ -1,0 +1,263 @@
+//! `armill identify`: springs from load tests, and which tests to do.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use armill_core::nalgebra::Vector3;
+use armill_formats::document::Document;
+use armill_formats::file::write_atomically;
+use armill_formats::robot::RobotDescription;
+use armill_formats::table::load_tests;
+use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
+use armill_study::identify::robot_file::robot_file;
+use armill_study::identify::{
+    Answer, PlanAnswer, PointsAsked, PriorAsked, Question, SpringAnswer, Units, answer, plan,
+};
+use armill_study::{StudyError, robots};
+
+use crate::Outcome;
+use crate::arguments::{IdentifyArguments, PointsArgument, PriorArgument};
+use crate::terminal::{print, say};
+
+pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> {
+    let found = robots::find(&arguments.robot, ".".as_ref())?;
+    let question = question(arguments)?;
+    match (&arguments.tests, arguments.plan) {
+        (_, Some(count)) => plan_tests(arguments, &found, &question, count),
+        (Some(tests), None) => from_tests(arguments, &found, &question, tests),
+        (None, None) => Err(StudyError::value(
+            "neither a table of tests nor --plan",
+            "`armill identify TESTS.csv --robot R`, or `armill identify --plan 20 --robot R` for a table to fill in",
+        )),
+    }
+}
+
+fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
+    let tool_mm = arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]);
+    let &[x, y, z] = tool_mm else {
+        return Err(StudyError::value(
+            format!("--tool-mm: {} numbers", tool_mm.len()),
+            "it takes three, such as 0,0,150",
+        ));
+    };
+    for (flag, value, least) in [
+        ("--point-u-mm", arguments.point_u_mm, 0.0),
+        ("--pull-n", arguments.pull_n, 0.0),
+        ("--gauge-um", arguments.gauge_um, 0.0),
+    ] {
+        if !(value > least && value <= LARGEST) {
+            return Err(StudyError::value(
+                format!("{flag} {value} is not above {least} and at most {LARGEST}"),
+                "a plain number",
+            ));
+        }
+    }
+    if let Some(value) = tool_mm
+        .iter()
+        .find(|value| !value.is_finite() || value.abs() > LARGEST)
+    {
+        return Err(StudyError::value(
+            format!("--tool-mm: {value} is not a number up to {LARGEST} mm"),
+            "flange to tool point, in the flange frame",
+        ));
+    }
+    Ok(Question {
+        unknowns: arguments.unknowns.clone(),
+        points: match arguments.points {
+            PointsArgument::Known => PointsAsked::Known,
+            PointsArgument::Common => PointsAsked::Common,
+            PointsArgument::Separate => PointsAsked::Separate,
+        },
+        point_u: arguments.point_u_mm * 1e-3,
+        prior: match arguments.prior {
+            PriorArgument::Typical => PriorAsked::Typical,
+            PriorArgument::None => PriorAsked::None,
+        },
+        tool_point: Vector3::new(x, y, z) * 1e-3,
+        units: if arguments.trust_units {
+            Units::Trusted
+        } else {
+            Units::Checked
+        },
+    })
+}
+
+/// No length, force or uncertainty of a test is larger, in the units of the flags.
+const LARGEST: f64 = 1e5;
+
+fn plan_tests(
+    arguments: &IdentifyArguments,
+    found: &RobotDescription,
+    question: &Question,
+    count: usize,
+) -> Result<Outcome, StudyError> {
+    let plan = plan(
+        &found.robot,
+        question,
+        count,
+        [arguments.pull_n, arguments.gauge_um * 1e-6],
+    )?;
+    match &arguments.out {
+        Some(file) => {
+            write_atomically(file, plan.table.as_bytes())?;
+            say(&format!("table in {}", file.display()));
+        }
+        None if !arguments.json => print(plan.table.trim_end())?,
+        None => {}
+    }
+    if arguments.json {
+        print(&serde_json::to_string_pretty(&plan)?)?;
+    }
+    say(&plan_text(&plan));
+    Ok(Outcome::Fine)
+}
+
+fn plan_text(plan: &PlanAnswer) -> String {
+    let mut text = format!(
+        "{} tests in {} postures of {}. Check each posture for room before you go there.\n\
+         What they will tell, if the gauge is as good as you say:",
+        plan.tests.len(),
+        plan.postures,
+        plan.robot
+    );
+    for spring in &plan.springs {
+        let known = if spring.fraction_known_from_tests < 0.5 {
+            "hardly anything".to_owned()
+        } else {
+            format!("within {:.0} %", spring.relative_u_ratio * 100.0)
+        };
+        let _ = write!(text, "\n  {:<14} {known}", spring.name);
+    }
+    text
+}
+
+fn from_tests(
+    arguments: &IdentifyArguments,
+    found: &RobotDescription,
+    question: &Question,
+    tests: &Path,
+) -> Result<Outcome, StudyError> {
+    let shown = tests.display().to_string();
+    let bytes = std::fs::read(tests).map_err(|error| {
+        StudyError::value(
+            format!("cannot read {shown}: {error}"),
+            "a table of load tests, CSV; `armill identify --plan 20 --robot ...` makes one to fill in",
+        )
+    })?;
+    let text = Document::text_of(&shown, &bytes)?;
+    let tests = load_tests::read(&shown, text, &found.robot, question.tool_point)?;
+    let answer = answer(&found.robot, &tests, question)?;
+    if let Some(file) = &arguments.out {
+        let [path, text] = robots::text_of(&arguments.robot)?;
+        let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
+        write_atomically(file, written.as_bytes())?;
+        say(&format!("robot with these compliances in {}", file.display()));
+    }
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&answer)?
+    } else {
+        as_text(&answer)
+    })?;
+    Ok(Outcome::Fine)
+}
+
+fn as_text(answer: &Answer) -> String {
+    let mut lines = vec![format!(
+        "{}: {} tests, {} readings, {} springs",
+        answer.robot,
+        answer.tests,
+        answer.readings,
+        answer.springs.len()
+    )];
+    lines.push(String::new());
+    lines.push(format!(
+        "{:<16} {:>26} {:>20}   known from the tests",
+        "spring", "compliance", "stiffness"
+    ));
+    lines.extend(answer.springs.iter().map(spring_text));
+    for gap in &answer.lost_motion {
+        lines.push(format!(
+            "{:<16} {:>10.0} urad +- {:>3.0} %  {:>20}   {:>3.0} %",
+            format!("{} lost motion", gap.joint),
+            gap.gap_urad,
+            percent(gap.gap_u_urad, gap.gap_urad),
+            "",
+            gap.fraction_known_from_tests * 100.0
+        ));
+    }
+    lines.push(String::new());
+    lines.extend(answer.force_point.iter().map(|p| point_text("force point", p)));
+    lines.extend(answer.gauge_point.iter().map(|p| point_text("gauge point", p)));
+    lines.extend(answer.residual.iter().map(|e| errors_text("residuals", e)));
+    lines.extend(answer.left_out.iter().map(|e| errors_text("left out", e)));
+    if answer.outliers.is_empty() {
+        lines.push("outliers     none: no residual beyond 3.5 times the scatter".to_owned());
+    } else {
+        let named = answer.by_test.iter().filter(|test| test.outlier);
+        let named: Vec<String> = named
+            .map(|test| format!("{} ({:.1} times the scatter)", test.name, test.residual_ratio))
+            .collect();
+        lines.push(format!(
+            "outliers     {}; they stay in, with limited weight",
+            named.join(", ")
+        ));
+    }
+    for set in &answer.not_told_apart {
+        lines.push(if set.len() == 1 {
+            format!("not seen     {}: no test loads it", set.join(", "))
+        } else {
+            format!(
+                "not told apart: {}: only some sums of them are known",
+                set.join(", ")
+            )
+        });
+    }
+    lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));
+    lines.join("\n")
+}
+
+fn spring_text(spring: &SpringAnswer) -> String {
+    let (value, u, unit) = match (spring.compliance_rad_per_n_m, spring.compliance_um_per_n) {
+        (Some(value), _) => (value, spring.compliance_u_rad_per_n_m.unwrap_or(0.0), "rad/(N m)"),
+        (_, value) => (
+            value.unwrap_or(0.0),
+            spring.compliance_u_um_per_n.unwrap_or(0.0),
+            "um/N",
+        ),
+    };
+    let stiffness = match (spring.stiffness_n_m_per_rad, spring.stiffness_n_per_um) {
+        (Some(k), _) => format!("{k:.3e} N m/rad"),
+        (_, Some(k)) => format!("{k:.1} N/um"),
+        _ => "rigid".to_owned(),
+    };
+    format!(
+        "{:<16} {value:>9.2e} {unit:<9} +- {:>3.0} % {stiffness:>19}   {:>3.0} %",
+        spring.name,
+        percent(u, value),
+        spring.fraction_known_from_tests * 100.0
+    )
+}
+
+fn percent(part: f64, whole: f64) -> f64 {
+    if whole > 0.0 { 100.0 * part / whole } else { 0.0 }
+}
+
+fn point_text(what: &str, point: &PointAnswer) -> String {
+    let three = |[x, y, z]: [f64; 3]| format!("({x:.1}, {y:.1}, {z:.1})");
+    format!(
+        "{what}  {} mm in the flange frame, {} mm from where it was told (standard uncertainty {} mm)",
+        three(point.tool_point_mm),
+        three(point.shift_mm),
+        three(point.shift_u_mm)
+    )
+}
+
+fn errors_text(what: &str, errors: &ErrorsAnswer) -> String {
+    format!(
+        "{what:<12} mean {:.1} um, rms {:.1} um, largest {:.1} um; mean {:.1} % of what was measured",
+        errors.mean_um,
+        errors.rms_um,
+        errors.max_um,
+        errors.fraction_of_measured * 100.0
+    )
+}

@@ -1,0 +1,400 @@
+//! The most likely springs: Gauss-Newton with robust weights, a prior, and the scatter found from the data.
+//!
+//! Least over the unknowns `x` (logarithms of sizes with a prior, sizes not below zero without; shifts of points):
+//!
+//! ```text
+//! sum over tests rho(|r_t| / sigma) + sum over priors ((p . x - m) / u)^2        r = (predicted - measured) / u_reading
+//! ```
+//!
+//! `rho(n) = n^2` up to 1.5 and `2 * 1.5 n - 1.5^2` beyond (Huber 1964): a test far off pulls with a constant force,
+//! not ever harder. `sigma` makes the tests' residuals as large as their weights expect (Huber's proposal 2), counting
+//! the unknowns that the tests and not the prior decided (MacKay 1992). Both iterate to rest.
+
+use nalgebra::{DMatrix, DVector, Vector3};
+
+use super::bounded;
+use super::effect::{Effects, State};
+use super::load_test::LoadTest;
+use super::prior::{LogPrior, Prior, typical, typical_sizes};
+use super::spread::Spread;
+use super::unknown::Unknown;
+
+/// How to identify.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Method {
+    /// What is known beforehand.
+    pub prior: Prior,
+    /// Whether force and displacement act and are measured where the tests say.
+    pub points: Points,
+    /// What a test far off may do.
+    pub loss: Loss,
+    /// Whether the standard uncertainties of the readings are known, or only their ratios.
+    pub scatter: Scatter,
+}
+
+/// Where force acts and displacement is measured.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Points {
+    /// As the tests say.
+    Known,
+    /// Both shifted alike in the flange frame, by about this standard uncertainty, m.
+    Common(f64),
+    /// Each shifted by itself, by about this, m.
+    Separate(f64),
+}
+
+impl Points {
+    /// Unknown coordinates.
+    pub fn count(self) -> usize {
+        match self {
+            Points::Known => 0,
+            Points::Common(_) => 3,
+            Points::Separate(_) => 6,
+        }
+    }
+}
+
+/// How residuals count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// By their squares.
+    Squares,
+    /// By their squares up to 1.5 sigma, linearly beyond.
+    Huber,
+}
+
+/// What is known of the scatter of readings.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scatter {
+    /// Only ratios: the residuals tell the rest.
+    Found,
+    /// Standard uncertainties are known: larger residuals enlarge them, smaller ones do not.
+    Stated,
+}
+
+/// Beyond so many sigma a test counts linearly.
+const BEND: f64 = 1.5;
+const MOST_STEPS: usize = 60;
+const MOST_SCALES: usize = 25;
+/// A scale that changes by less than this share has come to rest: its own uncertainty is some ten per cent.
+const SAME_SCALE: f64 = 1e-4;
+/// A step in a logarithm longer than this leaves the range of the linearisation.
+const LONGEST_LOG_STEP: f64 = 2.0;
+
+/// Tests, unknowns and method as one least-squares problem.
+#[derive(Clone, Debug)]
+pub(super) struct Problem<'a> {
+    pub unknowns: &'a [Unknown],
+    pub tests: &'a [LoadTest],
+    pub effects: Vec<Effects>,
+    pub method: Method,
+    prior: Vec<LogPrior>,
+    /// Mean of the bent square of a residual, by the number of readings of its test.
+    expected_squares: Vec<f64>,
+}
+
+/// A point at rest, and all that was known there.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    pub x: DVector<f64>,
+    pub scale: f64,
+    pub spread: Spread,
+}
+
+/// Residuals and their derivatives at one `x`, readings over their uncertainties.
+struct Linear {
+    residual: DVector<f64>,
+    jacobian: DMatrix<f64>,
+    /// First row of each test, and the end.
+    first_row: Vec<usize>,
+}
+
+impl Linear {
+    /// Length of the residual of each test.
+    fn lengths(&self) -> impl Iterator<Item = f64> {
+        let rows = self.first_row.windows(2);
+        rows.map(|rows| self.residual.rows(rows[0], rows[1] - rows[0]).norm())
+    }
+}
+
+impl<'a> Problem<'a> {
+    pub fn new(
+        unknowns: &'a [Unknown],
+        tests: &'a [LoadTest],
+        effects: Vec<Effects>,
+        method: Method,
+    ) -> Problem<'a> {
+        let prior = match method.prior {
+            Prior::Typical => typical(unknowns),
+            Prior::None => Vec::new(),
+        };
+        let most = tests.iter().map(|test| test.readings.len()).max().unwrap_or(0);
+        let expected = |readings| match method.loss {
+            Loss::Squares => readings as f64,
+            Loss::Huber => expected_bent_square(readings),
+        };
+        Problem {
+            unknowns,
+            tests,
+            effects,
+            method,
+            prior,
+            expected_squares: (0..=most).map(expected).collect(),
+        }
+    }
+
+    /// Where a search starts that knows nothing yet.
+    pub fn start(&self) -> Rest {
+        let sizes = typical_sizes(self.unknowns);
+        let count = sizes.len() + self.method.points.count();
+        let value = |size: f64| if self.in_logs() { size.ln() } else { size };
+        Rest {
+            x: DVector::from_fn(count, |j, _| sizes.get(j).copied().map_or(0.0, value)),
+            scale: 1.0,
+            spread: Spread::default(),
+        }
+    }
+
+    fn in_logs(&self) -> bool {
+        self.method.prior == Prior::Typical
+    }
+
+    /// What `x` says.
+    pub fn state(&self, x: &DVector<f64>) -> State {
+        let count = self.unknowns.len();
+        let sizes = x.iter().take(count);
+        let shift = |at: usize| Vector3::new(x[at], x[at + 1], x[at + 2]);
+        let (force_shift, measured_shift) = match self.method.points {
+            Points::Known => (Vector3::zeros(), Vector3::zeros()),
+            Points::Common(_) => (shift(count), shift(count)),
+            Points::Separate(_) => (shift(count), shift(count) + shift(count + 3)),
+        };
+        State {
+            sizes: sizes.map(|v| if self.in_logs() { v.exp() } else { *v }).collect(),
+            force_shift,
+            measured_shift,
+        }
+    }
+
+    /// The most likely `x` for the tests with these indices, searched from `start`.
+    pub fn at_rest(&self, used: &[usize], start: &Rest) -> Rest {
+        let mut rest = start.clone();
+        let readings: usize = used.iter().map(|t| self.tests[*t].readings.len()).sum();
+        // Readings have about nine digits that mean something; less scatter than that is rounding.
+        let sizes = used.iter().flat_map(|t| &self.tests[*t].readings);
+        let largest = sizes
+            .map(|r| (r.value / r.standard_uncertainty).abs())
+            .fold(0.0, f64::max);
+        for _ in 0..MOST_SCALES {
+            rest.x = self.descend(used, rest.x, rest.scale);
+            let linear = self.linear(used, &rest.x);
+            rest.spread = self.spread(&linear, &rest);
+            let decided = rest.spread.known.iter().sum::<f64>().min(readings as f64 - 1.0);
+            let bend = self.bend();
+            let (mut found, mut expected) = (0.0, 0.0);
+            for (test, length) in used.iter().zip(linear.lengths()) {
+                found += length.min(bend * rest.scale).powi(2);
+                expected += self.expected_squares[self.tests[*test].readings.len()];
+            }
+            let share = (1.0 - decided / readings as f64).max(1.0 / readings as f64);
+            let mut scale = (found / (expected * share)).sqrt().max(largest * 1e-9);
+            if self.method.scatter == Scatter::Stated {
+                scale = scale.max(1.0);
+            }
+            let change = (scale / rest.scale - 1.0).abs();
+            rest.scale = scale;
+            if change < SAME_SCALE {
+                break;
+            }
+        }
+        rest
+    }
+
+    fn bend(&self) -> f64 {
+        match self.method.loss {
+            Loss::Squares => f64::INFINITY,
+            Loss::Huber => BEND,
+        }
+    }
+
+    /// Weight of a test whose residual is `length` times sigma.
+    pub fn weight(&self, length: f64) -> f64 {
+        (self.bend() / length).min(1.0)
+    }
+
+    fn linear(&self, used: &[usize], x: &DVector<f64>) -> Linear {
+        let state = self.state(x);
+        let count = self.unknowns.len();
+        let mut first_row = vec![0];
+        for test in used {
+            let last = first_row.last().copied().unwrap_or(0);
+            first_row.push(last + self.tests[*test].readings.len());
+        }
+        let rows = first_row.last().copied().unwrap_or(0);
+        let mut linear = Linear {
+            residual: DVector::zeros(rows),
+            jacobian: DMatrix::zeros(rows, x.len()),
+            first_row,
+        };
+        for (place, test) in used.iter().enumerate() {
+            let effect = self.effects[*test].jacobian(self.unknowns, &state);
+            for (r, reading) in self.tests[*test].readings.iter().enumerate() {
+                let row = linear.first_row[place] + r;
+                let u = reading.standard_uncertainty;
+                let predicted: f64 = (0..count).map(|k| effect[(r, k)] * state.sizes[k]).sum();
+                linear.residual[row] = (predicted - reading.value) / u;
+                for k in 0..count {
+                    let by_log = if self.in_logs() { state.sizes[k] } else { 1.0 };
+                    linear.jacobian[(row, k)] = effect[(r, k)] * by_log / u;
+                }
+                for j in 0..3 {
+                    let (force, measured) = (effect[(r, count + j)] / u, effect[(r, count + 3 + j)] / u);
+                    match self.method.points {
+                        Points::Known => {}
+                        Points::Common(_) => linear.jacobian[(row, count + j)] = force + measured,
+                        Points::Separate(_) => {
+                            linear.jacobian[(row, count + j)] = force + measured;
+                            linear.jacobian[(row, count + 3 + j)] = measured;
+                        }
+                    }
+                }
+            }
+        }
+        linear
+    }
+
+    fn objective(&self, linear: &Linear, x: &DVector<f64>, scale: f64) -> f64 {
+        let bend = self.bend();
+        let tests: f64 = linear
+            .lengths()
+            .map(|length| length / scale)
+            .map(|n| if n <= bend { n * n } else { (2.0 * n - bend) * bend })
+            .sum();
+        let (prior, wanted) = self.prior_rows(x.len());
+        tests + (prior * x - wanted).norm_squared()
+    }
+
+    /// Rows of the prior and what they should give, over their standard uncertainties.
+    fn prior_rows(&self, count: usize) -> (DMatrix<f64>, DVector<f64>) {
+        let points = match self.method.points {
+            Points::Common(u) | Points::Separate(u) if self.in_logs() => (self.unknowns.len()..count, u),
+            _ => (0..0, 1.0),
+        };
+        let rows = self.prior.len() + points.0.len();
+        let (mut matrix, mut wanted) = (DMatrix::zeros(rows, count), DVector::zeros(rows));
+        for (row, prior) in self.prior.iter().enumerate() {
+            for (k, factor) in &prior.parts {
+                matrix[(row, *k)] = factor / prior.standard_uncertainty;
+            }
+            wanted[row] = prior.mean / prior.standard_uncertainty;
+        }
+        for (row, j) in points.0.enumerate() {
+            matrix[(self.prior.len() + row, j)] = 1.0 / points.1;
+        }
+        (matrix, wanted)
+    }
+
+    /// The rows of the tests, weighed, over sigma.
+    fn weighed(&self, linear: &Linear, scale: f64) -> (DMatrix<f64>, DVector<f64>) {
+        let (mut jacobian, mut residual) = (linear.jacobian.clone(), linear.residual.clone());
+        for (rows, length) in linear.first_row.windows(2).zip(linear.lengths()) {
+            let factor = self.weight(length / scale).sqrt() / scale;
+            jacobian.rows_mut(rows[0], rows[1] - rows[0]).scale_mut(factor);
+            residual.rows_mut(rows[0], rows[1] - rows[0]).scale_mut(factor);
+        }
+        (jacobian, residual)
+    }
+
+    fn spread(&self, linear: &Linear, rest: &Rest) -> Spread {
+        let (tests, _) = self.weighed(linear, rest.scale);
+        let (prior, _) = self.prior_rows(rest.x.len());
+        let at_bound = |j: usize| !self.in_logs() && j < self.unknowns.len() && rest.x[j] <= 0.0;
+        let active: Vec<bool> = (0..rest.x.len()).map(|j| !at_bound(j)).collect();
+        Spread::of(&tests, &prior, &active)
+    }
+
+    /// Gauss-Newton with Levenberg's damping, only where a full step does not help.
+    fn descend(&self, used: &[usize], mut x: DVector<f64>, scale: f64) -> DVector<f64> {
+        let count = x.len();
+        let bounded: Vec<bool> = (0..count)
+            .map(|j| !self.in_logs() && j < self.unknowns.len())
+            .collect();
+        let mut linear = self.linear(used, &x);
+        let mut least = self.objective(&linear, &x, scale);
+        let mut damping = 0.0;
+        for _ in 0..MOST_STEPS {
+            let (tests, residual) = self.weighed(&linear, scale);
+            let (prior, wanted) = self.prior_rows(count);
+            let right = &tests * &x - residual;
+            let lengths: Vec<f64> = tests.column_iter().map(|column| column.norm()).collect();
+            let (rows, more) = (tests.nrows(), prior.nrows());
+            let mut a = DMatrix::zeros(rows + more + count, count);
+            a.rows_mut(0, rows).copy_from(&tests);
+            a.rows_mut(rows, more).copy_from(&prior);
+            let mut b = DVector::zeros(rows + more + count);
+            b.rows_mut(0, rows).copy_from(&right);
+            b.rows_mut(rows, more).copy_from(&wanted);
+            for j in 0..count {
+                let hold = lengths[j] * f64::sqrt(damping);
+                a[(rows + more + j, j)] = hold;
+                b[rows + more + j] = hold * x[j];
+            }
+            let tried = bounded::solve(&a, &b, &bounded).map(|target| {
+                let mut next = target;
+                for j in 0..self.unknowns.len() {
+                    if self.in_logs() {
+                        next[j] = x[j] + (next[j] - x[j]).clamp(-LONGEST_LOG_STEP, LONGEST_LOG_STEP);
+                    }
+                }
+                let there = self.linear(used, &next);
+                let value = self.objective(&there, &next, scale);
+                (next, there, value)
+            });
+            match tried {
+                Some((next, there, value)) if value < least => {
+                    let gain = least - value;
+                    (x, linear, least) = (next, there, value);
+                    damping = if damping > 1e-6 { damping * 0.1 } else { 0.0 };
+                    if gain < 1e-10 * least {
+                        break;
+                    }
+                }
+                _ if damping > 1e6 => break,
+                // A full step from the minimum gains nothing: nor would a shorter one.
+                Some((next, _, _)) if (&next - &x).amax() <= 1e-9 * x.amax() => break,
+                _ => damping = if damping == 0.0 { 1e-4 } else { damping * 10.0 },
+            }
+        }
+        x
+    }
+}
+
+/// Mean of `min(n^2, 1.5^2)` for `n^2` chi-squared with `readings` degrees of freedom, by the midpoint rule.
+fn expected_bent_square(readings: usize) -> f64 {
+    if readings == 0 {
+        return 0.0;
+    }
+    const CELLS: usize = 2000;
+    // Beyond this the density is below 1e-17 of its peak for up to six readings.
+    const END: f64 = 12.0;
+    let density = |n: f64| n.powi(readings as i32 - 1) * (-0.5 * n * n).exp();
+    let (mut mean, mut mass) = (0.0, 0.0);
+    for cell in 0..CELLS {
+        let n = (cell as f64 + 0.5) * END / CELLS as f64;
+        mean += density(n) * n.min(BEND).powi(2);
+        mass += density(n);
+    }
+    mean / mass
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bent_squares_of_one_reading_have_the_mean_of_the_normal_distribution() {
+        // E min(n^2, k^2) = 1 - 2 k phi(k) - 2 (1 - k^2)(1 - Phi(k)), k = 1.5: phi 0.1295176, 1 - Phi 0.0668072.
+        let expected = 1.0 - 2.0 * 1.5 * 0.129_517_6 - 2.0 * (1.0 - 2.25) * 0.066_807_2;
+        assert!((expected_bent_square(1) - expected).abs() < 1e-5);
+    }
+}

@@ -1,0 +1,243 @@
+//! Which tests tell most: postures and pulls that make the springs known best.
+//!
+//! D-optimal: the determinant of `sum D_t^T D_t + P^T P` is greatest, `D_t` the derivatives of the readings of test `t`
+//! by the logarithms of the sizes over the uncertainty of the gauge, `P` the typical prior. Candidates are postures of
+//! a Halton sequence inside the joint limits, each with every pull; tests are added one by one and then exchanged until
+//! nothing is gained (Fedorov 1972; Mitchell 1974). The same question has the same answer.
+
+use nalgebra::{DMatrix, Vector3};
+
+use super::effect::{Effects, State};
+use super::load_test::{LoadTest, Measured, Reading};
+use super::prior::{typical, typical_sizes};
+use super::spread::Spread;
+use super::unknown::Unknown;
+use crate::robot::chain::Axis;
+use crate::robot::forward::forward;
+use crate::robot::{Limits, Robot};
+use crate::spatial::Wrench;
+
+/// What a plan is asked for.
+#[derive(Clone, Debug)]
+pub struct Asked {
+    /// How many tests.
+    pub tests: usize,
+    /// Pulls that can be applied, N, base axes.
+    pub pulls: Vec<Vector3<f64>>,
+    /// Where they act and displacement is measured, m, flange frame.
+    pub tool_point: Vector3<f64>,
+    /// Standard uncertainty of a displacement reading, m.
+    pub gauge: f64,
+}
+
+/// One test to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlannedTest {
+    /// Joint positions, rad (m), whole degrees (mm).
+    pub joints: Vec<f64>,
+    /// N, base axes.
+    pub force: Vector3<f64>,
+    /// Displacement that typical drives would give, m, base axes.
+    pub expected: Vector3<f64>,
+}
+
+/// Tests and what they will tell.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// In the order of their postures.
+    pub tests: Vec<PlannedTest>,
+    /// Of the logarithms of the sizes: the square root of its diagonal is the relative uncertainty to expect.
+    pub spread: Spread,
+}
+
+/// Postures that are looked at.
+const POSTURES: u32 = 400;
+/// Rounds of exchange; it comes to rest in two or three.
+const ROUNDS: usize = 6;
+/// The tool stays higher than this over the floor, m.
+const LOWEST: f64 = 0.2;
+/// And further than this from the first axis, m: outside the arm itself.
+const NEAREST: f64 = 0.4;
+/// A joint without known limits is turned (moved) by no more than this, rad (m).
+const FREE: f64 = 1.5;
+/// Part of its range that a joint keeps clear of at each end.
+const MARGIN: f64 = 0.1;
+const PRIMES: [u32; 8] = [2, 3, 5, 7, 11, 13, 17, 19];
+
+/// A test that may be done, and what it tells of each unknown.
+struct Candidate {
+    posture: u32,
+    test: PlannedTest,
+    rows: DMatrix<f64>,
+}
+
+/// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
+pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
+    let candidates = candidates(robot, unknowns, asked);
+    let prior = prior_rows(unknowns);
+    let mut information = prior.tr_mul(&prior);
+    let mut chosen: Vec<usize> = Vec::new();
+    while chosen.len() < asked.tests && !candidates.is_empty() {
+        let best = best_addition(&information, &candidates);
+        add(&mut information, &candidates[best], 1.0);
+        chosen.push(best);
+    }
+    for _ in 0..ROUNDS {
+        let before = chosen.clone();
+        for place in &mut chosen {
+            add(&mut information, &candidates[*place], -1.0);
+            *place = best_addition(&information, &candidates);
+            add(&mut information, &candidates[*place], 1.0);
+        }
+        if chosen == before {
+            break;
+        }
+    }
+    chosen.sort_by_key(|place| (candidates[*place].posture, *place));
+    let mut rows = DMatrix::zeros(3 * chosen.len(), unknowns.len());
+    for (row, place) in chosen.iter().enumerate() {
+        rows.rows_mut(3 * row, 3).copy_from(&candidates[*place].rows);
+    }
+    Plan {
+        tests: chosen
+            .iter()
+            .map(|place| candidates[*place].test.clone())
+            .collect(),
+        spread: Spread::of(&rows, &prior, &vec![true; unknowns.len()]),
+    }
+}
+
+fn prior_rows(unknowns: &[Unknown]) -> DMatrix<f64> {
+    let priors = typical(unknowns);
+    let mut rows = DMatrix::zeros(priors.len(), unknowns.len());
+    for (row, prior) in priors.iter().enumerate() {
+        for (k, factor) in &prior.parts {
+            rows[(row, *k)] = factor / prior.standard_uncertainty;
+        }
+    }
+    rows
+}
+
+fn add(information: &mut DMatrix<f64>, candidate: &Candidate, times: f64) {
+    *information += candidate.rows.tr_mul(&candidate.rows) * times;
+}
+
+/// The candidate that multiplies the determinant most: `det(1 + D M^-1 D^T)`.
+fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate]) -> usize {
+    let inverse = information.clone().cholesky().map(|c| c.inverse());
+    let inverse = inverse.unwrap_or_else(|| DMatrix::identity(information.nrows(), information.ncols()));
+    let gain = |candidate: &Candidate| {
+        let inner = &candidate.rows * &inverse * candidate.rows.transpose();
+        (DMatrix::identity(3, 3) + inner).determinant()
+    };
+    let gains = candidates.iter().map(gain).enumerate();
+    // Of equal ones the first.
+    gains
+        .fold((0, f64::NEG_INFINITY), |best, (place, gain)| {
+            if gain > best.1 { (place, gain) } else { best }
+        })
+        .0
+}
+
+fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candidate> {
+    let state = State {
+        sizes: typical_sizes(unknowns),
+        force_shift: Vector3::zeros(),
+        measured_shift: Vector3::zeros(),
+    };
+    let mut found = Vec::new();
+    for posture in 1..=POSTURES {
+        let Some(joints) = posture_with_room(robot, posture, &asked.tool_point) else {
+            continue;
+        };
+        for pull in &asked.pulls {
+            let test = test_of(&joints, *pull, asked);
+            let effects = Effects::of(robot, unknowns, &test);
+            let jacobian = effects.jacobian(unknowns, &state);
+            let rows = DMatrix::from_fn(3, unknowns.len(), |i, k| {
+                jacobian[(i, k)] * state.sizes[k] / asked.gauge
+            });
+            let readings = effects.readings(unknowns, &state);
+            found.push(Candidate {
+                posture,
+                test: PlannedTest {
+                    joints: joints.clone(),
+                    force: *pull,
+                    expected: Vector3::from_column_slice(&readings),
+                },
+                rows,
+            });
+        }
+    }
+    found
+}
+
+fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &Asked) -> LoadTest {
+    let reading = |axis| Reading {
+        what: Measured::Displacement(axis),
+        value: 0.0,
+        standard_uncertainty: asked.gauge,
+    };
+    LoadTest {
+        joints: joints.to_vec(),
+        wrench: Wrench::from_force(pull),
+        force_point: asked.tool_point,
+        measured_point: asked.tool_point,
+        readings: [Axis::X, Axis::Y, Axis::Z].map(reading).to_vec(),
+    }
+}
+
+/// Posture number `index` of the sequence, if the tool is clear of floor and arm there.
+fn posture_with_room(robot: &Robot, index: u32, tool_point: &Vector3<f64>) -> Option<Vec<f64>> {
+    let joints: Vec<f64> = robot
+        .joints()
+        .iter()
+        .enumerate()
+        .map(|(joint, described)| {
+            let free = Limits {
+                lower: -FREE,
+                upper: FREE,
+            };
+            let limits = described.limits.unwrap_or(free);
+            // A joint that turns more than once around turns the load no further.
+            let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
+            let part = halton(index, PRIMES[joint % PRIMES.len()]);
+            let position = limits.middle() + half * (2.0 * part - 1.0);
+            if robot.slides(joint) {
+                (position * 1e3).round() * 1e-3
+            } else {
+                position.to_degrees().round().to_radians()
+            }
+        })
+        .collect();
+    let frames = forward(robot, &joints);
+    let tool = frames.base_from_flange * nalgebra::Point3::from(*tool_point);
+    let flange = frames.base_from_flange.translation.vector;
+    let first = frames.origin(0);
+    let reach = |p: &Vector3<f64>| (p.xy() - first.coords.xy()).norm();
+    let clear =
+        tool.z > LOWEST && flange.z > LOWEST && reach(&tool.coords) > NEAREST && reach(&flange) > NEAREST;
+    clear.then_some(joints)
+}
+
+/// Element `index` of the Halton sequence of this prime, 0 to 1.
+fn halton(mut index: u32, prime: u32) -> f64 {
+    let (mut value, mut part) = (0.0, 1.0);
+    while index > 0 {
+        part /= f64::from(prime);
+        value += part * f64::from(index % prime);
+        index /= prime;
+    }
+    value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sequence_of_two_is_that_of_van_der_corput() {
+        let first: Vec<f64> = (1..=7).map(|index| halton(index, 2)).collect();
+        assert_eq!(first, [0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875]);
+    }
+}

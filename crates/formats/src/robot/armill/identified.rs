@@ -1,0 +1,309 @@
+//! A robot file with compliances that were identified in place of its own.
+//!
+//! Everything else stays as it is: order, remarks, spelling. Springs and covariance of the file go, since they belong
+//! to the compliances that are replaced; sources that no number names any more go with them.
+
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+
+use crate::document::{Document, Problems};
+
+/// One compliance that was identified.
+#[derive(Clone, Debug, PartialEq)]
+pub struct IdentifiedSpring {
+    /// `base`, a joint's name, or `flange`.
+    pub at: String,
+    /// How it yields there.
+    pub yields: Yields,
+    /// rad/(N m), or m/N where it slides.
+    pub compliance: f64,
+    /// Standard uncertainty, same unit.
+    pub standard_uncertainty: f64,
+}
+
+/// How a spring yields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Yields {
+    /// The drive of a turning joint.
+    Drive,
+    /// The drive of a sliding joint.
+    SlidingDrive,
+    /// About this axis, `x`, `y` or `z`, of the seat.
+    About(char),
+    /// Along this axis of the seat.
+    Along(char),
+}
+
+impl IdentifiedSpring {
+    /// As a covariance names it: `A2`, `A2 about x`.
+    pub fn name(&self) -> String {
+        match self.yields {
+            Yields::Drive | Yields::SlidingDrive => self.at.clone(),
+            Yields::About(axis) => format!("{} about {axis}", self.at),
+            Yields::Along(axis) => format!("{} along {axis}", self.at),
+        }
+    }
+
+    fn turns(&self) -> bool {
+        matches!(self.yields, Yields::Drive | Yields::About(_))
+    }
+}
+
+/// Key of the source of identified numbers.
+const KEY: &str = "identified";
+/// Digits kept of a compliance: far more than any test gives.
+const DIGITS: usize = 7;
+
+/// The robot file `text` with these springs; `covariance` is of those that turn, in their order, `what` and `place`
+/// tell the tests they come from.
+///
+/// # Errors
+/// A text that is not TOML.
+pub fn with_springs(
+    path: &str,
+    text: &str,
+    springs: &[IdentifiedSpring],
+    covariance: &[Vec<f64>],
+    [what, place]: [&str; 2],
+) -> Result<String, Problems> {
+    let checked = Document::parse(path, text)?;
+    let mut document: DocumentMut = text
+        .parse()
+        .map_err(|error: toml_edit::TomlError| Problems::from(checked.problem("", error.message(), None)))?;
+    document.remove("spring");
+    document.remove("covariance");
+    if let Some(joints) = document.get_mut("joint").and_then(Item::as_array_of_tables_mut) {
+        for joint in joints.iter_mut() {
+            set_drive(joint, springs);
+        }
+    }
+    let mut others = ArrayOfTables::new();
+    for spring in springs {
+        match spring.yields {
+            Yields::About(axis) => others.push(spring_table(spring, "about", axis)),
+            Yields::Along(axis) => others.push(spring_table(spring, "along", axis)),
+            Yields::Drive | Yields::SlidingDrive => {}
+        }
+    }
+    let alone = others.is_empty();
+    if !alone {
+        document.insert("spring", Item::ArrayOfTables(others));
+        let turning = springs.iter().filter(|spring| spring.turns());
+        document.insert("covariance", covariance_table(turning, covariance));
+    }
+    let used = sources_of(document.as_item());
+    if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut) {
+        let unused: Vec<String> = sources
+            .iter()
+            .map(|(key, _)| key.to_owned())
+            .filter(|key| !used.contains(key))
+            .collect();
+        for key in unused {
+            sources.remove(&key);
+        }
+        let mut identified = Table::new();
+        for (key, content) in [
+            ("what", what),
+            ("where", place),
+            ("licence", "your own measurement"),
+        ] {
+            identified.insert(key, value(content));
+        }
+        sources.insert(KEY, Item::Table(identified));
+    }
+    Ok(document.to_string())
+}
+
+fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
+    let name = joint
+        .get("name")
+        .and_then(Item::as_str)
+        .unwrap_or_default()
+        .to_owned();
+    let drive = |spring: &&IdentifiedSpring| {
+        spring.at == name && matches!(spring.yields, Yields::Drive | Yields::SlidingDrive)
+    };
+    let Some(spring) = springs.iter().find(drive) else {
+        return;
+    };
+    for key in [
+        "compliance_rad_per_n_m",
+        "compliance_u_rad_per_n_m",
+        "compliance_um_per_n",
+        "compliance_u_um_per_n",
+        "compliance_u_source",
+    ] {
+        joint.remove(key);
+    }
+    set_compliance(joint, spring);
+    joint.insert("compliance_source", value(KEY));
+}
+
+fn set_compliance(table: &mut Table, spring: &IdentifiedSpring) {
+    let (keys, scale) = if spring.turns() {
+        (["compliance_rad_per_n_m", "compliance_u_rad_per_n_m"], 1.0)
+    } else {
+        (["compliance_um_per_n", "compliance_u_um_per_n"], 1e6)
+    };
+    table.insert(keys[0], Item::Value(number(spring.compliance * scale)));
+    table.insert(keys[1], Item::Value(number(spring.standard_uncertainty * scale)));
+}
+
+fn spring_table(spring: &IdentifiedSpring, word: &str, axis: char) -> Table {
+    let mut table = Table::new();
+    table.insert("at", value(spring.at.as_str()));
+    table.insert(word, value(axis.to_string()));
+    set_compliance(&mut table, spring);
+    table.insert("source", value(KEY));
+    table
+}
+
+fn covariance_table<'a>(
+    springs: impl Iterator<Item = &'a IdentifiedSpring>,
+    covariance: &[Vec<f64>],
+) -> Item {
+    let mut table = Table::new();
+    table.insert(
+        "of",
+        value(springs.map(IdentifiedSpring::name).collect::<Array>()),
+    );
+    let mut rows = Array::new();
+    for row in covariance {
+        let mut row: Value = Value::Array(row.iter().map(|entry| number(*entry)).collect());
+        row.decor_mut().set_prefix("\n  ");
+        rows.push_formatted(row);
+    }
+    rows.set_trailing("\n");
+    rows.set_trailing_comma(true);
+    table.insert("matrix_rad2_per_n2_m2", value(rows));
+    table.insert("source", value(KEY));
+    Item::Table(table)
+}
+
+/// A number with the digits that are kept, written as `5.946000e-7`.
+fn number(of: f64) -> Value {
+    let text = format!("{of:.*e}", DIGITS - 1);
+    text.parse().unwrap_or_else(|_| Value::from(of))
+}
+
+/// Keys of sources that some number names.
+fn sources_of(item: &Item) -> Vec<String> {
+    let mut found = Vec::new();
+    collect(item, &mut found);
+    found
+}
+
+fn collect(item: &Item, found: &mut Vec<String>) {
+    match item {
+        Item::Value(Value::Array(list)) => {
+            let tables = list.iter().filter_map(Value::as_inline_table);
+            tables.for_each(|table| collect_inline(table, found));
+        }
+        Item::Value(Value::InlineTable(table)) => collect_inline(table, found),
+        Item::Table(table) => {
+            for (key, entry) in table {
+                name_of(key, entry.as_str(), found);
+                // The list of sources names itself only.
+                if key != "sources" {
+                    collect(entry, found);
+                }
+            }
+        }
+        Item::ArrayOfTables(tables) => {
+            for table in tables {
+                collect(&Item::Table(table.clone()), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn collect_inline(table: &InlineTable, found: &mut Vec<String>) {
+    for (key, entry) in table {
+        name_of(key, entry.as_str(), found);
+        collect(&Item::Value(entry.clone()), found);
+    }
+}
+
+fn name_of(key: &str, entry: Option<&str>, found: &mut Vec<String>) {
+    if key == "source" || key.ends_with("_source") {
+        found.extend(entry.map(str::to_owned));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "# A lever.\nformat = 1\nname = \"lever\"\n\n[chain]\nsource = \"drawing\"\n\
+        motions = [{ about = \"z\", joint = \"A\" }, { along = \"x\", joint = \"B\" }]\n\n\
+        [[joint]]\nname = \"A\" # turns\nsign = 1\nsource = \"drawing\"\ncompliance_rad_per_n_m = 1e-3\n\
+        compliance_source = \"guess\"\n\n[[joint]]\nname = \"B\"\nsign = 1\nsource = \"drawing\"\n\
+        compliance_um_per_n = 1\ncompliance_source = \"guess\"\n\n\
+        [sources.drawing]\nwhat = \"lengths\"\nwhere = \"here\"\nlicence = \"ours\"\n\n\
+        [sources.guess]\nwhat = \"a guess\"\nwhere = \"nowhere\"\nlicence = \"ours\"\n";
+
+    fn spring(at: &str, yields: Yields, compliance: f64) -> IdentifiedSpring {
+        IdentifiedSpring {
+            at: at.to_owned(),
+            yields,
+            compliance,
+            standard_uncertainty: 0.1 * compliance,
+        }
+    }
+
+    #[test]
+    fn drives_are_replaced_and_the_file_reads_with_them() {
+        let springs = [
+            spring("A", Yields::Drive, 2.5e-6),
+            spring("B", Yields::SlidingDrive, 3e-8),
+        ];
+        let text = with_springs("lever.toml", FILE, &springs, &[], ["43 tests", "tests.csv"]).unwrap();
+        assert!(
+            text.starts_with("# A lever.\n") && text.contains("# turns"),
+            "{text}"
+        );
+        assert!(!text.contains("guess"), "{text}");
+        let read = super::super::read("lever.toml", "lever", &text).unwrap();
+        let compliance = read.robot.compliance().unwrap();
+        assert!((compliance[0].value - 2.5e-6).abs() < 1e-18, "{text}");
+        assert!((compliance[1].value - 3e-8).abs() < 1e-18, "{text}");
+        assert!(
+            (compliance[1].standard_uncertainty - 3e-9).abs() < 1e-18,
+            "{text}"
+        );
+        assert_eq!(read.joints[0].compliance_source.as_deref(), Some("identified"));
+    }
+
+    #[test]
+    fn other_springs_stand_in_tables_of_their_own_with_their_covariance() {
+        let springs = [
+            spring("A", Yields::Drive, 2.5e-6),
+            spring("A", Yields::About('x'), 1e-7),
+            spring("flange", Yields::Along('z'), 2e-8),
+        ];
+        let covariance = [vec![1e-14, -2e-16], vec![-2e-16, 1e-16]];
+        let text = with_springs("lever.toml", FILE, &springs, &covariance, ["", ""]).unwrap();
+        let table: toml::Table = text.parse().unwrap();
+        let springs = table["spring"].as_array().unwrap();
+        assert_eq!(springs[0]["about"].as_str(), Some("x"));
+        assert_eq!(springs[1]["compliance_um_per_n"].as_float(), Some(2e-2));
+        assert_eq!(table["covariance"]["of"].to_string(), "[\"A\", \"A about x\"]");
+        assert_eq!(
+            table["covariance"]["matrix_rad2_per_n2_m2"][1][0].as_float(),
+            Some(-2e-16)
+        );
+        // Identified once more, nothing of the first time is left.
+        let again = with_springs(
+            "lever.toml",
+            &text,
+            &[spring("A", Yields::Drive, 1e-6)],
+            &[],
+            ["", ""],
+        )
+        .unwrap();
+        assert!(
+            !again.contains("spring") && !again.contains("covariance"),
+            "{again}"
+        );
+    }
+}

@@ -1,0 +1,370 @@
+//! Load tests from a table: one row a test, the unit of each column in its name.
+//!
+//! | column | meaning | unit |
+//! |---|---|---|
+//! | `A1_deg` ... or `q1_deg` ... | joint positions in the controller's counting | `_deg`, `_rad`; `_mm`, `_m` where a joint slides |
+//! | `fx_n`, `fy_n`, `fz_n` | force on the tool, base axes, loaded minus unloaded; a missing column is 0 | `_n`, `_kn` |
+//! | `mx_n_m`, ... | moment about the force point | `_n_m` |
+//! | `dx_mm`, `dy_mm`, `dz_mm` | displacement in base axes; an empty cell was not measured | `_um`, `_mm`, `_m` |
+//! | `d_u_mm` | standard uncertainty of the displacements | `_um`, `_mm`, `_m` |
+//! | `joint`, `turn_urad` | turn of one link against the one before, about the joint's axis in the controller's sign | `_urad`, `_mrad`, `_rad`, `_deg` |
+//! | `turn_u_urad` | standard uncertainty of the turn | as the turn |
+//! | `force_x_mm`, ... | force point in the flange frame, where it differs from the tool point | `_mm`, `_m` |
+//! | `gauge_x_mm`, ... | measured point in the flange frame, likewise | `_mm`, `_m` |
+//! | `weight` | how many ordinary tests this one counts for | |
+//! | `test`, `note`, `expected_...` | for people | |
+//!
+//! Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#`
+//! and empty ones are passed over, and so are rows without any reading.
+
+mod columns;
+mod sheet;
+
+use armill_core::identify::{LoadTest, Measured, Reading};
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::{Axis, Robot};
+use armill_core::spatial::Wrench;
+
+use self::columns::{Column, Columns};
+use self::sheet::{Cell, Sheet};
+use crate::document::{Problem, Problems, Source};
+
+/// Load tests as a file tells them.
+#[derive(Clone, Debug)]
+pub struct LoadTests {
+    /// In the order of the file.
+    pub tests: Vec<LoadTest>,
+    /// What each is called: its `test` cell, or its line.
+    pub names: Vec<String>,
+    /// Rows that hold no reading.
+    pub empty_rows: usize,
+    /// Whether every reading states its standard uncertainty.
+    pub uncertainties_stated: bool,
+}
+
+/// Standard uncertainty of a displacement (m) and of a turn (rad) where none is stated: only their ratio counts.
+const UNSTATED: [f64; 2] = [1e-5, 1e-5];
+/// Further outside the limits than this (rad, m) a posture is not one of this robot.
+const OUTSIDE: f64 = 0.0175;
+/// An angle beyond this in radians is one in degrees.
+const TURNS: f64 = 4.0 * std::f64::consts::PI;
+/// All angles below this many degrees were radians: tests so near together tell nothing anyway.
+const RADIANS: f64 = 2.0 * std::f64::consts::PI;
+/// No length, angle or force of a test is larger, in the units of the file.
+const LARGEST: f64 = 1e9;
+
+/// The load tests of `robot` in this text; `path` is what problems show, `tool_point` (m, flange frame) where force and
+/// displacement are unless a row says otherwise.
+///
+/// # Errors
+/// Every problem of the file: missing, unknown and double columns, cells that are no numbers, joint positions that
+/// this robot cannot have, units that cannot be, no test at all.
+pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> Result<LoadTests, Problems> {
+    let source = Source::new(path, text);
+    let Some(sheet) = Sheet::of(&source) else {
+        let hint = "the first line names the columns; `armill identify --plan 20 --robot ...` makes a table to fill in";
+        return Err(source
+            .problem(0..0, "no table in this file", Some(hint.to_owned()))
+            .into());
+    };
+    let mut reader = Reader {
+        source: &source,
+        robot,
+        tool_point,
+        problems: Vec::new(),
+    };
+    let columns = Columns::of(&source, &sheet, robot, &mut reader.problems);
+    let mut found = LoadTests {
+        tests: Vec::new(),
+        names: Vec::new(),
+        empty_rows: 0,
+        uncertainties_stated: true,
+    };
+    for row in &sheet.rows {
+        reader.row(row, &sheet, &columns, &mut found);
+    }
+    reader.angles(&sheet, &columns);
+    if found.tests.is_empty() && reader.problems.is_empty() {
+        let message = format!("none of the {} rows holds a reading", sheet.rows.len());
+        let hint = "fill in what was measured: dx_mm, dy_mm, dz_mm; one of them is enough";
+        let span = sheet.header_span();
+        reader
+            .problems
+            .push(source.problem(span, message, Some(hint.to_owned())));
+    }
+    Problems::from(reader.problems).into_result()?;
+    Ok(found)
+}
+
+struct Reader<'a> {
+    source: &'a Source,
+    robot: &'a Robot,
+    tool_point: Vector3<f64>,
+    problems: Vec<Problem>,
+}
+
+/// What the cells of one row say, in SI.
+struct Row {
+    joints: Vec<f64>,
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    force_point: Vector3<f64>,
+    gauge_point: Vector3<f64>,
+    displacement: [Option<f64>; 3],
+    displacement_u: Option<f64>,
+    joint: Option<usize>,
+    turn: Option<f64>,
+    turn_u: Option<f64>,
+    weight: f64,
+    name: Option<String>,
+}
+
+impl Reader<'_> {
+    fn tell(&mut self, cell: &Cell, message: String, hint: &str) {
+        let problem = self
+            .source
+            .problem(cell.span.clone(), message, Some(hint.to_owned()));
+        self.problems.push(problem);
+    }
+
+    fn row(&mut self, cells: &[Cell], sheet: &Sheet, columns: &Columns, found: &mut LoadTests) {
+        if cells.len() != sheet.header.len() {
+            let message = format!(
+                "{} cells in a table of {} columns",
+                cells.len(),
+                sheet.header.len()
+            );
+            let hint = if sheet.separator == ',' {
+                "decimal commas need `;` between cells; an empty cell is nothing between two separators"
+            } else {
+                "an empty cell is nothing between two separators"
+            };
+            let start = cells.first().map_or(0, |cell| cell.span.start);
+            let end = cells.last().map_or(0, |cell| cell.span.end);
+            let problem = self.source.problem(start..end, message, Some(hint.to_owned()));
+            self.problems.push(problem);
+            return;
+        }
+        let mut row = Row {
+            joints: vec![0.0; self.robot.joints().len()],
+            force: Vector3::zeros(),
+            moment: Vector3::zeros(),
+            force_point: self.tool_point,
+            gauge_point: self.tool_point,
+            displacement: [None; 3],
+            displacement_u: None,
+            joint: None,
+            turn: None,
+            turn_u: None,
+            weight: 1.0,
+            name: None,
+        };
+        let problems = self.problems.len();
+        for (cell, column) in cells.iter().zip(&columns.columns) {
+            self.cell(cell, column.as_ref(), sheet, &mut row);
+        }
+        if row.turn.is_some() != row.joint.is_some() {
+            let cell = &cells[0];
+            self.tell(
+                cell,
+                "a turn and the joint that turned belong together".to_owned(),
+                "fill in both `joint` and `turn_...`, or neither",
+            );
+        }
+        if self.problems.len() > problems {
+            return;
+        }
+        let (line, _) = self
+            .source
+            .position(cells.first().map_or(0, |cell| cell.span.start));
+        let (readings, stated) = readings(&row, self.robot);
+        if readings.is_empty() {
+            found.empty_rows += 1;
+            return;
+        }
+        found.uncertainties_stated &= stated;
+        found
+            .names
+            .push(row.name.unwrap_or_else(|| format!("line {line}")));
+        found.tests.push(LoadTest {
+            joints: row.joints,
+            wrench: Wrench {
+                force: row.force,
+                moment: row.moment,
+            },
+            force_point: row.force_point,
+            measured_point: row.gauge_point,
+            readings,
+        });
+    }
+
+    fn cell(&mut self, cell: &Cell, column: Option<&Column>, sheet: &Sheet, row: &mut Row) {
+        let Some(column) = column else { return };
+        match column {
+            Column::Name => row.name = (!cell.text.is_empty()).then(|| cell.text.clone()),
+            Column::ForPeople => {}
+            Column::TurnedJoint => {
+                let named = |joint: &armill_core::robot::Joint| joint.name.eq_ignore_ascii_case(&cell.text);
+                row.joint = self.robot.joints().iter().position(named);
+                if row.joint.is_none() && !cell.text.is_empty() {
+                    let names: Vec<&str> = self.robot.joints().iter().map(|j| j.name.as_str()).collect();
+                    let hint = format!("one of {}", names.join(", "));
+                    self.tell(cell, format!("`{}` is no joint of this robot", cell.text), &hint);
+                }
+            }
+            _ => {
+                let Some(value) = self.number(cell, column, sheet) else {
+                    return;
+                };
+                match *column {
+                    Column::Joint(joint, scale) => {
+                        row.joints[joint] = value * scale;
+                        self.within_limits(cell, joint, value * scale);
+                    }
+                    Column::Force(axis, scale) => row.force[axis] = value * scale,
+                    Column::Moment(axis) => row.moment[axis] = value,
+                    Column::Displacement(axis, scale) => row.displacement[axis] = Some(value * scale),
+                    Column::DisplacementU(scale) => row.displacement_u = self.above_zero(cell, value * scale),
+                    Column::ForcePoint(axis, scale) => row.force_point[axis] = value * scale,
+                    Column::GaugePoint(axis, scale) => row.gauge_point[axis] = value * scale,
+                    Column::Turn(scale) => row.turn = Some(value * scale),
+                    Column::TurnU(scale) => row.turn_u = self.above_zero(cell, value * scale),
+                    Column::Weight => row.weight = self.above_zero(cell, value).unwrap_or(1.0),
+                    Column::Name | Column::ForPeople | Column::TurnedJoint => {}
+                }
+            }
+        }
+    }
+
+    /// The number in a cell, in the unit of its column; `None` where it is empty or none.
+    fn number(&mut self, cell: &Cell, column: &Column, sheet: &Sheet) -> Option<f64> {
+        if cell.text.is_empty() {
+            if let Column::Joint(joint, _) = column {
+                let name = &self.robot.joints()[*joint].name;
+                let message = format!("no position of joint {name}");
+                self.tell(cell, message, "every test needs the whole posture");
+            }
+            return None;
+        }
+        let text = match sheet.separator {
+            ',' => cell.text.clone(),
+            _ => cell.text.replace(',', "."),
+        };
+        match text.parse::<f64>() {
+            Ok(value) if value.is_finite() && value.abs() <= LARGEST => Some(value),
+            Ok(_) => {
+                let message = format!("`{}` is not a number from -1e9 to 1e9", cell.text);
+                self.tell(cell, message, "leave the cell empty if it was not measured");
+                None
+            }
+            Err(_) => {
+                let message = format!("`{}` is not a number", cell.text);
+                let hint = "units stand in the column's name; leave the cell empty if it was not measured";
+                self.tell(cell, message, hint);
+                None
+            }
+        }
+    }
+
+    fn above_zero(&mut self, cell: &Cell, value: f64) -> Option<f64> {
+        if value > 0.0 {
+            return Some(value);
+        }
+        let message = format!("`{}` is not above 0", cell.text);
+        self.tell(cell, message, "leave the cell empty if it is not known");
+        None
+    }
+
+    fn within_limits(&mut self, cell: &Cell, joint: usize, position: f64) {
+        let described = &self.robot.joints()[joint];
+        let Some(limits) = described.limits else { return };
+        // An angle of many turns is told once a column, as degrees read as radians.
+        if limits.margin(position) >= -OUTSIDE || (!self.robot.slides(joint) && position.abs() > TURNS) {
+            return;
+        }
+        let (scale, unit) = if self.robot.slides(joint) {
+            (1e3, "mm")
+        } else {
+            (1f64.to_degrees(), "deg")
+        };
+        let message = format!(
+            "joint {} at {:.1} {unit} is outside its limits {:.1} to {:.1} {unit}",
+            described.name,
+            position * scale,
+            limits.lower * scale,
+            limits.upper * scale
+        );
+        self.tell(
+            cell,
+            message,
+            "the robot file may count this joint from another zero or the other way round; `armill pose ROBOT \
+             --joints-deg ...` shows where it puts the tool",
+        );
+    }
+
+    /// Degrees under a name in radians, and the other way round.
+    fn angles(&mut self, sheet: &Sheet, columns: &Columns) {
+        let mut largest_deg: Option<f64> = None;
+        for (index, column) in columns.columns.iter().enumerate() {
+            let Some(Column::Joint(joint, scale)) = column else {
+                continue;
+            };
+            if self.robot.slides(*joint) {
+                continue;
+            }
+            let values = sheet.rows.iter().filter_map(|row| row.get(index));
+            let largest = values
+                .filter_map(|cell| cell.text.replace(',', ".").parse::<f64>().ok())
+                .fold(0.0, |largest: f64, value| largest.max(value.abs()));
+            let head = &sheet.header[index];
+            if *scale == 1.0 && largest > TURNS {
+                let name = head.text.trim_end_matches("_rad");
+                let message = format!("`{}` holds {largest} rad, more than two turns", head.text);
+                self.tell(
+                    head,
+                    message,
+                    &format!("these are degrees? call the column `{name}_deg`"),
+                );
+            }
+            if *scale != 1.0 {
+                largest_deg = Some(largest_deg.unwrap_or(0.0).max(largest));
+            }
+        }
+        if let Some(largest) = largest_deg.filter(|largest| *largest < RADIANS && *largest > 0.0) {
+            let message = format!("no joint is further than {largest} deg from its zero in any test");
+            let hint = "these are radians? name the columns `..._rad`";
+            let span = sheet.header_span();
+            let problem = self.source.problem(span, message, Some(hint.to_owned()));
+            self.problems.push(problem);
+        }
+    }
+}
+
+/// The readings of a row, and whether each states its uncertainty.
+fn readings(row: &Row, robot: &Robot) -> (Vec<Reading>, bool) {
+    let mut readings = Vec::new();
+    let mut stated = true;
+    let spread = row.weight.sqrt();
+    for (axis, value) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(row.displacement) {
+        if let Some(value) = value {
+            stated &= row.displacement_u.is_some();
+            readings.push(Reading {
+                what: Measured::Displacement(axis),
+                value,
+                standard_uncertainty: row.displacement_u.unwrap_or(UNSTATED[0]) / spread,
+            });
+        }
+    }
+    if let (Some(joint), Some(turn)) = (row.joint, row.turn) {
+        stated &= row.turn_u.is_some();
+        readings.push(Reading {
+            what: Measured::Turn(joint),
+            value: turn * robot.joints()[joint].sign.factor(),
+            standard_uncertainty: row.turn_u.unwrap_or(UNSTATED[1]) / spread,
+        });
+    }
+    (readings, stated)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,184 @@
+//! What each column of a table of load tests means.
+
+use armill_core::robot::Robot;
+
+use super::sheet::Sheet;
+use crate::document::unit::suggestion;
+use crate::document::{Problem, Source};
+
+/// The meaning of a column; numbers are axis or joint, then the factor to SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Column {
+    Name,
+    ForPeople,
+    Joint(usize, f64),
+    Force(usize, f64),
+    Moment(usize),
+    Displacement(usize, f64),
+    DisplacementU(f64),
+    ForcePoint(usize, f64),
+    GaugePoint(usize, f64),
+    TurnedJoint,
+    Turn(f64),
+    TurnU(f64),
+    Weight,
+}
+
+/// The columns of a sheet; `None` where a name means nothing.
+#[derive(Clone, Debug)]
+pub(super) struct Columns {
+    pub columns: Vec<Option<Column>>,
+}
+
+const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("um", 1e-6), ("m", 1.0)];
+const FORCES: [(&str, f64); 2] = [("n", 1.0), ("kn", 1e3)];
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
+const ANGLES: [(&str, f64); 2] = [("deg", DEGREE), ("rad", 1.0)];
+const TURNS: [(&str, f64); 4] = [("urad", 1e-6), ("mrad", 1e-3), ("rad", 1.0), ("deg", DEGREE)];
+
+/// Every name that means something, the usual unit of each first.
+fn known(robot: &Robot) -> Vec<(String, Column)> {
+    let mut known = vec![
+        ("test".to_owned(), Column::Name),
+        ("note".to_owned(), Column::ForPeople),
+        ("joint".to_owned(), Column::TurnedJoint),
+        ("weight".to_owned(), Column::Weight),
+    ];
+    for (joint, described) in robot.joints().iter().enumerate() {
+        let units: &[(&str, f64)] = if robot.slides(joint) { &LENGTHS } else { &ANGLES };
+        for (unit, scale) in units {
+            for name in [described.name.to_lowercase(), format!("q{}", joint + 1)] {
+                known.push((format!("{name}_{unit}"), Column::Joint(joint, *scale)));
+            }
+        }
+    }
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        known.push((format!("m{letter}_n_m"), Column::Moment(axis)));
+        for (unit, scale) in FORCES {
+            known.push((format!("f{letter}_{unit}"), Column::Force(axis, scale)));
+        }
+        for (unit, scale) in LENGTHS {
+            known.push((format!("d{letter}_{unit}"), Column::Displacement(axis, scale)));
+            known.push((format!("force_{letter}_{unit}"), Column::ForcePoint(axis, scale)));
+            known.push((format!("gauge_{letter}_{unit}"), Column::GaugePoint(axis, scale)));
+        }
+    }
+    for (unit, scale) in LENGTHS {
+        known.push((format!("d_u_{unit}"), Column::DisplacementU(scale)));
+    }
+    for (unit, scale) in TURNS {
+        known.push((format!("turn_{unit}"), Column::Turn(scale)));
+        known.push((format!("turn_u_{unit}"), Column::TurnU(scale)));
+    }
+    known
+}
+
+impl Columns {
+    /// The columns of `sheet`; what is unknown, double or missing goes to `problems`.
+    pub fn of(source: &Source, sheet: &Sheet, robot: &Robot, problems: &mut Vec<Problem>) -> Columns {
+        let known = known(robot);
+        let mut columns: Vec<Option<Column>> = Vec::new();
+        for cell in &sheet.header {
+            let name = cell.text.to_lowercase();
+            let found = if name.starts_with("expected_") {
+                Some(Column::ForPeople)
+            } else {
+                known
+                    .iter()
+                    .find(|(known, _)| *known == name)
+                    .map(|(_, column)| *column)
+            };
+            if found.is_none() {
+                let names: Vec<&str> = known.iter().map(|(known, _)| known.as_str()).collect();
+                let hint = suggestion(&name, &names).map_or_else(
+                    || "remove it, or call it `note`; the guide lists the columns: docs/guide/measure-stiffness.md".to_owned(),
+                    |(_, advice)| advice,
+                );
+                let message = format!("unknown column `{}`", cell.text);
+                problems.push(source.problem(cell.span.clone(), message, Some(hint)));
+            } else if let Some(first) =
+                found.and_then(|column| columns.iter().position(|c| c.is_some_and(|c| c.same(column))))
+            {
+                let message = format!("`{}` tells what `{}` tells", cell.text, sheet.header[first].text);
+                problems.push(source.problem(
+                    cell.span.clone(),
+                    message,
+                    Some("keep one of the two".to_owned()),
+                ));
+            }
+            columns.push(found);
+        }
+        let columns = Columns { columns };
+        for (missing, hint) in columns.missing(robot) {
+            let message = format!("missing {missing}");
+            problems.push(source.problem(sheet.header_span(), message, Some(hint)));
+        }
+        columns
+    }
+
+    fn has(&self, wanted: impl Fn(Column) -> bool) -> bool {
+        self.columns.iter().flatten().any(|column| wanted(*column))
+    }
+
+    /// What no column tells, and what to add.
+    fn missing(&self, robot: &Robot) -> Vec<(String, String)> {
+        let mut missing = Vec::new();
+        let without: Vec<String> = robot
+            .joints()
+            .iter()
+            .enumerate()
+            .filter(|(joint, _)| !self.has(|column| matches!(column, Column::Joint(j, _) if j == *joint)))
+            .map(|(joint, described)| {
+                let unit = if robot.slides(joint) { "mm" } else { "deg" };
+                format!("`{}_{unit}`", described.name)
+            })
+            .collect();
+        if !without.is_empty() {
+            let hint = "every test needs its whole posture: one column a joint, in degrees (`_deg`) or radians (`_rad`)";
+            missing.push((
+                format!("joint positions: {}", without.join(", ")),
+                hint.to_owned(),
+            ));
+        }
+        if !self.has(|column| matches!(column, Column::Force(..) | Column::Moment(_))) {
+            let hint =
+                "what pulled the tool, base axes: `fx_n`, `fy_n`, `fz_n`; a weight of 10 kg is fz_n = -98.1";
+            missing.push(("forces".to_owned(), hint.to_owned()));
+        }
+        let turned = [
+            self.has(|c| c == Column::TurnedJoint),
+            self.has(|c| matches!(c, Column::Turn(_))),
+        ];
+        if turned[0] != turned[1] {
+            let name = if turned[0] { "`turn_urad`" } else { "`joint`" };
+            missing.push((
+                name.to_owned(),
+                "a turn and the joint that turned belong together".to_owned(),
+            ));
+        }
+        if !self.has(|column| matches!(column, Column::Displacement(..) | Column::Turn(_))) {
+            let hint = "what moved: `dx_mm`, `dy_mm`, `dz_mm` in base axes, or `joint` and `turn_urad`";
+            missing.push(("readings".to_owned(), hint.to_owned()));
+        }
+        missing
+    }
+}
+
+impl Column {
+    /// Whether both tell the same thing, whatever their units.
+    fn same(self, other: Column) -> bool {
+        use Column::{
+            Displacement, DisplacementU, ForPeople, Force, ForcePoint, GaugePoint, Joint, Turn, TurnU,
+        };
+        match (self, other) {
+            (ForPeople, ForPeople) => false,
+            (Joint(a, _), Joint(b, _))
+            | (Force(a, _), Force(b, _))
+            | (Displacement(a, _), Displacement(b, _))
+            | (ForcePoint(a, _), ForcePoint(b, _))
+            | (GaugePoint(a, _), GaugePoint(b, _)) => a == b,
+            (DisplacementU(_), DisplacementU(_)) | (Turn(_), Turn(_)) | (TurnU(_), TurnU(_)) => true,
+            (a, b) => a == b,
+        }
+    }
+}

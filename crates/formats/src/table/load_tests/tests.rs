@@ -1,0 +1,172 @@
+//! Tables that are right, and every way in which they can be wrong.
+
+use super::*;
+use armill_core::robot::{Amount, Joint, Limits, Motion};
+
+/// Two turning joints with limits of 170 degrees and a sliding one.
+fn arm() -> Robot {
+    let motions = vec![
+        Motion::About(Axis::Z, Amount::Joint(0)),
+        Motion::Along(Axis::X, Amount::Constant(0.5)),
+        Motion::About(Axis::Y, Amount::Joint(1)),
+        Motion::Along(Axis::X, Amount::Joint(2)),
+    ];
+    let limits = |name: &str, far: f64| Joint {
+        limits: Some(Limits {
+            lower: -far,
+            upper: far,
+        }),
+        ..Joint::plain(name)
+    };
+    let turn = 170f64.to_radians();
+    Robot::new(
+        "arm",
+        motions,
+        vec![limits("A1", turn), limits("A2", turn), limits("Z", 0.8)],
+    )
+    .unwrap()
+}
+
+fn table(text: &str) -> Result<LoadTests, Problems> {
+    read("tests.csv", text, &arm(), Vector3::new(0.0, 0.0, 0.1))
+}
+
+fn problems(text: &str) -> String {
+    table(text).unwrap_err().to_string()
+}
+
+#[test]
+fn units_of_the_names_become_si() {
+    let text = "test,A1_deg,q2_rad,z_mm,fz_kN,mx_n_m,dx_um,dz_mm,d_u_um,gauge_z_mm\n\
+                first,90,0.5,250,-0.1,3,120,,5,80\n";
+    let found = table(text).unwrap();
+    let test = &found.tests[0];
+    assert!((test.joints[0] - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+    assert_eq!(test.joints[1..], [0.5, 0.25]);
+    assert_eq!(test.wrench.force, Vector3::new(0.0, 0.0, -100.0));
+    assert_eq!(test.wrench.moment, Vector3::new(3.0, 0.0, 0.0));
+    assert_eq!(test.force_point, Vector3::new(0.0, 0.0, 0.1));
+    assert_eq!(test.measured_point, Vector3::new(0.0, 0.0, 0.08));
+    assert_eq!(test.readings.len(), 1, "dz was not measured");
+    assert!((test.readings[0].value - 1.2e-4).abs() < 1e-18);
+    assert!((test.readings[0].standard_uncertainty - 5e-6).abs() < 1e-18);
+    assert!(found.uncertainties_stated);
+    assert_eq!(found.names, ["first"]);
+}
+
+#[test]
+fn semicolons_take_decimal_commas_and_rows_without_reading_are_passed_over() {
+    let text = "\u{feff}# my tests\r\nA1_deg;A2_deg;Z_mm;fz_n;dz_mm;expected_dz_mm\r\n\
+                10,5;-20;0;-98,1;-0,25;-0,3\r\n;;;;;\r\n30;-20;0;-98,1;;-0,3\r\n";
+    let found = table(text).unwrap();
+    assert_eq!(found.tests.len(), 1);
+    assert_eq!(found.empty_rows, 1);
+    assert_eq!(found.names, ["line 3"]);
+    assert!((found.tests[0].wrench.force.z + 98.1).abs() < 1e-12);
+    assert!((found.tests[0].readings[0].value + 2.5e-4).abs() < 1e-18);
+    assert!(!found.uncertainties_stated);
+}
+
+#[test]
+fn a_turn_of_one_link_is_read_with_its_joint() {
+    let text = "A1_deg,A2_deg,Z_mm,fz_n,joint,turn_mrad\n10,20,0,-50,a2,0.4\n";
+    let found = table(text).unwrap();
+    assert_eq!(found.tests[0].readings[0].what, Measured::Turn(1));
+    assert!((found.tests[0].readings[0].value - 4e-4).abs() < 1e-18);
+}
+
+#[test]
+fn missing_columns_are_named_all_at_once() {
+    let told = problems("A1_deg,note\n10,x\n");
+    for part in [
+        "tests.csv:1:1: missing joint positions: `A2_deg`, `Z_mm`",
+        "missing forces",
+        "missing readings",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+}
+
+#[test]
+fn unknown_and_double_columns_are_told_with_what_was_meant() {
+    let told = problems("A1,A2_deg,q2_rad,Z_mm,fz_n,dz_mm,colour\n1,2,3,4,5,6,7\n");
+    assert!(
+        told.contains("1:1: unknown column `A1`") && told.contains("angles carry their unit: write `a1_deg`"),
+        "{told}"
+    );
+    assert!(
+        told.contains("1:11: `q2_rad` tells what `A2_deg` tells"),
+        "{told}"
+    );
+    assert!(told.contains("unknown column `colour`"), "{told}");
+}
+
+#[test]
+fn cells_that_are_no_numbers_are_told_with_line_and_column() {
+    let told =
+        problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98.1 N,0.1\n,20,0,nan,0.1\n10,20,0,-98,1,0,2\n");
+    assert!(
+        told.contains("tests.csv:2:9: `-98.1 N` is not a number"),
+        "{told}"
+    );
+    assert!(told.contains("tests.csv:3:1: no position of joint A1"), "{told}");
+    assert!(
+        told.contains("tests.csv:3:7: `nan` is not a number from"),
+        "{told}"
+    );
+    assert!(
+        told.contains("tests.csv:4:1: 7 cells in a table of 5 columns"),
+        "{told}"
+    );
+    assert!(told.contains("decimal commas need `;`"), "{told}");
+}
+
+#[test]
+fn degrees_called_radians_and_radians_called_degrees_are_seen() {
+    let told = problems("A1_rad,A2_rad,Z_mm,fz_n,dz_mm\n90,20,0,-98,0.1\n-45,30,0,-98,0.1\n");
+    assert!(
+        told.contains("`A1_rad` holds 90 rad") && told.contains("call the column `A1_deg`"),
+        "{told}"
+    );
+    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n1.57,0.3,0,-98,0.1\n-0.7,0.5,0,-98,0.1\n");
+    assert!(
+        told.contains("no joint is further than 1.57 deg") && told.contains("radians?"),
+        "{told}"
+    );
+}
+
+#[test]
+fn a_posture_outside_the_limits_is_told_with_value_limit_and_unit() {
+    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n175,20,900,-98,0.1\n");
+    assert!(
+        told.contains("joint A1 at 175.0 deg is outside its limits -170.0 to 170.0 deg"),
+        "{told}"
+    );
+    assert!(
+        told.contains("joint Z at 900.0 mm is outside its limits -800.0 to 800.0 mm"),
+        "{told}"
+    );
+}
+
+#[test]
+fn files_without_a_table_or_a_reading_are_refused() {
+    assert!(problems("# nothing\n\n").contains("no table in this file"));
+    let told = problems("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n10,20,0,-98,\n");
+    assert!(told.contains("none of the 1 rows holds a reading"), "{told}");
+}
+
+#[test]
+fn no_text_makes_it_panic() {
+    for text in [
+        "",
+        ",",
+        ";",
+        "\"",
+        "a\"b,c\n\"",
+        "A1_deg\n\u{fffd}",
+        "fx_n;\n;;;\n",
+        "é,ü\n1,2\n",
+    ] {
+        assert!(table(text).is_err(), "{text:?}");
+    }
+}

@@ -1,0 +1,14 @@
+//! Load tests in, springs of the arm out: what `armill identify` answers.
+//!
+//! [`question`] (what is asked for, in the words of the command), [`answer`](mod@answer) (springs, uncertainties,
+//! residuals, as one JSON value), [`robot_file`] (the robot with its new compliances), [`plan`](mod@plan) (tests to do,
+//! as a table to fill in).
+
+pub mod answer;
+pub mod plan;
+pub mod question;
+pub mod robot_file;
+
+pub use answer::{Answer, SpringAnswer, answer};
+pub use plan::{PlanAnswer, plan};
+pub use question::{PointsAsked, PriorAsked, Question, Units};

@@ -1,0 +1,145 @@
+//! Tests to do: postures and pulls as a table to fill in.
+
+use armill_core::identify::{Asked, plan as core_plan};
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::Robot;
+use serde::Serialize;
+
+use super::question::{Question, spring_name};
+use crate::StudyError;
+
+/// A plan, as JSON has it and as a table.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlanAnswer {
+    /// Library name or file stem.
+    pub robot: String,
+    /// Different postures among the tests.
+    pub postures: usize,
+    /// The tests, in the order of their postures.
+    pub tests: Vec<PlannedTestAnswer>,
+    /// How well each spring will be known.
+    pub springs: Vec<ExpectedSpring>,
+    /// The table to fill in: CSV.
+    #[serde(skip)]
+    pub table: String,
+}
+
+/// One test to do.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlannedTestAnswer {
+    /// Joint positions (sliding joints in mm).
+    pub joints_deg: Vec<f64>,
+    /// Pull on the tool, base axes.
+    pub force_n: [f64; 3],
+    /// Displacement of a typical arm.
+    pub expected_mm: [f64; 3],
+}
+
+/// How well a spring will be known.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExpectedSpring {
+    /// `A2 drive`.
+    pub name: String,
+    /// Standard uncertainty over compliance to expect; 2 is a factor of seven, and known of any arm.
+    pub relative_u_ratio: f64,
+    /// How much of it the tests will tell, 0 to 1.
+    pub fraction_known_from_tests: f64,
+}
+
+/// Fewest and most tests of a plan.
+const TESTS: std::ops::RangeInclusive<usize> = 1..=500;
+
+/// A plan of `count` tests with pulls of `pull` (N): down, and level along base x and y. `gauge` (m) is the standard
+/// uncertainty of a reading.
+///
+/// # Errors
+/// A count, pull or uncertainty that cannot be; an arm without a posture that has room.
+pub fn plan(
+    robot: &Robot,
+    question: &Question,
+    count: usize,
+    [pull, gauge]: [f64; 2],
+) -> Result<PlanAnswer, StudyError> {
+    if !TESTS.contains(&count) {
+        return Err(StudyError::value(
+            format!("--plan {count} is not from {} to {}", TESTS.start(), TESTS.end()),
+            "20 to 40 tests take an afternoon",
+        ));
+    }
+    let unknowns = question.unknowns(robot, &[])?;
+    let asked = Asked {
+        tests: count,
+        pulls: [
+            -Vector3::z(),
+            Vector3::x(),
+            -Vector3::x(),
+            Vector3::y(),
+            -Vector3::y(),
+        ]
+        .map(|direction| direction * pull)
+        .to_vec(),
+        tool_point: question.tool_point,
+        gauge,
+    };
+    let plan = core_plan(robot, &unknowns, &asked);
+    if plan.tests.is_empty() {
+        return Err(StudyError::value(
+            "no posture inside the joint limits keeps the tool 200 mm above base_link and 400 mm from the first axis",
+            "is --tool-mm right, and do the limits of the robot file leave room?",
+        ));
+    }
+    let tests: Vec<PlannedTestAnswer> = plan
+        .tests
+        .iter()
+        .map(|test| PlannedTestAnswer {
+            joints_deg: test
+                .joints
+                .iter()
+                .enumerate()
+                .map(|(i, q)| (if robot.slides(i) { q * 1e3 } else { q.to_degrees() }).round())
+                .collect(),
+            force_n: test.force.into(),
+            expected_mm: (test.expected * 1e3).into(),
+        })
+        .collect();
+    let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
+    postures.dedup();
+    let springs = unknowns
+        .iter()
+        .enumerate()
+        .map(|(k, unknown)| ExpectedSpring {
+            name: spring_name(robot, unknown),
+            relative_u_ratio: plan.spread.covariance[(k, k)].max(0.0).sqrt(),
+            fraction_known_from_tests: plan.spread.known[k],
+        })
+        .collect();
+    Ok(PlanAnswer {
+        robot: robot.name().to_owned(),
+        postures: postures.len(),
+        table: table(robot, &tests),
+        tests,
+        springs,
+    })
+}
+
+/// The plan as CSV, with empty cells for what will be measured.
+fn table(robot: &Robot, tests: &[PlannedTestAnswer]) -> String {
+    let mut header = vec!["test".to_owned()];
+    header.extend(robot.joints().iter().enumerate().map(|(i, joint)| {
+        let unit = if robot.slides(i) { "mm" } else { "deg" };
+        format!("{}_{unit}", joint.name)
+    }));
+    header.extend(["fx_n", "fy_n", "fz_n", "dx_mm", "dy_mm", "dz_mm"].map(str::to_owned));
+    header.extend(["expected_dx_mm", "expected_dy_mm", "expected_dz_mm"].map(str::to_owned));
+    let mut lines = vec![header.join(",")];
+    // Adding 0 turns -0 into 0.
+    let plain = |value: &f64| format!("{}", (value * 1e3).round() / 1e3 + 0.0);
+    for (index, test) in tests.iter().enumerate() {
+        let mut cells = vec![format!("{}", index + 1)];
+        cells.extend(test.joints_deg.iter().chain(&test.force_n).map(plain));
+        cells.extend(["", "", ""].map(str::to_owned));
+        cells.extend(test.expected_mm.iter().map(plain));
+        lines.push(cells.join(","));
+    }
+    lines.join("\r\n") + "\r\n"
+}

@@ -1,0 +1,160 @@
+//! What is asked for: which unknowns, which points, what is known beforehand.
+
+use armill_core::identify::effect::Effects;
+use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
+use armill_core::identify::{LoadTest, Points, Prior, Role, Seat, Unknown};
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::Robot;
+use armill_formats::robot::armill::Yields;
+
+use crate::StudyError;
+
+/// A question about load tests.
+#[derive(Clone, Debug)]
+pub struct Question {
+    /// Groups of unknowns with `+` between: `drives+bending+base`.
+    pub unknowns: String,
+    /// Whether force point and measured point are known.
+    pub points: PointsAsked,
+    /// Standard uncertainty of points that are not known, m.
+    pub point_u: f64,
+    /// What is known beforehand.
+    pub prior: PriorAsked,
+    /// Where force and displacement are unless a test says otherwise, m, flange frame.
+    pub tool_point: Vector3<f64>,
+    /// Whether sizes that no arm has are refused.
+    pub units: Units,
+}
+
+/// What is known of the two points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointsAsked {
+    /// Both, as told.
+    Known,
+    /// Both are off by one and the same shift.
+    Common,
+    /// Each is off by itself.
+    Separate,
+}
+
+/// What is known of the springs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PriorAsked {
+    /// Arms are alike within powers of ten.
+    Typical,
+    /// Only that none is negative.
+    None,
+}
+
+/// Whether readings far from those of any arm are taken as they are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Units {
+    /// They are refused.
+    Checked,
+    /// They are taken.
+    Trusted,
+}
+
+/// The groups that `unknowns` may name.
+pub const GROUPS: [&str; 5] = ["drives", "bending", "base", "tool", "lost-motion"];
+/// Share of the largest torque on a joint that takes up its gap.
+const GAP_CLOSES_AT: f64 = 0.05;
+
+impl Question {
+    /// The points for the core.
+    pub fn points(&self) -> Points {
+        match self.points {
+            PointsAsked::Known => Points::Known,
+            PointsAsked::Common => Points::Common(self.point_u),
+            PointsAsked::Separate => Points::Separate(self.point_u),
+        }
+    }
+
+    /// The prior for the core.
+    pub fn prior(&self) -> Prior {
+        match self.prior {
+            PriorAsked::Typical => Prior::Typical,
+            PriorAsked::None => Prior::None,
+        }
+    }
+
+    /// The unknowns that the groups name, on this robot. Lost motion needs tests: their torques say how soon a gap is
+    /// taken up.
+    ///
+    /// # Errors
+    /// A word that names no group; a list without drives.
+    pub fn unknowns(&self, robot: &Robot, tests: &[LoadTest]) -> Result<Vec<Unknown>, StudyError> {
+        let groups: Vec<&str> = self.unknowns.split('+').map(str::trim).collect();
+        if let Some(unknown) = groups.iter().find(|group| !GROUPS.contains(group)) {
+            let message = format!("--unknowns: `{unknown}` is no group of springs");
+            return Err(StudyError::value(
+                message,
+                format!("one or more of {}, such as drives+bending", GROUPS.join(", ")),
+            ));
+        }
+        if !groups.contains(&"drives") {
+            let message = format!("--unknowns {}: drives are missing", self.unknowns);
+            return Err(StudyError::value(message, "they yield most: write drives+..."));
+        }
+        let drives = drives(robot);
+        let mut unknowns = drives.clone();
+        for (name, group) in [
+            ("bending", bending(robot)),
+            ("base", base(robot)),
+            ("tool", tool()),
+        ] {
+            if groups.contains(&name) {
+                unknowns.extend(group);
+            }
+        }
+        if groups.contains(&"lost-motion") {
+            let mut torques = vec![0.0; drives.len()];
+            for test in tests {
+                for (largest, torque) in torques
+                    .iter_mut()
+                    .zip(Effects::of(robot, &drives, test).torques())
+                {
+                    *largest = f64::max(*largest, GAP_CLOSES_AT * torque.abs());
+                }
+            }
+            unknowns.extend(lost_motion(robot, &torques));
+        }
+        Ok(unknowns)
+    }
+}
+
+/// What a robot file calls the seat of an unknown.
+pub fn seat_name(robot: &Robot, unknown: &Unknown) -> String {
+    match unknown.seat {
+        Seat::Base => "base".to_owned(),
+        Seat::Joint(joint) => robot.joints()[joint].name.clone(),
+        Seat::Flange => "flange".to_owned(),
+    }
+}
+
+/// How an unknown yields, as a robot file says it.
+pub fn yields(unknown: &Unknown) -> Yields {
+    let direction = if unknown.turns() {
+        unknown.direction.angular
+    } else {
+        unknown.direction.linear
+    };
+    let axis = ['x', 'y', 'z'][direction.iamax()];
+    match (unknown.role, unknown.turns()) {
+        (Role::Drive | Role::LostMotion { .. }, true) => Yields::Drive,
+        (Role::Drive | Role::LostMotion { .. }, false) => Yields::SlidingDrive,
+        (_, true) => Yields::About(axis),
+        (_, false) => Yields::Along(axis),
+    }
+}
+
+/// What people call an unknown: `A2 drive`, `A2 about x`, `A2 lost motion`.
+pub fn spring_name(robot: &Robot, unknown: &Unknown) -> String {
+    let seat = seat_name(robot, unknown);
+    match (unknown.role, yields(unknown)) {
+        (Role::LostMotion { .. }, _) => format!("{seat} lost motion"),
+        (_, Yields::About(axis)) => format!("{seat} about {axis}"),
+        (_, Yields::Along(axis)) => format!("{seat} along {axis}"),
+        _ => format!("{seat} drive"),
+    }
+}

@@ -1,0 +1,68 @@
+//! The robot file with identified compliances: what later predictions use.
+
+use armill_core::identify::Role;
+use armill_core::robot::Robot;
+use armill_formats::robot::armill::{IdentifiedSpring, with_springs};
+
+use super::answer::Answer;
+use super::question::{seat_name, yields};
+use crate::StudyError;
+
+/// The robot file `text` (at `path`) with the springs of `answer`, found from the tests in `tests_path`.
+///
+/// # Errors
+/// A robot file that is not TOML.
+pub fn robot_file(
+    robot: &Robot,
+    [path, text]: [&str; 2],
+    answer: &Answer,
+    tests_path: &str,
+) -> Result<String, StudyError> {
+    let kept: Vec<usize> = (0..answer.unknowns.len())
+        .filter(|k| !matches!(answer.unknowns[*k].role, Role::LostMotion { .. }))
+        .collect();
+    let springs: Vec<IdentifiedSpring> = kept
+        .iter()
+        .map(|k| {
+            let (unknown, estimate) = (&answer.unknowns[*k], answer.identified.estimates[*k]);
+            IdentifiedSpring {
+                at: seat_name(robot, unknown),
+                yields: yields(unknown),
+                compliance: estimate.value,
+                standard_uncertainty: estimate.standard_uncertainty,
+            }
+        })
+        .collect();
+    let turning: Vec<usize> = kept
+        .iter()
+        .copied()
+        .filter(|k| answer.unknowns[*k].turns())
+        .collect();
+    let covariance: Vec<Vec<f64>> = turning
+        .iter()
+        .map(|a| {
+            turning
+                .iter()
+                .map(|b| answer.identified.covariance[(*a, *b)])
+                .collect()
+        })
+        .collect();
+    let left_out = answer.left_out.as_ref().map_or(String::new(), |errors| {
+        format!(
+            "; a test left out is predicted within {:.1} um in the mean, {:.1} % of what was measured",
+            errors.mean_um,
+            errors.fraction_of_measured * 100.0
+        )
+    });
+    let what = format!(
+        "compliances identified by armill from {} load tests with {} readings{left_out}",
+        answer.tests, answer.readings
+    );
+    Ok(with_springs(
+        path,
+        text,
+        &springs,
+        &covariance,
+        [&what, tests_path],
+    )?)
+}
