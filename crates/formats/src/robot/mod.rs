@@ -4,6 +4,7 @@
 //! [`RobotDescription`]: the robot of the core, with the source of its numbers.
 
 pub mod armill;
+pub mod structure;
 pub mod urdf;
 
 mod description;
