@@ -11,6 +11,7 @@ pub mod error;
 pub mod file;
 pub mod library;
 pub mod output;
+pub mod parts;
 pub mod pose;
 pub mod robots;
 pub mod run;

@@ -8,4 +8,5 @@ pub(crate) mod robots;
 pub(crate) mod run;
 
 mod drawing;
+mod structure;
 mod study_file;

@@ -78,8 +78,8 @@ impl Answers {
     }
 
     /// Memory that the answers at one point take, bytes.
-    pub fn bytes_per_point(joint_count: usize, case_count: usize) -> usize {
-        size_of::<Result<Held, Unreachable>>() + 2 * 8 * joint_count + 24 * case_count
+    pub fn bytes_per_point(joint_count: usize, share_count: usize, case_count: usize) -> usize {
+        size_of::<Result<Held, Unreachable>>() + 8 * (joint_count + share_count) + 24 * case_count
     }
 
     /// Joint positions at point `index`, rad.

@@ -88,6 +88,22 @@ impl Spring {
     }
 }
 
+/// The two springs of a round cutter that bends like a clamped bar: along x and y of the tool, `64 L^3 / (3 pi E d^4)`.
+///
+/// `stick_out` L and `diameter` d in m, `modulus` E in Pa. Flutes weaken a cutter: d is the diameter of its core, about 0.8
+/// of the outer one. Left out: the turn of the tip, the cutter along its axis, clamping. No uncertainty.
+/// Source: bending of a cantilever by a force at its end, any textbook on strength of materials.
+pub fn cutter_springs(stick_out: f64, diameter: f64, modulus: f64) -> [Spring; 2] {
+    let value = 64.0 * stick_out.powi(3) / (3.0 * std::f64::consts::PI * modulus * diameter.powi(4));
+    [Vector3::x(), Vector3::y()].map(|axis| {
+        let compliance = JointCompliance {
+            value,
+            standard_uncertainty: 0.0,
+        };
+        Spring::along(Seat::Tool, axis, compliance)
+    })
+}
+
 /// Parts of a matrix that are smaller than its largest entry by this factor are rounding of whoever wrote it.
 const ROUNDING: f64 = 1e-6;
 
@@ -167,6 +183,19 @@ mod tests {
         assert!(matches!(of(0, 1, 1e-9), StructureError::NotSymmetric(_)));
         assert!(matches!(of(2, 2, -1e-9), StructureError::YieldsAgainstLoad(_)));
         assert!(matches!(of(3, 3, f64::NAN), StructureError::NotFinite(_)));
+    }
+
+    #[test]
+    fn a_cutter_bends_like_a_clamped_bar() {
+        // F L^3 / (3 E I) with I = pi d^4 / 64 = 4.909e-10 m^4: 10 mm carbide, 50 mm out, 1 N.
+        let [x, _] = cutter_springs(0.05, 0.01, 6e11);
+        let inertia = 4.908_738_521e-10;
+        let witness = 0.05_f64.powi(3) / (3.0 * 6e11 * inertia);
+        assert!(
+            (x.compliance.value / witness - 1.0).abs() < 1e-9,
+            "{} m/N",
+            x.compliance.value
+        );
     }
 
     #[test]

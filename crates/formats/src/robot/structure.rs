@@ -60,6 +60,7 @@ pub struct SpringTable {
     #[schemars(range(min = 0.0, max = 1e6))]
     pub compliance_u_um_per_n: Option<f64>,
     /// 6 x 6 in place of an axis: translation first, in the seat's axes, m/N, 1/N, rad/(N m).
+    // unit: SI matrix
     #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
     pub compliance_matrix: Option<[[f64; 6]; 6]>,
     /// Where it comes from: the key of a source, in a study in words.

@@ -6,6 +6,7 @@
 pub mod format;
 pub mod quantities;
 pub mod resolve;
+pub mod stiffness;
 
 mod ask;
 mod memory;
