@@ -11,6 +11,7 @@ use armill_core::predict::predict;
 use armill_core::robot::inverse::{OrthoParallel, ToolAt, posture_at, postures};
 use armill_core::robot::joint::{JointCompliance, Sign};
 use armill_core::robot::{Amount, Axis, Branch, BranchPattern, Joint, Limits, Motion, Robot};
+use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Grid, Plane};
@@ -55,6 +56,7 @@ impl Arm {
             robot: &self.robot,
             arm: self.closed_form(),
             compliance: self.compliance(),
+            model: StiffnessModel::DRIVES,
             flange_from_tool: &self.tool,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),

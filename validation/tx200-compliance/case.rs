@@ -2,12 +2,14 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
-use armill_core::robot::{Posture, Robot};
+use armill_core::robot::{Amount, JointCompliance, Mass, Posture, Robot, Seat, Spring, Structure};
+use armill_core::source::stiffness_model::FREE_FALL;
+use armill_core::source::{Arm, Gravity, Standing, StiffnessModel};
 
 use crate::arms;
 use crate::check::{Check, Gap, worst_difference};
@@ -35,6 +37,19 @@ pub const COMPLIANCE_IN_PART: Matrix3<f64> =
 
 const SECOND_JOINTS_DEG: [f64; 6] = [-90.0, 30.0, 95.0, 0.0, 0.0, 0.0];
 const SECOND_TCP: [f64; 3] = [0.0, -1.647_400_025_592_229_6, 0.480_698_121_343_784_3];
+/// Bending springs about the x and y axes of the joint frames, N m/rad.
+const BENDING_SPRINGS: [[f64; 2]; 6] = [
+    [13.1e6, 17.0e6],
+    [4.1e6, 19.9e6],
+    [18.8e6, 2.9e6],
+    [2.3e6, 3.1e6],
+    [2.1e6, 0.9e6],
+    [14.8e6, 8.3e6],
+];
+/// Translational compliance there in base with all 18, um/N.
+const SECOND_COMPLIANCE_18: Matrix3<f64> = Matrix3::new(
+    2.6215, -0.0681, -0.0643, -0.0681, 2.0235, -1.2713, -0.0643, -1.2713, 1.2680,
+);
 /// Translational compliance there in base, um/N.
 const SECOND_COMPLIANCE: Matrix3<f64> =
     Matrix3::new(1.2908, 0.0, 0.0, 0.0, 1.7278, -1.0517, 0.0, -1.0517, 0.8876);
@@ -60,6 +75,7 @@ pub fn checks() -> Vec<Check> {
         translational(&robot, &second).as_slice(),
         SECOND_COMPLIANCE.as_slice(),
     );
+    let bending = worst_difference(with_bending(&robot).as_slice(), SECOND_COMPLIANCE_18.as_slice());
     vec![
         // Half of the last printed digit, here and below.
         Check::printed(
@@ -101,6 +117,26 @@ pub fn checks() -> Vec<Check> {
             },
             6,
         ),
+        Check::printed(
+            "translational compliance there, all 18 springs, 9 numbers",
+            COMPUTED,
+            Gap {
+                worst: bending,
+                tolerance: 5e-5,
+                unit: "um/N",
+            },
+            6,
+        ),
+        Check::computed(
+            "torques of gravity on the six drives, ten postures",
+            "falling potential energy",
+            Gap {
+                worst: gravity_gap(&robot),
+                // 10 kJ: h^2 of the third derivative, and rounding over h.
+                tolerance: 1e-5,
+                unit: "N m",
+            },
+        ),
     ]
 }
 
@@ -140,6 +176,114 @@ fn flange_from_tool() -> Isometry {
         Vector3::new(0.277, 0.0, 0.326),
         Vector3::new(0.0, 1.308_996_9, 0.0),
     )
+}
+
+/// Translational compliance at the second pose in base with bending springs beside those of the drives, um/N.
+fn with_bending(robot: &Robot) -> Matrix3<f64> {
+    let axes = [Vector3::x(), Vector3::y()];
+    let of_joint = |(joint, k): (usize, &[f64; 2])| {
+        let spring = |axis: usize| {
+            let compliance = JointCompliance {
+                value: 1.0 / k[axis],
+                standard_uncertainty: 0.0,
+            };
+            Spring::about(Seat::Joint(joint), axes[axis], compliance)
+        };
+        [spring(0), spring(1)]
+    };
+    let structure = Structure {
+        springs: BENDING_SPRINGS.iter().enumerate().flat_map(of_joint).collect(),
+        ..Structure::EMPTY
+    };
+    let model = StiffnessModel {
+        structure,
+        ..StiffnessModel::DRIVES.clone()
+    };
+    let tool = flange_from_tool();
+    let mut standing = Standing::new(held(robot, &model, &tool));
+    standing.stand(&SECOND_JOINTS_DEG.map(f64::to_radians));
+    let compliance = standing.compliance().expect("there is no compensator");
+    compliance.fixed_view::<3, 3>(0, 0) * 1e6
+}
+
+fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
+    Arm {
+        robot,
+        compliance: robot.compliance().expect("the arm was made with springs"),
+        model,
+        flange_from_tool: tool,
+    }
+}
+
+/// Masses (kg) and centres (m, frames of the joints) of links 1 to 6, and of the spindle on the flange.
+const MASSES: [(f64, [f64; 3]); 7] = [
+    (364.0, [0.15, -0.008, 0.209]),
+    (256.1, [0.401, 0.007, 0.139]),
+    (98.7, [0.039, 0.043, -0.219]),
+    (40.8, [0.0, 0.004, 0.266]),
+    (13.6, [0.0, -0.067, 0.0]),
+    (0.6, [0.0, 0.0, 0.005]),
+    (61.4, [-0.048, -0.001, 0.173]),
+];
+
+/// Largest difference between the torques of gravity and `-dE/dq`, N m, over postures all over the range.
+fn gravity_gap(robot: &Robot) -> f64 {
+    let mass = |(index, (mass, centre)): (usize, &(f64, [f64; 3]))| Mass {
+        seat: if index < 6 {
+            Seat::Joint(index)
+        } else {
+            Seat::Flange
+        },
+        mass: *mass,
+        centre: (*centre).into(),
+    };
+    let structure = Structure {
+        masses: MASSES.iter().enumerate().map(mass).collect(),
+        ..Structure::EMPTY
+    };
+    let model = StiffnessModel {
+        structure,
+        gravity: Some(Gravity {
+            acceleration: Vector3::new(0.0, 0.0, -FREE_FALL),
+            reference: vec![0.0; 6],
+        }),
+        load_dependent: false,
+    };
+    let tool = flange_from_tool();
+    let mut standing = Standing::new(held(robot, &model, &tool));
+    let mut gap = 0.0_f64;
+    for posture in 0..10 {
+        let q = [0, 1, 2, 3, 4, 5].map(|i| 0.3 * f64::from(posture) - 0.4 * f64::from(i) + 0.5);
+        standing.stand(&q);
+        for (joint, torque) in standing.gravity_torques().iter().enumerate() {
+            let at = |by: f64| {
+                let mut q = q;
+                q[joint] += by;
+                energy(robot, &q)
+            };
+            let step = 1e-5;
+            gap = gap.max((torque + (at(step) - at(-step)) / (2.0 * step)).abs());
+        }
+    }
+    gap
+}
+
+/// Potential energy of the masses, J: the chain as a product of motions, cut after each joint.
+fn energy(robot: &Robot, q: &[f64; 6]) -> f64 {
+    let mut base_from_here = Isometry::identity();
+    let mut energy = 0.0;
+    for motion in robot.chain().motions() {
+        match motion.amount() {
+            Amount::Constant(value) => base_from_here *= motion.displacement(value),
+            Amount::Joint(joint) => {
+                base_from_here *= motion.displacement(q[joint]);
+                let (mass, centre) = MASSES[joint];
+                energy += mass * FREE_FALL * (base_from_here * Point3::from(centre)).z;
+            }
+        }
+    }
+    let (mass, centre) = MASSES[6];
+    energy + mass * FREE_FALL * (base_from_here * Point3::from(centre)).z
 }
 
 /// Translational compliance at the TCP in base, um/N.

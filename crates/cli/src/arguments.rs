@@ -310,6 +310,17 @@ pub(crate) struct PoseArguments {
     /// Assumed joint compliances by payload: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg)
     #[arg(long, value_name = "CLASS", conflicts_with = "compliance_rad_per_n_m")]
     pub compliance_class: Option<String>,
+    /// Let the load act on the arm as it has yielded, instead of as it stood
+    #[arg(long)]
+    pub load_dependent: bool,
+    /// Joint positions where the tool was set: gravity counts against them (needs masses in the robot file)
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub reference_joints_deg: Option<Vec<f64>>,
     /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
     #[arg(long, value_name = "FILE")]
     pub drawing: Option<PathBuf>,

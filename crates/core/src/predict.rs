@@ -6,16 +6,18 @@
 //!
 //! ```text
 //! pose -> posture -> screws s_i        load -> wrench w
-//! deviation = elastic(s_i, c_i, w)     [+ backlash + geometric + ... as they come]
+//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses)     [+ backlash + geometric + ... as they come]
 //! ```
 //!
+//! [`predict`] is the simple model, in which only joints yield; [`predict_in_full`] has every part of a
+//! [`StiffnessModel`](crate::source::StiffnessModel), and without them the same numbers.
 //! Reference point: TCP. Basis: base. Deviation = where the tool is minus where it was asked to be.
 
 use nalgebra::Matrix3;
 
 use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
-use crate::source::elastic;
+use crate::source::{Arm, Standing, Unstable, elastic};
 use crate::spatial::{Twist, Wrench};
 
 /// How far the tool is from where it was asked to be, and why.
@@ -23,7 +25,7 @@ use crate::spatial::{Twist, Wrench};
 pub struct Deviation {
     /// Displacement (m) and rotation (rad) of the tool.
     pub twist: Twist,
-    /// Share of each joint, base to flange; they add up to `twist`.
+    /// Share of each joint, base to flange, then of base, flange and tool where springs sit; they add up to `twist`.
     pub joint_shares: Vec<Twist>,
     /// Covariance of the displacement, m^2, from the uncertainties of the inputs.
     pub covariance: Matrix3<f64>,
@@ -54,4 +56,20 @@ pub fn predict(posture: &Posture, joints: &[JointCompliance], wrench: &Wrench) -
         covariance: elastic::covariance(&posture.screws, joints, wrench),
         joint_shares: elastic,
     }
+}
+
+/// The deviation of a tool held by `arm` at joint positions `q` under `wrench`, with all that yields and weighs.
+///
+/// # Errors
+/// [`Unstable`] where the arm finds no stable rest under the load.
+pub fn predict_in_full(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
+    let mut standing = Standing::new(*arm);
+    standing.stand(q);
+    let elastic = standing.elastic(wrench)?;
+    let gravity = standing.gravity()?;
+    Ok(Deviation {
+        twist: gravity.map_or(elastic, |gravity| elastic + gravity),
+        joint_shares: standing.shares(),
+        covariance: standing.covariance(),
+    })
 }

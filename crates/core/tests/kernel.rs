@@ -13,6 +13,7 @@ use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Motion, Posture, Robot};
+use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Plane, Split};
@@ -65,6 +66,7 @@ fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOn
         robot,
         arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
+        model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
@@ -543,6 +545,7 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
     let loaded = Loaded {
         robot: &robot,
         compliance: &compliance,
+        model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
         cases: &cases,
     };

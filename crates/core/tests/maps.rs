@@ -14,6 +14,7 @@ use armill_core::path::Shape;
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{JointCompliance, Robot, Unreachable};
+use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::{Grid, Plane, Split};
@@ -34,6 +35,7 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
         robot,
         arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
+        model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
         cases: &cases,
         normal: plane.normal(),
@@ -70,6 +72,7 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
                 robot: &robot,
                 arm: robot.ortho_parallel().unwrap(),
                 compliance,
+                model: StiffnessModel::DRIVES,
                 flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
                 cases,
                 normal: plane.normal(),

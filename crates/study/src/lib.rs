@@ -15,6 +15,7 @@ pub mod file;
 pub mod identify;
 pub mod library;
 pub mod output;
+pub mod parts;
 pub mod pendant;
 pub mod pose;
 pub mod robots;

@@ -1,20 +1,23 @@
 //! One pose: every posture there, its compliance, and what a load does to it.
 
 use armill_core::compliance::{
-    compliance_at_tool, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
+    permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
 };
 use armill_core::frame::{Isometry, tool_orientation};
 use armill_core::kernel::AT_LIMIT;
 use armill_core::nalgebra::{DMatrix, Matrix6, Point3, Unit, Vector3};
-use armill_core::predict::predict;
+use armill_core::predict::Deviation;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
-use armill_core::robot::{Posture, Unreachable};
+use armill_core::robot::{Posture, Robot, Unreachable};
+use armill_core::source::stiffness_model::FREE_FALL;
+use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_formats::robot::{RobotDescription, Source};
 use serde::Serialize;
 
 use crate::StudyError;
+use crate::parts::{left_out, parts};
 
 /// What is asked of one pose.
 #[derive(Clone, Debug)]
@@ -25,6 +28,10 @@ pub struct PoseQuestion {
     pub flange_from_tool: Isometry,
     /// Load on the tool at the TCP, base axes.
     pub wrench: Option<Wrench>,
+    /// Whether the load acts on the arm as it has yielded.
+    pub load_dependent: bool,
+    /// Joint positions where the tool was set, deg (mm): gravity counts against them, down the z axis of base.
+    pub reference_joints_deg: Option<Vec<f64>>,
     /// Frame that positions count from.
     pub base: String,
     /// What to say of compliances that are assumed, if they are.
@@ -58,6 +65,10 @@ pub struct PoseAnswer {
     pub joint_names: Vec<String>,
     /// Whether the joint compliances are assumed, not measured.
     pub compliance_assumed: bool,
+    /// Parts of the stiffness model that were on.
+    pub model: Vec<String>,
+    /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
+    pub shares_of: Vec<String>,
     /// Every posture; empty where unreachable.
     pub postures: Vec<PostureAnswer>,
     /// Why there is no posture.
@@ -95,11 +106,16 @@ pub struct PostureAnswer {
     pub compliance: Option<[[f64; 6]; 6]>,
     /// What follows from the compliance.
     pub stiffness: Option<StiffnessAnswer>,
+    /// The same under the load, tangent to it; of a load-dependent model only.
+    // unit: SI matrix
+    pub loaded_compliance: Option<[[f64; 6]; 6]>,
+    /// Why the arm finds no rest under the load; none where it does.
+    pub unstable: Option<String>,
     /// Displacement of the TCP under the load; none without load or compliance.
     pub deviation_um: Option<[f64; 3]>,
     /// Rotation of the tool under the load.
     pub rotation_urad: Option<[f64; 3]>,
-    /// Share of each joint in the displacement.
+    /// Share of each of `shares_of` in the displacement.
     pub joint_share_um: Option<Vec<[f64; 3]>>,
     /// Standard uncertainty of the displacement from those of the compliances.
     pub deviation_u_um: Option<[f64; 3]>,
@@ -183,19 +199,86 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             }
         }
     };
+    let model = stiffness_model(described, question)?;
+    let mut standing = robot.compliance().map(|compliance| {
+        Standing::new(Arm {
+            robot,
+            compliance,
+            model: &model,
+            flange_from_tool: &question.flange_from_tool,
+        })
+    });
     Ok(PoseAnswer {
         robot: robot.name().to_owned(),
         base: question.base.clone(),
         joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
         compliance_assumed: question.caution.is_some(),
+        model: parts(robot, &model),
+        shares_of: model.sharer_names(robot.joints()),
         postures: found
             .iter()
-            .map(|p| posture_answer(described, question, &base_from_counted, p))
+            .map(|p| {
+                let yielding = standing
+                    .as_mut()
+                    .map(|standing| yielding(standing, p, question.wrench));
+                posture_answer(robot, yielding, &base_from_counted, p)
+            })
             .collect(),
         unreachable,
-        notes: notes(described, question),
+        notes: notes(described, question, &model),
         sources: described.sources.clone(),
     })
+}
+
+/// What the robot file holds, with what the question adds.
+fn stiffness_model(
+    described: &RobotDescription,
+    question: &PoseQuestion,
+) -> Result<StiffnessModel, StudyError> {
+    let gravity = |joints: &Vec<f64>| -> Result<Gravity, StudyError> {
+        Ok(Gravity {
+            acceleration: -Vector3::z() * FREE_FALL,
+            reference: joint_positions(described, joints)?,
+        })
+    };
+    Ok(StiffnessModel {
+        structure: described.robot.structure().clone(),
+        gravity: question.reference_joints_deg.as_ref().map(gravity).transpose()?,
+        load_dependent: question.load_dependent,
+    })
+}
+
+/// What an arm with springs says of one posture.
+#[derive(Default)]
+struct Yielding {
+    compliance: Option<Matrix6<f64>>,
+    loaded_compliance: Option<Matrix6<f64>>,
+    deviation: Option<Deviation>,
+    unstable: Option<Unstable>,
+}
+
+fn yielding(standing: &mut Standing<'_>, posture: &Posture, wrench: Option<Wrench>) -> Yielding {
+    standing.stand(&posture.joints);
+    let mut found = Yielding {
+        compliance: standing.compliance(),
+        ..Yielding::default()
+    };
+    let Some(wrench) = wrench else { return found };
+    let both = standing
+        .elastic(&wrench)
+        .and_then(|elastic| Ok((elastic, standing.gravity()?)));
+    match both {
+        Ok((elastic, gravity)) => {
+            found.deviation = Some(Deviation {
+                twist: gravity.map_or(elastic, |gravity| elastic + gravity),
+                joint_shares: standing.shares(),
+                covariance: standing.covariance(),
+            });
+            found.loaded_compliance = standing.loaded_compliance();
+        }
+        Err(unstable) => found.unstable = Some(unstable),
+    }
+    found
 }
 
 fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
@@ -224,12 +307,17 @@ fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f6
 }
 
 fn posture_answer(
-    described: &RobotDescription,
-    question: &PoseQuestion,
+    robot: &Robot,
+    yielding: Option<Yielding>,
     base_from_counted: &Isometry,
     posture: &Posture,
 ) -> PostureAnswer {
-    let robot = &described.robot;
+    let Yielding {
+        compliance,
+        loaded_compliance,
+        deviation,
+        unstable,
+    } = yielding.unwrap_or_default();
     let from_si = |i: usize, value: f64| {
         if robot.slides(i) {
             value * 1e3
@@ -239,11 +327,6 @@ fn posture_answer(
     };
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
-    let compliance = robot.compliance().map(|c| compliance_at_tool(&posture.screws, c));
-    let deviation = robot
-        .compliance()
-        .zip(question.wrench)
-        .map(|(c, wrench)| predict(posture, c, &wrench));
     let counted_from_tool = base_from_counted.inv_mul(&posture.base_from_tool);
     let axis = Unit::new_unchecked(posture.base_from_tool * Vector3::z());
     let rotation = counted_from_tool.rotation.quaternion();
@@ -269,6 +352,8 @@ fn posture_answer(
         jacobian: rows(&DMatrix::from_iterator(6, j.ncols(), j.iter().copied())),
         compliance: compliance.map(|c| six_rows(&c)),
         stiffness: compliance.map(|c| stiffness_answer(&c, axis)),
+        loaded_compliance: loaded_compliance.map(|c| six_rows(&c)),
+        unstable: unstable.map(|unstable| unstable.to_string()),
         deviation_um: deviation.as_ref().map(|d| um(d.twist.linear)),
         rotation_urad: deviation.as_ref().map(|d| um(d.twist.angular)),
         joint_share_um: deviation
@@ -276,7 +361,7 @@ fn posture_answer(
             .map(|d| d.joint_shares.iter().map(|s| um(s.linear)).collect()),
         deviation_u_um: deviation
             .as_ref()
-            .map(|d| um(d.covariance.diagonal().map(f64::sqrt))),
+            .map(|d| um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt()))),
     }
 }
 
@@ -301,7 +386,14 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     | Unreachable::TooNear { by }
     | Unreachable::InsideLateralOffset { by }
     | Unreachable::Unverified { by }
-    | Unreachable::OutsideLimits { by, .. }) = miss;
+    | Unreachable::OutsideLimits { by, .. }) = miss
+    else {
+        return UnreachableAnswer {
+            reason: miss.reason().to_owned(),
+            amount_mm: 0.0,
+            message: miss.to_string(),
+        };
+    };
     UnreachableAnswer {
         reason: miss.reason().to_owned(),
         amount_mm: by * 1e3,
@@ -309,8 +401,9 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     }
 }
 
-fn notes(described: &RobotDescription, question: &PoseQuestion) -> Vec<String> {
-    let mut notes: Vec<String> = question.caution.iter().chain(&described.note).cloned().collect();
+fn notes(described: &RobotDescription, question: &PoseQuestion, model: &StiffnessModel) -> Vec<String> {
+    let said = question.caution.iter().chain(&described.note).cloned();
+    let mut notes: Vec<String> = said.chain(left_out(model)).collect();
     if described.robot.compliance().is_none() {
         notes.push("no joint compliance is known: identify it from load tests (`armill identify`) and give it with --compliance-rad-per-n-m, or assume one with --compliance-class light|medium|heavy".to_owned());
     }

@@ -101,6 +101,7 @@ impl Runner<'_> {
             robot: self.robot,
             arm: self.arm,
             compliance: self.compliance,
+            model: &setting.model,
             flange_from_tool: &setting.flange_from_tool,
             cases: &setting.cases,
             normal: setting.plane.normal(),

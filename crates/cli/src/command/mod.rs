@@ -12,4 +12,5 @@ pub(crate) mod robots_list;
 pub(crate) mod run;
 
 mod drawing;
+mod structure;
 mod study_file;

@@ -30,7 +30,14 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
                 "one a joint, 0 or more",
             )
         };
-        found.robot = found.robot.with_compliance(given).map_err(refused)?;
+        // Curves and covariance of the robot file were of other compliances.
+        let mut structure = found.robot.structure().clone();
+        structure.curves.clear();
+        structure.covariance = None;
+        let robot = found.robot.with_compliance(given);
+        found.robot = robot
+            .and_then(|robot| robot.with_structure(structure))
+            .map_err(refused)?;
     }
     let mut caution = None;
     if let Some(name) = &arguments.compliance_class {
@@ -47,6 +54,8 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
             arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]),
         )?),
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
+        load_dependent: arguments.load_dependent,
+        reference_joints_deg: reference(arguments)?,
         base: arguments.base.clone(),
         caution,
     };
@@ -61,6 +70,12 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         as_text(&answer)
     })?;
     Ok(Outcome::Fine)
+}
+
+fn reference(arguments: &PoseArguments) -> Result<Option<Vec<f64>>, StudyError> {
+    let joints = arguments.reference_joints_deg.clone();
+    finite("--reference-joints-deg", joints.as_deref().unwrap_or_default())?;
+    Ok(joints)
 }
 
 fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
@@ -142,6 +157,9 @@ fn as_json(answer: &PoseAnswer) -> Result<String, StudyError> {
 
 fn as_text(answer: &PoseAnswer) -> String {
     let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
+    if answer.model.len() > 1 {
+        lines.push(format!("model: {}", answer.model.join("; ")));
+    }
     lines.extend(answer.unreachable.iter().map(|miss| miss.message.clone()));
     for posture in &answer.postures {
         lines.push(String::new());
@@ -182,6 +200,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
             three(&stiffness.principal_direction[0])
         ));
     }
+    lines.extend(posture.unstable.iter().map(|why| format!("  UNSTABLE    {why}")));
     if let (Some(deviation), Some(u), Some(shares)) = (
         &posture.deviation_um,
         &posture.deviation_u_um,
@@ -195,7 +214,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
             three(u)
         ));
         let shares = answer
-            .joint_names
+            .shares_of
             .iter()
             .zip(shares)
             .map(|(name, share)| format!("{name} {:.2}", length(share)));

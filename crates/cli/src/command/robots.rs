@@ -120,6 +120,7 @@ fn as_text(found: &RobotDescription) -> String {
             lines.push(format!("       limits by {source}: {lower} to {upper} deg{note}"));
         }
     }
+    lines.extend(super::structure::as_text(robot));
     lines.push(String::new());
     lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
     let inverse = if robot.ortho_parallel().is_some() {
@@ -186,6 +187,7 @@ fn as_json(found: &RobotDescription) -> Value {
         "note": found.note,
         "chain": (0..robot.chain().motions().len()).map(|i| motion(found, i)).collect::<Vec<_>>(),
         "joints": joints,
+        "structure": super::structure::as_json(robot),
         "nominal_branch": robot.nominal_branch().to_string(),
         "closed_form_inverse": robot.ortho_parallel().is_some(),
         "frames": robot.frames().iter().map(|f| json!({

@@ -50,31 +50,36 @@ pub struct Answers {
     pub joints: Vec<f64>,
     /// Deviation (m, base) under each load case, `case_count` a point; zeros where unreachable.
     pub deviations: Vec<Vector3<f64>>,
-    /// Share of each joint in `in_plane` (m), `joint_count` a point: its part along the in-plane deviation of
-    /// the deciding case. The shares of a point add up to its `in_plane`.
+    /// Share of each joint, then of base, flange and tool where springs sit, in `in_plane` (m), `share_count` a point:
+    /// its part along the in-plane deviation of the deciding case. The shares of a point add up to its `in_plane`; under a
+    /// load-dependent model in first order.
     pub shares: Vec<f64>,
     /// Joints of the robot.
     pub joint_count: usize,
     /// Load cases.
     pub case_count: usize,
+    /// Whom shares are told for: [`crate::source::StiffnessModel::sharers`].
+    pub share_count: usize,
 }
 
 impl Answers {
     pub(super) fn empty(question: &Question<'_>, count: usize) -> Answers {
         let (joint_count, case_count) = (question.robot.joints().len(), question.cases.len());
+        let share_count = question.model.sharers(joint_count).len();
         Answers {
             points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
             joints: vec![0.0; count * joint_count],
             deviations: vec![Vector3::zeros(); count * case_count],
-            shares: vec![0.0; count * joint_count],
+            shares: vec![0.0; count * share_count],
             joint_count,
             case_count,
+            share_count,
         }
     }
 
     /// Memory that the answers at one point take, bytes.
-    pub fn bytes_per_point(joint_count: usize, case_count: usize) -> usize {
-        size_of::<Result<Held, Unreachable>>() + 2 * 8 * joint_count + 24 * case_count
+    pub fn bytes_per_point(joint_count: usize, share_count: usize, case_count: usize) -> usize {
+        size_of::<Result<Held, Unreachable>>() + 8 * (joint_count + share_count) + 24 * case_count
     }
 
     /// Joint positions at point `index`, rad.
@@ -87,9 +92,9 @@ impl Answers {
         &self.deviations[index * self.case_count..][..self.case_count]
     }
 
-    /// Share of each joint in the in-plane deviation at point `index`, m.
+    /// Share of each sharer in the in-plane deviation at point `index`, m.
     pub fn shares_at(&self, index: usize) -> &[f64] {
-        &self.shares[index * self.joint_count..][..self.joint_count]
+        &self.shares[index * self.share_count..][..self.share_count]
     }
 
     /// The point with the largest in-plane deviation, if any point is reached. Of points that differ by rounding alone (a

@@ -9,17 +9,17 @@ use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Solution, holds};
-use crate::robot::jacobian::screws_into;
-use crate::robot::{Branch, Unreachable};
-use crate::source::elastic;
-use crate::spatial::Twist;
+use crate::robot::{Branch, Seat, Unreachable};
+use crate::source::Standing;
 use crate::workpiece::Split;
 
 /// Room for one point, reused from point to point.
-pub(super) struct General {
+pub(super) struct General<'q> {
     tool_from_flange: Isometry,
     frames: Frames,
-    screws: Vec<Twist>,
+    standing: Standing<'q>,
+    /// Whom shares are told for.
+    sharers: Vec<Seat>,
     joints: [f64; 6],
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
@@ -27,21 +27,23 @@ pub(super) struct General {
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
 
-impl General {
-    pub(super) fn new(question: &Question<'_>) -> General {
+impl<'q> General<'q> {
+    pub(super) fn new(question: &Question<'q>) -> General<'q> {
         let (joints, cases) = (question.robot.joints().len(), question.cases.len());
+        let sharers = question.model.sharers(joints);
         General {
             tool_from_flange: question.flange_from_tool.inverse(),
             frames: Frames::for_robot(question.robot),
-            screws: vec![Twist::ZERO; joints],
+            standing: Standing::new(question.held_by()),
             joints: [0.0; 6],
             deviations: vec![Vector3::zeros(); cases],
-            shares: vec![0.0; joints],
+            shares: vec![0.0; sharers.len()],
             kept: (
                 vec![0.0; joints],
                 vec![Vector3::zeros(); cases],
-                vec![0.0; joints],
+                vec![0.0; sharers.len()],
             ),
+            sharers,
         }
     }
 
@@ -112,8 +114,9 @@ impl General {
     ) -> Result<Held, Unreachable> {
         let mut best: Option<Held> = None;
         let mut miss: Option<Unreachable> = None;
-        // The flip leaves the deviation unchanged: of the two the one with more room stands for both.
-        for pair in Branch::ALL.chunks(2) {
+        // The flip leaves the deviation by drive springs unchanged: of the two the one with more room stands for both.
+        let alike = if question.model.is_drives_alone() { 2 } else { 1 };
+        for pair in Branch::ALL.chunks(alike) {
             match self.roomiest(question, base_from_flange, pair.iter().copied(), near) {
                 Err(reason) => miss = miss.or(Some(reason)),
                 Ok(solution) => {
@@ -149,12 +152,8 @@ impl General {
         self.joints = solution.joints;
         forward_into(question.robot, &solution.joints, &mut self.frames);
         holds(&self.frames, base_from_flange)?;
-        screws_into(
-            question.robot,
-            &self.frames,
-            &base_from_tool.translation.vector.into(),
-            &mut self.screws,
-        );
+        let tcp = base_from_tool.translation.vector.into();
+        self.standing.stand_in(&solution.joints, &self.frames, &tcp);
         let (limit_joint, limit_margin) = limit_margin(question, &solution.joints);
         let mut held = Held {
             branch: solution.branch,
@@ -168,7 +167,10 @@ impl General {
             full: 0.0,
         };
         for (case, wrench) in question.cases.iter().enumerate() {
-            let deviation = elastic::displacement(&self.screws, question.compliance, wrench);
+            let unstable = |_| Unreachable::Unstable { case };
+            let elastic = self.standing.elastic(wrench).map_err(unstable)?.linear;
+            let gravity = self.standing.gravity().map_err(unstable)?;
+            let deviation = gravity.map_or(elastic, |gravity| elastic + gravity.linear);
             self.deviations[case] = deviation;
             let split = Split::of(&deviation, question.normal);
             if split.in_plane > held.in_plane {
@@ -179,27 +181,23 @@ impl General {
             }
             held.full = held.full.max(split.full);
         }
-        held.in_plane_uncertainty = self.share(question, &held);
+        held.in_plane_uncertainty = self.share(question, &held)?;
         Ok(held)
     }
 
-    /// Fills the joint shares of the deciding case and gives the standard uncertainty of its in-plane part.
-    fn share(&mut self, question: &Question<'_>, held: &Held) -> f64 {
-        let deviation = self.deviations[held.deciding_case];
+    /// Fills the shares of the deciding case and gives the standard uncertainty of its in-plane part.
+    fn share(&mut self, question: &Question<'_>, held: &Held) -> Result<f64, Unreachable> {
+        let case = held.deciding_case;
+        let deviation = self.deviations[case];
         let in_plane = deviation - question.normal.into_inner() * deviation.dot(&question.normal);
         let along = in_plane.try_normalize(0.0).unwrap_or_default();
-        let wrench = &question.cases[held.deciding_case];
-        let mut variance = 0.0;
-        for (share, (screw, joint)) in self
-            .shares
-            .iter_mut()
-            .zip(self.screws.iter().zip(question.compliance))
-        {
-            let sensitivity = elastic::sensitivity(screw, wrench).linear.dot(&along);
-            *share = sensitivity * joint.value;
-            variance += (sensitivity * joint.standard_uncertainty).powi(2);
+        if case + 1 != question.cases.len() {
+            // The arm stands under the last load case still.
+            let again = self.standing.elastic(&question.cases[case]);
+            again.map_err(|_| Unreachable::Unstable { case })?;
         }
-        variance.sqrt()
+        self.standing.share_along(&along, &self.sharers, &mut self.shares);
+        Ok(self.standing.variance_along(&along).max(0.0).sqrt())
     }
 }
 

@@ -1,8 +1,9 @@
 //! Many points at once: the same physics as `predict.rs`, over blocks of points.
 //!
 //! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
-//! envelope over the cases and what decides it. Ortho-parallel arms go through [`lanes`], many points in one
-//! instruction; where those cannot decide, `general` takes one point after the other. [`at_joints`] takes any chain at
+//! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
+//! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
+//! other. [`at_joints`] takes any chain at
 //! joint positions that are known. Blocks run on all
 //! threads of the current rayon pool; every point is written by index, so any number of threads gives the same
 //! bits.
@@ -37,13 +38,13 @@ pub fn evaluate(
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
     let mut answers = Answers::empty(question, count);
-    let (joints, cases) = (answers.joint_count, answers.case_count);
+    let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
     answers
         .points
         .par_chunks_mut(BLOCK)
         .zip(answers.joints.par_chunks_mut(BLOCK * joints))
         .zip(answers.deviations.par_chunks_mut(BLOCK * cases))
-        .zip(answers.shares.par_chunks_mut(BLOCK * joints))
+        .zip(answers.shares.par_chunks_mut(BLOCK * shares))
         .enumerate()
         .try_for_each_init(
             || Solver::new(question, Order::Any),
@@ -72,14 +73,14 @@ pub fn evaluate_in_order(
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
     let mut answers = Answers::empty(question, count);
-    let (joints, cases) = (answers.joint_count, answers.case_count);
+    let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
     let mut solver = Solver::new(question, Order::AlongPath);
     let blocks = answers
         .points
         .chunks_mut(BLOCK)
         .zip(answers.joints.chunks_mut(BLOCK * joints))
         .zip(answers.deviations.chunks_mut(BLOCK * cases))
-        .zip(answers.shares.chunks_mut(BLOCK * joints));
+        .zip(answers.shares.chunks_mut(BLOCK * shares));
     for (block, (((points, joints), deviations), shares)) in blocks.enumerate() {
         let slots = Slots {
             points,

@@ -6,6 +6,7 @@ use crate::frame::Isometry;
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::joint::JointCompliance;
 use crate::robot::{BranchPattern, Robot};
+use crate::source::{Arm, StiffnessModel};
 use crate::spatial::Wrench;
 
 /// Which posture stands for a point.
@@ -26,6 +27,8 @@ pub struct Question<'a> {
     pub arm: &'a OrthoParallel,
     /// Compliance of each of its joints.
     pub compliance: &'a [JointCompliance],
+    /// What else yields and weighs; [`StiffnessModel::DRIVES`] for nothing. Lanes answer for drives alone.
+    pub model: &'a StiffnessModel,
     /// Flange to tool centre point.
     pub flange_from_tool: &'a Isometry,
     /// Load cases on the tool at the TCP, base basis; at least one.
@@ -34,4 +37,16 @@ pub struct Question<'a> {
     pub normal: Unit<Vector3<f64>>,
     /// Which posture stands for a point.
     pub choice: BranchChoice,
+}
+
+impl<'a> Question<'a> {
+    /// The arm that is asked, with all that yields and weighs in it.
+    pub fn held_by(&self) -> Arm<'a> {
+        Arm {
+            robot: self.robot,
+            compliance: self.compliance,
+            model: self.model,
+            flange_from_tool: self.flange_from_tool,
+        }
+    }
 }

@@ -24,8 +24,9 @@ pub(super) struct Slots<'a> {
 /// Room to answer a question, one a thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    lanes: Points<'q>,
-    general: General,
+    /// For drive springs alone.
+    lanes: Option<Points<'q>>,
+    general: General<'q>,
     poses: Vec<Isometry>,
     order: Order,
     /// Joint positions of the point before, if there is one.
@@ -46,7 +47,7 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: Points::new(question),
+            lanes: question.model.is_drives_alone().then(|| Points::new(question)),
             general: General::new(question),
             poses: Vec::with_capacity(BLOCK),
             before: None,
@@ -65,19 +66,26 @@ impl<'q> Solver<'q> {
         }
         let count = slots.points.len();
         let (joint_count, case_count) = (slots.joints.len() / count, slots.deviations.len() / count);
+        let share_count = slots.shares.len() / count;
         self.poses.clear();
         self.poses.extend((0..count).map(base_from_tool));
-        self.lanes.solve(&self.poses);
+        if let Some(lanes) = &mut self.lanes {
+            lanes.solve(&self.poses);
+        }
         let rows = slots
             .points
             .iter_mut()
             .zip(slots.joints.chunks_mut(joint_count))
             .zip(slots.deviations.chunks_mut(case_count))
-            .zip(slots.shares.chunks_mut(joint_count));
+            .zip(slots.shares.chunks_mut(share_count));
         for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
-            *point = match self.lanes.held(i) {
-                Some(held) => {
-                    self.lanes.write(i, joints, deviations, shares);
+            let by_lanes = self
+                .lanes
+                .as_ref()
+                .and_then(|lanes| Some((lanes, lanes.held(i)?)));
+            *point = match by_lanes {
+                Some((lanes, held)) => {
+                    lanes.write(i, joints, deviations, shares);
                     Ok(held)
                 }
                 None => self

@@ -34,6 +34,8 @@ pub struct Counts {
     pub no_posture_inside_limits: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
+    /// A posture holds the point, but the arm finds no stable rest under the load.
+    pub unstable: usize,
     /// Of the points with a posture: some joint stands outside its limits.
     pub outside_joint_limits: usize,
     /// Of the points within the limit: every joint stands inside its limits.
@@ -58,6 +60,7 @@ impl Counts {
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
                 Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
+                Err(Unreachable::Unstable { .. }) => counts.unstable += 1,
                 Err(
                     Unreachable::TooFar { .. }
                     | Unreachable::TooNear { .. }
@@ -70,7 +73,8 @@ impl Counts {
 
     /// All points.
     pub fn points(&self) -> usize {
-        self.within + self.over_limit + self.out_of_reach + self.no_posture_inside_limits + self.unverified
+        let held = self.within + self.over_limit;
+        held + self.out_of_reach + self.no_posture_inside_limits + self.unverified + self.unstable
     }
 
     /// Points within the limit over all points; 0 where there is none.

@@ -1,12 +1,14 @@
 //! Which arm is it, and where does it stand?
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
-//! compliance), [`model`] (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`]
-//! (screws at the tool), [`posture`] (branches and why a point may be out of reach), [`inverse`] (tool pose
-//! to every posture), [`mod@reach`] (how far the wrist gets),
-//! [`convention`] (which sign or zero disagrees with the pendant).
+//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`structure`] (what else yields and weighs), [`model`]
+//! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`yielding`]
+//! (frames and screws once springs have given way), [`posture`] (branches and why a point may be out of reach),
+//! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
+//! disagrees with the pendant).
 
 pub mod chain;
+pub mod compensator;
 pub mod convention;
 pub mod forward;
 pub mod inverse;
@@ -15,9 +17,17 @@ pub mod joint;
 pub mod model;
 pub mod posture;
 pub mod reach;
+pub mod spring;
+pub mod structure;
+pub mod torque_curve;
+pub mod yielding;
 
 pub use chain::{Amount, Axis, Chain, Motion};
+pub use compensator::{Compensator, Mass};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
 pub use posture::{Branch, BranchPattern, Posture, Singularity, Unreachable};
 pub use reach::reach;
+pub use spring::{Seat, Spring};
+pub use structure::{Structure, StructureError};
+pub use torque_curve::{JointCurve, TorqueCurve};

@@ -4,6 +4,7 @@ use super::chain::{Amount, Chain, ChainError, Motion};
 use super::inverse::OrthoParallel;
 use super::joint::{Joint, JointCompliance};
 use super::posture::BranchPattern;
+use super::structure::{Structure, StructureError};
 use crate::frame::Isometry;
 
 /// A frame that the maker or user counts positions from, beside the base.
@@ -22,6 +23,7 @@ pub struct Robot {
     chain: Chain,
     joints: Vec<Joint>,
     compliance: Option<Vec<JointCompliance>>,
+    structure: Structure,
     frames: Vec<NamedFrame>,
     nominal: BranchPattern,
     ortho_parallel: Option<OrthoParallel>,
@@ -52,6 +54,9 @@ pub enum RobotError {
         /// Which number.
         what: &'static str,
     },
+    /// What yields beside the drives fits no arm, or not this one.
+    #[error(transparent)]
+    Structure(#[from] StructureError),
     /// Lower limit not below the upper.
     #[error("joint {joint}: lower limit {lower} is not below upper limit {upper} (rad or m)")]
     LimitsReversed {
@@ -116,6 +121,7 @@ impl Robot {
             chain,
             joints,
             compliance: None,
+            structure: Structure::EMPTY,
             frames: Vec::new(),
             nominal: BranchPattern::FRONT_ELBOW_UP,
             ortho_parallel,
@@ -151,6 +157,16 @@ impl Robot {
         Ok(self)
     }
 
+    /// This robot with what yields and weighs beside its drives.
+    ///
+    /// # Errors
+    /// See [`StructureError`].
+    pub fn with_structure(mut self, structure: Structure) -> Result<Robot, RobotError> {
+        structure.check(&self)?;
+        self.structure = structure;
+        Ok(self)
+    }
+
     /// This robot with frames that positions may be counted from.
     #[must_use]
     pub fn with_frames(mut self, frames: Vec<NamedFrame>) -> Robot {
@@ -183,6 +199,11 @@ impl Robot {
     /// Joint compliances, one a joint, if known.
     pub fn compliance(&self) -> Option<&[JointCompliance]> {
         self.compliance.as_deref()
+    }
+
+    /// What yields and weighs beside the drives; empty in the simple model.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
     }
 
     /// Frames that positions may be counted from, beside the base.

@@ -250,6 +250,11 @@ pub enum Unreachable {
         /// rad (m for a sliding joint)
         by: f64,
     },
+    /// A posture holds the pose, but under this load case the arm finds no stable rest.
+    Unstable {
+        /// Index of the load case, from 0.
+        case: usize,
+    },
 }
 
 impl Unreachable {
@@ -261,6 +266,7 @@ impl Unreachable {
             Unreachable::InsideLateralOffset { .. } => "inside_lateral_offset",
             Unreachable::Unverified { .. } => "unverified",
             Unreachable::OutsideLimits { .. } => "outside_joint_limits",
+            Unreachable::Unstable { .. } => "unstable",
         }
     }
 }
@@ -301,6 +307,11 @@ impl fmt::Display for Unreachable {
                 "no posture inside the joint limits: the least bad one leaves the range of joint number {} by {:.1} deg",
                 joint + 1,
                 by.to_degrees()
+            ),
+            Unreachable::Unstable { case } => write!(
+                f,
+                "the arm finds no stable rest under load case {}: it buckles, or is far too soft for this load",
+                case + 1
             ),
         }
     }

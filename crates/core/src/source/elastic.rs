@@ -39,7 +39,7 @@ pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> 
     screws
         .iter()
         .zip(joints)
-        .map(|(s, c)| sensitivity(s, wrench).scaled(c.value))
+        .map(|(s, c)| s.scaled(c.value * s.dot(wrench)))
         .collect()
 }
 

@@ -1,10 +1,12 @@
 //! armill's own robot file, format 1: TOML, the chain as ordered elementary motions, a source for every number.
 //!
-//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead.
+//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields and
+//! weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
 
 mod checks;
 mod file;
 mod identified;
+mod structure;
 mod write;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
@@ -35,6 +37,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let motions = checks.motions(&file);
     let joints = checks.joints(&file);
     let compliance = checks.compliance(&file);
+    let structure = checks.structure(&file);
     checks.frames_and_payload(&file);
     let nominal = checks.nominal(&file);
     checks.unused_sources(&file);
@@ -50,6 +53,9 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     if let Some(compliance) = compliance {
         robot = robot.with_compliance(compliance).map_err(refused)?;
     }
+    robot = robot
+        .with_structure(structure)
+        .map_err(|error| Problems::from(vec![document.problem("spring", error.to_string(), None)]))?;
     Ok(RobotDescription {
         robot,
         title: file.name,

@@ -11,6 +11,7 @@ pub mod elementary;
 pub mod format;
 pub mod opw;
 pub mod pendant;
+pub mod structure;
 pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;

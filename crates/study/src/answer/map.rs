@@ -57,6 +57,8 @@ pub struct CountsAnswer {
     pub no_posture_inside_limits: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
+    /// A posture holds the point, but the arm finds no stable rest under the load.
+    pub unstable: usize,
 }
 
 impl CountsAnswer {
@@ -67,6 +69,7 @@ impl CountsAnswer {
             out_of_reach: counts.out_of_reach,
             no_posture_inside_limits: counts.no_posture_inside_limits,
             unverified: counts.unverified,
+            unstable: counts.unstable,
         }
     }
 }
@@ -164,7 +167,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
         best,
         region: region_answer(&map.region(setting.limit)),
         certainty: certainty_answer(&map.certainty(setting.limit)),
-        setting: SettingAnswer::of(setting),
+        setting: SettingAnswer::of(study, setting),
         grid: grid_answer(map, setting.limit),
     }
 }

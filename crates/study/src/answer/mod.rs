@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::file::resolve::{Ask, Sheet, Study, Subject};
+use crate::parts::left_out;
 use crate::run::Found;
 
 /// The whole answer.
@@ -208,6 +209,7 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             path.name, path.outside_joint_limits, path.points, path.branch
         ));
     }
+    warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());
     warnings
 }

@@ -82,7 +82,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, path: &PathAn
         worst: answers
             .worst()
             .map(|(i, held)| PointAnswer::of(study, setting, answers, (i, held, at(i)))),
-        setting: SettingAnswer::of(setting),
+        setting: SettingAnswer::of(study, setting),
         joint_range_deg: (0..answers.joint_count)
             .map(|joint| joint_range(path, joint))
             .collect(),

@@ -1,12 +1,12 @@
 //! One point of an answer, and the setting that all points of an ask share.
 
-use armill_core::compliance::{compliance_at_tool, permissible_force, permissible_force_in_worst_direction};
+use armill_core::compliance::{permissible_force, permissible_force_in_worst_direction};
 use armill_core::kernel::{Answers, Held};
 use armill_core::nalgebra::{Point3, Unit};
-use armill_core::robot::inverse::posture_at;
 use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
+use crate::parts::parts;
 
 /// What all points of an ask share. Positions count from the frame `base`.
 #[derive(Clone, Debug, Serialize)]
@@ -27,10 +27,15 @@ pub struct SettingAnswer {
     pub moments_n_m: Vec<[f64; 3]>,
     /// The tolerance.
     pub limit_um: f64,
+    /// Parts of the stiffness model that were on.
+    pub model: Vec<String>,
+    /// Whom shares are told for: the joints, then base, flange and tool where springs sit.
+    pub shares_of: Vec<String>,
 }
 
 impl SettingAnswer {
-    pub(super) fn of(setting: &Setting) -> SettingAnswer {
+    pub(super) fn of(study: &Study, setting: &Setting) -> SettingAnswer {
+        let robot = &study.robot.robot;
         let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
         SettingAnswer {
             base: setting.base_name.clone(),
@@ -41,6 +46,8 @@ impl SettingAnswer {
             cases_n: setting.cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: setting.cases.iter().map(|w| clean(w.moment.into())).collect(),
             limit_um: tidy(setting.limit * 1e6),
+            model: parts(robot, &setting.model),
+            shares_of: setting.model.sharer_names(robot.joints()),
         }
     }
 }
@@ -70,7 +77,7 @@ pub struct PointAnswer {
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
     pub full_um: f64,
-    /// Share of each joint in the in-plane deviation; they add up to it.
+    /// Share of each of `shares_of` in the in-plane deviation; they add up to it (load-dependent: nearly).
     pub joint_share_um: Vec<f64>,
     /// Force that keeps the limit in the direction of the deciding case; none where that case has no force or
     /// moves nothing in the plane.
@@ -90,8 +97,7 @@ impl PointAnswer {
         let in_part = setting.plane.base_from_part.inverse_transform_point(&tcp);
         let robot = &study.robot.robot;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
-        let posture = posture_at(robot, answers.joints_at(index), &setting.flange_from_tool);
-        let compliance = compliance_at_tool(&posture.screws, robot.compliance().unwrap_or_default());
+        let compliance = setting.compliance_at(robot, answers.joints_at(index));
         let normal = setting.plane.normal();
         let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
             .map(|f| permissible_force(&compliance, normal, f, setting.limit));

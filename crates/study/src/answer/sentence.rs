@@ -51,7 +51,7 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
         ),
     };
     format!(
-        "{}, branch {}: {held}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by joint {}.",
+        "{}, branch {}: {held}{limits}; the in-plane deviation goes from {} µm to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
         map.name,
         map.branch,
         micrometres(best.in_plane_um),
@@ -60,7 +60,7 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
         worst.xyz_mm[0],
         worst.xyz_mm[1],
         worst.xyz_mm[2],
-        culprit(study, worst),
+        culprit(study, worst, &map.setting.shares_of),
     )
 }
 
@@ -75,30 +75,31 @@ fn of_path(study: &Study, path: &PathResult) -> String {
         format!(" and makes the circle {} µm out of round", micrometres(r))
     });
     format!(
-        "{}, branch {}: the tool deviates up to {} ± {} µm in the plane{roundness}, mostly by joint {}; {:.1} % of the path holds {} µm.",
+        "{}, branch {}: the tool deviates up to {} ± {} µm in the plane{roundness}, mostly by {}; {:.1} % of the path holds {} µm.",
         path.name,
         path.branch,
         micrometres(worst.in_plane_um),
         micrometres(worst.in_plane_u_um),
-        culprit(study, worst),
+        culprit(study, worst, &path.setting.shares_of),
         path.fraction_within * 100.0,
         micrometres(path.setting.limit_um),
     )
 }
 
-/// The joint with the largest share, and how large.
-fn culprit(study: &Study, point: &PointAnswer) -> String {
+/// What has the largest share, and how large.
+fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
     let largest = point
         .joint_share_um
         .iter()
         .enumerate()
         .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     largest.map_or_else(String::new, |(i, share)| {
-        let name = &study.robot.robot.joints()[i].name;
+        let is_joint = i < study.robot.robot.joints().len();
+        let name = format!("{} {}", if is_joint { "joint" } else { "the" }, shares_of[i]);
         if point.in_plane_um > 0.0 {
             format!("{name} ({:.0} %)", share / point.in_plane_um * 100.0)
         } else {
-            name.clone()
+            name
         }
     })
 }

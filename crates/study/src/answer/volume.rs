@@ -62,6 +62,6 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &Volu
             .into(),
         best: volume.answers.best().map(point),
         worst: volume.answers.worst().map(point),
-        setting: SettingAnswer::of(setting),
+        setting: SettingAnswer::of(study, setting),
     }
 }

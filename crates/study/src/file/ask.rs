@@ -14,6 +14,7 @@ use super::memory;
 use super::places::Places;
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
 use super::resolve::{Setting, Sheet, Subject};
+use super::stiffness;
 
 /// No length, angle, force or moment of a real cell is larger, in the units of the file; products of larger ones
 /// leave the range of numbers.
@@ -200,9 +201,12 @@ impl Resolver<'_> {
         );
         let load = self.table.load.as_ref().unwrap_or(&self.file.load);
         let cases = load_cases(places, load);
-        let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
-        let cases = cases?.in_base(&plane.base_from_part);
         let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
+        let model = self
+            .robot
+            .and_then(|found| stiffness::model(places, self.file, tool, &found.robot));
+        let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
+        let (model, cases) = (model?, cases?.in_base(&plane.base_from_part));
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
         let limit = limit_um * 1e-6;
@@ -210,6 +214,7 @@ impl Resolver<'_> {
             base_name,
             base_from_counted,
             flange_from_tool,
+            model,
             plane,
             tilt,
             cases,

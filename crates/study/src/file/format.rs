@@ -2,6 +2,7 @@
 //!
 //! In-plane coordinates are the paper's y' (along base y on a tilted plane) and z', from the plane's centre.
 
+use armill_formats::robot::structure::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -26,6 +27,11 @@ pub struct StudyFile {
     pub compliance: Option<ComplianceTable>,
     /// The tool; the bare flange if left out.
     pub tool: Option<ToolTable>,
+    /// Gravity on the masses of robot and tool; left out without this table.
+    pub gravity: Option<GravityTable>,
+    /// Whether the load acts on the arm as it has yielded, instead of as it stood.
+    #[serde(default)]
+    pub load_dependent: bool,
     /// The workpiece plane.
     pub plane: PlaneTable,
     /// The load on the tool.
@@ -68,6 +74,45 @@ pub struct ToolTable {
     /// Flange to tool centre point: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub flange_from_tool_mm_deg: [f64; 6],
+    /// How far the cutter sticks out of its holder; it then bends like a clamped bar.
+    #[schemars(range(min = 0.01, max = 1e4))]
+    pub stick_out_mm: Option<f64>,
+    /// Diameter of the cutter's core.
+    #[schemars(range(min = 0.01, max = 1e3))]
+    pub diameter_mm: Option<f64>,
+    /// What the cutter is made of.
+    pub material: Option<CutterMaterial>,
+    /// Young's modulus of the cutter, in place of its material.
+    #[schemars(range(min = 1.0, max = 2e3))]
+    pub modulus_gpa: Option<f64>,
+    /// What yields in holder, spindle and tool; `at` is `flange` or `tool`.
+    #[serde(default)]
+    pub spring: Vec<SpringTable>,
+    /// Spindle and payload, where gravity counts.
+    #[serde(default)]
+    pub mass: Vec<MassTable>,
+}
+
+/// What a cutter is made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum CutterMaterial {
+    /// Cemented carbide, 600 GPa.
+    Carbide,
+    /// High-speed steel, 215 GPa.
+    Hss,
+}
+
+/// Gravity: only what the arm sags against where the tool was set counts.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GravityTable {
+    /// Joint positions where the tool was set (mm for sliding joints), as the robot file counts.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub reference_joints_deg: Vec<f64>,
+    /// Direction of gravity in base, of any length; down the z axis if left out.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub direction: Option<[f64; 3]>,
 }
 
 /// The workpiece plane and its grid of points.

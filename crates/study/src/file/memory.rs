@@ -53,5 +53,7 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
 }
 
 fn bytes_per_point(robot: &RobotDescription, setting: &Setting) -> f64 {
-    (Answers::bytes_per_point(robot.robot.joints().len(), setting.cases.len()) + BYTES_BESIDE) as f64
+    let joints = robot.robot.joints().len();
+    let shares = setting.model.sharers(joints).len();
+    (Answers::bytes_per_point(joints, shares, setting.cases.len()) + BYTES_BESIDE) as f64
 }

@@ -7,6 +7,7 @@ pub mod compliance;
 pub mod format;
 pub mod quantities;
 pub mod resolve;
+pub mod stiffness;
 
 mod ask;
 mod memory;

@@ -5,8 +5,10 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::map::BoxGrid;
-use armill_core::nalgebra::Point3;
+use armill_core::nalgebra::{Matrix6, Point3};
 use armill_core::path::Shape;
+use armill_core::robot::Robot;
+use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
@@ -46,6 +48,15 @@ impl Study {
         self.own_compliance
             .as_ref()
             .is_some_and(|own| own.caution.is_some())
+    }
+
+    /// What the points of each ask share, ask by ask.
+    pub fn settings(&self) -> impl Iterator<Item = &Setting> {
+        self.asks.iter().filter_map(|ask| match &ask.subject {
+            Subject::Map(sheet) => Some(&sheet.setting),
+            Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
+            Subject::Volume(setting, _) | Subject::Path(setting, ..) => Some(setting),
+        })
     }
 }
 
@@ -89,6 +100,8 @@ pub struct Setting {
     pub base_from_counted: Isometry,
     /// Flange to tool centre point.
     pub flange_from_tool: Isometry,
+    /// What yields and weighs beside the drives.
+    pub model: StiffnessModel,
     /// The workpiece plane.
     pub plane: Plane,
     /// Its tilt as asked, rad, where it was given by one.
@@ -108,6 +121,18 @@ impl Setting {
             BranchChoice::Of(pattern) => pattern.to_string(),
             BranchChoice::Best => "best".to_owned(),
         }
+    }
+
+    /// Compliance of the unloaded arm at joint positions `q` (rad, m), SI; zeros where the arm does not hold itself.
+    pub fn compliance_at(&self, robot: &Robot, q: &[f64]) -> Matrix6<f64> {
+        let mut standing = Standing::new(Arm {
+            robot,
+            compliance: robot.compliance().unwrap_or_default(),
+            model: &self.model,
+            flange_from_tool: &self.flange_from_tool,
+        });
+        standing.stand(q);
+        standing.compliance().unwrap_or_else(Matrix6::zeros)
     }
 
     /// A point of base told in the frame that the study counts from, m.
@@ -233,7 +258,14 @@ fn find_robot(
     let own = compliance::of_study(places, file, &found.robot)?;
     if let Some(joints) = own {
         let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-        found.robot = found.robot.with_compliance(joints).map_err(refused)?;
+        // Curves and covariance of the robot file were of other compliances.
+        let mut structure = found.robot.structure().clone();
+        structure.curves.clear();
+        structure.covariance = None;
+        let robot = found.robot.with_compliance(joints);
+        found.robot = robot
+            .and_then(|robot| robot.with_structure(structure))
+            .map_err(refused)?;
     }
     Ok(Some(found))
 }

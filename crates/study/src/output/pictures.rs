@@ -1,10 +1,8 @@
 //! Every picture of a study.
 
-use armill_core::compliance::compliance_at_tool;
 use armill_core::kernel::Answers;
 use armill_core::map::{PathAnswer, PlaneMap};
 use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::robot::inverse::posture_at;
 use armill_report::{
     ArmDrawing, Arrow, ArrowCase, Growth, Overlay, PathPlot, PolarPlot, RadialSeries, Series, ShareBar,
     ShareBars, StiffnessEllipse, VectorField, View,
@@ -180,13 +178,7 @@ fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) ->
         title: title.to_owned(),
         subtitle: subtitle(setting),
         quantity: "share of in-plane deviation (µm)".to_owned(),
-        parts: study
-            .robot
-            .robot
-            .joints()
-            .iter()
-            .map(|joint| joint.name.clone())
-            .collect(),
+        parts: setting.model.sharer_names(study.robot.robot.joints()),
         bars,
         ..ShareBars::default()
     };
@@ -195,8 +187,7 @@ fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) ->
 
 fn ellipse(study: &Study, setting: &Setting, slug: &str, answers: &Answers, index: usize) -> Picture {
     let robot = &study.robot.robot;
-    let posture = posture_at(robot, answers.joints_at(index), &setting.flange_from_tool);
-    let compliance = compliance_at_tool(&posture.screws, robot.compliance().unwrap_or_default());
+    let compliance = setting.compliance_at(robot, answers.joints_at(index));
     let translational = compliance.fixed_view::<3, 3>(0, 0).into_owned();
     let across = setting.plane.base_from_part * -Vector3::x();
     let up = setting.plane.base_from_part * Vector3::y();

@@ -111,6 +111,12 @@ fn inputs(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
             "mm",
             "the study",
         ));
+        inputs.push(input(
+            "stiffness model",
+            setting.model.join("; "),
+            "",
+            "robot and study",
+        ));
         inputs.push(input("heights count from", setting.base.clone(), "", "the study"));
     }
     inputs

@@ -276,12 +276,15 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
             })
         },
     ));
-    let numbers = numbers(study, series.first().map_or(0, |rows| rows.answers.case_count));
+    let numbers = series.first().map_or_else(Vec::new, |rows| {
+        let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
+        numbers(study, sharers, rows.answers.case_count)
+    });
     columns.extend(filled(&numbers, series));
     Ok(Table::new(name, columns)?)
 }
 
-fn numbers(study: &Study, cases: usize) -> Vec<Numbers<'_>> {
+fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>> {
     let mut columns = vec![
         Numbers::deg(
             "limit_margin_deg".to_owned(),
@@ -336,11 +339,11 @@ fn numbers(study: &Study, cases: usize) -> Vec<Numbers<'_>> {
             move |rows, index, _| rows.answers.joints_at(index)[i].to_degrees(),
         )
     }));
-    columns.extend(joints.iter().enumerate().map(|(i, joint)| {
-        let name = format!("share_{}_um", joint.name);
+    columns.extend(sharers.into_iter().enumerate().map(|(i, sharer)| {
+        let name = format!("share_{sharer}_um");
         Numbers::um(
             name,
-            "share of the joint in the in-plane deviation; the shares add up to it",
+            "share of the joint (base, flange, tool) in the in-plane deviation; the shares add up to it",
             move |rows, index, _| rows.answers.shares_at(index)[i] * 1e6,
         )
     }));

@@ -27,6 +27,7 @@
 //! # let (tool, cases) = (Isometry::identity(), [Wrench::from_force(Vector3::new(3.0, 5.0, 5.0))]);
 //! # let question = Question {
 //! #     robot: &robot, arm: robot.ortho_parallel().unwrap(), compliance: robot.compliance().unwrap(),
+//! #     model: armill_core::source::StiffnessModel::DRIVES,
 //! #     flange_from_tool: &tool, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
 //! # };
 //! // Three points of a vertical plate, the tool held along base x.

@@ -127,5 +127,6 @@ fn amount(miss: Unreachable) -> f64 {
         | Unreachable::InsideLateralOffset { by }
         | Unreachable::Unverified { by }
         | Unreachable::OutsideLimits { by, .. } => by,
+        Unreachable::Unstable { .. } => f64::INFINITY,
     }
 }

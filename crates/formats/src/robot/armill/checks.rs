@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use armill_core::robot::joint::{Coupling, Sign};
-use armill_core::robot::{Amount, Axis, BranchPattern, Joint, JointCompliance, Limits, Motion};
+use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, Motion, TorqueCurve};
 
-use super::file::{AxisName, JointEntry, MotionEntry, RobotFile, SourceEntry};
+use super::file::{JointEntry, MotionEntry, RobotFile, SourceEntry};
 use crate::document::{Document, Problem};
 
 /// What no schema can say, collected.
@@ -16,12 +16,12 @@ pub(super) struct Checks<'a> {
 }
 
 impl Checks<'_> {
-    fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
+    pub(super) fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
         self.problems
             .push(self.document.problem(path, message, Some(hint)));
     }
 
-    fn source(&mut self, path: &str, key: &str) {
+    pub(super) fn source(&mut self, path: &str, key: &str) {
         if !self.sources.contains_key(key) {
             let known: Vec<&str> = self.sources.keys().map(String::as_str).collect();
             let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
@@ -78,11 +78,7 @@ impl Checks<'_> {
                 return None;
             }
         };
-        let axis = match axis {
-            AxisName::X => Axis::X,
-            AxisName::Y => Axis::Y,
-            AxisName::Z => Axis::Z,
-        };
+        let axis = axis.axis();
         Some(if turns {
             Motion::About(axis, amount)
         } else {
@@ -179,6 +175,7 @@ impl Checks<'_> {
                 "compliance_u_rad_per_n_m",
                 entry.compliance_u_rad_per_n_m.is_some(),
             ),
+            ("torque_curve_n_m_rad", entry.torque_curve_n_m_rad.is_some()),
         ];
         let sliding = [
             ("zero_offset_mm", entry.zero_offset_mm.is_some()),
@@ -186,6 +183,7 @@ impl Checks<'_> {
             ("max_speed_mm_per_s", entry.max_speed_mm_per_s.is_some()),
             ("compliance_um_per_n", entry.compliance_um_per_n.is_some()),
             ("compliance_u_um_per_n", entry.compliance_u_um_per_n.is_some()),
+            ("", false),
         ];
         let (wrong, right, does) = if slides {
             (turning, sliding, "slides")
@@ -195,7 +193,11 @@ impl Checks<'_> {
         for ((key, given), (instead, _)) in wrong.into_iter().zip(right) {
             if given {
                 let message = format!("joint {} {does}: `{key}` does not fit it", entry.name);
-                self.problem(&format!("{path}.{key}"), message, &format!("write `{instead}`"));
+                let hint = match instead {
+                    "" => "give it `compliance_um_per_n` instead".to_owned(),
+                    instead => format!("write `{instead}`"),
+                };
+                self.problem(&format!("{path}.{key}"), message, &hint);
             }
         }
     }
@@ -250,9 +252,18 @@ impl Checks<'_> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
             let path = format!("joint[{index}]");
+            // Where a torque curve stands in place of a compliance, its slope without load is told for it.
+            let points = entry.torque_curve_n_m_rad.clone();
+            let curve = points.and_then(|points| TorqueCurve::new(points).ok());
             let value = entry
                 .compliance_rad_per_n_m
                 .or(entry.compliance_um_per_n.map(|um| um * 1e-6));
+            if value.is_some() && entry.torque_curve_n_m_rad.is_some() {
+                let message = format!("joint {}: both a compliance and a torque curve", entry.name);
+                let hint = "keep one; `compliance_u_rad_per_n_m` stays with either";
+                self.problem(&format!("{path}.torque_curve_n_m_rad"), message, hint);
+            }
+            let value = value.or(curve.map(|curve| curve.slope(0.0)));
             let u = entry
                 .compliance_u_rad_per_n_m
                 .or(entry.compliance_u_um_per_n.map(|um| um * 1e-6));
@@ -322,6 +333,11 @@ impl Checks<'_> {
             .iter()
             .map(|frame| &frame.source)
             .chain(file.payload.iter().map(|p| &p.source));
+        let others = others
+            .chain(file.spring.iter().map(|s| &s.source))
+            .chain(file.mass.iter().map(|m| &m.source))
+            .chain(file.compensator.iter().map(|c| &c.source))
+            .chain(file.covariance.iter().map(|c| &c.source));
         let used: Vec<&String> = joints.chain(others).chain([&file.chain.source]).collect();
         let unused: Vec<&String> = file.sources.keys().filter(|key| !used.contains(key)).collect();
         for key in unused {

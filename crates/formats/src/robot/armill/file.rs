@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::robot::structure::{AxisName, MassTable, SpringTable};
+
 /// The robot file.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -26,6 +28,16 @@ pub(super) struct RobotFile {
     /// Frames that positions may be counted from, beside base_link.
     #[serde(default)]
     pub frame: Vec<FrameEntry>,
+    /// What yields beside the drives.
+    #[serde(default)]
+    pub spring: Vec<SpringTable>,
+    /// What gravity pulls on.
+    #[serde(default)]
+    pub mass: Vec<MassTable>,
+    /// The spring that holds a joint against gravity.
+    pub compensator: Option<CompensatorTable>,
+    /// Covariance of compliances that were identified together.
+    pub covariance: Option<CovarianceTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
     /// Where the numbers come from, by key.
@@ -59,14 +71,6 @@ pub(super) struct MotionEntry {
     pub joint: Option<String>,
     /// Symbol in the source, for people.
     pub symbol: Option<String>,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum AxisName {
-    X,
-    Y,
-    Z,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -108,6 +112,12 @@ pub(super) struct JointEntry {
     /// Standard uncertainty of the compliance, sliding joints.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub compliance_u_um_per_n: Option<f64>,
+    /// Torque and angle, pair by pair, in place of one compliance; where the load raises the torque.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub torque_curve_n_m_rad: Option<Vec<[f64; 2]>>,
+    /// The same where the load lowers the torque; the other one holds both ways if this is left out.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub torque_curve_falling_n_m_rad: Option<Vec<[f64; 2]>>,
     /// Key of the source of the compliance.
     pub compliance_source: Option<String>,
     /// Key of the source of its standard uncertainty; that of the compliance if left out.
@@ -153,6 +163,44 @@ pub(super) struct FrameEntry {
     /// What it is.
     #[serde(rename = "note")]
     pub _note: Option<String>,
+}
+
+/// A spring between a point that stands still and a point of the arm.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CompensatorTable {
+    /// Name of the joint that it holds.
+    pub joint: String,
+    /// From the joint's axis to the point that stands still (a).
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub fixed_radius_mm: f64,
+    /// From the joint's axis to the point of the arm (L).
+    #[schemars(range(min = 1.0, max = 1e6))]
+    pub arm_radius_mm: f64,
+    /// Length of the spring without force (s0).
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub free_length_mm: f64,
+    /// Stiffness of the spring.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub stiffness_n_per_mm: f64,
+    /// Chain position of the joint, sign turned, where the spring is longest (alpha).
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub angle_deg: f64,
+    /// Key of the source.
+    pub source: String,
+}
+
+/// Covariance of compliances that were identified together.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CovarianceTable {
+    /// Which: joints, and springs as `A2 about x`.
+    pub of: Vec<String>,
+    /// Row by row, in that order.
+    #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
+    pub matrix_rad2_per_n2_m2: Vec<Vec<f64>>,
+    /// Key of the source.
+    pub source: String,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]

@@ -151,3 +151,164 @@ fn two_joints_of_one_name_are_refused() {
     let text = problems("name = \"B\"", "name = \"A\"");
     assert!(text.contains("another joint is called `A`"), "{text}");
 }
+
+/// What yields and weighs beside the drives of the sample.
+const STRUCTURE: &str = r#"
+[[spring]]
+at = "A"
+about = "x"
+compliance_rad_per_n_m = 5e-8
+compliance_u_rad_per_n_m = 1e-8
+source = "made-up"
+[[spring]]
+at = "flange"
+along = "z"
+compliance_um_per_n = 0.02
+source = "made-up"
+[[spring]]
+at = "base"
+compliance_matrix = [[1e-9,0,0,0,0,0],[0,2e-9,0,0,0,0],[0,0,0,0,0,0],[0,0,0,1e-8,0,0],[0,0,0,0,0,0],[0,0,0,0,0,3e-8]]
+source = "made-up"
+[[mass]]
+at = "A"
+mass_kg = 12.5
+centre_mm = [100, 0, -50]
+source = "made-up"
+[compensator]
+joint = "A"
+fixed_radius_mm = 690
+arm_radius_mm = 185
+free_length_mm = 458
+stiffness_n_per_mm = 4000
+angle_deg = 90
+source = "made-up"
+[covariance]
+of = ["A about x", "A"]
+matrix_rad2_per_n2_m2 = [[4e-16, 1e-16], [1e-16, 9e-14]]
+source = "made-up"
+"#;
+
+fn structured(from: &str, to: &str) -> Result<RobotDescription, Problems> {
+    assert!(STRUCTURE.contains(from), "the sample has no `{from}`");
+    let text = format!("{SMALL}{}", STRUCTURE.replacen(from, to, 1));
+    read("lever.toml", "lever", &text)
+}
+
+#[test]
+fn springs_masses_compensator_and_covariance_arrive_in_si() {
+    use armill_core::robot::Seat;
+    let robot = structured("", "").unwrap().robot;
+    let s = robot.structure();
+    // One about, one along, and the four directions in which the matrix yields.
+    assert_eq!(s.springs.len(), 6);
+    assert_eq!(s.springs[0].seat, Seat::Joint(0));
+    assert_eq!(s.springs[0].direction.angular, Vector3::x());
+    assert_eq!(s.springs[0].compliance.standard_uncertainty, 1e-8);
+    assert_eq!(s.springs[1].compliance.value, 0.02 * 1e-6);
+    assert!(s.springs[2..].iter().all(|spring| spring.seat == Seat::Base));
+    assert_eq!(s.masses[0].mass, 12.5);
+    assert!((s.masses[0].centre.z + 0.05).abs() < 1e-17);
+    let compensator = s.compensator.unwrap();
+    assert_eq!((compensator.joint, compensator.stiffness), (0, 4e6));
+    assert_eq!(compensator.angle, std::f64::consts::FRAC_PI_2);
+    // Drives A, B, then the springs: A and `A about x` are tied, the rest keep their own squares.
+    let covariance = s.covariance.as_ref().unwrap();
+    assert_eq!(
+        (covariance[(0, 0)], covariance[(2, 2)], covariance[(0, 2)]),
+        (9e-14, 4e-16, 1e-16)
+    );
+    assert_eq!(covariance[(1, 1)], 0.0);
+}
+
+#[test]
+fn a_torque_curve_stands_in_place_of_a_compliance() {
+    let curve = "torque_curve_n_m_rad = [[-100, -2e-4], [100, 2e-4], [300, 3e-4]]";
+    let text = SMALL.replace("compliance_rad_per_n_m = 2e-6", curve);
+    let robot = read("lever.toml", "lever", &text).unwrap().robot;
+    assert!((robot.compliance().unwrap()[0].value - 2e-6).abs() < 1e-20);
+    assert_eq!(robot.structure().curve(0).unwrap().rising.points().len(), 3);
+    assert!(robot.structure().curve(1).is_none());
+    for (wrong, said) in [
+        ("torque_curve_n_m_rad = [[0, 0]]", "two make a line"),
+        ("torque_curve_n_m_rad = [[0, 0], [10, -1e-5]]", "does not rise"),
+        (
+            "torque_curve_falling_n_m_rad = [[0, 0], [10, 1e-5]]",
+            "without the rising one",
+        ),
+        (
+            "compliance_rad_per_n_m = 2e-6\ntorque_curve_n_m_rad = [[0, 0], [10, 1e-5]]",
+            "both a compliance",
+        ),
+    ] {
+        let text = SMALL.replace("compliance_rad_per_n_m = 2e-6", wrong);
+        let problems = read("lever.toml", "lever", &text).unwrap_err().to_string();
+        assert!(problems.contains(said), "no `{said}` in:\n{problems}");
+    }
+    let slides = SMALL.replace(
+        "compliance_um_per_n = 0.02",
+        "torque_curve_n_m_rad = [[0, 0], [10, 1e-5]]",
+    );
+    let problems = read("lever.toml", "lever", &slides).unwrap_err().to_string();
+    assert!(problems.contains("joint B slides"), "{problems}");
+}
+
+#[test]
+fn a_wrong_structure_is_refused_with_place_and_hint() {
+    for (from, to, said) in [
+        (
+            "at = \"A\"\nabout",
+            "at = \"C\"\nabout",
+            "`C` is no part of the arm",
+        ),
+        (
+            "about = \"x\"\n",
+            "",
+            "turns `about` an axis or slides `along` one",
+        ),
+        (
+            "about = \"x\"",
+            "along = \"x\"",
+            "the unit of the compliance does not fit the axis",
+        ),
+        ("compliance_um_per_n = 0.02\n", "", "the spring has no compliance"),
+        ("[[1e-9,0,", "[[1e-9,5e-9,", "is not symmetric"),
+        ("[[1e-9,0,", "[[-1e-9,0,", "negative eigenvalue"),
+        (
+            "at = \"base\"\n",
+            "at = \"base\"\nabout = \"z\"\n",
+            "either an axis or a whole matrix",
+        ),
+        ("mass_kg = 12.5", "mass_kg = -1", "mass_kg"),
+        (
+            "joint = \"A\"\nfixed",
+            "joint = \"Z\"\nfixed",
+            "`Z` is no joint of the arm",
+        ),
+        (
+            "arm_radius_mm = 185",
+            "arm_radius_mm = 690",
+            "differ by less than 1 mm",
+        ),
+        (
+            "of = [\"A about x\", \"A\"]",
+            "of = [\"A about x\", \"A about z\"]",
+            "`A about z` is no compliance",
+        ),
+        (
+            "of = [\"A about x\", \"A\"]",
+            "of = [\"A\", \"A\"]",
+            "stands here twice",
+        ),
+        ("of = [\"A about x\", \"A\"]", "of = [\"B\", \"A\"]", "`B` slides"),
+        (
+            "of = [\"A about x\", \"A\"]",
+            "of = [\"A\"]",
+            "needs 1 rows of 1 numbers",
+        ),
+        ("[1e-16, 9e-14]", "[1e-16, -9e-14]", "negative eigenvalue"),
+    ] {
+        let problems = structured(from, to).unwrap_err().to_string();
+        assert!(problems.contains(said), "no `{said}` in:\n{problems}");
+        assert!(problems.contains("lever.toml:"), "no place in:\n{problems}");
+    }
+}

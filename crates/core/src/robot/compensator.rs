@@ -1,0 +1,114 @@
+//! Masses, and the spring that carries part of them: the gravity compensator.
+//!
+//! A compensator is a spring between a point that stands still, at distance `a` from the axis of its joint, and a point
+//! of the arm at radius `L`:
+//!
+//! ```text
+//! s^2 = a^2 + L^2 + 2 a L cos(alpha + theta)        E = K (s - s0)^2 / 2
+//! M = -dE/dtheta = K (1 - s0/s) a L sin(alpha + theta)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `theta` | chain position of the joint | rad |
+//! | `s`, `s0` | length of the spring, its length without force | m |
+//! | `K` | its stiffness | N/m |
+//! | `M` | torque on the joint, by the right hand about its axis in the chain | N m |
+//!
+//! Its torque adds to gravity's, and its slope to the joint: stiffness `k - dM/dtheta`. Source: Klimchik, Wu, Dumas,
+//! Caro, Furet & Pashkevich 2013, arXiv:1311.6810.
+
+use nalgebra::Point3;
+
+use super::spring::Seat;
+
+/// A body that gravity pulls on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mass {
+    /// What it is fixed to.
+    pub seat: Seat,
+    /// kg
+    pub mass: f64,
+    /// Centre of mass in the seat's frame, m.
+    pub centre: Point3<f64>,
+}
+
+/// A spring that holds one joint against gravity.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compensator {
+    /// Index of the joint, which turns.
+    pub joint: usize,
+    /// `a`: from the axis to the point that stands still, m.
+    pub fixed_radius: f64,
+    /// `L`: from the axis to the point of the arm, m.
+    pub arm_radius: f64,
+    /// `alpha`: angle between the two where the joint's chain position is zero, against the stretched spring, rad.
+    pub angle: f64,
+    /// `s0`, m.
+    pub free_length: f64,
+    /// `K`, N/m.
+    pub stiffness: f64,
+}
+
+impl Compensator {
+    /// Torque `M` on the joint at chain position `theta`, N m.
+    pub fn torque(&self, theta: f64) -> f64 {
+        let (al, s, (sin, _)) = self.at(theta);
+        self.stiffness * (1.0 - self.free_length / s) * al * sin
+    }
+
+    /// `dM/dtheta`, N m/rad: what the joint loses in stiffness.
+    pub fn slope(&self, theta: f64) -> f64 {
+        let (al, s, (sin, cos)) = self.at(theta);
+        self.stiffness
+            * al
+            * (cos * (1.0 - self.free_length / s) - self.free_length * al * sin * sin / s.powi(3))
+    }
+
+    /// Energy of the spring, J.
+    pub fn energy(&self, theta: f64) -> f64 {
+        let (_, s, _) = self.at(theta);
+        0.5 * self.stiffness * (s - self.free_length).powi(2)
+    }
+
+    fn at(&self, theta: f64) -> (f64, f64, (f64, f64)) {
+        let (a, l) = (self.fixed_radius, self.arm_radius);
+        let (sin, cos) = (self.angle + theta).sin_cos();
+        (a * l, (a * a + l * l + 2.0 * a * l * cos).sqrt(), (sin, cos))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn some() -> Compensator {
+        Compensator {
+            joint: 1,
+            fixed_radius: 0.69,
+            arm_radius: 0.185,
+            angle: 0.17,
+            free_length: 0.458,
+            stiffness: 7e6,
+        }
+    }
+
+    #[test]
+    fn torque_is_the_falling_energy_and_slope_its_derivative() {
+        let (c, h) = (some(), 1e-5);
+        for i in 0..40 {
+            let theta = -2.0 + 0.1 * f64::from(i);
+            let torque = -(c.energy(theta + h) - c.energy(theta - h)) / (2.0 * h);
+            let slope = (c.torque(theta + h) - c.torque(theta - h)) / (2.0 * h);
+            // h^2 of the third derivative (some 1e6) and the rounding of 1e6 J over h.
+            assert!((c.torque(theta) - torque).abs() < 1e-4, "{theta}: {torque}");
+            assert!((c.slope(theta) - slope).abs() < 1e-3, "{theta}: {slope}");
+        }
+    }
+
+    #[test]
+    fn a_spring_along_the_lever_makes_no_torque() {
+        let c = some();
+        assert!(c.torque(-c.angle).abs() < 1e-9);
+    }
+}

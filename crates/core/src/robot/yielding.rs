@@ -1,0 +1,284 @@
+//! Where an arm stands once its springs have given way: forward kinematics over drives and springs.
+//!
+//! Going from base to tool, each drive turns by `theta_i + x_i`, and each spring adds the displacement `exp(u_k x_k)`
+//! at its seat. Springs of one seat act one after the other; the order matters in the second order of `x` alone.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `theta` | chain positions of the drives | rad (m) |
+//! | `x` | how far drives, then springs, have given way | rad or m, small |
+//!
+//! Screws are at the tool centre point of the yielded arm, base basis.
+
+use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
+
+use super::chain::Motion;
+use super::forward::Frames;
+use super::model::Robot;
+use super::spring::{Seat, Spring};
+use crate::frame::Isometry;
+use crate::spatial::Twist;
+
+/// An arm whose drives and springs have given way.
+#[derive(Clone, Debug)]
+pub struct Yielded {
+    /// Screw of each drive, then of each spring, at the TCP.
+    pub screws: Vec<Twist>,
+    /// Frame of each seat in base, from base to tool, by [`Seat::rank`]; what the seat's own springs do included.
+    pub seats: Vec<IsometryMatrix3<f64>>,
+}
+
+impl Yielded {
+    /// Room for `robot` with this many springs.
+    pub fn for_robot(robot: &Robot, springs: usize) -> Yielded {
+        let joints = robot.joints().len();
+        Yielded {
+            screws: vec![Twist::ZERO; joints + springs],
+            seats: vec![IsometryMatrix3::identity(); Seat::count(joints)],
+        }
+    }
+
+    /// The tool in base.
+    pub fn base_from_tool(&self) -> IsometryMatrix3<f64> {
+        self.seats
+            .last()
+            .copied()
+            .unwrap_or_else(IsometryMatrix3::identity)
+    }
+}
+
+/// The frame of `seat` in base before any spring gives way.
+pub fn seat_frame(
+    seat: Seat,
+    frames: &Frames,
+    base_from_tool: &IsometryMatrix3<f64>,
+) -> IsometryMatrix3<f64> {
+    match seat {
+        Seat::Base => IsometryMatrix3::identity(),
+        Seat::Joint(index) => frames.base_from_joint[index],
+        Seat::Flange => frames.base_from_flange,
+        Seat::Tool => *base_from_tool,
+    }
+}
+
+/// The screw at `tcp` (m, base) of a spring with this local direction on a seat in this frame.
+pub fn spring_screw(direction: &Twist, base_from_seat: &IsometryMatrix3<f64>, tcp: Vector3<f64>) -> Twist {
+    let at_seat = Twist {
+        linear: base_from_seat.rotation * direction.linear,
+        angular: base_from_seat.rotation * direction.angular,
+    };
+    at_seat.moved(tcp - base_from_seat.translation.vector)
+}
+
+/// The arm at chain positions `theta` with drives and springs given way by `x`, into `out`.
+///
+/// # Panics
+/// If there are fewer `theta` than joints, or fewer `x` than joints and springs.
+pub fn yield_into(
+    (robot, springs, flange_from_tool): (&Robot, &[Spring], &Isometry),
+    theta: &[f64],
+    x: &[f64],
+    out: &mut Yielded,
+) {
+    let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
+    let chain = robot.chain();
+    let joints = theta.len();
+    for rank in 0..Seat::count(joints) {
+        if let Some(joint) = rank.checked_sub(1).filter(|joint| *joint < joints) {
+            let link = &chain.links()[joint];
+            link.before.advance(&mut axes, &mut origin);
+            link.motion
+                .advance(theta[joint] + x[joint], &mut axes, &mut origin);
+            out.screws[joint] = drive_twist(&link.motion, &axes).moved(-origin);
+        } else if rank == Seat::Flange.rank(joints) {
+            chain.last_joint_from_flange().advance(&mut axes, &mut origin);
+        } else if rank == Seat::Tool.rank(joints) {
+            origin += axes * flange_from_tool.translation.vector;
+            axes *= flange_from_tool.rotation.to_rotation_matrix().matrix();
+        }
+        for (index, spring) in springs.iter().enumerate() {
+            if spring.seat.rank(joints) != rank {
+                continue;
+            }
+            let at_seat = Twist {
+                linear: axes * spring.direction.linear,
+                angular: axes * spring.direction.angular,
+            };
+            out.screws[joints + index] = at_seat.moved(-origin);
+            let (turn, shift) = exponential(&spring.direction.scaled(x[joints + index]));
+            origin += axes * shift;
+            axes *= turn;
+        }
+        out.seats[rank] = IsometryMatrix3::from_parts(origin.into(), Rotation3::from_matrix_unchecked(axes));
+    }
+    // Until here told at the base origin; the tool stands at `origin` now.
+    for screw in &mut out.screws {
+        *screw = screw.moved(origin);
+    }
+}
+
+/// Twist of a drive per unit, told at a point of its axis.
+fn drive_twist(motion: &Motion, axes: &Matrix3<f64>) -> Twist {
+    let (Motion::Along(axis, _) | Motion::About(axis, _)) = motion;
+    let z = axes.column(axis.index()).into_owned();
+    match motion {
+        Motion::About(..) => Twist {
+            linear: Vector3::zeros(),
+            angular: z,
+        },
+        Motion::Along(..) => Twist {
+            linear: z,
+            angular: Vector3::zeros(),
+        },
+    }
+}
+
+/// Below this angle (rad) the series of [`exponential`] leave out less than rounding.
+const SMALL_ANGLE: f64 = 1e-2;
+
+/// The finite displacement of a constant twist: rotation, and the way of the reference point.
+fn exponential(twist: &Twist) -> (Matrix3<f64>, Vector3<f64>) {
+    let angle = twist.angular.norm();
+    let square = angle * angle;
+    let (sine, first, second) = if angle < SMALL_ANGLE {
+        (
+            1.0 - square / 6.0 + square * square / 120.0,
+            0.5 - square / 24.0 + square * square / 720.0,
+            1.0 / 6.0 - square / 120.0 + square * square / 5040.0,
+        )
+    } else {
+        let (sin, cos) = angle.sin_cos();
+        (
+            sin / angle,
+            (1.0 - cos) / square,
+            (angle - sin) / (square * angle),
+        )
+    };
+    let cross = twist.angular.cross_matrix();
+    let rotation = Matrix3::identity() + cross * sine + cross * cross * first;
+    let way = twist.linear + cross * twist.linear * first + cross * cross * twist.linear * second;
+    (rotation, way)
+}
+
+/// The displacement of the tool from `before` to `after`: of its centre point (m), and its rotation vector (rad,
+/// below a quarter turn), base basis.
+pub fn displacement(before: &IsometryMatrix3<f64>, after: &IsometryMatrix3<f64>) -> Twist {
+    let turn = after.rotation.matrix() * before.rotation.matrix().transpose();
+    // The skew part holds the sine of the angle: exact where the cosine has lost it.
+    let skew = 0.5
+        * Vector3::new(
+            turn[(2, 1)] - turn[(1, 2)],
+            turn[(0, 2)] - turn[(2, 0)],
+            turn[(1, 0)] - turn[(0, 1)],
+        );
+    let sine = skew.norm();
+    let stretch = if sine > 0.0 {
+        sine.min(1.0).asin() / sine
+    } else {
+        1.0
+    };
+    Twist {
+        linear: after.translation.vector - before.translation.vector,
+        angular: skew * stretch,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::forward::forward;
+    use crate::robot::inverse::tool_on;
+    use crate::robot::jacobian::screws_at;
+    use crate::robot::{Amount, Axis, Joint, JointCompliance};
+
+    fn arm() -> (Robot, Vec<Spring>, Isometry) {
+        let motions = vec![
+            Motion::Along(Axis::Z, Amount::Constant(0.5)),
+            Motion::About(Axis::Z, Amount::Joint(0)),
+            Motion::Along(Axis::X, Amount::Constant(0.2)),
+            Motion::About(Axis::Y, Amount::Joint(1)),
+            Motion::Along(Axis::X, Amount::Joint(2)),
+            Motion::About(Axis::X, Amount::Constant(0.3)),
+        ];
+        let robot = Robot::new("some", motions, ["a", "b", "c"].map(Joint::plain).to_vec()).unwrap();
+        let c = JointCompliance {
+            value: 1e-6,
+            standard_uncertainty: 0.0,
+        };
+        let mut springs = vec![
+            Spring::about(Seat::Tool, Vector3::x(), c),
+            Spring::about(Seat::Joint(1), Vector3::x(), c),
+            Spring::along(Seat::Base, Vector3::y(), c),
+            Spring::about(Seat::Joint(1), Vector3::y(), c),
+            Spring::about(Seat::Flange, Vector3::z(), c),
+        ];
+        springs[4].direction.linear = Vector3::new(0.1, -0.4, 0.2);
+        let tool = crate::frame::from_xyz_and_fixed_angles(
+            Vector3::new(0.05, 0.0, 0.3),
+            Vector3::new(0.1, 0.7, -0.2),
+        );
+        (robot, springs, tool)
+    }
+
+    const THETA: [f64; 3] = [0.4, -0.7, 0.25];
+
+    #[test]
+    fn an_arm_that_has_not_given_way_stands_where_forward_says() {
+        let (robot, springs, tool) = arm();
+        let mut out = Yielded::for_robot(&robot, springs.len());
+        yield_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut out);
+        let frames = forward(&robot, &THETA);
+        let at = tool_on(&frames, &tool);
+        let away = out.base_from_tool().to_homogeneous() - at.to_homogeneous();
+        assert!(away.norm() < 1e-15);
+        let tcp = at.translation.vector;
+        let drives = screws_at(&robot, &frames, &tcp.into());
+        for (a, b) in out.screws.iter().zip(&drives) {
+            assert!((a.to_vector() - b.to_vector()).norm() < 1e-15);
+        }
+        let base_from_tool = out.base_from_tool();
+        for (a, spring) in out.screws[3..].iter().zip(&springs) {
+            let seat = seat_frame(spring.seat, &frames, &base_from_tool);
+            let b = spring_screw(&spring.direction, &seat, tcp);
+            assert!((a.to_vector() - b.to_vector()).norm() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn screws_of_a_yielded_arm_match_finite_differences() {
+        let (robot, springs, tool) = arm();
+        let x: Vec<f64> = (0..8).map(|i| 0.03 * f64::from(i) - 0.1).collect();
+        let stand = |x: &[f64]| {
+            let mut out = Yielded::for_robot(&robot, springs.len());
+            yield_into((&robot, &springs, &tool), &THETA, x, &mut out);
+            out
+        };
+        let here = stand(&x);
+        let h = 1e-5;
+        for k in 0..8 {
+            let (mut less, mut more) = (x.clone(), x.clone());
+            less[k] -= h;
+            more[k] += h;
+            let moved = displacement(&stand(&less).base_from_tool(), &stand(&more).base_from_tool());
+            let difference = moved.scaled(0.5 / h).to_vector() - here.screws[k].to_vector();
+            // h^2, and rounding over h.
+            assert!(difference.norm() < 1e-9, "{k}: {difference}");
+        }
+    }
+
+    #[test]
+    fn the_series_of_small_turns_joins_the_closed_form() {
+        let twist = |angle: f64| Twist {
+            linear: Vector3::new(0.3, -0.2, 0.9),
+            angular: Vector3::new(0.6, 0.0, -0.8) * angle,
+        };
+        let (below, above) = (
+            exponential(&twist(0.999_999_9e-2)),
+            exponential(&twist(1.000_000_1e-2)),
+        );
+        // Apart by 2e-9 rad.
+        assert!((below.0 - above.0).norm() < 1e-8 && (below.1 - above.1).norm() < 1e-8);
+        let orthogonal = below.0 * below.0.transpose() - Matrix3::identity();
+        assert!(orthogonal.norm() < 1e-15);
+    }
+}

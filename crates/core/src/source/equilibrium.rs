@@ -1,0 +1,271 @@
+//! Load-dependent stiffness: the load acts on the arm as it has yielded.
+//!
+//! With the wrench `w` constant in base, drives and springs give way by `x` until
+//!
+//! ```text
+//! K x = J(x)^T w + tau_g(x) - tau_g(0)          K_C[i, j] = d(J^T w + tau_g)_i / d x_j
+//! C = J (K - K_C)^-1 J^T                        tangent at the loaded posture
+//! ```
+//!
+//! Newton's method with the exact `K_C`, in the compliance form `x = c (..)`, so that rigid joints (`c = 0`) are
+//! nothing special. For the screws `[v; o]` of `e` and `l`, the earlier and the later of i and j in the chain, the force
+//! `f` at the TCP gives `K_C[i, j] = (o_e x v_l) . f`. The moment `m` gives `(o_j x o_i) . m` where j comes before i
+//! and zero where it comes after: with moments `K_C` is not symmetric. Weight counts at its own centre, for what both
+//! carry.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `x` | how far drives, then springs, have given way | rad (m) |
+//! | `K`, `K_C` | their stiffness; what the load adds to or takes from it | N m/rad |
+//!
+//! An equilibrium counts if the symmetric part of `K - K_C` is positive definite: then none of the parts runs away.
+//! Source: Chen & Kao 2000, Int. J. Robotics Research 19:835-847; Alici & Shirinzadeh 2005, IEEE Trans. Robotics
+//! 21:554-564; `docs/theory/load-dependent.md`.
+
+use nalgebra::{DMatrix, Matrix6, Vector3};
+
+use super::gravity::{Carried, carry_into, torque};
+use super::linear_system::{is_positive_definite, solve};
+use super::stiffness_model::Arm;
+use crate::robot::Seat;
+use crate::robot::yielding::{Yielded, displacement, yield_into};
+use crate::spatial::{Twist, Wrench};
+
+/// Why an arm does not come to rest under its load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Unstable {
+    /// The equation has no solution nearby, or none was found.
+    #[error("the arm finds no equilibrium under this load")]
+    NoEquilibrium,
+    /// An equilibrium that the least push leaves: the arm buckles.
+    #[error("the arm buckles: its equilibrium under this load is not stable")]
+    Buckles,
+}
+
+/// Room for finding an equilibrium, and the last one found.
+#[derive(Clone, Debug)]
+pub struct Equilibrium {
+    rest: Yielded,
+    yielded: Yielded,
+    carried: Vec<Carried>,
+    /// Place of each drive or spring in the chain, base first.
+    place: Vec<usize>,
+    /// Seat of each, by rank.
+    rank: Vec<usize>,
+    x: Vec<f64>,
+    torques: Vec<f64>,
+    slopes: Vec<f64>,
+    k_c: DMatrix<f64>,
+    matrix: DMatrix<f64>,
+    step: DMatrix<f64>,
+}
+
+/// Newton's steps at most; four are usual.
+const MOST_STEPS: usize = 40;
+/// A drive that turns farther (rad) has left what this model is for.
+const FARTHEST: f64 = 0.5;
+/// Steps this small against the longest way gone, and absolutely (rad, m), leave rounding: each step squares the error.
+const CONVERGED: (f64, f64) = (1e-10, 1e-16);
+
+impl Equilibrium {
+    /// Room for this arm.
+    pub fn for_arm(arm: &Arm<'_>) -> Equilibrium {
+        let joints = arm.robot.joints().len();
+        let springs = arm.model.structure.springs.len();
+        let rank: Vec<usize> = arm.seats().into_iter().map(|seat| seat.rank(joints)).collect();
+        let size = rank.len();
+        // A drive comes before the springs of its own seat; those come in the order of the list.
+        let mut order: Vec<usize> = (0..size).collect();
+        order.sort_by_key(|k| (rank[*k], *k));
+        let mut place = vec![0; size];
+        for (at, k) in order.into_iter().enumerate() {
+            place[k] = at;
+        }
+        Equilibrium {
+            rest: Yielded::for_robot(arm.robot, springs),
+            yielded: Yielded::for_robot(arm.robot, springs),
+            carried: vec![Carried::NOTHING; Seat::count(joints)],
+            place,
+            rank,
+            x: vec![0.0; size],
+            torques: vec![0.0; size],
+            slopes: vec![0.0; size],
+            k_c: DMatrix::zeros(size, size),
+            matrix: DMatrix::zeros(size, size),
+            step: DMatrix::zeros(size, 1),
+        }
+    }
+
+    /// How far drives and springs have given way, rad (m).
+    pub fn turns(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// Torque of the load on each, the change of gravity's included, N m (N).
+    pub fn torques(&self) -> &[f64] {
+        &self.torques
+    }
+
+    /// `K_C` where the arm stands now, N m/rad.
+    pub fn load_stiffness(&self) -> &DMatrix<f64> {
+        &self.k_c
+    }
+
+    /// Displacement of the tool from the arm at rest at chain positions `theta` to its equilibrium under `wrench`.
+    ///
+    /// `law` gives, for each drive or spring and the torque of the load on it, how far it turns and the slope of that;
+    /// `before` is gravity's torque at rest.
+    ///
+    /// # Errors
+    /// [`Unstable`] with the reason.
+    pub fn find(
+        &mut self,
+        arm: &Arm<'_>,
+        (theta, before): (&[f64], &[f64]),
+        wrench: &Wrench,
+        law: impl Fn(usize, f64) -> (f64, f64),
+    ) -> Result<Twist, Unstable> {
+        self.x.fill(0.0);
+        let springs = &arm.model.structure.springs[..];
+        let body = (arm.robot, springs, arm.flange_from_tool);
+        yield_into(body, theta, &self.x, &mut self.rest);
+        for _ in 0..MOST_STEPS {
+            self.stand(arm, (theta, before), wrench);
+            for (k, slope) in self.slopes.iter_mut().enumerate() {
+                let (turn, here) = law(k, self.torques[k]);
+                *slope = here;
+                self.step[(k, 0)] = turn - self.x[k];
+            }
+            self.fill_matrix();
+            if !solve(&mut self.matrix, &mut self.step) {
+                return Err(Unstable::NoEquilibrium);
+            }
+            let (mut longest, mut last) = (0.0_f64, 0.0_f64);
+            for (x, step) in self.x.iter_mut().zip(self.step.iter()) {
+                *x += step;
+                if x.is_nan() || x.abs() > FARTHEST {
+                    return Err(Unstable::NoEquilibrium);
+                }
+                (longest, last) = (longest.max(x.abs()), last.max(step.abs()));
+            }
+            if last <= CONVERGED.0 * longest + CONVERGED.1 {
+                self.stand(arm, (theta, before), wrench);
+                return self.if_stable();
+            }
+        }
+        Err(Unstable::NoEquilibrium)
+    }
+
+    /// The compliance tangent to the load where the arm stands now: 6 x 6 at the yielded TCP, base, translation first.
+    pub fn tangent(&mut self) -> Option<Matrix6<f64>> {
+        self.fill_matrix();
+        let mut rows = DMatrix::from_fn(self.x.len(), 6, |k, j| {
+            self.slopes[k] * self.yielded.screws[k].to_vector()[j]
+        });
+        solve(&mut self.matrix, &mut rows).then(|| {
+            let column = |j: usize| -> nalgebra::Vector6<f64> {
+                let screws = self.yielded.screws.iter().enumerate();
+                screws.map(|(k, screw)| screw.to_vector() * rows[(k, j)]).sum()
+            };
+            Matrix6::from_columns(&[0, 1, 2, 3, 4, 5].map(column))
+        })
+    }
+
+    /// Screws, torques and `K_C` of the arm given way by `x`.
+    fn stand(&mut self, arm: &Arm<'_>, (theta, before): (&[f64], &[f64]), wrench: &Wrench) {
+        let structure = &arm.model.structure;
+        let body = (arm.robot, &structure.springs[..], arm.flange_from_tool);
+        yield_into(body, theta, &self.x, &mut self.yielded);
+        let joints = theta.len();
+        let (seats, screws) = (&self.yielded.seats, &self.yielded.screws);
+        let tcp = self.yielded.base_from_tool().translation.vector;
+        let g = arm.model.gravity.as_ref().map(|gravity| gravity.acceleration);
+        if g.is_some() {
+            let frame = |seat: Seat| seats[seat.rank(joints)];
+            carry_into(&structure.masses, frame, tcp, &mut self.carried);
+        }
+        for (k, screw) in screws.iter().enumerate() {
+            let weight = g.map_or(0.0, |g| {
+                torque(screw, &self.carried[self.rank[k]], &g) - before[k]
+            });
+            self.torques[k] = screw.dot(wrench) + weight;
+        }
+        load_stiffness_into((screws, &self.place), wrench, &mut self.k_c);
+        if let Some(g) = g {
+            add_weight(
+                (screws, &self.place, &self.rank),
+                &self.carried,
+                &g,
+                &mut self.k_c,
+            );
+        }
+        if let Some(c) = &structure.compensator {
+            let (at, turned) = (theta[c.joint], theta[c.joint] + self.x[c.joint]);
+            // Where gravity counts, `before` holds the compensator at rest and the weight above has taken it off.
+            let taken_off = if g.is_some() { 0.0 } else { c.torque(at) };
+            self.torques[c.joint] += c.torque(turned) - taken_off;
+            self.k_c[(c.joint, c.joint)] += c.slope(turned);
+        }
+    }
+
+    /// `1 - c K_C`.
+    fn fill_matrix(&mut self) {
+        for i in 0..self.x.len() {
+            for j in 0..self.x.len() {
+                let unit = if i == j { 1.0 } else { 0.0 };
+                self.matrix[(i, j)] = unit - self.slopes[i] * self.k_c[(i, j)];
+            }
+        }
+    }
+
+    fn if_stable(&mut self) -> Result<Twist, Unstable> {
+        // K - K_C scaled by the roots of c on both sides; rows of what is rigid become those of the unit matrix.
+        for i in 0..self.x.len() {
+            for j in 0..self.x.len() {
+                let unit = if i == j { 1.0 } else { 0.0 };
+                let root = (self.slopes[i] * self.slopes[j]).sqrt();
+                self.matrix[(i, j)] = unit - root * self.k_c[(i, j)];
+            }
+        }
+        if !is_positive_definite(&mut self.matrix) {
+            return Err(Unstable::Buckles);
+        }
+        Ok(displacement(
+            &self.rest.base_from_tool(),
+            &self.yielded.base_from_tool(),
+        ))
+    }
+}
+
+/// `K_C` of a wrench at the TCP.
+fn load_stiffness_into((screws, place): (&[Twist], &[usize]), wrench: &Wrench, k_c: &mut DMatrix<f64>) {
+    for (i, a) in screws.iter().enumerate() {
+        for (j, b) in screws.iter().enumerate() {
+            let (earlier, later) = if place[j] <= place[i] { (b, a) } else { (a, b) };
+            let mut value = earlier.angular.cross(&later.linear).dot(&wrench.force);
+            if place[j] < place[i] {
+                value += b.angular.cross(&a.angular).dot(&wrench.moment);
+            }
+            k_c[(i, j)] = value;
+        }
+    }
+}
+
+/// Adds the part of the weight, each mass at its own centre.
+fn add_weight(
+    (screws, place, rank): (&[Twist], &[usize], &[usize]),
+    carried: &[Carried],
+    g: &Vector3<f64>,
+    k_c: &mut DMatrix<f64>,
+) {
+    for (i, a) in screws.iter().enumerate() {
+        for (j, b) in screws.iter().enumerate() {
+            let (earlier, later) = if place[j] <= place[i] { (b, a) } else { (a, b) };
+            let both = &carried[rank[i].max(rank[j])];
+            let (oe, ol) = (&earlier.angular, &later.angular);
+            // (o_e x (v_l + o_l x r)) . g, summed over m and m r.
+            let about = ol.dot(g) * oe.dot(&both.moment) - both.moment.dot(g) * oe.dot(ol);
+            k_c[(i, j)] += oe.cross(&later.linear).dot(g) * both.mass + about;
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
+
+use armill_core::nalgebra::DMatrix;
+use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};
+
+use super::checks::{Checks, exact_radians};
+use super::file::{CovarianceTable, JointEntry, RobotFile};
+use crate::robot::structure::Fault;
+
+impl Checks<'_> {
+    /// The structure of the arm; what is wrong goes into the problems.
+    pub(super) fn structure(&mut self, file: &RobotFile) -> Structure {
+        let joints: Vec<&str> = file.joint.iter().map(|joint| joint.name.as_str()).collect();
+        let mut structure = Structure::EMPTY;
+        // Names of the compliances in the order of the core: drives, then springs.
+        let mut names: Vec<Option<String>> = joints.iter().map(|name| Some((*name).to_owned())).collect();
+        for (index, table) in file.spring.iter().enumerate() {
+            let path = format!("spring[{index}]");
+            self.source(&format!("{path}.source"), &table.source);
+            match table.springs(&joints) {
+                Ok(springs) => {
+                    names.extend(springs.iter().map(|_| table.name()));
+                    structure.springs.extend(springs);
+                }
+                Err(fault) => self.fault(&path, fault),
+            }
+        }
+        for (index, table) in file.mass.iter().enumerate() {
+            let path = format!("mass[{index}]");
+            self.source(&format!("{path}.source"), &table.source);
+            match table.mass(&joints) {
+                Ok(mass) => structure.masses.push(mass),
+                Err(fault) => self.fault(&path, fault),
+            }
+        }
+        structure.curves = (0..file.joint.len())
+            .map(|joint| self.curve(file, joint))
+            .collect();
+        structure.compensator = self.compensator(file, &joints);
+        if let Some(table) = &file.covariance {
+            structure.covariance = self.covariance(table, &names, &structure, file);
+        }
+        structure
+    }
+
+    fn fault(&mut self, path: &str, fault: Fault) {
+        let path = match fault.key {
+            "" => path.to_owned(),
+            key => format!("{path}.{key}"),
+        };
+        self.problem(&path, fault.message, &fault.hint);
+    }
+
+    fn curve(&mut self, file: &RobotFile, joint: usize) -> Option<JointCurve> {
+        let entry = &file.joint[joint];
+        let falling = "torque_curve_falling_n_m_rad";
+        let path = format!("joint[{joint}]");
+        if entry.torque_curve_n_m_rad.is_none() && entry.torque_curve_falling_n_m_rad.is_some() {
+            let message = format!("joint {}: a falling curve without the rising one", entry.name);
+            self.problem(&format!("{path}.{falling}"), message, "add torque_curve_n_m_rad");
+            return None;
+        }
+        let mut read = |key: &str, points: Option<&Vec<[f64; 2]>>| {
+            let made = TorqueCurve::new(points?.clone());
+            made.map_err(|refused| {
+                let message = format!("joint {}: {refused}", entry.name);
+                let hint = "pairs [N m, rad], torques rising: [[-500, -4e-4], [0, 0], [500, 4e-4]]";
+                self.problem(&format!("{path}.{key}"), message, hint);
+            })
+            .ok()
+        };
+        let rising = read("torque_curve_n_m_rad", entry.torque_curve_n_m_rad.as_ref());
+        let falling = read(falling, entry.torque_curve_falling_n_m_rad.as_ref());
+        Some(JointCurve {
+            rising: rising?,
+            falling,
+        })
+    }
+
+    fn compensator(&mut self, file: &RobotFile, joints: &[&str]) -> Option<Compensator> {
+        let table = file.compensator.as_ref()?;
+        self.source("compensator.source", &table.source);
+        let Some(joint) = joints.iter().position(|name| *name == table.joint) else {
+            let message = format!("`{}` is no joint of the arm", table.joint);
+            self.problem(
+                "compensator.joint",
+                message,
+                &format!("one of: {}", joints.join(", ")),
+            );
+            return None;
+        };
+        if (table.fixed_radius_mm - table.arm_radius_mm).abs() < 1.0 {
+            let message = format!(
+                "the radii {} mm and {} mm of the compensator differ by less than 1 mm: its spring could shrink to nothing",
+                table.fixed_radius_mm, table.arm_radius_mm
+            );
+            self.problem(
+                "compensator.arm_radius_mm",
+                message,
+                "distances of its two ends from the axis of the joint",
+            );
+            return None;
+        }
+        Some(Compensator {
+            joint,
+            fixed_radius: table.fixed_radius_mm * 1e-3,
+            arm_radius: table.arm_radius_mm * 1e-3,
+            angle: exact_radians(table.angle_deg),
+            free_length: table.free_length_mm * 1e-3,
+            stiffness: table.stiffness_n_per_mm * 1e3,
+        })
+    }
+
+    /// The covariance over all compliances, drives first; those that it does not name stay independent.
+    fn covariance(
+        &mut self,
+        table: &CovarianceTable,
+        names: &[Option<String>],
+        structure: &Structure,
+        file: &RobotFile,
+    ) -> Option<DMatrix<f64>> {
+        self.source("covariance.source", &table.source);
+        let size = table.of.len();
+        let rows = &table.matrix_rad2_per_n2_m2;
+        if rows.len() != size || rows.iter().any(|row| row.len() != size) {
+            let message = format!("the covariance of {size} compliances needs {size} rows of {size} numbers");
+            self.problem(
+                "covariance.matrix_rad2_per_n2_m2",
+                message,
+                "one row and column for each name in `of`",
+            );
+            return None;
+        }
+        let mut places = Vec::new();
+        for (index, name) in table.of.iter().enumerate() {
+            let path = format!("covariance.of[{index}]");
+            let known = names.iter().position(|known| known.as_ref() == Some(name));
+            match known {
+                Some(place) if !places.contains(&place) => places.push(place),
+                Some(_) => self.problem(&path, format!("`{name}` stands here twice"), "name each once"),
+                None => {
+                    let known: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
+                    let hint = format!("a joint, or a spring as `A2 about x`: {}", known.join(", "));
+                    self.problem(&path, format!("`{name}` is no compliance of this file"), &hint);
+                }
+            }
+            if name.contains(" along ") || slides(file, name) {
+                let hint = "the matrix has one unit: give those that slide their own uncertainty";
+                self.problem(
+                    &path,
+                    format!("`{name}` slides: only what turns has this unit"),
+                    hint,
+                );
+            }
+        }
+        if places.len() != size {
+            return None;
+        }
+        let own = file.joint.iter().map(uncertainty).chain(
+            structure
+                .springs
+                .iter()
+                .map(|spring| spring.compliance.standard_uncertainty),
+        );
+        let squares: Vec<f64> = own.map(|u| u * u).collect();
+        let mut covariance = DMatrix::from_diagonal(&squares.into());
+        for (i, row) in places.iter().enumerate() {
+            for (j, column) in places.iter().enumerate() {
+                covariance[(*row, *column)] = rows[i][j];
+            }
+        }
+        Some(covariance)
+    }
+}
+
+fn slides(file: &RobotFile, joint: &str) -> bool {
+    let own = |motion: &&super::file::MotionEntry| motion.joint.as_deref() == Some(joint);
+    let motion = file.chain.motions.iter().find(own);
+    motion.is_some_and(|motion| motion.along.is_some())
+}
+
+fn uncertainty(entry: &JointEntry) -> f64 {
+    let sliding = entry.compliance_u_um_per_n.map(|um| um * 1e-6);
+    entry.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
+}

@@ -1,0 +1,214 @@
+//! Tables that robot files and studies share: springs and masses, told in their own units, checked, turned into SI.
+
+use armill_core::nalgebra::{Matrix6, Point3, Vector3};
+use armill_core::robot::spring::springs_of;
+use armill_core::robot::{Axis, JointCompliance, Mass, Seat, Spring};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// A coordinate axis of a seat.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum AxisName {
+    /// (1, 0, 0)
+    X,
+    /// (0, 1, 0)
+    Y,
+    /// (0, 0, 1)
+    Z,
+}
+
+impl AxisName {
+    /// The axis of the core.
+    pub fn axis(self) -> Axis {
+        match self {
+            AxisName::X => Axis::X,
+            AxisName::Y => Axis::Y,
+            AxisName::Z => Axis::Z,
+        }
+    }
+
+    fn letter(self) -> char {
+        match self {
+            AxisName::X => 'x',
+            AxisName::Y => 'y',
+            AxisName::Z => 'z',
+        }
+    }
+}
+
+/// One direction in which an arm yields beside its drives, or a whole 6 x 6 compliance at one place.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpringTable {
+    /// Where it sits: `base`, a joint's name (frame right after its motion), `flange` or `tool`.
+    pub at: String,
+    /// It turns about this axis of the seat.
+    pub about: Option<AxisName>,
+    /// It slides along this axis of the seat.
+    pub along: Option<AxisName>,
+    /// Compliance about the axis.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub compliance_rad_per_n_m: Option<f64>,
+    /// Standard uncertainty of the compliance about the axis.
+    #[schemars(range(min = 0.0, max = 1.0))]
+    pub compliance_u_rad_per_n_m: Option<f64>,
+    /// Compliance along the axis.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub compliance_um_per_n: Option<f64>,
+    /// Standard uncertainty of the compliance along the axis.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub compliance_u_um_per_n: Option<f64>,
+    /// 6 x 6 in place of an axis: translation first, in the seat's axes, m/N, 1/N, rad/(N m).
+    // unit: SI matrix
+    #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
+    pub compliance_matrix: Option<[[f64; 6]; 6]>,
+    /// Where it comes from: the key of a source, in a study in words.
+    pub source: String,
+}
+
+/// A body that gravity pulls on.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MassTable {
+    /// What it is fixed to: `base`, a joint's name (the link after it), `flange` or `tool`.
+    pub at: String,
+    /// Mass.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub mass_kg: f64,
+    /// Centre of mass in the frame of the seat.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub centre_mm: [f64; 3],
+    /// Where it comes from: the key of a source, in a study in words.
+    pub source: String,
+}
+
+/// What is wrong with a table: key inside it (empty for the table itself), message, hint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// Key inside the table; empty for the table itself.
+    pub key: &'static str,
+    /// What is wrong.
+    pub message: String,
+    /// What to try.
+    pub hint: String,
+}
+
+impl Fault {
+    fn new(key: &'static str, message: impl Into<String>, hint: impl Into<String>) -> Fault {
+        Fault {
+            key,
+            message: message.into(),
+            hint: hint.into(),
+        }
+    }
+}
+
+/// The seat that `at` names on an arm with these joints.
+///
+/// # Errors
+/// A name that is none of them.
+pub fn seat(at: &str, joints: &[&str]) -> Result<Seat, Fault> {
+    if let Some(joint) = joints.iter().position(|name| *name == at) {
+        return Ok(Seat::Joint(joint));
+    }
+    match at {
+        "base" => Ok(Seat::Base),
+        "flange" => Ok(Seat::Flange),
+        "tool" => Ok(Seat::Tool),
+        _ => {
+            let hint = format!("`base`, `flange`, `tool`, or a joint: {}", joints.join(", "));
+            Err(Fault::new("at", format!("`{at}` is no part of the arm"), hint))
+        }
+    }
+}
+
+impl SpringTable {
+    /// How others name this spring: `A2 about x`; `None` for a whole matrix.
+    pub fn name(&self) -> Option<String> {
+        let (word, axis) = match (self.about, self.along) {
+            (Some(axis), None) => ("about", axis),
+            (None, Some(axis)) => ("along", axis),
+            _ => return None,
+        };
+        Some(format!("{} {word} {}", self.at, axis.letter()))
+    }
+
+    /// The springs of the core: one, or up to six for a matrix.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn springs(&self, joints: &[&str]) -> Result<Vec<Spring>, Fault> {
+        let seat = seat(&self.at, joints)?;
+        let turning = self.compliance_rad_per_n_m.is_some() || self.compliance_u_rad_per_n_m.is_some();
+        let sliding = self.compliance_um_per_n.is_some() || self.compliance_u_um_per_n.is_some();
+        if let Some(matrix) = &self.compliance_matrix {
+            if self.about.is_some() || self.along.is_some() || turning || sliding {
+                return Err(Fault::new(
+                    "compliance_matrix",
+                    "a spring has either an axis or a whole matrix",
+                    "write two [[spring]] tables",
+                ));
+            }
+            let matrix = Matrix6::from_fn(|i, j| matrix[i][j]);
+            return springs_of(seat, &matrix).map_err(|refused| {
+                let hint = "6 rows of 6 numbers, symmetric, such as diag(m/N, m/N, m/N, rad/(N m), ...)";
+                Fault::new("compliance_matrix", refused.to_string(), hint)
+            });
+        }
+        let (axis, value, u) = match (self.about, self.along) {
+            (Some(axis), None) if !sliding => {
+                (axis, self.compliance_rad_per_n_m, self.compliance_u_rad_per_n_m)
+            }
+            (None, Some(axis)) if !turning => {
+                let si = |um: Option<f64>| um.map(|um| um * 1e-6);
+                (axis, si(self.compliance_um_per_n), si(self.compliance_u_um_per_n))
+            }
+            (Some(_), None) | (None, Some(_)) => {
+                return Err(Fault::new(
+                    "",
+                    "the unit of the compliance does not fit the axis",
+                    "`about` takes `compliance_rad_per_n_m`, `along` takes `compliance_um_per_n`",
+                ));
+            }
+            _ => {
+                return Err(Fault::new(
+                    "",
+                    "a spring turns `about` an axis or slides `along` one",
+                    "write about = \"x\", along = \"x\", or compliance_matrix = [...]",
+                ));
+            }
+        };
+        let Some(value) = value else {
+            return Err(Fault::new(
+                "",
+                "the spring has no compliance",
+                "write compliance_rad_per_n_m or compliance_um_per_n",
+            ));
+        };
+        let compliance = JointCompliance {
+            value,
+            standard_uncertainty: u.unwrap_or(0.0),
+        };
+        let axis: Vector3<f64> = axis.axis().unit();
+        Ok(vec![if self.about.is_some() {
+            Spring::about(seat, axis, compliance)
+        } else {
+            Spring::along(seat, axis, compliance)
+        }])
+    }
+}
+
+impl MassTable {
+    /// The mass of the core.
+    ///
+    /// # Errors
+    /// A seat that the arm does not have.
+    pub fn mass(&self, joints: &[&str]) -> Result<Mass, Fault> {
+        Ok(Mass {
+            seat: seat(&self.at, joints)?,
+            mass: self.mass_kg,
+            centre: Point3::from(Vector3::from(self.centre_mm) * 1e-3),
+        })
+    }
+}

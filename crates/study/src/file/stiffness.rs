@@ -1,0 +1,139 @@
+//! The stiffness model of an ask: what the robot file holds, and what the study adds to it.
+
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::spring::cutter_springs;
+use armill_core::robot::{Robot, Structure};
+use armill_core::source::stiffness_model::FREE_FALL;
+use armill_core::source::{Gravity, StiffnessModel};
+use armill_formats::robot::structure::Fault;
+
+use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
+use super::places::Places;
+
+/// The model of `robot` with this tool; `None` where something is wrong with it.
+pub(super) fn model(
+    places: &mut Places<'_>,
+    file: &StudyFile,
+    tool: Option<&ToolTable>,
+    robot: &Robot,
+) -> Option<StiffnessModel> {
+    let before = places.problems.len();
+    let mut structure = robot.structure().clone();
+    if let Some(tool) = tool {
+        add_tool(places, tool, robot, &mut structure);
+    }
+    let gravity = file
+        .gravity
+        .as_ref()
+        .and_then(|table| gravity(places, table, robot, &structure));
+    (places.problems.len() == before).then(|| StiffnessModel {
+        structure,
+        gravity,
+        load_dependent: file.load_dependent,
+    })
+}
+
+fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
+    let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
+    let mut tell = |path: String, fault: Fault| {
+        let path = match fault.key {
+            "" => path,
+            key => format!("{path}.{key}"),
+        };
+        places.problem(&path, fault.message, &fault.hint);
+    };
+    for (index, table) in tool.spring.iter().enumerate() {
+        match table.springs(&joints) {
+            Ok(springs) => structure.springs.extend(springs),
+            Err(fault) => tell(format!("tool.spring[{index}]"), fault),
+        }
+    }
+    for (index, table) in tool.mass.iter().enumerate() {
+        match table.mass(&joints) {
+            Ok(mass) => structure.masses.push(mass),
+            Err(fault) => tell(format!("tool.mass[{index}]"), fault),
+        }
+    }
+    let hint =
+        "stick_out_mm = 40, diameter_mm = 10, material = \"carbide\" (or \"hss\", or modulus_gpa = 600)";
+    match (tool.stick_out_mm, tool.diameter_mm) {
+        (Some(length), Some(diameter)) => match (tool.material, tool.modulus_gpa) {
+            (None, Some(gpa)) => structure.springs.extend(cutter(length, diameter, gpa)),
+            (Some(material), None) => structure
+                .springs
+                .extend(cutter(length, diameter, modulus(material))),
+            _ => places.problem(
+                "tool.stick_out_mm",
+                "the cutter needs either a `material` or a `modulus_gpa`",
+                hint,
+            ),
+        },
+        (None, None) if tool.material.is_none() && tool.modulus_gpa.is_none() => {}
+        _ => places.problem(
+            "tool",
+            "a cutter that bends needs stick-out, diameter and material",
+            hint,
+        ),
+    }
+}
+
+fn cutter(length_mm: f64, diameter_mm: f64, modulus_gpa: f64) -> [armill_core::robot::Spring; 2] {
+    cutter_springs(length_mm * 1e-3, diameter_mm * 1e-3, modulus_gpa * 1e9)
+}
+
+/// Young's modulus, GPa: usual values of cutting-tool handbooks; grades differ by some 10 %.
+fn modulus(material: CutterMaterial) -> f64 {
+    match material {
+        CutterMaterial::Carbide => 600.0,
+        CutterMaterial::Hss => 215.0,
+    }
+}
+
+fn gravity(
+    places: &mut Places<'_>,
+    table: &GravityTable,
+    robot: &Robot,
+    structure: &Structure,
+) -> Option<Gravity> {
+    let joints = robot.joints().len();
+    let given = &table.reference_joints_deg;
+    if given.len() != joints {
+        let message = format!(
+            "{} joint positions for the {joints} joints of the robot",
+            given.len()
+        );
+        let hint = "where the arm stood when the tool was set, base to flange";
+        places.problem("gravity.reference_joints_deg", message, hint);
+    }
+    if structure.masses.is_empty() && structure.compensator.is_none() {
+        let message = "gravity moves nothing: neither robot nor tool has a mass";
+        let hint = "add [[mass]] to the robot file, or [[tool.mass]] for spindle and payload";
+        places.problem("gravity", message, hint);
+    }
+    let direction = Vector3::from(table.direction.unwrap_or([0.0, 0.0, -1.0])).try_normalize(1e-9);
+    if direction.is_none() {
+        let hint = "[0, 0, -1] for an arm on the floor, [0, 0, 1] under the ceiling";
+        places.problem(
+            "gravity.direction",
+            "the direction of gravity has no length",
+            hint,
+        );
+    }
+    Some(Gravity {
+        acceleration: direction? * FREE_FALL,
+        reference: positions(robot, given),
+    })
+}
+
+/// Joint positions in SI from degrees (mm for sliding joints).
+pub fn positions(robot: &Robot, given: &[f64]) -> Vec<f64> {
+    let joints = 0..robot.joints().len();
+    let si = |(joint, value): (usize, &f64)| {
+        if robot.slides(joint) {
+            value * 1e-3
+        } else {
+            value.to_radians()
+        }
+    };
+    joints.zip(given).map(si).collect()
+}

@@ -1,0 +1,49 @@
+//! Which parts of the stiffness model were on, in words.
+
+use armill_core::robot::Robot;
+use armill_core::source::StiffnessModel;
+
+/// The parts of `model` on this robot, the drive springs first.
+pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
+    let structure = &model.structure;
+    let name = |joint: usize| robot.joints()[joint].name.clone();
+    let mut parts = vec!["drive springs".to_owned()];
+    match structure.springs.len() {
+        0 => {}
+        1 => parts.push("1 further spring".to_owned()),
+        n => parts.push(format!("{n} further springs")),
+    }
+    let curved: Vec<String> = (0..robot.joints().len())
+        .filter(|joint| structure.curve(*joint).is_some())
+        .map(name)
+        .collect();
+    if !curved.is_empty() {
+        parts.push(format!("torque curves of {}", curved.join(", ")));
+    }
+    if let Some(compensator) = &structure.compensator {
+        parts.push(format!("gravity compensator of {}", name(compensator.joint)));
+    }
+    if model.gravity.is_some() {
+        parts.push("gravity, against the posture where the tool was set".to_owned());
+    }
+    if model.load_dependent {
+        parts.push("load-dependent stiffness".to_owned());
+    }
+    if structure.covariance.is_some() {
+        parts.push("covariance of the compliances".to_owned());
+    }
+    parts
+}
+
+/// What the model leaves out although the robot file would have it.
+pub fn left_out(model: &StiffnessModel) -> Option<String> {
+    let masses = model.structure.masses.len();
+    (model.gravity.is_none() && masses > 0).then(|| {
+        let known = if masses == 1 {
+            "1 mass is"
+        } else {
+            &format!("{masses} masses are")
+        };
+        format!("{known} known, but gravity is left out: say where the tool was set to have it counted.")
+    })
+}
