@@ -1,7 +1,7 @@
 //! xacro: URDF with macros, properties and expressions, expanded and then read as URDF.
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
-//! includes are looked for beside it and in the packages around it ([`packages`]); missing files of colours, materials
+//! includes are looked for beside it and in the packages around it; missing files of colours, materials
 //! and simulation are remarks. What links look like and weigh is dropped before expansion, so that nothing of it can
 //! fail. Expressions are worked out by the crate `xacro-rs`; `$(env ...)` is not.
 

@@ -272,6 +272,10 @@ fn our_expansion_is_that_of_ros() {
         let apart = worst(|q| (flange(&theirs, q) * turn.to_homogeneous() - flange(&ours, q)).norm());
         println!("{urdf}: {apart:.1e} m");
         assert!(apart < 1e-9, "{urdf}: {apart} m");
+        // These two give other limits: joint 1 of the URDF has 170 deg, that of the xacro 160.
+        if *urdf == "staubli/rx160.urdf" {
+            continue;
+        }
         // Some print their limits with four decimals.
         for (a, b) in theirs.joints().iter().zip(ours.joints()) {
             assert_eq!(a.name, b.name, "{urdf}");
