@@ -1,0 +1,85 @@
+//! Who made the displacement of an arm under its last load, and how sure it is.
+//!
+//! `cov(delta) = A S A^T`, columns `a_k`: displacement per unit of compliance k. `S` is the covariance of the structure;
+//! compliances that it does not reach are independent.
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::Standing;
+use crate::robot::Seat;
+use crate::spatial::Twist;
+
+impl Standing<'_> {
+    /// Part of drive or spring `k` in the displacement under the last load, gravity included.
+    pub fn part(&self, k: usize) -> Twist {
+        let elastic = self.screws[k].scaled(self.turns[k]);
+        match self.sagged(k) {
+            Some((sag, (there, _))) => elastic + self.screws[k].scaled(sag) + there.scaled(-1.0),
+            None => elastic,
+        }
+    }
+
+    /// Displacement of the TCP per unit of compliance of drive or spring `k`, under the last load and gravity.
+    pub fn sensitivity(&self, k: usize) -> Vector3<f64> {
+        let grown = self.held(k).map_or(1.0, |held| 1.0 / (held * held));
+        let elastic = self.screws[k].linear * self.torques[k];
+        match self.sagged(k) {
+            Some((_, (_, there))) => (elastic + self.screws[k].linear * self.before[k]) * grown - there,
+            None => elastic * grown,
+        }
+    }
+
+    /// Parts by sharer ([`crate::source::StiffnessModel::sharers`]): a joint's drive with the springs on its seat, then the others.
+    pub fn shares(&self) -> Vec<Twist> {
+        let sharers = self.arm.model.sharers(self.theta.len());
+        let of = |sharer: &Seat| {
+            let own = (0..self.seats.len()).filter(|k| self.seats[*k] == *sharer);
+            own.map(|k| self.part(k)).sum()
+        };
+        sharers.iter().map(of).collect()
+    }
+
+    /// Adds the part of each sharer along the unit vector `along` to `shares`, m.
+    pub fn share_along(&self, along: &Vector3<f64>, sharers: &[Seat], shares: &mut [f64]) {
+        shares.fill(0.0);
+        for (k, seat) in self.seats.iter().enumerate() {
+            if let Some(share) = sharers.iter().position(|sharer| sharer == seat) {
+                shares[share] += self.part(k).linear.dot(along);
+            }
+        }
+    }
+
+    /// Variance (m^2) of the displacement along the unit vector `along`, from the compliances.
+    pub fn variance_along(&self, along: &Vector3<f64>) -> f64 {
+        let a = |k: usize| self.sensitivity(k).dot(along);
+        self.variances(a, |a, b| a * b, 0.0)
+    }
+
+    /// Covariance (m^2) of the displacement, from the compliances: `A S A^T`.
+    pub fn covariance(&self) -> Matrix3<f64> {
+        let a = |k: usize| self.sensitivity(k);
+        self.variances(a, |a, b| a * b.transpose(), Matrix3::zeros())
+    }
+
+    /// `sum_kl S_kl a_k a_l`, with independent compliances where no covariance is known.
+    fn variances<A, S>(&self, a: impl Fn(usize) -> A, times: impl Fn(A, A) -> S, zero: S) -> S
+    where
+        S: std::ops::Add<Output = S> + std::ops::Mul<f64, Output = S>,
+    {
+        let known = self.arm.model.structure.covariance.as_ref();
+        let size = known.map_or(0, |s| s.nrows());
+        let mut sum = zero;
+        if let Some(s) = known {
+            for i in 0..size {
+                for j in 0..size {
+                    sum = sum + times(a(i), a(j)) * s[(i, j)];
+                }
+            }
+        }
+        for (k, compliance) in self.compliances.iter().enumerate().skip(size) {
+            let u = compliance.standard_uncertainty;
+            sum = sum + times(a(k), a(k)) * (u * u);
+        }
+        sum
+    }
+}
