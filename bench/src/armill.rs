@@ -57,6 +57,7 @@ impl Arm {
             arm: self.closed_form(),
             compliance: self.compliance(),
             model: StiffnessModel::DRIVES,
+            doubt: Doubt::NONE,
             flange_from_tool: &self.tool,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),

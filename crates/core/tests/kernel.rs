@@ -9,6 +9,7 @@ use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::lanes::{Arrays, Backend, Batch, Envelopes, Poses, Precision, flag};
 use armill_core::kernel::{AT_LIMIT, BranchChoice, Loaded, Question, at_joints, evaluate};
+use armill_core::load::Doubt;
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
@@ -67,6 +68,7 @@ fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOn
         arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         model: StiffnessModel::DRIVES,
+        doubt: Doubt::NONE,
         flange_from_tool: &tool,
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),

@@ -8,6 +8,7 @@ mod arms;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_in_order};
+use armill_core::load::{Doubt, LoadFrame};
 use armill_core::map::{BoxGrid, Counts, along_path, plane_map, probability_within, volume_map};
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
 use armill_core::path::Shape;
@@ -36,6 +37,7 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
         arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         model: StiffnessModel::DRIVES,
+        doubt: Doubt::NONE,
         flange_from_tool: &tool,
         cases: &cases,
         normal: plane.normal(),
@@ -73,6 +75,7 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
                 arm: robot.ortho_parallel().unwrap(),
                 compliance,
                 model: StiffnessModel::DRIVES,
+                doubt: Doubt::NONE,
                 flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
                 cases,
                 normal: plane.normal(),
@@ -107,6 +110,97 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
         assert!(certainty.expected_fraction < certainty.fraction_possibly);
         assert!(certainty.surely.area < certainty.possibly.area);
     }
+}
+
+#[test]
+fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() {
+    let [robot, ..] = arms::all();
+    let sure = |c: &JointCompliance| JointCompliance {
+        standard_uncertainty: 0.0,
+        ..*c
+    };
+    let compliance: Vec<JointCompliance> = robot.compliance().unwrap().iter().map(sure).collect();
+    let plane = Plane::tilted(Point3::new(1.0, 0.1, 0.9), 0.5);
+    let tool = Isometry::translation(0.0, 0.0, 0.1);
+    let one = &cases()[..1];
+    let (part, u) = (plane.base_from_part, [0.4, 0.3, 0.2]);
+    let components = Doubt::NONE.of_components(u, LoadFrame::Part, &part);
+    let doubts = [
+        Doubt {
+            relative: 0.1,
+            ..Doubt::NONE
+        },
+        components,
+        Doubt {
+            tool_length: 1e-4,
+            ..Doubt::NONE
+        },
+        Doubt {
+            relative: 0.1,
+            tool_length: 1e-4,
+            ..components
+        },
+    ];
+    let told: Vec<Vec<f64>> = doubts
+        .iter()
+        .map(|doubt| {
+            let question = Question {
+                robot: &robot,
+                arm: robot.ortho_parallel().unwrap(),
+                compliance: &compliance,
+                model: StiffnessModel::DRIVES,
+                flange_from_tool: &tool,
+                cases: one,
+                doubt: *doubt,
+                normal: plane.normal(),
+                choice: branch("front elbow-up"),
+            };
+            let map = plane_map(&question, plane, Grid::within([0.3, 0.3], 0.1), Watch::NONE).unwrap();
+            let answers = map.answers.held().map(|(index, held)| {
+                let q = map.answers.joints_at(index).to_vec();
+                let posture = posture_at(&robot, &q, &tool);
+                let c = compliance_at_tool(&posture.screws, &compliance);
+                let deviation = predict(&posture, &compliance, &one[0]).twist.linear;
+                let across = deviation - plane.normal().into_inner() * deviation.dot(&plane.normal());
+                let along = across.normalize();
+                // A load ten percent larger; a force off along each axis of the part; a tool longer by 0.1 mm, held by the
+                // same joints.
+                let by_size = 0.1 * across.norm();
+                let by_force: f64 = (0..3)
+                    .map(|k| {
+                        let off = part * Vector3::ith(k, u[k]);
+                        (c.fixed_view::<3, 3>(0, 0) * off).dot(&along).powi(2)
+                    })
+                    .sum();
+                let longer = tool * Isometry::translation(0.0, 0.0, 1e-4);
+                let elsewhere = predict(&posture_at(&robot, &q, &longer), &compliance, &one[0]);
+                let by_length = (elsewhere.twist.linear - deviation).dot(&along);
+                let expected = [
+                    by_size,
+                    by_force.sqrt(),
+                    by_length.abs(),
+                    by_size.hypot(by_force.sqrt()).hypot(by_length),
+                ];
+                (held.in_plane_uncertainty, expected)
+            });
+            let which = doubts.iter().position(|other| other == doubt).unwrap();
+            answers
+                .map(|(u, expected)| {
+                    // Differences of deviations of 1e-4 m.
+                    assert!(
+                        (u - expected[which]).abs() < 1e-15 + 1e-9 * u,
+                        "{which}: {u} against {}",
+                        expected[which]
+                    );
+                    u
+                })
+                .collect()
+        })
+        .collect();
+    assert!(
+        told.iter()
+            .all(|of_one| of_one.len() > 20 && of_one.iter().all(|u| *u > 0.0))
+    );
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod arms;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::{BranchChoice, Loaded, Question, at_joints, evaluate};
+use armill_core::load::Doubt;
 use armill_core::nalgebra::{
     DMatrix, Isometry3, IsometryMatrix3, Matrix6, Point3, Unit, UnitQuaternion, Vector3,
 };
@@ -613,6 +614,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             arm: robot.ortho_parallel().unwrap(),
             compliance: robot.compliance().unwrap(),
             model: &model,
+            doubt: Doubt::NONE,
             flange_from_tool: &tool,
             cases: &cases,
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
@@ -675,6 +677,7 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
         arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         model: &model,
+        doubt: Doubt::NONE,
         flange_from_tool: &tool,
         cases: &cases,
         normal: Vector3::z_axis(),

@@ -104,6 +104,7 @@ impl Runner<'_> {
             model: &setting.model,
             flange_from_tool: &setting.flange_from_tool,
             cases: &setting.cases,
+            doubt: setting.doubt,
             normal: setting.plane.normal(),
             choice: setting.choice,
         }

@@ -106,6 +106,37 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
 }
 
 #[test]
+fn doubt_about_load_and_tool_widens_the_uncertainty_and_nothing_else() {
+    let sure = answered(&plate_with(""));
+    for (table, key) in [
+        (
+            "tool = { flange_from_tool_mm_deg = [0, 0, 0, 0, 0, 0], u_length_mm = 2 }\n",
+            "length",
+        ),
+        ("load.u_percent = 10\n", "percent"),
+        ("load.u_n = [1, 1, 1]\n", "components"),
+    ] {
+        let text = match table.strip_prefix("load.") {
+            Some(more) => PLATE.replace("5, 5]] }", &format!("5, 5]], {} }}", more.trim())),
+            None => format!("{PLATE}{table}"),
+        };
+        let doubtful = answered(&study(&text));
+        let (a, b) = (&sure.maps[0].grid, &doubtful.maps[0].grid);
+        assert_eq!(
+            doubtful.maps[0].fraction_within, sure.maps[0].fraction_within,
+            "{key}"
+        );
+        for (sure, doubtful) in a.in_plane_u_um.iter().zip(&b.in_plane_u_um) {
+            assert!(doubtful > sure, "{key}: {doubtful:?} against {sure:?}");
+        }
+        for (sure, doubtful) in a.in_plane_um.iter().zip(&b.in_plane_um) {
+            // Rounded to 0.1 nm.
+            assert!((sure.unwrap() - doubtful.unwrap()).abs() < 2e-4, "{key}");
+        }
+    }
+}
+
+#[test]
 fn a_larger_tolerance_holds_at_least_as_much() {
     let fractions = [10, 40, 60, 80, 200, 1000].map(|limit| {
         let ask = format!("[[ask]]\nkind = \"map\"\nname = \"m\"\nlimit_um = {limit}\n");

@@ -11,6 +11,7 @@ use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Solution, holds};
 use crate::robot::{Branch, Seat, Unreachable};
 use crate::source::Standing;
+use crate::source::standing::Loaded;
 use crate::workpiece::Split;
 
 /// Room for one point, reused from point to point.
@@ -181,23 +182,40 @@ impl<'q> General<'q> {
             }
             held.full = held.full.max(split.full);
         }
-        held.in_plane_uncertainty = self.share(question, &held)?;
+        held.in_plane_uncertainty = self.share(question, &held, base_from_tool)?;
         Ok(held)
     }
 
     /// Fills the shares of the deciding case and gives the standard uncertainty of its in-plane part.
-    fn share(&mut self, question: &Question<'_>, held: &Held) -> Result<f64, Unreachable> {
+    fn share(
+        &mut self,
+        question: &Question<'_>,
+        held: &Held,
+        base_from_tool: &Isometry,
+    ) -> Result<f64, Unreachable> {
         let case = held.deciding_case;
         let deviation = self.deviations[case];
         let in_plane = deviation - question.normal.into_inner() * deviation.dot(&question.normal);
         let along = in_plane.try_normalize(0.0).unwrap_or_default();
+        let unstable = |_| Unreachable::Unstable { case };
         if case + 1 != question.cases.len() {
             // The arm stands under the last load case still.
-            let again = self.standing.elastic(&question.cases[case]);
-            again.map_err(|_| Unreachable::Unstable { case })?;
+            self.standing.elastic(&question.cases[case]).map_err(unstable)?;
         }
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
-        Ok(self.standing.variance_along(&along).max(0.0).sqrt())
+        let mut variance = self.standing.variance_along(&along).max(0.0);
+        if !question.doubt.is_none() {
+            let loaded = Loaded {
+                joints: &self.joints,
+                frames: &self.frames,
+                tcp: base_from_tool.translation.vector.into(),
+                tool_axis: base_from_tool.rotation * Vector3::z(),
+                wrench: &question.cases[case],
+            };
+            let of_doubt = self.standing.variance_of_doubt(&question.doubt, &loaded, &along);
+            variance += of_doubt.map_err(unstable)?;
+        }
+        Ok(variance.sqrt())
     }
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::{Unit, Vector3};
 
 use crate::frame::Isometry;
+use crate::load::Doubt;
 use crate::robot::inverse::OrthoParallel;
 use crate::robot::joint::JointCompliance;
 use crate::robot::{BranchPattern, Robot};
@@ -33,6 +34,8 @@ pub struct Question<'a> {
     pub flange_from_tool: &'a Isometry,
     /// Load cases on the tool at the TCP, base basis; at least one.
     pub cases: &'a [Wrench],
+    /// How sure load and tool are; lanes answer where there is no doubt.
+    pub doubt: Doubt,
     /// Outward normal of the plane that deviations are split on, base basis.
     pub normal: Unit<Vector3<f64>>,
     /// Which posture stands for a point.

@@ -47,7 +47,8 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: question.model.is_drives_alone().then(|| Points::new(question)),
+            lanes: (question.model.is_drives_alone() && question.doubt.is_none())
+                .then(|| Points::new(question)),
             general: General::new(question),
             poses: Vec::with_capacity(BLOCK),
             before: None,

@@ -17,7 +17,10 @@
 //!
 //! Made once, used at any number of postures and loads without allocation.
 
+mod doubt;
 mod shares;
+
+pub use doubt::Loaded;
 
 use nalgebra::{IsometryMatrix3, Matrix6, Point3, Vector3};
 

@@ -25,6 +25,12 @@ pub struct SettingAnswer {
     pub cases_n: Vec<[f64; 3]>,
     /// Moments on the tool at the TCP, base axes, one a case.
     pub moments_n_m: Vec<[f64; 3]>,
+    /// Standard uncertainty of the size of the load.
+    pub load_u_percent: f64,
+    /// Standard uncertainties of the force along three directions: vectors so long, base axes.
+    pub load_u_n: [[f64; 3]; 3],
+    /// Standard uncertainty of the place of the TCP along the tool axis.
+    pub tool_u_length_mm: f64,
     /// The tolerance.
     pub limit_um: f64,
     /// Parts of the stiffness model that were on.
@@ -45,6 +51,9 @@ impl SettingAnswer {
             tool_length_mm: tidy(setting.flange_from_tool.translation.vector.norm() * 1e3),
             cases_n: setting.cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: setting.cases.iter().map(|w| clean(w.moment.into())).collect(),
+            load_u_percent: tidy(setting.doubt.relative * 100.0),
+            load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
+            tool_u_length_mm: tidy(setting.doubt.tool_length * 1e3),
             limit_um: tidy(setting.limit * 1e6),
             model: parts(robot, &setting.model),
             shares_of: setting.model.sharer_names(robot.joints()),
@@ -71,7 +80,7 @@ pub struct PointAnswer {
     pub deciding_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
-    /// Its standard uncertainty from the compliances.
+    /// Its standard uncertainty, from compliances, load and tool length.
     pub in_plane_u_um: f64,
     /// Deviation along the outward normal, of the case where it is largest.
     pub normal_um: f64,

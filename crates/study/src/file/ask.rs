@@ -2,6 +2,7 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
+use armill_core::load::Doubt;
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
 use armill_core::path::Shape;
@@ -206,7 +207,14 @@ impl Resolver<'_> {
             .robot
             .and_then(|found| stiffness::model(places, self.file, tool, &found.robot));
         let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
-        let (model, cases) = (model?, cases?.in_base(&plane.base_from_part));
+        let (model, cases) = (model?, cases?);
+        let doubt = Doubt {
+            relative: load.u_percent.unwrap_or(0.0) / 100.0,
+            tool_length: tool.and_then(|t| t.u_length_mm).unwrap_or(0.0) * 1e-3,
+            ..Doubt::NONE
+        };
+        let doubt = doubt.of_components(load.u_n.unwrap_or_default(), cases.frame, &plane.base_from_part);
+        let cases = cases.in_base(&plane.base_from_part);
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
         let limit = limit_um * 1e-6;
@@ -218,6 +226,7 @@ impl Resolver<'_> {
             plane,
             tilt,
             cases,
+            doubt,
             limit,
             choice,
         })

@@ -74,6 +74,9 @@ pub struct ToolTable {
     /// Flange to tool centre point: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub flange_from_tool_mm_deg: [f64; 6],
+    /// Standard uncertainty of the place of the TCP along the tool axis.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub u_length_mm: Option<f64>,
     /// How far the cutter sticks out of its holder; it then bends like a clamped bar.
     #[schemars(range(min = 0.01, max = 1e4))]
     pub stick_out_mm: Option<f64>,
@@ -175,6 +178,12 @@ pub struct LoadTable {
     /// Moment on the tool about the TCP, one a case.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
     pub moments_n_m: Option<Vec<[f64; 3]>>,
+    /// Standard uncertainty of the size of all cases together.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub u_percent: Option<f64>,
+    /// Standard uncertainty of each component of the force, in the same axes as the cases; independent.
+    #[schemars(inner(range(min = 0.0, max = 1e9)))]
+    pub u_n: Option<[f64; 3]>,
     /// Where they come from.
     pub source: Option<String>,
 }

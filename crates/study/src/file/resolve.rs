@@ -4,6 +4,7 @@ use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
+use armill_core::load::Doubt;
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Matrix6, Point3};
 use armill_core::path::Shape;
@@ -108,6 +109,8 @@ pub struct Setting {
     pub tilt: Option<f64>,
     /// Load cases in base.
     pub cases: Vec<Wrench>,
+    /// How sure load and tool are.
+    pub doubt: Doubt,
     /// The tolerance, m.
     pub limit: f64,
     /// Which posture.

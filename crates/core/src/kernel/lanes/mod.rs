@@ -28,6 +28,7 @@
 //! # let question = Question {
 //! #     robot: &robot, arm: robot.ortho_parallel().unwrap(), compliance: robot.compliance().unwrap(),
 //! #     model: armill_core::source::StiffnessModel::DRIVES,
+//! #     doubt: Doubt::NONE,
 //! #     flange_from_tool: &tool, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
 //! # };
 //! // Three points of a vertical plate, the tool held along base x.
