@@ -70,7 +70,7 @@ fn what_cannot_be_imported_is_refused_and_nothing_is_written() {
     cell.file("table.csv", "a_mm, alpha_deg, d_mm, theta_deg\n1, 2, 3, 4\n");
     for (arguments, words) in [
         (["arm.urdf", "--tip", "gripper"], "`gripper`"),
-        (["arm.urdf", "--format", "chain"], "no elementary motion"),
+        (["arm.urdf", "--format", "chain"], "defines nothing"),
         (["arm.step", "--tip", "x"], "the ending of no robot file"),
         (["table.csv", "--format", "dh"], "convention = standard"),
         (["gone.urdf", "--tip", "x"], "cannot read robot file gone.urdf"),

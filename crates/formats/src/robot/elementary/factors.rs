@@ -60,10 +60,13 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
                 Some((name, value)) => {
                     symbols.insert(name, value);
                 }
-                None => {
-                    let message = format!("`{}` defines nothing", content.trim());
-                    problems.push(file.problem(range, message, Some(SHAPE.to_owned())));
+                None if problems.len() < MOST_PROBLEMS => {
+                    let word = content.trim();
+                    let at = range.start + content.len() - content.trim_start().len();
+                    let message = format!("`{word}` defines nothing");
+                    problems.push(file.problem(at..at + word.len(), message, Some(SHAPE.to_owned())));
                 }
+                None => {}
             },
             None => products.push(range),
         }
