@@ -83,7 +83,7 @@ fn readme_runs() {
 
 #[test]
 fn guide_runs() {
-    for page in ["predict", "study-file", "robot-file", "results"] {
+    for page in ["predict", "measure-stiffness", "study-file", "robot-file", "results"] {
         run_page(&format!("docs/guide/{page}.md"));
     }
 }
@@ -93,7 +93,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 4, "name the new page in `guide_runs`");
+    assert_eq!(pages, 5, "name the new page in `guide_runs`");
 }
 
 #[test]
