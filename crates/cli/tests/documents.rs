@@ -83,7 +83,13 @@ fn readme_runs() {
 
 #[test]
 fn guide_runs() {
-    for page in ["predict", "measure-stiffness", "study-file", "robot-file", "results"] {
+    for page in [
+        "predict",
+        "measure-stiffness",
+        "study-file",
+        "robot-file",
+        "results",
+    ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
 }
