@@ -89,7 +89,14 @@ fn readme_runs() {
 
 #[test]
 fn guide_runs() {
-    for page in ["predict", "study-file", "your-robot", "robot-file", "results"] {
+    for page in [
+        "predict",
+        "your-robot",
+        "measure-stiffness",
+        "study-file",
+        "robot-file",
+        "results",
+    ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
 }

@@ -101,6 +101,8 @@ fn unseen(seen: &DMatrix<f64>) -> Vec<Vec<usize>> {
         }
     }
     found.sort();
+    // Of several directions in one set each shows the whole set.
+    found.dedup();
     found
 }
 
