@@ -185,6 +185,16 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub spin_deg: Option<f64>,
+    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; else the middle of their ranges
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
+    pub home_deg: Option<Vec<f64>>,
     /// Flange to TCP
     #[arg(
         long,

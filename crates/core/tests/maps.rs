@@ -32,9 +32,9 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
         robot,
-        arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         flange_from_tool: &tool,
+        home: None,
         cases: &cases,
         normal: plane.normal(),
         choice,
@@ -95,8 +95,9 @@ fn best_is_the_least_of_all_branches_inside_limits() {
         let tool_at = ToolAt {
             flange_from_tool: &tool,
             near: None,
+            home: None,
         };
-        let found = postures(&robot, robot.ortho_parallel().unwrap(), &pose, tool_at).unwrap_or_default();
+        let found = postures(&robot, &pose, tool_at).unwrap_or_default();
         let inside = found
             .iter()
             .filter(|p| robot.limit_margin(&p.joints).unwrap().1 >= -1e-9);

@@ -51,7 +51,7 @@ fn map<'a>(answer: &'a StudyAnswer, name: &str) -> &'a MapAnswer {
 
 fn points(map: &MapAnswer) -> usize {
     let c = map.counts;
-    c.within + c.over_limit + c.out_of_reach + c.no_posture_inside_limits + c.unverified
+    c.within + c.over_limit + c.out_of_reach + c.no_posture_inside_limits + c.not_found + c.unverified
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! `armill new`: a commented study that runs.
 
 use armill_formats::file::{create_folder, write_atomically};
-use armill_study::{StudyError, library, robots};
+use armill_study::{ENOUGH_JOINTS, StudyError, library, robots};
 
 use crate::Outcome;
 use crate::arguments::NewArguments;
@@ -19,9 +19,10 @@ assumed = true
 
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    if found.robot.ortho_parallel().is_none() {
+    let joints = found.robot.joints().len();
+    if joints < ENOUGH_JOINTS {
         let message = format!(
-            "robot `{}` has no closed-form inverse: no study of it would run",
+            "robot `{}` has {joints} joints: no study of it would run",
             arguments.robot
         );
         return Err(StudyError::value(

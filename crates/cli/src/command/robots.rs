@@ -140,13 +140,10 @@ fn as_text(found: &RobotDescription) -> String {
         }
     }
     lines.push(String::new());
-    lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
-    let inverse = if robot.ortho_parallel().is_some() {
-        "closed form, up to 8 postures"
-    } else {
-        "none: forward only"
-    };
-    lines.push(format!("Inverse kinematics: {inverse}"));
+    if robot.inverse().has_branches() {
+        lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
+    }
+    lines.push(format!("Inverse kinematics: {}", robot.inverse()));
     lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
     for frame in robot.frames() {
         let at = frame.base_from_frame.translation.vector * 1e3;
@@ -204,7 +201,7 @@ fn as_json(found: &RobotDescription) -> Value {
         "chain": (0..robot.chain().motions().len()).map(|i| motion(found, i)).collect::<Vec<_>>(),
         "joints": joints,
         "nominal_branch": robot.nominal_branch().to_string(),
-        "closed_form_inverse": robot.ortho_parallel().is_some(),
+        "inverse": robot.inverse().kind(),
         "frames": robot.frames().iter().map(|f| json!({
             "name": f.name,
             "origin_mm": (f.base_from_frame.translation.vector * 1e3).as_slice(),

@@ -1,6 +1,7 @@
 //! One point after the other: the plain physics of `predict.rs` with scratch that is reused.
 //!
-//! Lanes hand over to it where they cannot decide: no posture, and why; joints 4 and 6 in line.
+//! Any arm goes through it but ortho-parallel ones, whose lanes hand over where they cannot decide: no posture, and
+//! why; joints 4 and 6 in line.
 
 use nalgebra::Vector3;
 
@@ -8,33 +9,38 @@ use super::answer::Held;
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::{Solution, holds};
+use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::jacobian::screws_into;
-use crate::robot::{Branch, Unreachable};
+use crate::robot::{PostureName, Unreachable};
 use crate::source::elastic;
 use crate::spatial::Twist;
 use crate::workpiece::Split;
 
 /// Room for one point, reused from point to point.
-pub(super) struct General {
+pub(super) struct General<'q> {
     tool_from_flange: Isometry,
+    finder: Finder<'q>,
+    /// What may stand for the point: postures, the roomier of two flips that are alike.
+    candidates: Vec<Found>,
     frames: Frames,
     screws: Vec<Twist>,
-    joints: [f64; 6],
+    joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
     /// The same three for the best posture so far.
     kept: (Vec<f64>, Vec<Vector3<f64>>, Vec<f64>),
 }
 
-impl General {
-    pub(super) fn new(question: &Question<'_>) -> General {
+impl<'q> General<'q> {
+    pub(super) fn new(question: &Question<'q>) -> General<'q> {
         let (joints, cases) = (question.robot.joints().len(), question.cases.len());
         General {
             tool_from_flange: question.flange_from_tool.inverse(),
+            finder: Finder::new(question.robot),
+            candidates: Vec::new(),
             frames: Frames::for_robot(question.robot),
             screws: vec![Twist::ZERO; joints],
-            joints: [0.0; 6],
+            joints: vec![0.0; joints],
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; joints],
             kept: (
@@ -45,6 +51,11 @@ impl General {
         }
     }
 
+    /// Starts anew: what comes does not follow on what was.
+    pub(super) fn forget(&mut self) {
+        self.finder.forget();
+    }
+
     /// The answer at one pose; what [`General::write`] gives afterwards belongs to it.
     pub(super) fn answer(
         &mut self,
@@ -52,17 +63,29 @@ impl General {
         base_from_tool: &Isometry,
         near: Option<&[f64]>,
     ) -> Result<Held, Unreachable> {
-        let base_from_flange = base_from_tool * self.tool_from_flange;
+        let wanted = Wanted {
+            base_from_flange: base_from_tool * self.tool_from_flange,
+            near,
+            home: question.home,
+        };
         match question.choice {
             BranchChoice::Of(pattern) => {
-                let candidates = Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch));
-                let roomiest = self.roomiest(question, &base_from_flange, candidates, near)?;
-                let held = self.judge(question, &base_from_flange, base_from_tool, &roomiest)?;
-                self.keep();
-                Ok(held)
+                let found = self.finder.matching(&wanted, pattern)?;
+                self.candidates.clear();
+                self.candidates.extend(roomiest(question, found).cloned());
             }
-            BranchChoice::Best => self.best(question, &base_from_flange, base_from_tool, near),
+            BranchChoice::Best => {
+                let found = self.finder.all(&wanted)?;
+                self.candidates.clear();
+                if question.robot.inverse().flips_are_alike() {
+                    let pairs = found.chunk_by(|a, b| differ_in_flip(a.name, b.name));
+                    self.candidates.extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
+                } else {
+                    self.candidates.extend_from_slice(found);
+                }
+            }
         }
+        self.least(question, base_from_tool)
     }
 
     /// Copies joint positions, deviations and shares of the last answer.
@@ -78,89 +101,43 @@ impl General {
         self.kept.2.copy_from_slice(&self.shares);
     }
 
-    /// The candidate with the most room to its joint limits.
-    fn roomiest(
-        &self,
-        question: &Question<'_>,
-        base_from_flange: &Isometry,
-        candidates: impl Iterator<Item = Branch>,
-        near: Option<&[f64]>,
-    ) -> Result<Solution, Unreachable> {
-        let mut roomiest: Option<(f64, Solution)> = None;
-        let mut miss = Unreachable::TooFar { by: f64::INFINITY };
-        for branch in candidates {
-            match question.arm.solve(question.robot, base_from_flange, branch, near) {
-                Ok(solution) => {
-                    let room = limit_margin(question, &solution.joints).1;
-                    if roomiest.as_ref().is_none_or(|(most, _)| room > *most) {
-                        roomiest = Some((room, solution));
-                    }
-                }
-                Err(reason) => miss = reason,
-            }
-        }
-        roomiest.map(|(_, solution)| solution).ok_or(miss)
-    }
-
-    /// The posture inside limits with the least envelope.
-    fn best(
-        &mut self,
-        question: &Question<'_>,
-        base_from_flange: &Isometry,
-        base_from_tool: &Isometry,
-        near: Option<&[f64]>,
-    ) -> Result<Held, Unreachable> {
+    /// Of the candidates the one with the least envelope; inside limits, where the question chooses by it.
+    fn least(&mut self, question: &Question<'_>, base_from_tool: &Isometry) -> Result<Held, Unreachable> {
         let mut best: Option<Held> = None;
         let mut miss: Option<Unreachable> = None;
-        // The flip leaves the deviation unchanged: of the two the one with more room stands for both.
-        for pair in Branch::ALL.chunks(2) {
-            match self.roomiest(question, base_from_flange, pair.iter().copied(), near) {
-                Err(reason) => miss = miss.or(Some(reason)),
-                Ok(solution) => {
-                    let held = self.judge(question, base_from_flange, base_from_tool, &solution)?;
-                    if !held.within_limits() {
-                        let by = -held.limit_margin;
-                        let outside = Unreachable::OutsideLimits {
-                            joint: held.limit_joint,
-                            by,
-                        };
-                        miss = match miss {
-                            Some(Unreachable::OutsideLimits { by: less, .. }) if less <= by => miss,
-                            _ => Some(outside),
-                        };
-                    } else if best.is_none_or(|b| held.in_plane < b.in_plane) {
-                        best = Some(held);
-                        self.keep();
-                    }
+        let candidates = std::mem::take(&mut self.candidates);
+        for found in &candidates {
+            let held = self.judge(question, base_from_tool, found);
+            if question.choice == BranchChoice::Best && !held.within_limits() {
+                let (joint, by) = (held.limit_joint, -held.limit_margin);
+                if miss.is_none_or(|miss| by < miss.amount()) {
+                    miss = Some(Unreachable::OutsideLimits { joint, by });
                 }
+            } else if best.is_none_or(|b| held.in_plane < b.in_plane) {
+                best = Some(held);
+                self.keep();
             }
         }
+        self.candidates = candidates;
         best.ok_or(miss.unwrap_or(Unreachable::TooFar { by: f64::INFINITY }))
     }
 
-    /// Verifies a solution by forward kinematics and works out its deviations.
-    fn judge(
-        &mut self,
-        question: &Question<'_>,
-        base_from_flange: &Isometry,
-        base_from_tool: &Isometry,
-        solution: &Solution,
-    ) -> Result<Held, Unreachable> {
-        self.joints = solution.joints;
-        forward_into(question.robot, &solution.joints, &mut self.frames);
-        holds(&self.frames, base_from_flange)?;
+    /// Works out the deviations of a posture.
+    fn judge(&mut self, question: &Question<'_>, base_from_tool: &Isometry, found: &Found) -> Held {
+        self.joints.copy_from_slice(&found.joints);
+        forward_into(question.robot, &found.joints, &mut self.frames);
         screws_into(
             question.robot,
             &self.frames,
             &base_from_tool.translation.vector.into(),
             &mut self.screws,
         );
-        let (limit_joint, limit_margin) = limit_margin(question, &solution.joints);
+        let (limit_joint, limit_margin) = limit_margin(question, &found.joints);
         let mut held = Held {
-            branch: solution.branch,
+            name: found.name,
             limit_margin,
             limit_joint,
-            singularity: solution.singularity,
+            singularity: found.singularity,
             deciding_case: 0,
             in_plane: -1.0,
             in_plane_uncertainty: 0.0,
@@ -180,7 +157,7 @@ impl General {
             held.full = held.full.max(split.full);
         }
         held.in_plane_uncertainty = self.share(question, &held);
-        Ok(held)
+        held
     }
 
     /// Fills the joint shares of the deciding case and gives the standard uncertainty of its in-plane part.
@@ -201,6 +178,29 @@ impl General {
         }
         variance.sqrt()
     }
+}
+
+/// The posture with the most room of its turning joints to their limits, the first of equal ones: a rail stands still
+/// whatever the posture.
+fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found> {
+    let mut roomiest: Option<(f64, &Found)> = None;
+    for one in found {
+        let robot = question.robot;
+        let room = (0..one.joints.len())
+            .filter(|joint| !robot.slides(*joint))
+            .filter_map(|joint| Some(robot.joints()[joint].limits?.margin(one.joints[joint])))
+            .fold(f64::INFINITY, f64::min);
+        if roomiest.is_none_or(|(most, _)| room > most) {
+            roomiest = Some((room, one));
+        }
+    }
+    roomiest.map(|(_, one)| one)
+}
+
+/// Whether two branches are the flip of each other.
+fn differ_in_flip(a: PostureName, b: PostureName) -> bool {
+    let without_flip = |name: PostureName| name.branch().map(|branch| (branch.shoulder, branch.elbow));
+    without_flip(a) == without_flip(b)
 }
 
 /// The joint nearest to (or farthest outside) its limits, and its margin; infinite without limits.

@@ -1,4 +1,6 @@
-//! One block of points: through lanes, and where those cannot decide one after the other.
+//! One block of points: through lanes, and where there are none or they cannot decide one after the other.
+//!
+//! A block knows nothing of the blocks beside it, but along a path: whatever thread takes it, it gives the same bits.
 
 use nalgebra::Vector3;
 
@@ -24,8 +26,9 @@ pub(super) struct Slots<'a> {
 /// Room to answer a question, one a thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    lanes: Points<'q>,
-    general: General,
+    /// For ortho-parallel arms.
+    lanes: Option<Points<'q>>,
+    general: General<'q>,
     poses: Vec<Isometry>,
     order: Order,
     /// Joint positions of the point before, if there is one.
@@ -37,7 +40,7 @@ pub(super) struct Solver<'q> {
 pub(super) enum Order {
     /// Each stands for itself.
     Any,
-    /// Each starts where the one before left joint 4.
+    /// Each starts where the one before left the arm.
     AlongPath,
 }
 
@@ -46,7 +49,7 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: Points::new(question),
+            lanes: question.robot.ortho_parallel().map(|arm| Points::new(question, arm)),
             general: General::new(question),
             poses: Vec::with_capacity(BLOCK),
             before: None,
@@ -67,7 +70,12 @@ impl<'q> Solver<'q> {
         let (joint_count, case_count) = (slots.joints.len() / count, slots.deviations.len() / count);
         self.poses.clear();
         self.poses.extend((0..count).map(base_from_tool));
-        self.lanes.solve(&self.poses);
+        if let Some(lanes) = &mut self.lanes {
+            lanes.solve(&self.poses);
+        }
+        if self.order == Order::Any {
+            self.general.forget();
+        }
         let rows = slots
             .points
             .iter_mut()
@@ -75,9 +83,10 @@ impl<'q> Solver<'q> {
             .zip(slots.deviations.chunks_mut(case_count))
             .zip(slots.shares.chunks_mut(joint_count));
         for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
-            *point = match self.lanes.held(i) {
-                Some(held) => {
-                    self.lanes.write(i, joints, deviations, shares);
+            let in_lanes = self.lanes.as_ref().and_then(|lanes| Some((lanes, lanes.held(i)?)));
+            *point = match in_lanes {
+                Some((lanes, held)) => {
+                    lanes.write(i, joints, deviations, shares);
                     Ok(held)
                 }
                 None => self

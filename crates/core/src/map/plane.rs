@@ -32,6 +32,8 @@ pub struct Counts {
     pub out_of_reach: usize,
     /// Postures reach, but none inside the joint limits (only where the best branch is asked for).
     pub no_posture_inside_limits: usize,
+    /// A search found no posture, which does not prove that there is none.
+    pub not_found: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
     /// Of the points with a posture: some joint stands outside its limits.
@@ -57,6 +59,7 @@ impl Counts {
                     counts.near_singularity += usize::from(held.singularity.is_some());
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
+                Err(Unreachable::NotFound { .. }) => counts.not_found += 1,
                 Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
                 Err(
                     Unreachable::TooFar { .. }
@@ -70,7 +73,12 @@ impl Counts {
 
     /// All points.
     pub fn points(&self) -> usize {
-        self.within + self.over_limit + self.out_of_reach + self.no_posture_inside_limits + self.unverified
+        self.within
+            + self.over_limit
+            + self.out_of_reach
+            + self.no_posture_inside_limits
+            + self.not_found
+            + self.unverified
     }
 
     /// Points within the limit over all points; 0 where there is none.

@@ -16,4 +16,4 @@ pub mod posture;
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
-pub use posture::{Branch, BranchPattern, Posture, Singularity, Unreachable};
+pub use posture::{Branch, BranchPattern, Posture, PostureName, Sides, Singularity, Unreachable};
