@@ -211,7 +211,10 @@ fn joint_limits_by_cosines_agree_with_joint_positions() {
                     home: None,
                 };
                 for all in postures(&robot, &posture.base_from_tool, tool).unwrap() {
-                    let branch = Branch::ALL.iter().position(|b| Some(*b) == all.name.branch()).unwrap();
+                    let branch = Branch::ALL
+                        .iter()
+                        .position(|b| Some(*b) == all.name.branch())
+                        .unwrap();
                     let flags = out[branch / 2].flags(i);
                     let bit = [flag::OUTSIDE_LIMITS, flag::OUTSIDE_LIMITS_FLIPPED][branch % 2];
                     let margin = robot.limit_margin(&all.joints).unwrap().1;

@@ -157,8 +157,8 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
             volume.answers.points[same.unwrap()].unwrap(),
         );
         assert_eq!(
-            (in_map.branch, in_map.deciding_case),
-            (in_volume.branch, in_volume.deciding_case)
+            (in_map.name, in_map.deciding_case),
+            (in_volume.name, in_volume.deciding_case)
         );
         assert!((in_map.in_plane - in_volume.in_plane).abs() < SAME, "{tcp}");
         assert!(

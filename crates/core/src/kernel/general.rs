@@ -79,7 +79,8 @@ impl<'q> General<'q> {
                 self.candidates.clear();
                 if question.robot.inverse().flips_are_alike() {
                     let pairs = found.chunk_by(|a, b| differ_in_flip(a.name, b.name));
-                    self.candidates.extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
+                    self.candidates
+                        .extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
                 } else {
                     self.candidates.extend_from_slice(found);
                 }

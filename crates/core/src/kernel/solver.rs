@@ -49,7 +49,10 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: question.robot.ortho_parallel().map(|arm| Points::new(question, arm)),
+            lanes: question
+                .robot
+                .ortho_parallel()
+                .map(|arm| Points::new(question, arm)),
             general: General::new(question),
             poses: Vec::with_capacity(BLOCK),
             before: None,
@@ -83,7 +86,10 @@ impl<'q> Solver<'q> {
             .zip(slots.deviations.chunks_mut(case_count))
             .zip(slots.shares.chunks_mut(joint_count));
         for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
-            let in_lanes = self.lanes.as_ref().and_then(|lanes| Some((lanes, lanes.held(i)?)));
+            let in_lanes = self
+                .lanes
+                .as_ref()
+                .and_then(|lanes| Some((lanes, lanes.held(i)?)));
             *point = match in_lanes {
                 Some((lanes, held)) => {
                     lanes.write(i, joints, deviations, shares);

@@ -239,7 +239,11 @@ impl Chain {
     /// Half the length (m) of all its fixed translations: what makes turns of this chain comparable with its
     /// translations. 1 m where there are none.
     pub fn length(&self) -> f64 {
-        let fixed = self.links.iter().map(|link| &link.before).chain([&self.last_joint_from_flange]);
+        let fixed = self
+            .links
+            .iter()
+            .map(|link| &link.before)
+            .chain([&self.last_joint_from_flange]);
         let length = 0.5 * fixed.map(|fixed| fixed.translation.norm()).sum::<f64>();
         if length > 1e-6 { length } else { 1.0 }
     }

@@ -51,7 +51,11 @@ pub enum Wrist {
 impl Wrist {
     /// Flip or not, from the sine of the bend.
     pub(super) fn bent(sin_bend: f64) -> Wrist {
-        if sin_bend >= 0.0 { Wrist::NoFlip } else { Wrist::Flip }
+        if sin_bend >= 0.0 {
+            Wrist::NoFlip
+        } else {
+            Wrist::Flip
+        }
     }
 }
 
@@ -130,7 +134,7 @@ impl fmt::Display for PostureName {
 ///
 /// It depends on the joint positions alone. Two postures of one pose nearly always differ in it, but need not.
 /// Joints beyond the thirty-second are left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Sides {
     joints: u8,
     above: u32,

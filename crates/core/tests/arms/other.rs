@@ -92,7 +92,11 @@ pub fn kr210_l150() -> Robot {
     ];
     let (mut motions, mut joints) = (Vec::new(), Vec::new());
     for (index, ([x, y, z], axis, [lower, upper])) in rows.into_iter().enumerate() {
-        motions.extend([Along(X, Constant(x)), Along(Y, Constant(y)), Along(Z, Constant(z))]);
+        motions.extend([
+            Along(X, Constant(x)),
+            Along(Y, Constant(y)),
+            Along(Z, Constant(z)),
+        ]);
         motions.push(About(axis, Var(index)));
         joints.push(Joint {
             limits: Some(Limits {
@@ -117,7 +121,11 @@ pub fn calibrated(robot: &Robot, most: f64) -> Robot {
                 for along in [true, false] {
                     k += 1.0;
                     let value = Constant(most * f64::sin(12.9 * k));
-                    motions.push(if along { Along(axis, value) } else { About(axis, value) });
+                    motions.push(if along {
+                        Along(axis, value)
+                    } else {
+                        About(axis, value)
+                    });
                 }
             }
         }

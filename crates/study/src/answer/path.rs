@@ -115,7 +115,11 @@ fn circle_cases(path: &PathAnswer) -> Vec<CircleCase> {
 }
 
 fn joint_range(study: &Study, path: &PathAnswer, joint: usize) -> [f64; 2] {
-    let scale = if study.robot.robot.slides(joint) { 1e3 } else { 1f64.to_degrees() };
+    let scale = if study.robot.robot.slides(joint) {
+        1e3
+    } else {
+        1f64.to_degrees()
+    };
     let positions = path
         .answers
         .held()

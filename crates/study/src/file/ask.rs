@@ -90,7 +90,9 @@ impl Resolver<'_> {
             (
                 "posture.home_deg",
                 "deg or mm",
-                self.posture().and_then(|posture| posture.home_deg.clone()).unwrap_or_default(),
+                self.posture()
+                    .and_then(|posture| posture.home_deg.clone())
+                    .unwrap_or_default(),
             ),
             (
                 "tool.flange_from_tool_mm_deg",

@@ -265,9 +265,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     columns.push(words(
         ("singularity", "near which singularity the posture stands"),
         series,
-        |rows, i| {
-            Some(rows.answers.points[i].as_ref().ok()?.singularity?.word())
-        },
+        |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
     let numbers = numbers(study, series.first().map_or(0, |rows| rows.answers.case_count));
     columns.extend(filled(&numbers, series));
@@ -326,9 +324,11 @@ fn numbers(study: &Study, cases: usize) -> Vec<Numbers<'_>> {
                 })
             }
         } else {
-            Numbers::deg(format!("joint_{}_deg", joint.name), what, move |rows, index, _| {
-                rows.answers.joints_at(index)[i].to_degrees()
-            })
+            Numbers::deg(
+                format!("joint_{}_deg", joint.name),
+                what,
+                move |rows, index, _| rows.answers.joints_at(index)[i].to_degrees(),
+            )
         }
     }));
     columns.extend(joints.iter().enumerate().map(|(i, joint)| {

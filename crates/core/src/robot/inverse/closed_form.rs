@@ -32,9 +32,7 @@ impl ClosedForm {
     pub(super) fn next_to(chain: &Chain) -> Option<ClosedForm> {
         OrthoParallel::next_to(chain, CALIBRATED, SLACK)
             .map(ClosedForm::OrthoParallel)
-            .or_else(|| {
-                ThreeParallel::next_to(chain, CALIBRATED, SLACK).map(ClosedForm::ThreeParallel)
-            })
+            .or_else(|| ThreeParallel::next_to(chain, CALIBRATED, SLACK).map(ClosedForm::ThreeParallel))
     }
 
     /// Chain positions of one branch, whole turns anywhere, and near which singularity they stand; `near` are chain

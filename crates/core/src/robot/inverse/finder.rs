@@ -12,9 +12,9 @@ use super::super::model::Robot;
 use super::super::posture::{Branch, BranchPattern, PostureName, Sides, Singularity, Unreachable};
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
+use super::holds;
 use super::kind::{ENOUGH, Inverse};
 use super::starts::spread;
-use super::holds;
 use crate::frame::Isometry;
 
 /// Postures of one pose at most: a general arm of six turning joints has up to 16.
@@ -30,6 +30,9 @@ const SAME: f64 = 1e-4;
 const SAME_TO_SPARE: f64 = 1e-2;
 /// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
 const JUMP: f64 = 0.5;
+
+/// Descents reached the pose, but all in other branches than those asked for.
+const OTHER_BRANCHES: Unreachable = Unreachable::NotFound { by: 0.0, turned: 0.0 };
 
 /// Where the flange should be, and where the arm stood or likes to stand.
 #[derive(Clone, Copy, Debug)]
@@ -128,11 +131,7 @@ impl<'r> Finder<'r> {
     ///
     /// # Errors
     /// Those of [`Finder::all`].
-    pub fn matching(
-        &mut self,
-        wanted: &Wanted<'_>,
-        pattern: BranchPattern,
-    ) -> Result<&[Found], Unreachable> {
+    pub fn matching(&mut self, wanted: &Wanted<'_>, pattern: BranchPattern) -> Result<&[Found], Unreachable> {
         self.find(wanted, pattern, 1)
     }
 
@@ -145,14 +144,15 @@ impl<'r> Finder<'r> {
         self.found.clear();
         self.settle_home(wanted);
         let arm_from_flange = self.base_from_arm().inv_mul(&wanted.base_from_flange);
-        let missed = match self.arm.inverse.names() {
-            Some(form) => self.branches(form, wanted, &arm_from_flange, pattern),
-            None => self.search(wanted, &arm_from_flange, most),
+        let missed = match self.arm.inverse {
+            Inverse::Closed(form) => self.branches(form, wanted, &arm_from_flange, pattern),
+            Inverse::Polished(form) => self.polished(form, wanted, &arm_from_flange, pattern),
+            Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most),
         };
-        match missed {
-            Some(miss) if self.found.is_empty() => Err(miss),
-            _ => Ok(&self.found),
+        if self.found.is_empty() {
+            return Err(missed.unwrap_or(OTHER_BRANCHES));
         }
+        Ok(&self.found)
     }
 
     /// Home with nothing left out.
@@ -178,7 +178,9 @@ impl<'r> Finder<'r> {
 
     /// Chain positions of the arm at joint positions of the robot.
     fn chain_positions(&self, q: &[f64]) -> Vec<f64> {
-        (self.arm.first..q.len()).map(|i| self.robot.theta(i, q)).collect()
+        (self.arm.first..q.len())
+            .map(|i| self.robot.theta(i, q))
+            .collect()
     }
 
     fn branches(
@@ -189,29 +191,74 @@ impl<'r> Finder<'r> {
         pattern: BranchPattern,
     ) -> Option<Unreachable> {
         let near = wanted.near.map(|q| self.chain_positions(q));
-        let goal = Goal::new(arm_from_flange);
         let mut missed: Option<Unreachable> = None;
         for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
             let solved = form.chain_positions(arm_from_flange, branch, near.as_deref());
-            let reached = solved.and_then(|(mut theta, singularity)| {
-                let polished = matches!(self.arm.inverse, Inverse::Polished(_));
-                if polished {
-                    self.descent.reach(self.arm.chain, &goal, &mut theta)?;
-                }
-                // Near a singularity two branches may end in one posture: the first has its name.
-                if polished && self.is_known(&theta, SAME) {
-                    return Ok(());
-                }
-                self.keep(wanted, &theta, Some(branch), singularity)
+            let kept = solved.and_then(|(theta, singularity)| {
+                self.keep(wanted, &theta, PostureName::Branch(branch), singularity)
             });
-            if let Err(miss) = reached {
+            if let Err(miss) = kept {
                 missed = Some(nearer(missed, miss));
             }
         }
         missed
     }
 
-    fn search(&mut self, wanted: &Wanted<'_>, arm_from_flange: &Isometry, most: usize) -> Option<Unreachable> {
+    /// The branches of a calibrated arm, from those of the ideal one. The ideal arm names them too: where it stands
+    /// nearly straight a descent may end in another branch than it came from.
+    fn polished(
+        &mut self,
+        form: &ClosedForm,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        pattern: BranchPattern,
+    ) -> Option<Unreachable> {
+        let near = wanted.near.map(|q| self.chain_positions(q));
+        let goal = Goal::new(arm_from_flange);
+        let mut missed: Option<Unreachable> = None;
+        // Branches that are asked for first: mostly they are what the others need not be looked at for.
+        let (asked, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL
+            .into_iter()
+            .partition(|branch| pattern.matches(*branch));
+        let mut strayed = false;
+        for branch in asked.iter().chain(&others) {
+            if !pattern.matches(*branch) && !strayed {
+                break;
+            }
+            let solved = form.chain_positions(arm_from_flange, *branch, near.as_deref());
+            let kept = solved.and_then(|(mut theta, _)| {
+                self.descent.reach(self.arm.chain, &goal, &mut theta)?;
+                let (own, singularity) = form.name(&theta);
+                strayed |= own != *branch;
+                if self.is_known(&theta, SAME) {
+                    return Ok(());
+                }
+                // Beside a singularity the ideal arm may give two postures one name: the second keeps its start's.
+                let taken = self
+                    .found
+                    .iter()
+                    .any(|found| found.name == PostureName::Branch(own));
+                let name = if taken { *branch } else { own };
+                self.keep(wanted, &theta, PostureName::Branch(name), singularity)
+            });
+            if let Err(miss) = kept {
+                missed = Some(nearer(missed, miss));
+            }
+        }
+        if self.found.is_empty() && matches!(missed, Some(Unreachable::NotFound { .. })) {
+            missed = self.search(wanted, arm_from_flange, MOST);
+        }
+        self.found
+            .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
+        missed
+    }
+
+    fn search(
+        &mut self,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        most: usize,
+    ) -> Option<Unreachable> {
         let goal = Goal::new(arm_from_flange);
         let home = self.chain_positions(&self.home);
         if self.follow(wanted, &goal, &home, most) {
@@ -238,7 +285,11 @@ impl<'r> Finder<'r> {
         }
         self.sort(wanted.near);
         self.found.truncate(most);
-        self.before = self.found.iter().map(|found| self.chain_positions(&found.joints)).collect();
+        self.before = self
+            .found
+            .iter()
+            .map(|found| self.chain_positions(&found.joints))
+            .collect();
         missed
     }
 
@@ -286,7 +337,9 @@ impl<'r> Finder<'r> {
         let middles = self.chain_positions(&self.robot.middles());
         let range = |(i, middle): (usize, f64)| {
             let joint = self.arm.first + i;
-            let half = self.robot.joints()[joint].limits.map(|limits| 0.5 * (limits.upper - limits.lower));
+            let half = self.robot.joints()[joint]
+                .limits
+                .map(|limits| 0.5 * (limits.upper - limits.lower));
             let half = if self.robot.slides(joint) {
                 half.unwrap_or(self.arm.chain.length())
             } else {
@@ -314,17 +367,28 @@ impl<'r> Finder<'r> {
     }
 
     fn keep_searched(&mut self, wanted: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
-        let dependent = self.descent.dependent(self.arm.chain, theta);
-        let singularity = dependent.then_some(Singularity::Dependent);
-        self.keep(wanted, theta, None, singularity)
+        let (name, singularity) = match self.arm.inverse.names() {
+            Some(form) => {
+                let (branch, singularity) = form.name(theta);
+                (PostureName::Branch(branch), singularity)
+            }
+            None => {
+                let dependent = self.descent.dependent(self.arm.chain, theta);
+                (
+                    PostureName::Sides(Sides::default()),
+                    dependent.then_some(Singularity::Dependent),
+                )
+            }
+        };
+        self.keep(wanted, theta, name, singularity)
     }
 
-    /// Counts the joints of a posture, verifies it and keeps it.
+    /// Counts the joints of a posture, verifies it and keeps it; sides are told from the joints counted.
     fn keep(
         &mut self,
         wanted: &Wanted<'_>,
         theta: &[f64],
-        branch: Option<Branch>,
+        name: PostureName,
         singularity: Option<Singularity>,
     ) -> Result<(), Unreachable> {
         let mut joints = self.home.clone();
@@ -340,7 +404,10 @@ impl<'r> Finder<'r> {
         forward_into(self.robot, &joints, &mut self.frames);
         holds(&self.frames, &wanted.base_from_flange)?;
         self.found.push(Found {
-            name: branch.map_or_else(|| sides(self.robot, &joints), PostureName::Branch),
+            name: match name {
+                PostureName::Branch(_) => name,
+                PostureName::Sides(_) => sides(self.robot, &joints),
+            },
             joints,
             singularity,
         });
@@ -365,7 +432,8 @@ impl<'r> Finder<'r> {
     /// Nearest to `near`, or home, first.
     fn sort(&mut self, near: Option<&[f64]>) {
         let from = near.unwrap_or(&self.home);
-        let away = |found: &Found| -> f64 { found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum() };
+        let away =
+            |found: &Found| -> f64 { found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum() };
         self.found.sort_by(|a, b| away(a).total_cmp(&away(b)));
     }
 }
@@ -392,7 +460,9 @@ fn sides(robot: &Robot, q: &[f64]) -> PostureName {
 
 /// The miss that is smaller.
 fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
-    known.filter(|known| known.amount() <= miss.amount()).unwrap_or(miss)
+    known
+        .filter(|known| known.amount() <= miss.amount())
+        .unwrap_or(miss)
 }
 
 /// `angle` plus whole turns, in (middle - pi, middle + pi].

@@ -134,7 +134,11 @@ impl fmt::Display for Inverse {
                 f,
                 "{}; the first {} stand{} still",
                 rail.inverse,
-                if rail.joints == 1 { "joint".to_owned() } else { format!("{} joints", rail.joints) },
+                if rail.joints == 1 {
+                    "joint".to_owned()
+                } else {
+                    format!("{} joints", rail.joints)
+                },
                 if rail.joints == 1 { "s" } else { "" }
             ),
         }

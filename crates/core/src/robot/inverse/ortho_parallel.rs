@@ -157,13 +157,14 @@ impl OrthoParallel {
         let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
         let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
         if r_squared < 0.0 {
-            return Err(Unreachable::InsideLateralOffset {
-                by: self.b.abs() - p.x.hypot(p.y),
-            });
+            let by = self.b.abs() - p.x.hypot(p.y);
+            if by >= self.links.slack {
+                return Err(Unreachable::InsideLateralOffset { by });
+            }
         }
         let r = match branch.shoulder {
-            Shoulder::Front => r_squared.sqrt(),
-            Shoulder::Back => -r_squared.sqrt(),
+            Shoulder::Front => r_squared.max(0.0).sqrt(),
+            Shoulder::Back => -r_squared.max(0.0).sqrt(),
         };
         let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
         let (u, v) = (r - self.a1, p.z);

@@ -39,6 +39,9 @@ mod tests {
             counts[usize::from(x > 0.0) + 2 * usize::from(y > 2.0) + 4 * usize::from(z > 11.0)] += 1;
         }
         // 100 each on average; pure chance would leave a standard deviation of 9.
-        assert!(counts.iter().all(|count| (95..=105).contains(count)), "{counts:?}");
+        assert!(
+            counts.iter().all(|count| (95..=105).contains(count)),
+            "{counts:?}"
+        );
     }
 }

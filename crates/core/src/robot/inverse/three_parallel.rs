@@ -7,8 +7,8 @@
 //!
 //! ```text
 //! joint 1: the wrist centre p stays b beside the arm's plane: r = +-sqrt(px^2 + py^2 - b^2)       + front, - back
-//! joint 5: axis 6, seen from the turned base as s, has the angle beta to y: cos beta = sy       beta >= 0 no-flip
-//! joint 6: axis 5 = y x (s - cos beta y) / sin beta, against where the flange has it
+//! joint 5: axis 6, seen from the turned base as s, has the angle beta to axis 4: cos beta = s a4  beta >= 0 no-flip
+//! joint 6: axis 5 = a4 x (s - cos beta a4) / sin beta, against where the flange has it
 //! chi    : turn of joints 2 to 4 together, from axis 5; then axis 4 is a point in the plane
 //! joints 2, 3: triangle of `two_links`; joint 4 = chi less both
 //! ```
@@ -97,7 +97,7 @@ impl ThreeParallel {
         let [shoulder, elbow, hand] = [1, 2, 3].map(|i| arm_from_base * lines[i].point);
         let w = arm_from_base * wrist;
         let (upper_arm, forearm) = (elbow - shoulder, hand - elbow);
-        let (axis_5, axis_6) = (arm_from_base * z5, arm_from_base * z6);
+        let [axis_4, axis_5, axis_6] = [z4, z5, z6].map(|axis| arm_from_base * axis);
         let flange_from_base = chain.base_from_flange(&[0.0; 6]).inverse();
         let parallel = |axis: Vector3<f64>| sense_of(axis.dot(&y));
         Some(ThreeParallel {
@@ -112,7 +112,7 @@ impl ThreeParallel {
             axis_5,
             upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
             forearm_at_zero: forearm.x.atan2(forearm.z),
-            bend_at_zero: axis_6.dot(&axis_5.cross(&Vector3::y())).atan2(axis_6.y),
+            bend_at_zero: (axis_6.dot(&axis_5.cross(&axis_4))).atan2(axis_6.dot(&axis_4)),
             sense: [
                 sense_of(z1.dot(&up)),
                 parallel(z2),
@@ -132,7 +132,8 @@ impl ThreeParallel {
     /// Chain positions of one branch that bring the flange to `base_from_flange`, whole turns anywhere, and near which
     /// singularity they stand.
     ///
-    /// Where axis 6 is parallel to axes 2, 3 and 4, joint 6 stays at `kept` (chain position, rad), or at zero.
+    /// Where axis 6 is parallel to axes 2, 3 and 4, joint 6 stays at `kept` (chain position, rad), or at zero; if the
+    /// arm cannot hold the pose so, where its hand points away from the shoulder, or towards it.
     /// Not checked: forward kinematics (see [`super::holds`]).
     ///
     /// # Errors
@@ -147,35 +148,47 @@ impl ThreeParallel {
         let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
         if r_squared < 0.0 {
             let by = self.b.abs() - p.x.hypot(p.y);
-            return Err(Unreachable::InsideLateralOffset { by });
+            if by >= self.links.slack {
+                return Err(Unreachable::InsideLateralOffset { by });
+            }
         }
         let r = match branch.shoulder {
-            Shoulder::Front => r_squared.sqrt(),
-            Shoulder::Back => -r_squared.sqrt(),
+            Shoulder::Front => r_squared.max(0.0).sqrt(),
+            Shoulder::Back => -r_squared.max(0.0).sqrt(),
         };
         let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
-        let seen = |in_flange: &Vector3<f64>| {
-            phi1.back_about_z(self.arm_from_base * (base_from_flange * in_flange))
-        };
+        let seen =
+            |in_flange: &Vector3<f64>| phi1.back_about_z(self.arm_from_base * (base_from_flange * in_flange));
         let (out, second) = (seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5));
         let bent = out.x.hypot(out.z);
         let flip = if branch.wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
-        let bend = Turn::new(out.y, flip * bent);
-        let axis_5 = if bent < WRIST_SINGULAR {
-            let kept = UnitQuaternion::new(out * -kept.unwrap_or(0.0)) * second;
-            across(kept, &Vector3::y())
+        let bend = Turn::new(out.y * self.sense[3], flip * bent);
+        let hand_and_links = |axis_5: &Vector3<f64>| {
+            let turned = Turn::new(
+                self.axis_5.dot(axis_5),
+                axis_5.dot(&Vector3::y().cross(&self.axis_5)),
+            );
+            let hand = turned.about_y(self.hand);
+            let links = self
+                .links
+                .solve(r - hand.x - self.a1, p.z - hand.z, branch.elbow)?;
+            Ok::<_, Unreachable>((turned, links))
+        };
+        let (axis_5, (turned, (psi, chi))) = if bent < WRIST_SINGULAR {
+            // Joint 6 is free: as it was, or so that the hand points away from the shoulder, or towards it.
+            let kept = across(
+                UnitQuaternion::new(out * -kept.unwrap_or(0.0)) * second,
+                &Vector3::y(),
+            );
+            let away = Turn::new(r - self.a1, p.z).less(Turn::new(self.hand.x, self.hand.z));
+            let outwards = away.back_about_y(self.axis_5);
+            let solved = |axis_5: Vector3<f64>| Ok((axis_5, hand_and_links(&axis_5)?));
+            solved(kept).or_else(|miss| solved(outwards).or_else(|_| solved(-outwards)).map_err(|_| miss))?
         } else {
-            Vector3::new(out.z, 0.0, -out.x) * (flip / bent)
+            let axis_5 = Vector3::new(out.z, 0.0, -out.x) * (self.sense[3] * flip / bent);
+            (axis_5, hand_and_links(&axis_5)?)
         };
         let phi6 = Turn::new(axis_5.dot(&second), out.dot(&axis_5.cross(&second)));
-        let turned = Turn::new(
-            self.axis_5.dot(&axis_5),
-            axis_5.dot(&Vector3::y().cross(&self.axis_5)),
-        );
-        let hand = turned.about_y(self.hand);
-        let (psi, chi) = self
-            .links
-            .solve(r - hand.x - self.a1, p.z - hand.z, branch.elbow)?;
         let (psi_angle, chi_angle) = (psi.angle(), chi.angle());
         let phi2 = psi_angle - self.upper_arm_at_zero;
         let forearm = chi_angle - self.forearm_at_zero;
