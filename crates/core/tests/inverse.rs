@@ -102,6 +102,8 @@ struct Trips {
 }
 
 /// Random poses there and back, each posture checked by the product of elementary motions. A rail stands where it did.
+// What a reader of the output wants to know.
+#[allow(clippy::print_stdout)]
 fn round_trips(robot: &Robot, count: usize) -> Trips {
     let tool = arms::bent_tool();
     let mut stream = Stream(20);
