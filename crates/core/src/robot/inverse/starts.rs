@@ -38,9 +38,9 @@ mod tests {
             let [x, y, z] = point;
             counts[usize::from(x > 0.0) + 2 * usize::from(y > 2.0) + 4 * usize::from(z > 11.0)] += 1;
         }
-        // 100 each on average; pure chance would leave a standard deviation of 9.
+        // 100 each on average; pure chance has a standard deviation of 9, and mostly one of eight beyond 15.
         assert!(
-            counts.iter().all(|count| (95..=105).contains(count)),
+            counts.iter().all(|count| (88..=112).contains(count)),
             "{counts:?}"
         );
     }
