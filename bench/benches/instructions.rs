@@ -41,7 +41,8 @@ fn kernel_evaluate((arm, poses, pool): (Arm, Vec<Isometry>, ThreadPool)) -> usiz
 /// Counted without: the question made ready.
 fn lanes_setup(count: usize) -> (Batch<f64>, Places<f64>) {
     // Valgrind has no AVX-512, so the fastest that it tells of is AVX2.
-    let batch = Batch::new(&Arm::mh12().question(ONE_POSTURE), Backend::fastest());
+    let arm = Arm::mh12();
+    let batch = Batch::new(&arm.question(ONE_POSTURE), arm.closed_form(), Backend::fastest());
     (batch, Places::of(&poses(count)))
 }
 

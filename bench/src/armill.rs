@@ -5,6 +5,7 @@ use std::hint::black_box;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate};
+use armill_core::load::Doubt;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::predict::predict;
@@ -54,11 +55,11 @@ impl Arm {
     pub fn question(&self, choice: BranchChoice) -> Question<'_> {
         Question {
             robot: &self.robot,
-            arm: self.closed_form(),
             compliance: self.compliance(),
             model: StiffnessModel::DRIVES,
             doubt: Doubt::NONE,
             flange_from_tool: &self.tool,
+            home: None,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
             choice,
@@ -70,14 +71,19 @@ impl Arm {
         let at = ToolAt {
             flange_from_tool: &self.tool,
             near: None,
+            home: None,
         };
-        let found = postures(&self.robot, self.closed_form(), pose, at).unwrap_or_default();
+        let found = postures(&self.robot, pose, at).unwrap_or_default();
         let all = found.iter().filter_map(|posture| {
             let compliance = compliance_at_tool(&posture.screws, self.compliance());
             let mut flat = [0.0; 36];
             // nalgebra stores columns; the matrix is symmetric.
             flat.copy_from_slice(compliance.as_slice());
-            Some((posture.branch?, posture.joints.as_slice().try_into().ok()?, flat))
+            Some((
+                posture.name.branch()?,
+                posture.joints.as_slice().try_into().ok()?,
+                flat,
+            ))
         });
         all.collect()
     }
@@ -88,7 +94,22 @@ impl Arm {
         predict(&posture, self.compliance(), &self.cases[0]).twist.linear
     }
 
-    fn closed_form(&self) -> &OrthoParallel {
+    /// The robot itself.
+    pub fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    /// Joint positions from chain positions.
+    fn counted(&self, theta: &[f64; 6]) -> [f64; 6] {
+        let mut q = [0.0; 6];
+        for (i, theta) in theta.iter().enumerate() {
+            q[i] = self.robot.joint_position(i, *theta, &q);
+        }
+        q
+    }
+
+    /// Its geometry, as the inverse and lanes have it.
+    pub fn closed_form(&self) -> &OrthoParallel {
         self.robot.ortho_parallel().expect("MH12 has a closed form")
     }
 
@@ -143,18 +164,20 @@ fn general<'a>(arm: &'a Arm, poses: &'a [Isometry]) -> Vec<Candidate<'a>> {
     let at = ToolAt {
         flange_from_tool: &arm.tool,
         near: None,
+        home: None,
     };
     let all_branches = move || {
         for pose in poses {
-            black_box(postures(&arm.robot, arm.closed_form(), pose, at)).ok();
+            black_box(postures(&arm.robot, pose, at)).ok();
         }
     };
     let compliance = move || {
         for pose in poses {
             let flange = pose * arm.tool.inverse();
-            let solved = arm.closed_form().solve(&arm.robot, &flange, Branch::ALL[0], None);
-            black_box(solved.map(|solution| {
-                let posture = posture_at(&arm.robot, &solution.joints, &arm.tool);
+            let solved = arm.closed_form().chain_positions(&flange, Branch::ALL[0], None);
+            black_box(solved.map(|(theta, _)| {
+                let q = arm.counted(&theta);
+                let posture = posture_at(&arm.robot, &q, &arm.tool);
                 compliance_at_tool(&posture.screws, arm.compliance())
             }))
             .ok();

@@ -95,8 +95,8 @@ fn works<'a, T: Precision>(
     places: &'a Places<T>,
     backend: Backend,
 ) -> Vec<Candidate<'a>> {
-    let batch = || Batch::<T>::new(question, backend);
-    let (mut of_one, mut of_all, mut matrices, mut angles) = (batch(), batch(), batch(), batch());
+    let made = || batch::<T>(question, backend);
+    let (mut of_one, mut of_all, mut matrices, mut angles) = (made(), made(), made(), made());
     let dev = move || {
         let mut out = Envelopes::default();
         for poses in places.chunks() {
@@ -142,7 +142,7 @@ fn on_threads<'a>(
     /// Enough for a hand-over between threads to cost nothing.
     const SHARE: usize = 20_000;
     let threads = pool.current_num_threads();
-    let batch = Batch::<f64>::new(question, backend);
+    let batch = batch::<f64>(question, backend);
     let run = move || {
         pool.install(|| {
             let starts = (0..REPEATED * places.len()).into_par_iter().step_by(SHARE);
@@ -163,10 +163,16 @@ fn on_threads<'a>(
         .note(NOTE)
 }
 
+/// Lanes for the arm of `question`.
+fn batch<T: Precision>(question: &Question<'_>, backend: Backend) -> Batch<T> {
+    let arm = question.robot.ortho_parallel().expect("MH12 has a closed form");
+    Batch::new(question, arm, backend)
+}
+
 /// Envelopes of `poses`, for the check of agreement.
 pub fn envelopes<T: Precision>(question: &Question<'_>, poses: &[Pose]) -> Vec<f64> {
     let places = Places::<T>::of(poses);
     let mut out = Envelopes::default();
-    Batch::<T>::new(question, Backend::fastest()).envelopes(&places.all(), BRANCH, &mut out);
+    batch::<T>(question, Backend::fastest()).envelopes(&places.all(), BRANCH, &mut out);
     out.in_plane().iter().map(|value| value.to_f64()).collect()
 }

@@ -14,7 +14,7 @@ use armill_bench::clock::{Candidate, rates, row};
 use armill_bench::lanes::{self, Places};
 use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
 use armill_bench::workload::{COUNT, Pose, poses};
-use armill_bench::{agreement, files, peers, yardstick};
+use armill_bench::{agreement, files, kinds, peers, yardstick};
 use rayon::prelude::*;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
@@ -62,10 +62,12 @@ fn run(folder: &Path, rounds: usize) -> Result<(), String> {
     let isometries: Vec<_> = poses.iter().map(isometry).collect();
     let (double, single) = (Places::of(&poses), Places::of(&poses));
 
+    let others = kinds::others();
     let mut all = of_yardstick(&poses, &angles, &pools[1]);
     let question = arm.question(ONE_POSTURE);
     all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
     all.extend(of_armill(&arm, &isometries, &pools));
+    all.extend(kinds::candidates(&others, &pools[0]));
     all.extend(peers::candidates(&poses));
     let rates = rates(&mut all, rounds);
     for (candidate, rate) in all.iter().zip(&rates) {

@@ -190,15 +190,15 @@ fn literal_in_plane_mm(robot: &Robot, (tilt_deg, beyond, height, branch): Readin
 /// The posture that holds the flange there, in the branch of this name.
 fn posture_of(robot: &Robot, branch: &str, base_from_flange: &Isometry) -> Posture {
     let branch: BranchPattern = branch.parse().expect("names of branches");
-    let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
     let tool = ToolAt {
         flange_from_tool: &Isometry::identity(),
         near: None,
+        home: None,
     };
-    let found = postures(robot, arm, base_from_flange, tool).expect("the circle lies in reach");
+    let found = postures(robot, base_from_flange, tool).expect("the circle lies in reach");
     let mut named = found
         .into_iter()
-        .filter(|posture| posture.branch.is_some_and(|b| branch.matches(b)));
+        .filter(|posture| posture.name.branch().is_some_and(|b| branch.matches(b)));
     named.next().expect("both branches reach the circle")
 }
 

@@ -123,15 +123,12 @@ impl Arm {
     }
 
     fn compare(&self, pose: &Pose, tally: &mut Tally) {
-        let arm = self
-            .robot
-            .ortho_parallel()
-            .expect("every arm here has a closed form");
         let tool = ToolAt {
             flange_from_tool: &Isometry::identity(),
             near: None,
+            home: None,
         };
-        let mine = postures(&self.robot, arm, &isometry(pose), tool).unwrap_or_default();
+        let mine = postures(&self.robot, &isometry(pose), tool).unwrap_or_default();
         if mine
             .iter()
             .any(|posture| self.away_from_singularity(posture) < SINGULAR)

@@ -83,12 +83,12 @@ fn nearest_to_printed(robot: &Robot) -> Posture {
     // At joint zero the flange's second axis points along base -y: half a turn from spin zero.
     let orientation = tool_orientation(Vector3::x_axis(), std::f64::consts::PI);
     let base_from_tool = Isometry::from_parts(TIP.into(), orientation);
-    let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
     let tool = ToolAt {
         flange_from_tool: &Isometry::identity(),
         near: None,
+        home: None,
     };
-    let found = postures(robot, arm, &base_from_tool, tool).expect("the point lies in reach");
+    let found = postures(robot, &base_from_tool, tool).expect("the point lies in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)
@@ -109,9 +109,9 @@ fn reach(robot: &Robot) -> f64 {
     let tool = ToolAt {
         flange_from_tool: &Isometry::identity(),
         near: None,
+        home: None,
     };
-    let arm = robot.ortho_parallel().expect("the MH12 has a closed form");
-    match postures(robot, arm, &far, tool) {
+    match postures(robot, &far, tool) {
         Err(Unreachable::TooFar { by }) => 5.0 - by,
         _ => f64::NAN,
     }

@@ -144,12 +144,12 @@ pub fn checks() -> Vec<Check> {
 pub fn posture(robot: &Robot) -> Posture {
     let orientation = workpiece() * from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(PI, 0.0, PI));
     let base_from_tool = Isometry::from_parts(TCP.into(), orientation.rotation);
-    let arm = robot.ortho_parallel().expect("the TX200 has a closed form");
     let tool = ToolAt {
         flange_from_tool: &flange_from_tool(),
         near: None,
+        home: None,
     };
-    let found = postures(robot, arm, &base_from_tool, tool).expect("the pose lies in reach");
+    let found = postures(robot, &base_from_tool, tool).expect("the pose lies in reach");
     let away = |posture: &Posture| {
         let joints_deg: Vec<f64> = posture.joints.iter().map(|q| q.to_degrees()).collect();
         worst_difference(&joints_deg, &JOINTS_DEG)

@@ -32,7 +32,7 @@ pub(crate) enum Command {
     /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
     /// Every posture of one pose: joints, compliance, deviation
-    Pose(PoseArguments),
+    Pose(Box<PoseArguments>),
     /// Joint compliances from load tests, and which tests to do
     Identify(IdentifyArguments),
     /// Print shell completions
@@ -283,6 +283,16 @@ pub(crate) struct PoseArguments {
         conflicts_with = "joints_deg"
     )]
     pub spin_deg: Option<f64>,
+    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; else the middle of their ranges
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
+    pub home_deg: Option<Vec<f64>>,
     /// Flange to TCP
     #[arg(
         long,

@@ -156,11 +156,11 @@ fn a_robot_without_compliance_is_told_what_to_add() {
 }
 
 #[test]
-fn a_robot_without_closed_form_is_told_in_a_study() {
+fn a_robot_of_too_few_joints_is_told_in_a_study() {
     let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
     cell.file("lever.toml", LEVER);
     cell.armill(&["run", "."])
-        .refused(&["study.toml:3:9", "`lever.toml` has no closed-form inverse"]);
+        .refused(&["study.toml:3:9", "`lever.toml` has 2 joints"]);
 }
 
 #[test]

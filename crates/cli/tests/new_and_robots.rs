@@ -59,7 +59,7 @@ fn a_new_study_of_a_robot_that_no_study_can_use_is_refused() {
     let cell = Cell::new();
     cell.file("lever.toml", LEVER);
     cell.armill(&["new", "cell", "--robot", "lever.toml"])
-        .refused(&["no closed-form inverse"]);
+        .refused(&["has 2 joints"]);
     cell.armill(&["new", "cell", "--robot", "mh12"])
         .refused(&["did you mean `yaskawa/mh12`?"]);
     assert!(
@@ -150,7 +150,7 @@ fn a_robot_is_shown_with_joints_limits_frames_and_sources() {
         .collect();
     assert_eq!(names, ["S", "L", "U", "R", "B", "T"]);
     assert_eq!(numbers(&robot["joints"][1]["limits_deg"]), [-90.0, 155.0]);
-    assert_eq!(robot["closed_form_inverse"], true);
+    assert_eq!(robot["inverse"], "closed_form");
 }
 
 #[test]
@@ -159,7 +159,7 @@ fn a_urdf_is_shown_as_the_chain_it_is() {
     cell.file("arm.urdf", MH12_URDF);
     let library = cell.armill(&["robots", "yaskawa/mh12", "--json"]).fine().json();
     let by_hand = cell.armill(&["robots", "arm.urdf", "--json"]).fine().json();
-    assert_eq!(by_hand["closed_form_inverse"], true);
+    assert_eq!(by_hand["inverse"], "closed_form");
     for (a, b) in library["joints"]
         .as_array()
         .unwrap()

@@ -143,7 +143,7 @@ proptest! {
         let here = stand(robot, &unit);
         prop_assume!(here.singularity.is_none());
         let tool = arms::bent_tool();
-        let found = postures(robot, robot.ortho_parallel().unwrap(), &here.base_from_tool, ToolAt { flange_from_tool: &tool, near: None }).unwrap();
+        let found = postures(robot, &here.base_from_tool, ToolAt { flange_from_tool: &tool, near: None, home: None }).unwrap();
         for pair in found.chunks(2) {
             let [a, b] = pair else { continue };
             let (a, b) = (compliance(robot, a), compliance(robot, b));

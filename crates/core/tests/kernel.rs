@@ -65,15 +65,20 @@ fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOn
     let tool = arms::bent_tool();
     then(&Question {
         robot,
-        arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         model: StiffnessModel::DRIVES,
         doubt: Doubt::NONE,
         flange_from_tool: &tool,
+        home: None,
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
         choice,
     })
+}
+
+/// Lanes for the arm of `question`.
+fn batch<T: Precision>(question: &Question<'_>, backend: Backend) -> Batch<T> {
+    Batch::new(question, question.robot.ortho_parallel().unwrap(), backend)
 }
 
 /// Random postures of `robot`.
@@ -125,13 +130,13 @@ fn worst_difference<T: Precision>(
     let soa = poses_of::<T>(postures);
     let mut worst: f64 = 0.0;
     ask(robot, &cases(5), BranchChoice::Best, |question| {
-        let mut batch = Batch::<T>::new(question, backend);
+        let mut batch = batch::<T>(question, backend);
         let mut out: [Envelopes<T>; 4] = Default::default();
         batch.envelopes_of_all(&soa.poses(), &mut out);
         for (i, posture) in postures.iter().enumerate() {
             let branch = Branch::ALL
                 .iter()
-                .position(|b| Some(*b) == posture.branch)
+                .position(|b| Some(*b) == posture.name.branch())
                 .unwrap();
             let ours = &out[branch / 2];
             let flags = ours.flags(i);
@@ -199,7 +204,7 @@ fn joint_limits_by_cosines_agree_with_joint_positions() {
         let found = some(&robot, 20_000);
         let soa = poses_of::<f64>(&found);
         ask(&robot, &cases(1), BranchChoice::Best, |question| {
-            let mut batch = Batch::<f64>::new(question, Backend::fastest());
+            let mut batch = batch::<f64>(question, Backend::fastest());
             let mut out: [Envelopes<f64>; 4] = Default::default();
             batch.envelopes_of_all(&soa.poses(), &mut out);
             let mut outside = 0;
@@ -207,9 +212,13 @@ fn joint_limits_by_cosines_agree_with_joint_positions() {
                 let tool = ToolAt {
                     flange_from_tool: question.flange_from_tool,
                     near: None,
+                    home: None,
                 };
-                for all in postures(&robot, question.arm, &posture.base_from_tool, tool).unwrap() {
-                    let branch = Branch::ALL.iter().position(|b| Some(*b) == all.branch).unwrap();
+                for all in postures(&robot, &posture.base_from_tool, tool).unwrap() {
+                    let branch = Branch::ALL
+                        .iter()
+                        .position(|b| Some(*b) == all.name.branch())
+                        .unwrap();
                     let flags = out[branch / 2].flags(i);
                     let bit = [flag::OUTSIDE_LIMITS, flag::OUTSIDE_LIMITS_FLIPPED][branch % 2];
                     let margin = robot.limit_margin(&all.joints).unwrap().1;
@@ -235,13 +244,13 @@ fn compliances_agree_with_the_sum_over_screws() {
         let found = some(&robot, 5_000);
         let soa = poses_of::<f64>(&found);
         ask(&robot, &cases(1), BranchChoice::Best, |question| {
-            let mut batch = Batch::<f64>::new(question, Backend::fastest());
+            let mut batch = batch::<f64>(question, Backend::fastest());
             for branch in Branch::ALL {
                 let mut out = Arrays::default();
                 batch.compliances(&soa.poses(), branch, &mut out);
                 for (i, posture) in found.iter().enumerate() {
                     let flags = out.array(21)[i] as u32;
-                    if posture.branch != Some(branch) || flags & NEAR_SINGULAR != 0 {
+                    if posture.name.branch() != Some(branch) || flags & NEAR_SINGULAR != 0 {
                         continue;
                     }
                     let c = compliance_at_tool(&posture.screws, question.compliance);
@@ -267,16 +276,17 @@ fn joint_positions_of_all_branches_agree_with_the_closed_form() {
         let soa = poses_of::<f64>(&found);
         ask(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut out = Arrays::default();
-            Batch::<f64>::new(question, Backend::fastest()).joints(&soa.poses(), &mut out);
+            batch::<f64>(question, Backend::fastest()).joints(&soa.poses(), &mut out);
             for (i, posture) in found.iter().enumerate() {
                 let tool = ToolAt {
                     flange_from_tool: question.flange_from_tool,
                     near: None,
+                    home: None,
                 };
-                let all = postures(&robot, question.arm, &posture.base_from_tool, tool).unwrap();
+                let all = postures(&robot, &posture.base_from_tool, tool).unwrap();
                 for (index, branch) in Branch::ALL.into_iter().enumerate() {
                     let flags = out.array(48 + index)[i] as u32;
-                    let Some(witness) = all.iter().find(|p| p.branch == Some(branch)) else {
+                    let Some(witness) = all.iter().find(|p| p.name.branch() == Some(branch)) else {
                         assert_ne!(flags & flag::UNREACHABLE, 0);
                         continue;
                     };
@@ -308,7 +318,7 @@ fn forward_agrees_with_the_chain() {
         ask(&robot, &cases(1), BranchChoice::Best, |question| {
             let mut out = Arrays::default();
             let planes: [&[f64]; 6] = std::array::from_fn(|k| &joints[k][..]);
-            Batch::<f64>::new(question, Backend::fastest()).forward(&planes, &mut out);
+            batch::<f64>(question, Backend::fastest()).forward(&planes, &mut out);
             for (i, posture) in found.iter().enumerate() {
                 for k in 0..12 {
                     assert!((out.array(k)[i] - soa.0[k][i]).abs() < 1e-13, "{}", robot.name());
@@ -335,7 +345,7 @@ fn everything<T: Precision>(
     backend: Backend,
 ) -> Vec<f64> {
     let cut = Soa(std::array::from_fn(|k| soa.0[k][..count].to_vec()));
-    let mut batch = Batch::<T>::new(question, backend);
+    let mut batch = batch::<T>(question, backend);
     let mut all = Vec::new();
     let mut envelopes: [Envelopes<T>; 4] = Default::default();
     batch.envelopes_of_all(&cut.poses(), &mut envelopes);
@@ -404,7 +414,7 @@ fn any_number_of_points_gives_the_bits_of_each_alone() {
     let robot = arms::tx2_90();
     let soa = poses_of::<f64>(&some(&robot, 400));
     ask(&robot, &cases(3), BranchChoice::Best, |question| {
-        let mut batch = Batch::<f64>::new(question, Backend::fastest());
+        let mut batch = batch::<f64>(question, Backend::fastest());
         let mut whole = Envelopes::default();
         batch.envelopes(&soa.poses(), Branch::ALL[0], &mut whole);
         for count in [0, 1, 2, 79, 80, 81, 160, 161, 399] {
@@ -429,7 +439,7 @@ fn still_poses_give_what_free_poses_give() {
             base_from_tool: poses[0].rotation.to_rotation_matrix(),
             at: std::array::from_fn(|k| &soa.0[9 + k][..]),
         };
-        let mut batch = Batch::<f64>::new(question, Backend::fastest());
+        let mut batch = batch::<f64>(question, Backend::fastest());
         let mut out: [Envelopes<f64>; 2] = Default::default();
         batch.envelopes(&soa.poses(), Branch::ALL[0], &mut out[0]);
         batch.envelopes(&still, Branch::ALL[0], &mut out[1]);
@@ -453,7 +463,7 @@ fn whole_answers_agree_with_predict_and_add_up() {
                 let mut checked = 0;
                 for (i, held) in answers.held().filter(|(_, held)| held.singularity.is_none()) {
                     let posture = posture_at(&robot, answers.joints_at(i), question.flange_from_tool);
-                    assert_eq!(posture.branch, Some(held.branch));
+                    assert_eq!(posture.name, held.name);
                     let moved = posture.base_from_tool.translation.vector
                         - found[i].base_from_tool.translation.vector;
                     assert!(moved.norm() < 1e-12, "{moved:?}");
@@ -504,7 +514,7 @@ fn a_pose_that_lanes_cannot_decide_is_finite_and_flagged() {
         BranchChoice::Of("front elbow-up".parse().unwrap()),
         |question| {
             let mut out = Envelopes::default();
-            Batch::<f64>::new(question, Backend::fastest()).envelopes(&soa.poses(), Branch::ALL[0], &mut out);
+            batch::<f64>(question, Backend::fastest()).envelopes(&soa.poses(), Branch::ALL[0], &mut out);
             assert!(out.in_plane().iter().all(|x| x.is_finite()), "{out:?}");
             assert_ne!(out.flags(0) & flag::WRIST_UNDECIDED, 0);
             assert_ne!(out.flags(1) & flag::TOO_FAR, 0);

@@ -34,11 +34,11 @@ fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
         robot,
-        arm: robot.ortho_parallel().unwrap(),
         compliance: robot.compliance().unwrap(),
         model: StiffnessModel::DRIVES,
         doubt: Doubt::NONE,
         flange_from_tool: &tool,
+        home: None,
         cases: &cases,
         normal: plane.normal(),
         choice,
@@ -72,7 +72,7 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
         let map_of = |compliance: &[JointCompliance]| {
             let question = Question {
                 robot: &robot,
-                arm: robot.ortho_parallel().unwrap(),
+                home: None,
                 compliance,
                 model: StiffnessModel::DRIVES,
                 doubt: Doubt::NONE,
@@ -146,7 +146,7 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
         .map(|doubt| {
             let question = Question {
                 robot: &robot,
-                arm: robot.ortho_parallel().unwrap(),
+                home: None,
                 compliance: &compliance,
                 model: StiffnessModel::DRIVES,
                 flange_from_tool: &tool,
@@ -253,8 +253,9 @@ fn best_is_the_least_of_all_branches_inside_limits() {
         let tool_at = ToolAt {
             flange_from_tool: &tool,
             near: None,
+            home: None,
         };
-        let found = postures(&robot, robot.ortho_parallel().unwrap(), &pose, tool_at).unwrap_or_default();
+        let found = postures(&robot, &pose, tool_at).unwrap_or_default();
         let inside = found
             .iter()
             .filter(|p| robot.limit_margin(&p.joints).unwrap().1 >= -1e-9);

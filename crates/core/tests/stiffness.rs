@@ -611,7 +611,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
     ] {
         let question = Question {
             robot: &robot,
-            arm: robot.ortho_parallel().unwrap(),
+            home: None,
             compliance: robot.compliance().unwrap(),
             model: &model,
             doubt: Doubt::NONE,
@@ -674,7 +674,7 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
     let cases = [Wrench::from_force(Vector3::new(0.0, 0.0, -1e6))];
     let question = Question {
         robot: &robot,
-        arm: robot.ortho_parallel().unwrap(),
+        home: None,
         compliance: robot.compliance().unwrap(),
         model: &model,
         doubt: Doubt::NONE,

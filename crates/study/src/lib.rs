@@ -32,6 +32,9 @@ use armill_core::robot::{BranchPattern, Robot};
 /// Name of the frame on the robot's floor plane, which every robot has.
 pub const BASE_LINK: &str = "base_link";
 
+/// Joints that hold a tool at any pose.
+pub const ENOUGH_JOINTS: usize = 6;
+
 /// The frame `name` that coordinates count from, in base.
 ///
 /// # Errors
@@ -59,6 +62,24 @@ pub fn branch_choice(words: &str, nominal: BranchPattern) -> Result<BranchChoice
             let pattern: BranchPattern = words.parse().map_err(|error| format!("{error}"))?;
             Ok(BranchChoice::Of(pattern.or(nominal)))
         }
+    }
+}
+
+/// [`branch_choice`] of `robot`; where its branches have no names, only `nominal` and `best` say something.
+///
+/// # Errors
+/// The word that names no branch; any word where none has a name.
+pub fn branch_choice_of(robot: &Robot, words: &str) -> Result<BranchChoice, String> {
+    if robot.inverse().has_branches() {
+        return branch_choice(words, robot.nominal_branch());
+    }
+    match branch_choice(words, BranchPattern::default())? {
+        BranchChoice::Of(pattern) if pattern != BranchPattern::default() => Err(format!(
+            "`{}`: the branches of robot `{}` have no names",
+            words.trim(),
+            robot.name()
+        )),
+        choice => Ok(choice),
     }
 }
 

@@ -36,6 +36,9 @@ pub struct PoseQuestion {
     pub base: String,
     /// What to say of compliances that are assumed, if they are.
     pub caution: Option<String>,
+    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; without, the middle of their
+    /// ranges.
+    pub home_deg: Option<Vec<f64>>,
 }
 
 /// Joints, or where the tool should be.
@@ -82,8 +85,8 @@ pub struct PoseAnswer {
 /// One posture.
 #[derive(Clone, Debug, Serialize)]
 pub struct PostureAnswer {
-    /// Its name; none for chains without named branches.
-    pub branch: Option<String>,
+    /// Its name: words of a branch; without named branches the side of the middle on which each joint stands.
+    pub branch: String,
     /// Joint positions (mm for sliding joints), in the robot file's own signs and zeros.
     pub joints_deg: Vec<f64>,
     /// Whether every joint stands inside its limits.
@@ -152,8 +155,10 @@ pub struct StiffnessAnswer {
 pub struct UnreachableAnswer {
     /// One word.
     pub reason: String,
-    /// By how much the wrist centre misses.
+    /// By how much the wrist centre misses; of a search the tool.
     pub amount_mm: f64,
+    /// By what angle the tool of a search misses.
+    pub amount_deg: Option<f64>,
     /// In words.
     pub message: String,
 }
@@ -164,7 +169,7 @@ const WEIGHING_LENGTH: f64 = 1.0;
 /// The answer for one pose of one robot.
 ///
 /// # Errors
-/// A wrong number of joints, an unknown frame, a pose asked of a chain without closed-form inverse.
+/// A wrong number of joints, an unknown frame.
 pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
     let robot = &described.robot;
     let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
@@ -181,16 +186,15 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
-            let arm = robot.ortho_parallel().ok_or_else(|| {
-                let message = format!("robot `{}` has no closed-form inverse", robot.name());
-                StudyError::value(message, "give its joints with --joints-deg")
-            })?;
+            let home = question.home_deg.as_deref();
+            let home = home.map(|home| joint_positions(described, home)).transpose()?;
             let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
             let tool = ToolAt {
                 flange_from_tool: &question.flange_from_tool,
                 near: None,
+                home: home.as_deref(),
             };
-            match postures(robot, arm, &(base_from_counted * counted_from_tool), tool) {
+            match postures(robot, &(base_from_counted * counted_from_tool), tool) {
                 Ok(found) => found,
                 Err(miss) => {
                     unreachable = Some(unreachable_answer(miss));
@@ -281,7 +285,11 @@ fn yielding(standing: &mut Standing<'_>, posture: &Posture, wrench: Option<Wrenc
     found
 }
 
-fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
+/// Joint positions in rad (m) from those given in deg (mm).
+///
+/// # Errors
+/// Not one a joint.
+pub(crate) fn joint_positions(described: &RobotDescription, given: &[f64]) -> Result<Vec<f64>, StudyError> {
     let robot = &described.robot;
     let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     if given.len() != names.len() {
@@ -332,7 +340,7 @@ fn posture_answer(
     let rotation = counted_from_tool.rotation.quaternion();
     let um = |v: Vector3<f64>| [v.x * 1e6, v.y * 1e6, v.z * 1e6];
     PostureAnswer {
-        branch: posture.branch.map(|branch| branch.to_string()),
+        branch: posture.name.to_string(),
         joints_deg: posture
             .joints
             .iter()
@@ -382,21 +390,19 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
 }
 
 fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
-    let (Unreachable::TooFar { by }
-    | Unreachable::TooNear { by }
-    | Unreachable::InsideLateralOffset { by }
-    | Unreachable::Unverified { by }
-    | Unreachable::OutsideLimits { by, .. }) = miss
-    else {
-        return UnreachableAnswer {
-            reason: miss.reason().to_owned(),
-            amount_mm: 0.0,
-            message: miss.to_string(),
-        };
+    let turned = match miss {
+        Unreachable::NotFound { turned, .. } => Some(turned.to_degrees()),
+        _ => None,
     };
     UnreachableAnswer {
         reason: miss.reason().to_owned(),
-        amount_mm: by * 1e3,
+        // Nothing is missed where the arm does not hold itself.
+        amount_mm: if miss.amount().is_finite() {
+            miss.amount() * 1e3
+        } else {
+            0.0
+        },
+        amount_deg: turned,
         message: miss.to_string(),
     }
 }

@@ -2,7 +2,6 @@
 
 use armill_core::kernel::Question;
 use armill_core::map::{PathAnswer, PlaneMap, VolumeMap, along_path, plane_map, volume_map};
-use armill_core::robot::inverse::OrthoParallel;
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::watch::Watch;
 
@@ -36,23 +35,16 @@ pub fn point_count(study: &Study) -> usize {
 /// The answers to all asks of the study, in its order, on the threads of the current rayon pool.
 ///
 /// # Errors
-/// Cancelled by the watch; a robot without compliance or closed-form inverse.
+/// Cancelled by the watch; a robot without compliance.
 pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
     let robot = &study.robot.robot;
-    let missing = |what: &str| {
-        StudyError::value(
-            format!("robot `{}` has no {what}", robot.name()),
-            "see `armill check`",
-        )
-    };
-    let compliance = robot.compliance().ok_or_else(|| missing("joint compliance"))?;
-    let arm = robot
-        .ortho_parallel()
-        .ok_or_else(|| missing("closed-form inverse"))?;
+    let compliance = robot.compliance().ok_or_else(|| {
+        let message = format!("robot `{}` has no joint compliance", robot.name());
+        StudyError::value(message, "see `armill check`")
+    })?;
     let runner = Runner {
         robot,
         compliance,
-        arm,
         watch,
     };
     study.asks.iter().map(|ask| runner.find(ask)).collect()
@@ -61,7 +53,6 @@ pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
 struct Runner<'a> {
     robot: &'a Robot,
     compliance: &'a [JointCompliance],
-    arm: &'a OrthoParallel,
     watch: Watch<'a>,
 }
 
@@ -99,10 +90,10 @@ impl Runner<'_> {
     fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
         Question {
             robot: self.robot,
-            arm: self.arm,
             compliance: self.compliance,
             model: &setting.model,
             flange_from_tool: &setting.flange_from_tool,
+            home: setting.home.as_deref(),
             cases: &setting.cases,
             doubt: setting.doubt,
             normal: setting.plane.normal(),

@@ -51,7 +51,8 @@ fn map<'a>(answer: &'a StudyAnswer, name: &str) -> &'a MapAnswer {
 
 fn points(map: &MapAnswer) -> usize {
     let c = map.counts;
-    c.within + c.over_limit + c.out_of_reach + c.no_posture_inside_limits + c.unverified + c.unstable
+    let missed = c.out_of_reach + c.no_posture_inside_limits + c.not_found;
+    c.within + c.over_limit + missed + c.unverified + c.unstable
 }
 
 #[test]
@@ -205,8 +206,8 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
             volume.answers.points[same.unwrap()].unwrap(),
         );
         assert_eq!(
-            (in_map.branch, in_map.deciding_case),
-            (in_volume.branch, in_volume.deciding_case)
+            (in_map.name, in_map.deciding_case),
+            (in_volume.name, in_volume.deciding_case)
         );
         assert!((in_map.in_plane - in_volume.in_plane).abs() < SAME, "{tcp}");
         assert!(

@@ -204,7 +204,12 @@ fn outcome(text: &[u8]) -> Result<(), TestCaseError> {
     prop_assert!(serde_json::from_str::<serde_json::Value>(&json).is_ok());
     for map in &answer.maps {
         let c = map.counts;
-        let points = c.within + c.over_limit + c.out_of_reach + c.no_posture_inside_limits + c.unverified;
+        let points = c.within
+            + c.over_limit
+            + c.out_of_reach
+            + c.no_posture_inside_limits
+            + c.not_found
+            + c.unverified;
         prop_assert_eq!(points, map.grid.points, "{}\n{}", map.name, shown);
         prop_assert!(
             map.max_in_plane_um.is_none_or(f64::is_finite),

@@ -3,7 +3,7 @@
 use armill_core::robot::forward::forward;
 use armill_core::robot::{Robot, reach};
 use armill_formats::file::{create_folder, write_atomically};
-use armill_study::{ComplianceClass, StudyError, library, robots};
+use armill_study::{ComplianceClass, ENOUGH_JOINTS, StudyError, library, robots};
 
 use crate::Outcome;
 use crate::arguments::NewArguments;
@@ -25,9 +25,10 @@ const SHOULDER_OF_TEMPLATE: f64 = 450.0;
 
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    if found.robot.ortho_parallel().is_none() {
+    let joints = found.robot.joints().len();
+    if joints < ENOUGH_JOINTS {
         let message = format!(
-            "robot `{}` has no closed-form inverse: no study of it would run",
+            "robot `{}` has {joints} joints: no study of it would run",
             arguments.robot
         );
         return Err(StudyError::value(

@@ -58,7 +58,9 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         reference_joints_deg: reference(arguments)?,
         base: arguments.base.clone(),
         caution,
+        home_deg: arguments.home_deg.clone(),
     };
+    finite("--home-deg", question.home_deg.as_deref().unwrap_or_default())?;
     let answer = answer(&found, &question)?;
     if let Some(file) = &arguments.drawing {
         let drawing = posture_drawing(&found.robot, &question.flange_from_tool, &answer);
@@ -182,7 +184,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
         .zip(&posture.joints_deg)
         .map(|(name, q)| format!("{name} {:.3}", without_minus_zero(*q)));
     let joints = joints.collect::<Vec<_>>().join("  ");
-    let mut lines = vec![posture.branch.clone().unwrap_or_else(|| "posture".to_owned())];
+    let mut lines = vec![posture.branch.clone()];
     let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
         (Some(joint), Some(margin)) if posture.within_limits => {
             format!("inside limits, {joint} nearest, by {margin:.1} deg")

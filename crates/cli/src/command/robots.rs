@@ -122,13 +122,10 @@ fn as_text(found: &RobotDescription) -> String {
     }
     lines.extend(super::structure::as_text(robot));
     lines.push(String::new());
-    lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
-    let inverse = if robot.ortho_parallel().is_some() {
-        "closed form, up to 8 postures"
-    } else {
-        "none: forward only"
-    };
-    lines.push(format!("Inverse kinematics: {inverse}"));
+    if robot.inverse().has_branches() {
+        lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
+    }
+    lines.push(format!("Inverse kinematics: {}", robot.inverse()));
     lines.extend(reach(robot).map(|m| format!("Reach of the wrist centre from axis 1: {:.0} mm", m * 1e3)));
     lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
     for frame in robot.frames() {
@@ -189,7 +186,7 @@ fn as_json(found: &RobotDescription) -> Value {
         "joints": joints,
         "structure": super::structure::as_json(robot),
         "nominal_branch": robot.nominal_branch().to_string(),
-        "closed_form_inverse": robot.ortho_parallel().is_some(),
+        "inverse": robot.inverse().kind(),
         "frames": robot.frames().iter().map(|f| json!({
             "name": f.name,
             "origin_mm": (f.base_from_frame.translation.vector * 1e3).as_slice(),

@@ -82,7 +82,7 @@ pub const MH12_URDF: &str = r#"<?xml version="1.0"?>
 /// Compliances of the library's MH12, as a flag.
 pub const MH12_COMPLIANCE: &str = "2.1e-6,2.5e-6,4.0e-5,6.0e-5,6.0e-5,8.0e-5";
 
-/// A lever: one joint that turns, one that slides; no closed-form inverse.
+/// A lever: one joint that turns, one that slides.
 pub const LEVER: &str = r#"format = 1
 name = "lever"
 [chain]

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::question::Question;
-use crate::robot::{Branch, Singularity, Unreachable};
+use crate::robot::{PostureName, Singularity, Unreachable};
 
 /// How far (rad) outside a limit still counts as at it: rounding of a joint that stands at its limit.
 pub const AT_LIMIT: f64 = 1e-9;
@@ -15,7 +15,7 @@ const SAME: f64 = 1e-10;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Held {
     /// In this posture.
-    pub branch: Branch,
+    pub name: PostureName,
     /// Least distance of a joint to its limit, negative outside; infinite where no joint has limits.
     pub limit_margin: f64,
     /// Which joint that is.

@@ -1,6 +1,7 @@
 //! One point after the other: the plain physics of `predict.rs` with scratch that is reused.
 //!
-//! Lanes hand over to it where they cannot decide: no posture, and why; joints 4 and 6 in line.
+//! Any arm goes through it but ortho-parallel ones, whose lanes hand over where they cannot decide: no posture, and
+//! why; joints 4 and 6 in line.
 
 use nalgebra::Vector3;
 
@@ -8,8 +9,8 @@ use super::answer::Held;
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::{Solution, holds};
-use crate::robot::{Branch, Seat, Unreachable};
+use crate::robot::inverse::{Finder, Found, Wanted};
+use crate::robot::{PostureName, Seat, Unreachable};
 use crate::source::Standing;
 use crate::source::standing::Loaded;
 use crate::workpiece::Split;
@@ -17,11 +18,14 @@ use crate::workpiece::Split;
 /// Room for one point, reused from point to point.
 pub(super) struct General<'q> {
     tool_from_flange: Isometry,
+    finder: Finder<'q>,
+    /// What may stand for the point: postures, the roomier of two flips that are alike.
+    candidates: Vec<Found>,
     frames: Frames,
     standing: Standing<'q>,
     /// Whom shares are told for.
     sharers: Vec<Seat>,
-    joints: [f64; 6],
+    joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
     /// The same three for the best posture so far.
@@ -34,9 +38,11 @@ impl<'q> General<'q> {
         let sharers = question.model.sharers(joints);
         General {
             tool_from_flange: question.flange_from_tool.inverse(),
+            finder: Finder::new(question.robot),
+            candidates: Vec::new(),
             frames: Frames::for_robot(question.robot),
             standing: Standing::new(question.held_by()),
-            joints: [0.0; 6],
+            joints: vec![0.0; joints],
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; sharers.len()],
             kept: (
@@ -48,6 +54,11 @@ impl<'q> General<'q> {
         }
     }
 
+    /// Starts anew: what comes does not follow on what was.
+    pub(super) fn forget(&mut self) {
+        self.finder.forget();
+    }
+
     /// The answer at one pose; what [`General::write`] gives afterwards belongs to it.
     pub(super) fn answer(
         &mut self,
@@ -55,17 +66,30 @@ impl<'q> General<'q> {
         base_from_tool: &Isometry,
         near: Option<&[f64]>,
     ) -> Result<Held, Unreachable> {
-        let base_from_flange = base_from_tool * self.tool_from_flange;
+        let wanted = Wanted {
+            base_from_flange: base_from_tool * self.tool_from_flange,
+            near,
+            home: question.home,
+        };
         match question.choice {
             BranchChoice::Of(pattern) => {
-                let candidates = Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch));
-                let roomiest = self.roomiest(question, &base_from_flange, candidates, near)?;
-                let held = self.judge(question, &base_from_flange, base_from_tool, &roomiest)?;
-                self.keep();
-                Ok(held)
+                let found = self.finder.matching(&wanted, pattern)?;
+                self.candidates.clear();
+                self.candidates.extend(roomiest(question, found).cloned());
             }
-            BranchChoice::Best => self.best(question, &base_from_flange, base_from_tool, near),
+            BranchChoice::Best => {
+                let found = self.finder.all(&wanted)?;
+                self.candidates.clear();
+                if question.model.is_drives_alone() && question.robot.inverse().flips_are_alike() {
+                    let pairs = found.chunk_by(|a, b| differ_in_flip(a.name, b.name));
+                    self.candidates
+                        .extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
+                } else {
+                    self.candidates.extend_from_slice(found);
+                }
+            }
         }
+        self.least(question, base_from_tool)
     }
 
     /// Copies joint positions, deviations and shares of the last answer.
@@ -81,86 +105,55 @@ impl<'q> General<'q> {
         self.kept.2.copy_from_slice(&self.shares);
     }
 
-    /// The candidate with the most room to its joint limits.
-    fn roomiest(
-        &self,
-        question: &Question<'_>,
-        base_from_flange: &Isometry,
-        candidates: impl Iterator<Item = Branch>,
-        near: Option<&[f64]>,
-    ) -> Result<Solution, Unreachable> {
-        let mut roomiest: Option<(f64, Solution)> = None;
-        let mut miss = Unreachable::TooFar { by: f64::INFINITY };
-        for branch in candidates {
-            match question.arm.solve(question.robot, base_from_flange, branch, near) {
-                Ok(solution) => {
-                    let room = limit_margin(question, &solution.joints).1;
-                    if roomiest.as_ref().is_none_or(|(most, _)| room > *most) {
-                        roomiest = Some((room, solution));
-                    }
-                }
-                Err(reason) => miss = reason,
-            }
-        }
-        roomiest.map(|(_, solution)| solution).ok_or(miss)
-    }
-
-    /// The posture inside limits with the least envelope.
-    fn best(
-        &mut self,
-        question: &Question<'_>,
-        base_from_flange: &Isometry,
-        base_from_tool: &Isometry,
-        near: Option<&[f64]>,
-    ) -> Result<Held, Unreachable> {
+    /// Of the candidates the one with the least envelope; inside limits, where the question chooses by it.
+    fn least(&mut self, question: &Question<'_>, base_from_tool: &Isometry) -> Result<Held, Unreachable> {
         let mut best: Option<Held> = None;
         let mut miss: Option<Unreachable> = None;
-        // The flip leaves the deviation by drive springs unchanged: of the two the one with more room stands for both.
-        let alike = if question.model.is_drives_alone() { 2 } else { 1 };
-        for pair in Branch::ALL.chunks(alike) {
-            match self.roomiest(question, base_from_flange, pair.iter().copied(), near) {
-                Err(reason) => miss = miss.or(Some(reason)),
-                Ok(solution) => {
-                    let held = self.judge(question, base_from_flange, base_from_tool, &solution)?;
-                    if !held.within_limits() {
-                        let by = -held.limit_margin;
-                        let outside = Unreachable::OutsideLimits {
-                            joint: held.limit_joint,
-                            by,
-                        };
-                        miss = match miss {
-                            Some(Unreachable::OutsideLimits { by: less, .. }) if less <= by => miss,
-                            _ => Some(outside),
-                        };
-                    } else if best.is_none_or(|b| held.in_plane < b.in_plane) {
+        let candidates = std::mem::take(&mut self.candidates);
+        for found in &candidates {
+            let judged = self.judge(question, base_from_tool, found);
+            let outside = |held: &Held| question.choice == BranchChoice::Best && !held.within_limits();
+            let missed = match judged {
+                Err(reason) => Some(reason),
+                Ok(held) if outside(&held) => Some(Unreachable::OutsideLimits {
+                    joint: held.limit_joint,
+                    by: -held.limit_margin,
+                }),
+                Ok(held) => {
+                    if best.is_none_or(|b| held.in_plane < b.in_plane) {
                         best = Some(held);
                         self.keep();
                     }
+                    None
+                }
+            };
+            if let Some(missed) = missed {
+                if miss.is_none_or(|miss| missed.amount() < miss.amount()) {
+                    miss = Some(missed);
                 }
             }
         }
+        self.candidates = candidates;
         best.ok_or(miss.unwrap_or(Unreachable::TooFar { by: f64::INFINITY }))
     }
 
-    /// Verifies a solution by forward kinematics and works out its deviations.
+    /// Works out the deviations of a posture.
     fn judge(
         &mut self,
         question: &Question<'_>,
-        base_from_flange: &Isometry,
         base_from_tool: &Isometry,
-        solution: &Solution,
+        found: &Found,
     ) -> Result<Held, Unreachable> {
-        self.joints = solution.joints;
-        forward_into(question.robot, &solution.joints, &mut self.frames);
-        holds(&self.frames, base_from_flange)?;
+        self.joints.copy_from_slice(&found.joints);
+        forward_into(question.robot, &found.joints, &mut self.frames);
         let tcp = base_from_tool.translation.vector.into();
-        self.standing.stand_in(&solution.joints, &self.frames, &tcp);
-        let (limit_joint, limit_margin) = limit_margin(question, &solution.joints);
+        self.standing.stand_in(&found.joints, &self.frames, &tcp);
+        let (limit_joint, limit_margin) = limit_margin(question, &found.joints);
         let mut held = Held {
-            branch: solution.branch,
+            name: found.name,
             limit_margin,
             limit_joint,
-            singularity: solution.singularity,
+            singularity: found.singularity,
             deciding_case: 0,
             in_plane: -1.0,
             in_plane_uncertainty: 0.0,
@@ -217,6 +210,29 @@ impl<'q> General<'q> {
         }
         Ok(variance.sqrt())
     }
+}
+
+/// The posture with the most room of its turning joints to their limits, the first of equal ones: a rail stands still
+/// whatever the posture.
+fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found> {
+    let mut roomiest: Option<(f64, &Found)> = None;
+    for one in found {
+        let robot = question.robot;
+        let room = (0..one.joints.len())
+            .filter(|joint| !robot.slides(*joint))
+            .filter_map(|joint| Some(robot.joints()[joint].limits?.margin(one.joints[joint])))
+            .fold(f64::INFINITY, f64::min);
+        if roomiest.is_none_or(|(most, _)| room > most) {
+            roomiest = Some((room, one));
+        }
+    }
+    roomiest.map(|(_, one)| one)
+}
+
+/// Whether two branches are the flip of each other.
+fn differ_in_flip(a: PostureName, b: PostureName) -> bool {
+    let without_flip = |name: PostureName| name.branch().map(|branch| (branch.shoulder, branch.elbow));
+    without_flip(a) == without_flip(b)
 }
 
 /// The joint nearest to (or farthest outside) its limits, and its margin; infinite without limits.

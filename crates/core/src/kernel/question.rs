@@ -4,7 +4,6 @@ use nalgebra::{Unit, Vector3};
 
 use crate::frame::Isometry;
 use crate::load::Doubt;
-use crate::robot::inverse::OrthoParallel;
 use crate::robot::joint::JointCompliance;
 use crate::robot::{BranchPattern, Robot};
 use crate::source::{Arm, StiffnessModel};
@@ -13,9 +12,11 @@ use crate::spatial::Wrench;
 /// Which posture stands for a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BranchChoice {
-    /// Of the branches that match, the one with the most room to its joint limits, inside them or not.
+    /// Of the branches that match, the one with the most room to its joint limits, inside them or not. Of an arm whose
+    /// branches have no names the posture that continues the one of the point before (of a map, in the same block of
+    /// points), or the one nearest to home.
     Of(BranchPattern),
-    /// Of all branches inside the joint limits, the one with the least envelope of in-plane deviation.
+    /// Of all postures inside the joint limits, the one with the least envelope of in-plane deviation.
     Best,
 }
 
@@ -24,14 +25,14 @@ pub enum BranchChoice {
 pub struct Question<'a> {
     /// The robot.
     pub robot: &'a Robot,
-    /// Its closed-form inverse.
-    pub arm: &'a OrthoParallel,
     /// Compliance of each of its joints.
     pub compliance: &'a [JointCompliance],
     /// What else yields and weighs; [`StiffnessModel::DRIVES`] for nothing. Lanes answer for drives alone.
     pub model: &'a StiffnessModel,
     /// Flange to tool centre point.
     pub flange_from_tool: &'a Isometry,
+    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges.
+    pub home: Option<&'a [f64]>,
     /// Load cases on the tool at the TCP, base basis; at least one.
     pub cases: &'a [Wrench],
     /// How sure load and tool are; lanes answer where there is no doubt.

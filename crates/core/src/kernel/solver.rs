@@ -1,4 +1,6 @@
-//! One block of points: through lanes, and where those cannot decide one after the other.
+//! One block of points: through lanes, and where there are none or they cannot decide one after the other.
+//!
+//! A block knows nothing of the blocks beside it, but along a path: whatever thread takes it, it gives the same bits.
 
 use nalgebra::Vector3;
 
@@ -24,7 +26,7 @@ pub(super) struct Slots<'a> {
 /// Room to answer a question, one a thread.
 pub(super) struct Solver<'q> {
     question: &'q Question<'q>,
-    /// For drive springs alone.
+    /// For ortho-parallel arms that yield at their drives alone.
     lanes: Option<Points<'q>>,
     general: General<'q>,
     poses: Vec<Isometry>,
@@ -38,7 +40,7 @@ pub(super) struct Solver<'q> {
 pub(super) enum Order {
     /// Each stands for itself.
     Any,
-    /// Each starts where the one before left joint 4.
+    /// Each starts where the one before left the arm.
     AlongPath,
 }
 
@@ -48,7 +50,9 @@ impl<'q> Solver<'q> {
             question,
             order,
             lanes: (question.model.is_drives_alone() && question.doubt.is_none())
-                .then(|| Points::new(question)),
+                .then(|| question.robot.ortho_parallel())
+                .flatten()
+                .map(|arm| Points::new(question, arm)),
             general: General::new(question),
             poses: Vec::with_capacity(BLOCK),
             before: None,
@@ -73,6 +77,9 @@ impl<'q> Solver<'q> {
         if let Some(lanes) = &mut self.lanes {
             lanes.solve(&self.poses);
         }
+        if self.order == Order::Any {
+            self.general.forget();
+        }
         let rows = slots
             .points
             .iter_mut()
@@ -80,11 +87,11 @@ impl<'q> Solver<'q> {
             .zip(slots.deviations.chunks_mut(case_count))
             .zip(slots.shares.chunks_mut(share_count));
         for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
-            let by_lanes = self
+            let in_lanes = self
                 .lanes
                 .as_ref()
                 .and_then(|lanes| Some((lanes, lanes.held(i)?)));
-            *point = match by_lanes {
+            *point = match in_lanes {
                 Some((lanes, held)) => {
                     lanes.write(i, joints, deviations, shares);
                     Ok(held)

@@ -79,11 +79,11 @@ impl PlaneMap {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Branch;
+    use crate::robot::{Branch, PostureName};
 
     fn held(in_plane: f64, in_plane_uncertainty: f64) -> Held {
         Held {
-            branch: Branch::ALL[0],
+            name: PostureName::Branch(Branch::ALL[0]),
             limit_margin: f64::INFINITY,
             limit_joint: 0,
             singularity: None,

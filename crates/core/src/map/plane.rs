@@ -32,6 +32,8 @@ pub struct Counts {
     pub out_of_reach: usize,
     /// Postures reach, but none inside the joint limits (only where the best branch is asked for).
     pub no_posture_inside_limits: usize,
+    /// A search found no posture, which does not prove that there is none.
+    pub not_found: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
     /// A posture holds the point, but the arm finds no stable rest under the load.
@@ -59,6 +61,7 @@ impl Counts {
                     counts.near_singularity += usize::from(held.singularity.is_some());
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
+                Err(Unreachable::NotFound { .. }) => counts.not_found += 1,
                 Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
                 Err(Unreachable::Unstable { .. }) => counts.unstable += 1,
                 Err(
@@ -74,7 +77,8 @@ impl Counts {
     /// All points.
     pub fn points(&self) -> usize {
         let held = self.within + self.over_limit;
-        held + self.out_of_reach + self.no_posture_inside_limits + self.unverified + self.unstable
+        let missed = self.out_of_reach + self.no_posture_inside_limits + self.not_found;
+        held + missed + self.unverified + self.unstable
     }
 
     /// Points within the limit over all points; 0 where there is none.

@@ -236,6 +236,32 @@ impl Chain {
         &self.last_joint_from_flange
     }
 
+    /// Half the length (m) of all its fixed translations: what makes turns of this chain comparable with its
+    /// translations. 1 m where there are none.
+    pub fn length(&self) -> f64 {
+        let fixed = self
+            .links
+            .iter()
+            .map(|link| &link.before)
+            .chain([&self.last_joint_from_flange]);
+        let length = 0.5 * fixed.map(|fixed| fixed.translation.norm()).sum::<f64>();
+        if length > 1e-6 { length } else { 1.0 }
+    }
+
+    /// This chain parted before its joint `count`: the motions before, and the rest as a chain of its own; `None` where
+    /// no joint is left for it.
+    pub fn split(&self, count: usize) -> Option<(Vec<Motion>, Chain)> {
+        let joint = |motion: &Motion| matches!(motion.amount(), Amount::Joint(joint) if joint >= count);
+        let place = self.motions.iter().position(joint)?;
+        let moved = |motion: &Motion| match *motion {
+            Motion::Along(axis, Amount::Joint(joint)) => Motion::Along(axis, Amount::Joint(joint - count)),
+            Motion::About(axis, Amount::Joint(joint)) => Motion::About(axis, Amount::Joint(joint - count)),
+            constant => constant,
+        };
+        let rest = self.motions[place..].iter().map(moved).collect();
+        Some((self.motions[..place].to_vec(), Chain::new(rest).ok()?))
+    }
+
     /// `A(theta)`: from the base to the flange, straight from the product of elementary motions.
     ///
     /// `theta` are chain positions (m, rad), without sign, zero offset or coupling of the joints.

@@ -2,7 +2,7 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Vector3};
 
-use super::chain::Motion;
+use super::chain::{Chain, Motion};
 use super::model::Robot;
 
 /// Where every joint and the flange stand. Reused between calls of [`forward_into`] without allocation.
@@ -19,8 +19,13 @@ pub struct Frames {
 impl Frames {
     /// Room for the frames of `robot`.
     pub fn for_robot(robot: &Robot) -> Frames {
+        Frames::for_joints(robot.joints().len())
+    }
+
+    /// Room for the frames of a chain of so many joints.
+    pub(super) fn for_joints(count: usize) -> Frames {
         Frames {
-            base_from_joint: vec![IsometryMatrix3::identity(); robot.joints().len()],
+            base_from_joint: vec![IsometryMatrix3::identity(); count],
             base_from_flange: IsometryMatrix3::identity(),
         }
     }
@@ -43,11 +48,16 @@ pub fn forward(robot: &Robot, q: &[f64]) -> Frames {
 
 /// [`forward`] into frames that exist already.
 pub fn forward_into(robot: &Robot, q: &[f64], frames: &mut Frames) {
+    chain_forward_into(robot.chain(), |index| robot.theta(index, q), frames);
+}
+
+/// The frames of `chain`, with joint `index` at the chain position `theta(index)` (rad, m), into frames that exist
+/// already.
+pub(super) fn chain_forward_into(chain: &Chain, theta: impl Fn(usize) -> f64, frames: &mut Frames) {
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
-    let chain = robot.chain();
     for (index, (link, frame)) in chain.links().iter().zip(&mut frames.base_from_joint).enumerate() {
         link.before.advance(&mut axes, &mut origin);
-        link.motion.advance(robot.theta(index, q), &mut axes, &mut origin);
+        link.motion.advance(theta(index), &mut axes, &mut origin);
         *frame = isometry(axes, origin);
     }
     chain.last_joint_from_flange().advance(&mut axes, &mut origin);
@@ -60,7 +70,12 @@ fn isometry(axes: Matrix3<f64>, origin: Vector3<f64>) -> IsometryMatrix3<f64> {
 
 /// Unit axis of joint `index` in base.
 pub fn joint_axis(robot: &Robot, frames: &Frames, index: usize) -> Vector3<f64> {
-    let (Motion::Along(axis, _) | Motion::About(axis, _)) = robot.chain().links()[index].motion;
+    chain_axis(robot.chain(), frames, index)
+}
+
+/// [`joint_axis`] of a chain.
+pub(super) fn chain_axis(chain: &Chain, frames: &Frames, index: usize) -> Vector3<f64> {
+    let (Motion::Along(axis, _) | Motion::About(axis, _)) = chain.links()[index].motion;
     frames.base_from_joint[index]
         .rotation
         .matrix()

@@ -8,8 +8,8 @@
 
 use nalgebra::{DMatrix, Matrix6xX, Point3, Vector3};
 
-use super::chain::Motion;
-use super::forward::{Frames, joint_axis};
+use super::chain::{Chain, Motion};
+use super::forward::{Frames, chain_axis};
 use super::model::Robot;
 use crate::spatial::Twist;
 
@@ -22,9 +22,14 @@ pub fn screws_at(robot: &Robot, frames: &Frames, tcp: &Point3<f64>) -> Vec<Twist
 
 /// [`screws_at`] into screws that exist already, one a joint.
 pub fn screws_into(robot: &Robot, frames: &Frames, tcp: &Point3<f64>, screws: &mut [Twist]) {
+    chain_screws_into(robot.chain(), frames, tcp, screws);
+}
+
+/// [`screws_into`] of a chain.
+pub(super) fn chain_screws_into(chain: &Chain, frames: &Frames, tcp: &Point3<f64>, screws: &mut [Twist]) {
     for (index, screw) in screws.iter_mut().enumerate() {
-        let z = joint_axis(robot, frames, index);
-        *screw = match robot.chain().links()[index].motion {
+        let z = chain_axis(chain, frames, index);
+        *screw = match chain.links()[index].motion {
             Motion::About(..) => Twist {
                 linear: z.cross(&(tcp - frames.origin(index))),
                 angular: z,

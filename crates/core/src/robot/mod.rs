@@ -26,7 +26,7 @@ pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
-pub use posture::{Branch, BranchPattern, Posture, Singularity, Unreachable};
+pub use posture::{Branch, BranchPattern, Posture, PostureName, Sides, Singularity, Unreachable};
 pub use reach::reach;
 pub use spring::{Seat, Spring};
 pub use structure::{Structure, StructureError};

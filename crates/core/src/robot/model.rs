@@ -1,7 +1,7 @@
 //! The robot: chain, joints, compliance, frames. Immutable and shareable once made.
 
 use super::chain::{Amount, Chain, ChainError, Motion};
-use super::inverse::OrthoParallel;
+use super::inverse::{Inverse, OrthoParallel};
 use super::joint::{Joint, JointCompliance};
 use super::posture::BranchPattern;
 use super::structure::{Structure, StructureError};
@@ -26,7 +26,7 @@ pub struct Robot {
     structure: Structure,
     frames: Vec<NamedFrame>,
     nominal: BranchPattern,
-    ortho_parallel: Option<OrthoParallel>,
+    inverse: Inverse,
 }
 
 /// Softest joint, rad/(N m) (m/N): a newton metre turns no machining joint by a radian.
@@ -115,7 +115,7 @@ impl Robot {
         for (index, joint) in joints.iter().enumerate() {
             check_joint(index, joint)?;
         }
-        let ortho_parallel = OrthoParallel::recognise(&chain);
+        let inverse = Inverse::recognise(&chain);
         Ok(Robot {
             name: name.into(),
             chain,
@@ -124,7 +124,7 @@ impl Robot {
             structure: Structure::EMPTY,
             frames: Vec::new(),
             nominal: BranchPattern::FRONT_ELBOW_UP,
-            ortho_parallel,
+            inverse,
         })
     }
 
@@ -216,9 +216,20 @@ impl Robot {
         self.nominal
     }
 
-    /// The closed-form inverse, where the geometry has one.
+    /// How its postures are found.
+    pub fn inverse(&self) -> &Inverse {
+        &self.inverse
+    }
+
+    /// The geometry of an ortho-parallel arm with spherical wrist, if it is one.
     pub fn ortho_parallel(&self) -> Option<&OrthoParallel> {
-        self.ortho_parallel.as_ref()
+        self.inverse.ortho_parallel()
+    }
+
+    /// The middle of every joint's range; 0 where it has no limits.
+    pub fn middles(&self) -> Vec<f64> {
+        let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
+        self.joints.iter().map(middle).collect()
     }
 
     /// Whether joint `index` slides instead of turning.

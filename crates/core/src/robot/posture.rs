@@ -23,6 +23,13 @@ pub enum Shoulder {
     Back,
 }
 
+impl Shoulder {
+    /// Front or back, from the place `x` of the wrist centre before the first axis.
+    pub(super) fn at(x: f64) -> Shoulder {
+        if x >= 0.0 { Shoulder::Front } else { Shoulder::Back }
+    }
+}
+
 /// On which side of the line shoulder - wrist the elbow lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Elbow {
@@ -41,7 +48,18 @@ pub enum Wrist {
     Flip,
 }
 
-/// One of the eight postures of an ortho-parallel arm with spherical wrist.
+impl Wrist {
+    /// Flip or not, from the sine of the bend.
+    pub(super) fn bent(sin_bend: f64) -> Wrist {
+        if sin_bend >= 0.0 {
+            Wrist::NoFlip
+        } else {
+            Wrist::Flip
+        }
+    }
+}
+
+/// One of the eight postures of an arm whose branches have names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Branch {
     /// Front or back.
@@ -81,6 +99,65 @@ impl Branch {
 impl fmt::Display for Branch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         BranchPattern::from(*self).fmt(f)
+    }
+}
+
+/// What tells a posture from the others of its pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PostureName {
+    /// One of eight branches.
+    Branch(Branch),
+    /// Of a chain whose branches have no names: the side of the middle on which each joint stands.
+    Sides(Sides),
+}
+
+impl PostureName {
+    /// The branch, if it is one.
+    pub fn branch(self) -> Option<Branch> {
+        match self {
+            PostureName::Branch(branch) => Some(branch),
+            PostureName::Sides(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for PostureName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PostureName::Branch(branch) => branch.fmt(f),
+            PostureName::Sides(sides) => sides.fmt(f),
+        }
+    }
+}
+
+/// For each joint, base to flange, whether it stands at or above (`+`) or below (`-`) the middle of its range.
+///
+/// It depends on the joint positions alone. Two postures of one pose nearly always differ in it, but need not.
+/// Joints beyond the thirty-second are left out.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Sides {
+    joints: u8,
+    above: u32,
+}
+
+impl Sides {
+    /// The sides of these joint positions (rad, m) from the middles of the ranges.
+    pub fn of(joints: &[f64], middles: &[f64]) -> Sides {
+        let bits = joints.iter().zip(middles).take(32);
+        Sides {
+            joints: bits.len() as u8,
+            above: bits
+                .enumerate()
+                .map(|(i, (q, middle))| u32::from(q >= middle) << i)
+                .sum(),
+        }
+    }
+}
+
+impl fmt::Display for Sides {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sign = |i: u8| if self.above >> i & 1 == 1 { '+' } else { '-' };
+        f.write_str(&(0..self.joints).map(sign).collect::<String>())
     }
 }
 
@@ -206,8 +283,22 @@ pub enum Singularity {
     Shoulder,
     /// Arm stretched or folded.
     Elbow,
-    /// Axes 4 and 6 in line.
+    /// Axes 4 and 6 in line; parallel, of an arm with three parallel axes.
     Wrist,
+    /// Some joints do nearly the same: of a chain whose singularities have no names.
+    Dependent,
+}
+
+impl Singularity {
+    /// One word for tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Singularity::Shoulder => "shoulder",
+            Singularity::Elbow => "elbow",
+            Singularity::Wrist => "wrist",
+            Singularity::Dependent => "dependent",
+        }
+    }
 }
 
 impl fmt::Display for Singularity {
@@ -216,6 +307,7 @@ impl fmt::Display for Singularity {
             Singularity::Shoulder => "shoulder: wrist centre near the first axis",
             Singularity::Elbow => "elbow: arm stretched or folded",
             Singularity::Wrist => "wrist: axes 4 and 6 nearly in line",
+            Singularity::Dependent => "dependent: some joints do nearly the same",
         })
     }
 }
@@ -238,6 +330,14 @@ pub enum Unreachable {
         /// m
         by: f64,
     },
+    /// No start of a search led to the pose, which may still be within reach; the nearest that was found misses it by
+    /// `by` and `turned`.
+    NotFound {
+        /// m
+        by: f64,
+        /// rad
+        turned: f64,
+    },
     /// The closed form gave a posture whose forward kinematics misses the pose by `by`: a broken geometry.
     Unverified {
         /// m
@@ -258,12 +358,26 @@ pub enum Unreachable {
 }
 
 impl Unreachable {
+    /// By how much it misses, m; rad where a turning joint is outside its limits.
+    pub fn amount(&self) -> f64 {
+        match *self {
+            Unreachable::TooFar { by }
+            | Unreachable::TooNear { by }
+            | Unreachable::InsideLateralOffset { by }
+            | Unreachable::NotFound { by, .. }
+            | Unreachable::Unverified { by }
+            | Unreachable::OutsideLimits { by, .. } => by,
+            Unreachable::Unstable { .. } => f64::INFINITY,
+        }
+    }
+
     /// One word for tables.
     pub fn reason(&self) -> &'static str {
         match self {
             Unreachable::TooFar { .. } => "too_far",
             Unreachable::TooNear { .. } => "too_near",
             Unreachable::InsideLateralOffset { .. } => "inside_lateral_offset",
+            Unreachable::NotFound { .. } => "not_found",
             Unreachable::Unverified { .. } => "unverified",
             Unreachable::OutsideLimits { .. } => "outside_joint_limits",
             Unreachable::Unstable { .. } => "unstable",
@@ -295,6 +409,14 @@ impl fmt::Display for Unreachable {
                     by * 1e3
                 )
             }
+            Unreachable::NotFound { by, turned } => {
+                write!(
+                    f,
+                    "no posture was found, which does not prove that there is none: the nearest misses by {:.1} mm and {:.2} deg",
+                    by * 1e3,
+                    turned.to_degrees()
+                )
+            }
             Unreachable::Unverified { by } => {
                 write!(
                     f,
@@ -320,8 +442,8 @@ impl fmt::Display for Unreachable {
 /// One way to hold the tool at a pose.
 #[derive(Clone, Debug)]
 pub struct Posture {
-    /// Its name; `None` for chains without named branches.
-    pub branch: Option<Branch>,
+    /// Its name.
+    pub name: PostureName,
     /// Joint positions `q`, rad (m), in the controller's counting.
     pub joints: Vec<f64>,
     /// The tool it holds.

@@ -1,6 +1,8 @@
 //! Arms for tests and benches, typed from their sources.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
+pub mod other;
+
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::joint::Sign;

@@ -55,6 +55,8 @@ pub struct CountsAnswer {
     pub out_of_reach: usize,
     /// Postures reach, but none inside the joint limits (`best` only).
     pub no_posture_inside_limits: usize,
+    /// A search found no posture.
+    pub not_found: usize,
     /// The inverse kinematics failed its own check.
     pub unverified: usize,
     /// A posture holds the point, but the arm finds no stable rest under the load.
@@ -68,6 +70,7 @@ impl CountsAnswer {
             over_limit: counts.over_limit,
             out_of_reach: counts.out_of_reach,
             no_posture_inside_limits: counts.no_posture_inside_limits,
+            not_found: counts.not_found,
             unverified: counts.unverified,
             unstable: counts.unstable,
         }

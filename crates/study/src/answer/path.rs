@@ -36,7 +36,7 @@ pub struct PathResult {
     pub worst: Option<PointAnswer>,
     /// What all points share.
     pub setting: SettingAnswer,
-    /// Range of each joint along the path.
+    /// Range of each joint (mm for sliding joints) along the path.
     pub joint_range_deg: Vec<[f64; 2]>,
 }
 
@@ -84,7 +84,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, path: &PathAn
             .map(|(i, held)| PointAnswer::of(study, setting, answers, (i, held, at(i)))),
         setting: SettingAnswer::of(study, setting),
         joint_range_deg: (0..answers.joint_count)
-            .map(|joint| joint_range(path, joint))
+            .map(|joint| joint_range(study, path, joint))
             .collect(),
     }
 }
@@ -114,11 +114,16 @@ fn circle_cases(path: &PathAnswer) -> Vec<CircleCase> {
         .collect()
 }
 
-fn joint_range(path: &PathAnswer, joint: usize) -> [f64; 2] {
+fn joint_range(study: &Study, path: &PathAnswer, joint: usize) -> [f64; 2] {
+    let scale = if study.robot.robot.slides(joint) {
+        1e3
+    } else {
+        1f64.to_degrees()
+    };
     let positions = path
         .answers
         .held()
-        .map(|(index, _)| path.answers.joints_at(index)[joint].to_degrees());
+        .map(|(index, _)| path.answers.joints_at(index)[joint] * scale);
     let (low, high) = positions.fold((f64::MAX, f64::MIN), |(low, high), q| (low.min(q), high.max(q)));
     if low > high {
         [0.0, 0.0]

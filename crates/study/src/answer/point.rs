@@ -68,7 +68,7 @@ pub struct PointAnswer {
     pub xyz_mm: [f64; 3],
     /// In-plane coordinates y', z' from the plane's centre.
     pub in_plane_mm: [f64; 2],
-    /// Branch of the posture.
+    /// Name of the posture: words of a branch, or the sides on which its joints stand.
     pub branch: String,
     /// Joint positions.
     pub joints_deg: Vec<f64>,
@@ -114,7 +114,7 @@ impl PointAnswer {
         PointAnswer {
             xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
             in_plane_mm: [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)],
-            branch: held.branch.to_string(),
+            branch: held.name.to_string(),
             joints_deg: answers
                 .joints_at(index)
                 .iter()

@@ -10,12 +10,13 @@ use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use super::format::{AskKind, AskTable, HalfSize, PlaneTable, StudyFile};
+use super::format::{AskKind, AskTable, HalfSize, PlaneTable, PostureTable, StudyFile};
 use super::memory;
 use super::places::Places;
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
+use crate::StudyError;
 
 /// No length, angle, force or moment of a real cell is larger, in the units of the file; products of larger ones
 /// leave the range of numbers.
@@ -87,6 +88,13 @@ impl Resolver<'_> {
                 "load.moments_n_m",
                 "N m",
                 load.moments_n_m.iter().flatten().flatten().copied().collect(),
+            ),
+            (
+                "posture.home_deg",
+                "deg or mm",
+                self.posture()
+                    .and_then(|posture| posture.home_deg.clone())
+                    .unwrap_or_default(),
             ),
             (
                 "tool.flange_from_tool_mm_deg",
@@ -194,6 +202,7 @@ impl Resolver<'_> {
         let base_name = base_name.unwrap_or_else(|| crate::BASE_LINK.to_owned());
         let base_from_counted = self.base_from_counted(places, &base_name);
         let choice = self.choice(places);
+        let home = self.home(places);
         let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
         let plane = plane_at(
             places,
@@ -229,6 +238,7 @@ impl Resolver<'_> {
             doubt,
             limit,
             choice,
+            home,
         })
     }
 
@@ -242,17 +252,30 @@ impl Resolver<'_> {
         found.map_err(tell).ok()
     }
 
+    fn posture(&self) -> Option<&PostureTable> {
+        self.table.posture.as_ref().or(self.file.posture.as_ref())
+    }
+
     fn choice(&self, places: &mut Places<'_>) -> Option<BranchChoice> {
-        let nominal = self.robot.map_or(BranchPattern::FRONT_ELBOW_UP, |found| {
-            found.robot.nominal_branch()
-        });
-        let posture = self.table.posture.as_ref().or(self.file.posture.as_ref());
-        match crate::branch_choice(posture.map_or("nominal", |p| p.branch.as_str()), nominal) {
-            Ok(choice) => Some(choice),
-            Err(message) => {
-                places.problem("posture.branch", message, "or write `nominal` or `best`");
+        let words = self.posture().map_or("nominal", |p| p.branch.as_str());
+        let choice = match self.robot {
+            Some(found) => crate::branch_choice_of(&found.robot, words),
+            None => crate::branch_choice(words, BranchPattern::FRONT_ELBOW_UP),
+        };
+        let tell = |message| places.problem("posture.branch", message, "or write `nominal` or `best`");
+        choice.map_err(tell).ok()
+    }
+
+    /// Where a rail stands and what joints to spare are drawn to; `None` also where that is wrong.
+    fn home(&self, places: &mut Places<'_>) -> Option<Vec<f64>> {
+        let given = self.posture()?.home_deg.as_ref()?;
+        match crate::pose::joint_positions(self.robot?, given) {
+            Ok(home) => Some(home),
+            Err(StudyError::Value { message, hint }) => {
+                places.problem("posture.home_deg", message, &hint);
                 None
             }
+            Err(_) => None,
         }
     }
 

@@ -203,7 +203,15 @@ pub enum LoadFrameName {
 #[serde(deny_unknown_fields)]
 pub struct PostureTable {
     /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal`, or `best`.
+    #[serde(default = "nominal")]
     pub branch: String,
+    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; without, the middle of their
+    /// ranges.
+    pub home_deg: Option<Vec<f64>>,
+}
+
+fn nominal() -> String {
+    "nominal".to_owned()
 }
 
 /// What is asked.

@@ -8,7 +8,7 @@ use armill_core::load::Doubt;
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Matrix6, Point3};
 use armill_core::path::Shape;
-use armill_core::robot::Robot;
+use armill_core::robot::{BranchPattern, Robot};
 use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
@@ -115,12 +115,15 @@ pub struct Setting {
     pub limit: f64,
     /// Which posture.
     pub choice: BranchChoice,
+    /// Where a rail stands and what joints to spare are drawn to, rad (m).
+    pub home: Option<Vec<f64>>,
 }
 
 impl Setting {
     /// Name of the posture asked for: words of a branch, or `best`.
     pub fn branch(&self) -> String {
         match self.choice {
+            BranchChoice::Of(pattern) if pattern == BranchPattern::default() => "nominal".to_owned(),
             BranchChoice::Of(pattern) => pattern.to_string(),
             BranchChoice::Best => "best".to_owned(),
         }
@@ -247,16 +250,11 @@ fn find_robot(
         }
         Err(problems) => return Err(problems),
     };
-    if found.robot.ortho_parallel().is_none() {
-        let message = format!(
-            "robot `{}` has no closed-form inverse: it can be posed by its joints only",
-            file.robot
-        );
-        places.problem(
-            "robot",
-            message,
-            "maps need six joints in ortho-parallel order with a spherical wrist",
-        );
+    let joints = found.robot.joints().len();
+    if joints < crate::ENOUGH_JOINTS {
+        let message = format!("robot `{}` has {joints} joints", file.robot);
+        let hint = "holding a tool at any pose takes six; `armill pose` takes its joints";
+        places.problem("robot", message, hint);
     }
     let own = compliance::of_study(places, file, &found.robot)?;
     if let Some(joints) = own {

@@ -51,7 +51,7 @@ pub fn posture_drawing(robot: &Robot, flange_from_tool: &Isometry, answer: &Pose
         .position(|posture| posture.within_limits)
         .unwrap_or(0);
     let others = answer.postures.iter().enumerate().filter(|(i, _)| *i != chosen);
-    let name = |posture: &PostureAnswer| posture.branch.clone().unwrap_or_else(|| "posture".to_owned());
+    let name = |posture: &PostureAnswer| posture.branch.clone();
     let drawing = ArmDrawing {
         title: answer.robot.clone(),
         subtitle: answer

@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use armill_core::kernel::Held;
 use armill_core::map::probability_within;
-use armill_core::robot::Singularity;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
@@ -261,20 +260,13 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         series,
         |rows, i| Some(rows.state(i)),
     ));
-    columns.push(words(("branch", "branch of the posture"), series, |rows, i| {
-        rows.answers.points[i].as_ref().ok().map(|held| held.branch)
+    columns.push(words(("branch", "name of the posture"), series, |rows, i| {
+        rows.answers.points[i].as_ref().ok().map(|held| held.name)
     }));
     columns.push(words(
         ("singularity", "near which singularity the posture stands"),
         series,
-        |rows, i| {
-            let near = rows.answers.points[i].as_ref().ok()?.singularity?;
-            Some(match near {
-                Singularity::Shoulder => "shoulder",
-                Singularity::Elbow => "elbow",
-                Singularity::Wrist => "wrist",
-            })
-        },
+        |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
@@ -288,8 +280,11 @@ fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>
     let mut columns = vec![
         Numbers::deg(
             "limit_margin_deg".to_owned(),
-            "least distance of a joint to its limit, negative outside",
-            |_, _, held| held.limit_margin.to_degrees(),
+            "least distance of a joint to its limit (mm of a sliding joint), negative outside",
+            |_, _, held| {
+                let slides = study.robot.robot.slides(held.limit_joint);
+                held.limit_margin * if slides { 1e3 } else { 1f64.to_degrees() }
+            },
         ),
         Numbers {
             unit: None,
@@ -332,12 +327,22 @@ fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>
     ];
     let joints = study.robot.robot.joints();
     columns.extend(joints.iter().enumerate().map(|(i, joint)| {
-        let name = format!("joint_{}_deg", joint.name);
-        Numbers::deg(
-            name,
-            "joint position in the robot file's counting",
-            move |rows, index, _| rows.answers.joints_at(index)[i].to_degrees(),
-        )
+        let what = "joint position in the robot file's counting";
+        if study.robot.robot.slides(i) {
+            Numbers {
+                unit: Some("mm"),
+                decimals: MM_DECIMALS,
+                ..Numbers::um(format!("joint_{}_mm", joint.name), what, move |rows, index, _| {
+                    rows.answers.joints_at(index)[i] * 1e3
+                })
+            }
+        } else {
+            Numbers::deg(
+                format!("joint_{}_deg", joint.name),
+                what,
+                move |rows, index, _| rows.answers.joints_at(index)[i].to_degrees(),
+            )
+        }
     }));
     columns.extend(sharers.into_iter().enumerate().map(|(i, sharer)| {
         let name = format!("share_{sharer}_um");

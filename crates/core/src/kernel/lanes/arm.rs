@@ -82,8 +82,8 @@ impl Arm {
         Arm {
             a1: arm.a1,
             b: arm.b,
-            l2: arm.l2,
-            l3: arm.l3,
+            l2: arm.links.l2,
+            l3: arm.links.l3,
             forearm: [a4, a5, a4.cross(&a5)],
             joints: rows,
             sense: arm.sense,

@@ -14,6 +14,7 @@ use super::positions::{LimitsByPositions, Position, Positions};
 use super::prepared::Prepared;
 use super::solve::{Postures, Reach, Solve};
 use crate::kernel::Question;
+use crate::robot::inverse::OrthoParallel;
 use crate::robot::posture::{Branch, Elbow, Shoulder};
 
 /// A question prepared for many poses; `T` is `f64` or `f32`.
@@ -75,10 +76,12 @@ fn signs(branch: Branch) -> [f64; 2] {
 pub(super) const FOUR: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
 
 impl<T: Precision> Batch<T> {
-    /// `question` prepared for `backend`.
-    pub fn new(question: &Question<'_>, backend: Backend) -> Batch<T> {
+    /// `question` prepared for `backend`; `arm` is the geometry of its robot, as [`Robot::ortho_parallel`] gives it.
+    ///
+    /// [`Robot::ortho_parallel`]: crate::robot::Robot::ortho_parallel
+    pub fn new(question: &Question<'_>, arm: &OrthoParallel, backend: Backend) -> Batch<T> {
         Batch {
-            prepared: Prepared::new(question),
+            prepared: Prepared::new(question, arm),
             backend,
             scratch: Box::new(Scratch {
                 aims: planes(),

@@ -26,10 +26,9 @@
 //! # let robot = Robot::new("mh12", motions, joints)?.with_compliance(compliance)?;
 //! # let (tool, cases) = (Isometry::identity(), [Wrench::from_force(Vector3::new(3.0, 5.0, 5.0))]);
 //! # let question = Question {
-//! #     robot: &robot, arm: robot.ortho_parallel().unwrap(), compliance: robot.compliance().unwrap(),
-//! #     model: armill_core::source::StiffnessModel::DRIVES,
-//! #     doubt: Doubt::NONE,
-//! #     flange_from_tool: &tool, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
+//! #     robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool, home: None,
+//! #     model: armill_core::source::StiffnessModel::DRIVES, doubt: armill_core::load::Doubt::NONE,
+//! #     cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
 //! # };
 //! // Three points of a vertical plate, the tool held along base x.
 //! let (x, y, z) = ([0.9, 0.9, 3.0], [0.0, 0.1, 0.0], [0.8, 0.8, 0.8]);
@@ -37,7 +36,7 @@
 //!     base_from_tool: tool_orientation(Vector3::x_axis(), 0.0).to_rotation_matrix(),
 //!     at: [&x, &y, &z],
 //! };
-//! let mut batch = Batch::<f64>::new(&question, Backend::fastest());
+//! let mut batch = Batch::<f64>::new(&question, robot.ortho_parallel().unwrap(), Backend::fastest());
 //! let mut out = Envelopes::default();
 //! batch.envelopes(&poses, Branch::ALL[0], &mut out);
 //! assert!(out.in_plane()[0] > 0.0 && out.flags(0) & flag::UNREACHABLE == 0);

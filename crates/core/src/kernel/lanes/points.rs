@@ -11,7 +11,8 @@ use super::stance::{Preference, Stances, Stand};
 use crate::frame::Isometry;
 use crate::kernel::answer::{AT_LIMIT, Held};
 use crate::kernel::question::{BranchChoice, Question};
-use crate::robot::posture::{Branch, BranchPattern, Elbow, Shoulder, Singularity, Wrist};
+use crate::robot::inverse::OrthoParallel;
+use crate::robot::posture::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
 
 /// Points that are answered at once.
 pub(in crate::kernel) const POINTS: usize = BLOCK;
@@ -37,10 +38,10 @@ struct Room {
 }
 
 impl<'q> Points<'q> {
-    pub fn new(question: &'q Question<'q>) -> Points<'q> {
+    pub fn new(question: &'q Question<'q>, arm: &OrthoParallel) -> Points<'q> {
         Points {
             question,
-            batch: Batch::new(question, super::Backend::fastest()),
+            batch: Batch::new(question, arm, super::Backend::fastest()),
             room: Box::new(Room {
                 stances: Stances {
                     joints: planes(),
@@ -110,7 +111,7 @@ impl<'q> Points<'q> {
         }
         let limited = stances.room[index] < 0.5 * super::arm::UNLIMITED;
         Some(Held {
-            branch: branch(chosen, &stances.flip, index),
+            name: PostureName::Branch(branch(chosen, &stances.flip, index)),
             limit_margin: if limited {
                 stances.room[index]
             } else {

@@ -5,6 +5,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::arm::Arm;
 use super::limits::CosineLimits;
 use crate::kernel::Question;
+use crate::robot::inverse::OrthoParallel;
 
 /// Numbers that all blocks of a question share.
 #[derive(Clone, Debug)]
@@ -25,8 +26,8 @@ pub(super) struct Prepared {
 }
 
 impl Prepared {
-    pub fn new(question: &Question<'_>) -> Prepared {
-        let arm = Arm::new(question.robot, question.arm, question.flange_from_tool);
+    pub fn new(question: &Question<'_>, arm: &OrthoParallel) -> Prepared {
+        let arm = Arm::new(question.robot, arm, question.flange_from_tool);
         let turn = |v: Vector3<f64>| arm.arm_from_base * v;
         let cases: Vec<[Vector3<f64>; 2]> = question
             .cases

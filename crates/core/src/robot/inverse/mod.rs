@@ -1,18 +1,32 @@
 //! Which joint positions hold this tool pose?
 //!
-//! [`ortho_parallel`] is the closed form; [`postures`] gives every posture of a pose, each checked by
-//! forward kinematics before it leaves. Chains without closed form work in forward direction only.
+//! [`kind`] is the closed list of ways: [`closed_form`] ([`ortho_parallel`], [`three_parallel`]), the same followed by
+//! damped least squares for calibrated arms, a search for any other chain, and rails. A [`Finder`] takes one pose after
+//! the other; [`postures`] gives everything about the postures of one. Each is checked by forward kinematics before
+//! it leaves.
 
+pub mod closed_form;
+mod descent;
+mod finder;
+pub mod kind;
+mod lines;
 pub mod ortho_parallel;
+mod starts;
+pub mod three_parallel;
+mod two_links;
 
-pub use ortho_parallel::{OrthoParallel, Solution};
+pub use closed_form::ClosedForm;
+pub use finder::{Finder, Found, Wanted};
+pub use kind::Inverse;
+pub use ortho_parallel::OrthoParallel;
+pub use three_parallel::ThreeParallel;
+
+use nalgebra::{UnitQuaternion, Vector3};
 
 use super::forward::{Frames, forward, forward_into};
 use super::jacobian::screws_at;
 use super::model::Robot;
-use super::posture::{Branch, Posture, Unreachable};
-use nalgebra::{UnitQuaternion, Vector3};
-
+use super::posture::{Posture, Unreachable};
 use crate::frame::Isometry;
 
 /// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.
@@ -20,54 +34,51 @@ use crate::frame::Isometry;
 /// The closed form reaches 1e-15 of the arm's length; a thousand times its worst is a broken geometry.
 const VERIFIED: f64 = 1e-9;
 
-/// Every posture that holds the tool at `base_from_tool`; at the wrist singularity joint 4 stays as in
-/// `near` (joint positions of the point before), or joints 4 and 6 share the turn evenly.
-///
-/// Outside joint limits counts as a posture: ask [`Robot::limit_margin`].
-///
-/// # Errors
-/// The reason of the branch that misses by least, if no branch reaches.
-pub fn postures(
-    robot: &Robot,
-    arm: &OrthoParallel,
-    base_from_tool: &Isometry,
-    tool: ToolAt<'_>,
-) -> Result<Vec<Posture>, Unreachable> {
-    let base_from_flange = base_from_tool * tool.flange_from_tool.inverse();
-    let mut found = Vec::with_capacity(8);
-    let mut nearest_miss: Option<Unreachable> = None;
-    let mut frames = Frames::for_robot(robot);
-    for branch in Branch::ALL {
-        let solved = arm.solve(robot, &base_from_flange, branch, tool.near);
-        let verified = solved.and_then(|solution| {
-            forward_into(robot, &solution.joints, &mut frames);
-            holds(&frames, &base_from_flange)?;
-            Ok(solution)
-        });
-        match verified {
-            Ok(solution) => found.push(Posture {
-                branch: Some(branch),
-                joints: solution.joints.to_vec(),
-                screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
-                base_from_tool: tool_on(&frames, tool.flange_from_tool),
-                singularity: solution.singularity,
-            }),
-            Err(miss) => nearest_miss = Some(nearest_miss.map_or(miss, |other| nearer(other, miss))),
-        }
-    }
-    match nearest_miss {
-        Some(miss) if found.is_empty() => Err(miss),
-        _ => Ok(found),
-    }
-}
-
-/// The tool on the flange, and where the arm stood before.
+/// The tool on the flange, where the arm stood before, and where it likes to stand.
 #[derive(Clone, Copy, Debug)]
 pub struct ToolAt<'a> {
     /// Flange to tool centre point.
     pub flange_from_tool: &'a Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
+    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges.
+    pub home: Option<&'a [f64]>,
+}
+
+/// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found, nearest to `near`
+/// (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
+/// and 6 of a spherical wrist share the turn evenly.
+///
+/// Outside joint limits counts as a posture: ask [`Robot::limit_margin`].
+///
+/// # Errors
+/// The reason of the branch that misses by least, if no branch reaches; how near a search came.
+///
+/// # Panics
+/// If `near` or `home` have fewer entries than the robot has joints.
+pub fn postures(
+    robot: &Robot,
+    base_from_tool: &Isometry,
+    tool: ToolAt<'_>,
+) -> Result<Vec<Posture>, Unreachable> {
+    let wanted = Wanted {
+        base_from_flange: base_from_tool * tool.flange_from_tool.inverse(),
+        near: tool.near,
+        home: tool.home,
+    };
+    let mut finder = Finder::new(robot);
+    let mut frames = Frames::for_robot(robot);
+    let mut posture = |found: &Found| {
+        forward_into(robot, &found.joints, &mut frames);
+        Posture {
+            name: found.name,
+            joints: found.joints.clone(),
+            screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
+            base_from_tool: tool_on(&frames, tool.flange_from_tool),
+            singularity: found.singularity,
+        }
+    };
+    Ok(finder.all(&wanted)?.iter().map(&mut posture).collect())
 }
 
 /// Checks that these frames bring the flange to where it was asked to be, within 1e-9 m and rad.
@@ -97,14 +108,13 @@ pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreach
 pub fn posture_at(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> Posture {
     let frames = forward(robot, q);
     let base_from_tool = tool_on(&frames, flange_from_tool);
-    let screws = screws_at(robot, &frames, &base_from_tool.translation.vector.into());
-    let named = robot.ortho_parallel().map(|arm| arm.name(robot, q));
+    let (name, singularity) = finder::name(robot, q);
     Posture {
-        branch: named.map(|(branch, _)| branch),
+        name,
         joints: q.to_vec(),
         base_from_tool,
-        screws,
-        singularity: named.and_then(|(_, singularity)| singularity),
+        screws: screws_at(robot, &frames, &base_from_tool.translation.vector.into()),
+        singularity,
     }
 }
 
@@ -113,20 +123,4 @@ pub fn tool_on(frames: &Frames, flange_from_tool: &Isometry) -> Isometry {
     let flange = &frames.base_from_flange;
     let rotation = UnitQuaternion::from_rotation_matrix(&flange.rotation);
     Isometry::from_parts(flange.translation, rotation) * flange_from_tool
-}
-
-/// The miss that is smaller.
-fn nearer(a: Unreachable, b: Unreachable) -> Unreachable {
-    if amount(b) < amount(a) { b } else { a }
-}
-
-fn amount(miss: Unreachable) -> f64 {
-    match miss {
-        Unreachable::TooFar { by }
-        | Unreachable::TooNear { by }
-        | Unreachable::InsideLateralOffset { by }
-        | Unreachable::Unverified { by }
-        | Unreachable::OutsideLimits { by, .. } => by,
-        Unreachable::Unstable { .. } => f64::INFINITY,
-    }
 }

@@ -21,13 +21,12 @@
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 
-use super::super::chain::{Chain, Motion};
-use super::super::model::Robot;
-use super::super::posture::{Branch, Elbow, Shoulder, Singularity, Unreachable, Wrist};
+use super::super::chain::Chain;
+use super::super::posture::{Branch, Shoulder, Singularity, Unreachable, Wrist};
+use super::lines::{IDEAL, Line, Turn, across, lines_at_zero, sense_of, up_to_noise};
+use super::two_links::TwoLinks;
 use crate::frame::Isometry;
 
-/// How far (rad, m) a geometry may stray from the ideal and still be solved by the closed form.
-const IDEAL: f64 = 1e-9;
 /// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
 pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
 /// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
@@ -40,8 +39,7 @@ pub struct OrthoParallel {
     pub(crate) arm_from_base: Isometry,
     pub(crate) a1: f64,
     pub(crate) b: f64,
-    pub(crate) l2: f64,
-    pub(crate) l3: f64,
+    pub(crate) links: TwoLinks,
     /// Angles of upper arm and forearm from the vertical at chain zero.
     pub(crate) upper_arm_at_zero: f64,
     pub(crate) forearm_at_zero: f64,
@@ -58,33 +56,37 @@ pub struct OrthoParallel {
     pub(crate) flange_from_wrist: Point3<f64>,
 }
 
-/// Joint positions of one branch.
-#[derive(Clone, Copy, Debug)]
-pub struct Solution {
-    /// Which branch.
-    pub branch: Branch,
-    /// Joint positions `q`, rad, each as near as possible to the middle of its range.
-    pub joints: [f64; 6],
-    /// Near which singularity, if any.
-    pub singularity: Option<Singularity>,
-}
-
 impl OrthoParallel {
     /// The geometry of `chain`, or `None` if it is of another kind.
     pub fn recognise(chain: &Chain) -> Option<OrthoParallel> {
         let lines = lines_at_zero(chain)?;
-        let [(o1, z1), (o2, z2), (o3, z3), (o4, z4), (o5, z5), (o6, z6)] = lines;
-        let wrist = meeting_point((o4, z4), (o5, z5))?;
-        let on_axis_6 = (wrist - o6).cross(&z6).norm() < IDEAL;
-        let perpendicular = |a: &Vector3<f64>, b: &Vector3<f64>| a.dot(b).abs() < IDEAL;
-        let ideal = on_axis_6
-            && perpendicular(&z1, &z2)
-            && z2.cross(&z3).norm() < IDEAL
-            && perpendicular(&z4, &z5)
-            && perpendicular(&z5, &z6);
-        if !ideal {
+        let wrist = lines[3].nearest_to(&lines[4])?;
+        (stray(&lines, wrist) < IDEAL)
+            .then(|| OrthoParallel::of_lines(chain, &lines, wrist))
+            .flatten()
+    }
+
+    /// The ortho-parallel geometry next to that of `chain`, if it strays by less than `within` (m, rad) from one; it
+    /// answers up to `slack` (m) beyond its reach.
+    pub(super) fn next_to(chain: &Chain, within: f64, slack: f64) -> Option<OrthoParallel> {
+        let mut lines = lines_at_zero(chain)?;
+        let wrist = lines[4].nearest_to(&lines[3])?;
+        if stray(&lines, wrist) >= within {
             return None;
         }
+        lines = lines.map(|line| line.told_near(wrist));
+        lines[1].axis = across(lines[1].axis, &lines[0].axis);
+        lines[2].axis = lines[1].axis * sense_of(lines[2].axis.dot(&lines[1].axis));
+        lines[4].axis = across(lines[4].axis, &lines[3].axis);
+        lines[5].axis = across(lines[5].axis, &lines[4].axis);
+        let mut arm = OrthoParallel::of_lines(chain, &lines, wrist)?;
+        arm.links.slack = slack;
+        Some(arm)
+    }
+
+    fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
+        let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
+        let [o1, o2, o3, ..] = lines.map(|line| line.point);
         let base_from_flange = chain.base_from_flange(&[0.0; 6]);
         let up = z1 * sense_of(z1.z);
         let centre = o1 + up * (o2 - o1).dot(&up);
@@ -119,14 +121,14 @@ impl OrthoParallel {
         Some(OrthoParallel {
             a1: shoulder.x,
             b: w.y,
-            l2: upper_arm.xz().norm(),
-            l3: forearm.xz().norm(),
+            links: TwoLinks {
+                l2: upper_arm.xz().norm(),
+                l3: forearm.xz().norm(),
+                slack: 0.0,
+            },
             upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
             forearm_at_zero,
-            forearm_turn_at_zero: Turn {
-                cos: forearm_at_zero.cos(),
-                sin: forearm_at_zero.sin(),
-            },
+            forearm_turn_at_zero: Turn::by(forearm_at_zero),
             bend_at_zero: a5.dot(&a4.cross(&a6)).atan2(a4.dot(&a6)),
             sense,
             wrist_axes: [arm_from_base * a4, arm_from_base * a5],
@@ -135,42 +137,43 @@ impl OrthoParallel {
             flange_from_wrist: flange_from_base * wrist,
             arm_from_base,
         })
-        .filter(|arm| arm.l2 > IDEAL && arm.l3 > IDEAL)
+        .filter(|arm| arm.links.l2 > IDEAL && arm.links.l3 > IDEAL)
     }
 
-    /// Joint positions of one branch that bring the flange to `base_from_flange`.
+    /// Chain positions of one branch that bring the flange to `base_from_flange`, whole turns anywhere, and near which
+    /// singularity they stand.
     ///
-    /// At the wrist singularity joint 4 stays as in `near`, or joints 4 and 6 share the turn evenly.
-    /// Not checked: joint limits; forward kinematics (see [`super::holds`]).
+    /// At the wrist singularity joint 4 stays at `kept` (chain position, rad), or joints 4 and 6 share the turn evenly.
+    /// Not checked: forward kinematics (see [`super::holds`]).
     ///
     /// # Errors
     /// The wrist centre is out of reach of this branch.
-    pub fn solve(
+    pub fn chain_positions(
         &self,
-        robot: &Robot,
         base_from_flange: &Isometry,
         branch: Branch,
-        near: Option<&[f64]>,
-    ) -> Result<Solution, Unreachable> {
+        kept: Option<f64>,
+    ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
         let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
         let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
         if r_squared < 0.0 {
-            return Err(Unreachable::InsideLateralOffset {
-                by: self.b.abs() - p.x.hypot(p.y),
-            });
+            let by = self.b.abs() - p.x.hypot(p.y);
+            if by >= self.links.slack {
+                return Err(Unreachable::InsideLateralOffset { by });
+            }
         }
         let r = match branch.shoulder {
-            Shoulder::Front => r_squared.sqrt(),
-            Shoulder::Back => -r_squared.sqrt(),
+            Shoulder::Front => r_squared.max(0.0).sqrt(),
+            Shoulder::Back => -r_squared.max(0.0).sqrt(),
         };
         let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
         let (u, v) = (r - self.a1, p.z);
-        let (psi, chi) = self.two_link(u, v, branch.elbow)?;
-        let kept = near.map(|q| self.sense[3] * robot.theta(3, q));
+        let (psi, chi) = self.links.solve(u, v, branch.elbow)?;
+        let kept = kept.map(|theta| self.sense[3] * theta);
         let [phi4, bend, phi6] = self.wrist(base_from_flange, phi1, chi, (branch.wrist, kept));
 
         let (psi_angle, chi_angle, bend_angle) = (psi.angle(), chi.angle(), bend.angle());
-        let phi = [
+        let mut positions = [
             phi1.angle(),
             psi_angle - self.upper_arm_at_zero,
             chi_angle - psi_angle - (self.forearm_at_zero - self.upper_arm_at_zero),
@@ -178,69 +181,28 @@ impl OrthoParallel {
             bend_angle - self.bend_at_zero,
             phi6.angle(),
         ];
+        for (phi, sense) in positions.iter_mut().zip(self.sense) {
+            *phi *= sense;
+        }
         let sin_elbow = chi.sin * psi.cos - chi.cos * psi.sin;
-        Ok(Solution {
-            branch,
-            joints: self.joint_positions(robot, &phi),
-            singularity: self.singularity(bend.sin, sin_elbow, r),
-        })
+        Ok((positions, self.singularity(bend.sin, sin_elbow, r)))
     }
 
-    /// Branch of joint positions, and the singularity they stand near, if any.
-    pub fn name(&self, robot: &Robot, q: &[f64]) -> (Branch, Option<Singularity>) {
-        let phi = |i: usize| self.sense[i] * robot.theta(i, q);
+    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    ///
+    /// Not checked: that there are six.
+    pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
+        let phi = |i: usize| self.sense[i] * theta[i];
         let psi = self.upper_arm_at_zero + phi(1);
         let forearm = self.forearm_at_zero + phi(1) + phi(2);
         let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
-        let u = self.l2 * psi.sin() + self.l3 * forearm.sin();
+        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
         let branch = Branch {
-            shoulder: if u + self.a1 >= 0.0 {
-                Shoulder::Front
-            } else {
-                Shoulder::Back
-            },
-            elbow: if (eps.sin() >= 0.0) == (u >= 0.0) {
-                Elbow::Up
-            } else {
-                Elbow::Down
-            },
-            wrist: if bend.sin() >= 0.0 {
-                Wrist::NoFlip
-            } else {
-                Wrist::Flip
-            },
+            shoulder: Shoulder::at(u + self.a1),
+            elbow: TwoLinks::elbow(eps, u),
+            wrist: Wrist::bent(bend.sin()),
         };
         (branch, self.singularity(bend.sin(), eps.sin(), u + self.a1))
-    }
-
-    /// Angles of upper arm and forearm from the vertical.
-    fn two_link(&self, u: f64, v: f64, elbow: Elbow) -> Result<(Turn, Turn), Unreachable> {
-        let d_squared = u * u + v * v;
-        let (reach, fold) = (self.l2 + self.l3, self.l2 - self.l3);
-        let (stretched, folded) = (reach * reach - d_squared, d_squared - fold * fold);
-        if stretched < 0.0 {
-            return Err(Unreachable::TooFar {
-                by: d_squared.sqrt() - reach,
-            });
-        }
-        if folded < 0.0 {
-            return Err(Unreachable::TooNear {
-                by: fold.abs() - d_squared.sqrt(),
-            });
-        }
-        // l3 (cos, sin) of the elbow's bend; bending the forearm forwards lifts the elbow if the wrist is
-        // before the shoulder.
-        let along = 0.5 * (d_squared - self.l2 * self.l2 - self.l3 * self.l3) / self.l2;
-        let across = 0.5 * (stretched * folded).sqrt() / self.l2;
-        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) {
-            across
-        } else {
-            -across
-        };
-        let k1 = self.l2 + along;
-        let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
-        let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
-        Ok((psi, chi))
     }
 
     /// Joint 4, bend and joint 6; at the singularity joint 4 is `kept`.
@@ -256,13 +218,7 @@ impl OrthoParallel {
         let forearm = chi.less(self.forearm_turn_at_zero);
         let seen = |in_flange: &Vector3<f64>| {
             let v = self.arm_from_base * (base_from_flange * in_flange);
-            let x = phi1.cos * v.x + phi1.sin * v.y;
-            let y = phi1.cos * v.y - phi1.sin * v.x;
-            Vector3::new(
-                forearm.cos * x - forearm.sin * v.z,
-                y,
-                forearm.sin * x + forearm.cos * v.z,
-            )
+            forearm.back_about_y(phi1.back_about_z(v))
         };
         let [a4, a5] = self.wrist_axes;
         let a3 = a4.cross(&a5);
@@ -279,8 +235,7 @@ impl OrthoParallel {
         let phi4 = if bent < WRIST_SINGULAR {
             // Only the sum (or difference) of joints 4 and 6 counts here.
             let even = 0.5 * rest(Turn::ZERO).angle() * along.signum();
-            let (sin, cos) = kept.unwrap_or(even).sin_cos();
-            Turn { cos, sin }
+            Turn::by(kept.unwrap_or(even))
         } else {
             Turn::new(-flip * up, flip * side)
         };
@@ -292,104 +247,25 @@ impl OrthoParallel {
             Some(Singularity::Wrist)
         } else if sin_elbow.abs() < NEAR_SINGULAR {
             Some(Singularity::Elbow)
-        } else if r.abs() < NEAR_SINGULAR * (self.l2 + self.l3) {
+        } else if r.abs() < NEAR_SINGULAR * (self.links.l2 + self.links.l3) {
             Some(Singularity::Shoulder)
         } else {
             None
         }
     }
-
-    /// Joint positions from angles in the common sense, each as near as possible to the middle of its range.
-    fn joint_positions(&self, robot: &Robot, phi: &[f64; 6]) -> [f64; 6] {
-        let mut q = [0.0; 6];
-        for index in 0..6 {
-            let middle = robot.joints()[index].limits.map_or(0.0, |limits| limits.middle());
-            q[index] = nearest_turn(
-                robot.joint_position(index, self.sense[index] * phi[index], &q),
-                middle,
-            );
-        }
-        q
-    }
 }
 
-/// An angle as its cosine and sine.
-#[derive(Clone, Copy, Debug)]
-struct Turn {
-    cos: f64,
-    sin: f64,
-}
-
-impl Turn {
-    const ZERO: Turn = Turn { cos: 1.0, sin: 0.0 };
-
-    /// The angle of the vector (`x`, `y`); zero where it has no length.
-    fn new(x: f64, y: f64) -> Turn {
-        let length = (x * x + y * y).sqrt();
-        if length > 0.0 {
-            Turn {
-                cos: x / length,
-                sin: y / length,
-            }
-        } else {
-            Turn::ZERO
-        }
-    }
-
-    fn angle(self) -> f64 {
-        self.sin.atan2(self.cos)
-    }
-
-    /// This angle minus another.
-    fn less(self, other: Turn) -> Turn {
-        Turn {
-            cos: self.cos * other.cos + self.sin * other.sin,
-            sin: self.sin * other.cos - self.cos * other.sin,
-        }
-    }
-}
-
-/// `angle` plus whole turns, in (middle - pi, middle + pi].
-fn nearest_turn(angle: f64, middle: f64) -> f64 {
-    use std::f64::consts::TAU;
-    let away = (angle - middle) / TAU;
-    // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
-    angle - TAU * (away - 0.5 - 1e-12).ceil()
-}
-
-fn sense_of(value: f64) -> f64 {
-    if value < 0.0 { -1.0 } else { 1.0 }
-}
-
-fn up_to_noise(value: f64) -> Option<f64> {
-    (value.abs() > IDEAL).then_some(value)
-}
-
-/// Point and unit axis of six turning joints at chain zero, in base.
-fn lines_at_zero(chain: &Chain) -> Option<[(Point3<f64>, Vector3<f64>); 6]> {
-    let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
-    let mut lines = Vec::with_capacity(6);
-    for link in chain.links() {
-        link.before.advance(&mut axes, &mut origin);
-        match link.motion {
-            Motion::About(axis, _) => lines.push((origin.into(), axes.column(axis.index()).into_owned())),
-            Motion::Along(..) => return None,
-        }
-    }
-    lines.try_into().ok()
-}
-
-/// Where two lines meet, if they do within 1e-9 m.
-fn meeting_point(
-    (o1, z1): (Point3<f64>, Vector3<f64>),
-    (o2, z2): (Point3<f64>, Vector3<f64>),
-) -> Option<Point3<f64>> {
-    let normal = z1.cross(&z2);
-    let n2 = normal.norm_squared();
-    if n2 < IDEAL {
-        return None;
-    }
-    let between = o2 - o1;
-    let on_first = o1 + z1 * (between.cross(&z2).dot(&normal) / n2);
-    ((on_first - o2).cross(&z2).norm() < IDEAL).then_some(on_first)
+/// By how much (m, rad) these axes stray from an ortho-parallel arm with spherical wrist.
+fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
+    let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
+    let strays = [
+        z1.dot(&z2).abs(),
+        z2.cross(&z3).norm(),
+        z4.dot(&z5).abs(),
+        z5.dot(&z6).abs(),
+        lines[3].distance(wrist),
+        lines[4].distance(wrist),
+        lines[5].distance(wrist),
+    ];
+    strays.into_iter().fold(0.0, f64::max)
 }

@@ -1,0 +1,200 @@
+//! Rows of the inverses of armill beside the ortho-parallel one: the same map, the same postures, other arms.
+//!
+//! | arm | inverse |
+//! |---|---|
+//! | MH12 with its axes 2 and 5 a micrometre aside | polished: from the closed form, then damped least squares |
+//! | MH12 with axis 5 30 mm off axis 4 | searched; along the rows of a map from the point before |
+//! | UR10 | closed form, three parallel axes |
+//! | iiwa 14 | searched, one joint to spare |
+//!
+//! One thread. Maps of 61 x 61 points under four forces; a point out of reach counts as one.
+
+use std::hint::black_box;
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::{BranchChoice, Question};
+use armill_core::load::Doubt;
+use armill_core::map::plane_map;
+use armill_core::nalgebra::{Point3, Unit};
+use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::{Amount, Axis, BranchPattern, Joint, JointCompliance, Limits, Motion, Robot};
+use armill_core::source::StiffnessModel;
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+use armill_core::workpiece::{Grid, Plane};
+use rayon::ThreadPool;
+
+use crate::armill::Arm;
+use crate::clock::Candidate;
+use crate::work::IK8;
+use crate::workload::{FORCES, NORMAL, TOOL};
+
+/// How many poses are taken one at a time: a search takes milliseconds.
+const POSES: usize = 200;
+
+/// An arm of another kind, and where the middle of its map lies.
+pub struct Other {
+    who: &'static str,
+    robot: Robot,
+    plane: Plane,
+    tool: Isometry,
+    cases: Vec<Wrench>,
+    poses: Vec<Isometry>,
+}
+
+/// All arms of the table above.
+pub fn others() -> Vec<Other> {
+    let mh12 = Arm::mh12();
+    let at = |x: f64, z: f64| Plane::tilted(Point3::new(x, 0.0, z), 0.0);
+    vec![
+        Other::new(
+            "armill, MH12 a micrometre off",
+            moved(mh12.robot(), [1e-6, 1e-6]),
+            at(1.0, 0.8),
+        ),
+        Other::new(
+            "armill, MH12 with an open wrist",
+            moved(mh12.robot(), [0.0, 0.03]),
+            at(1.0, 0.8),
+        ),
+        Other::new("armill, UR10", of_rows("ur10", &UR10), at(0.7, 0.5)),
+        Other::new("armill, iiwa 14", of_rows("iiwa14", &IIWA14), at(0.45, 0.6)),
+    ]
+}
+
+/// Their rows.
+pub fn candidates<'a>(others: &'a [Other], one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
+    others
+        .iter()
+        .flat_map(|other| other.candidates(one_thread))
+        .collect()
+}
+
+impl Other {
+    fn new(who: &'static str, robot: Robot, plane: Plane) -> Other {
+        let compliance = vec![
+            JointCompliance {
+                value: 1e-6,
+                standard_uncertainty: 0.0,
+            };
+            robot.joints().len()
+        ];
+        let tool = Isometry::translation(0.0, 0.0, TOOL);
+        let robot = robot.with_compliance(compliance).expect("one a joint");
+        // A step of the golden angle a joint: nothing repeats.
+        let pose = |k: usize| {
+            let q: Vec<f64> = (0..robot.joints().len())
+                .map(|i| ((k + 1) as f64 * 2.399_963 * (i as f64 + 1.0)).sin())
+                .collect();
+            posture_at(&robot, &q, &tool).base_from_tool
+        };
+        Other {
+            who,
+            poses: (0..POSES).map(pose).collect(),
+            robot,
+            plane,
+            tool,
+            cases: FORCES.map(|force| Wrench::from_force(force.into())).to_vec(),
+        }
+    }
+
+    fn candidates<'a>(&'a self, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
+        let grid = Grid::within([0.15, 0.15], 0.005);
+        let choices = [
+            (
+                "map, one posture",
+                BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP),
+            ),
+            ("map, best of all", BranchChoice::Best),
+        ];
+        let map = |(name, choice)| {
+            let question = Question {
+                robot: &self.robot,
+                compliance: self.robot.compliance().unwrap_or_default(),
+                flange_from_tool: &self.tool,
+                home: None,
+                cases: &self.cases,
+                normal: Unit::new_unchecked(NORMAL.into()),
+                choice,
+                model: StiffnessModel::DRIVES,
+                doubt: Doubt::NONE,
+            };
+            Candidate::new(self.who, name, grid.len(), move || {
+                one_thread
+                    .install(|| black_box(plane_map(&question, self.plane, grid, Watch::NONE)))
+                    .ok();
+            })
+        };
+        let at = ToolAt {
+            flange_from_tool: &self.tool,
+            near: None,
+            home: None,
+        };
+        let all = move || {
+            for pose in &self.poses {
+                black_box(postures(&self.robot, pose, at)).ok();
+            }
+        };
+        let mut rows: Vec<Candidate<'a>> = choices.into_iter().map(map).collect();
+        rows.push(
+            Candidate::new(self.who, IK8, POSES, all).note("another arm, other poses; verified, with screws"),
+        );
+        rows
+    }
+}
+
+/// The MH12 with axes 2 and 5 moved along x by so many metres.
+fn moved(mh12: &Robot, [axis_2, axis_5]: [f64; 2]) -> Robot {
+    let mut motions = Vec::new();
+    for motion in mh12.chain().motions() {
+        match motion.amount() {
+            Amount::Joint(1) => motions.push(Motion::Along(Axis::Y, Amount::Constant(axis_2))),
+            Amount::Joint(4) => motions.push(Motion::Along(Axis::Z, Amount::Constant(axis_5))),
+            _ => {}
+        }
+        motions.push(*motion);
+    }
+    Robot::new("mh12-moved", motions, mh12.joints().to_vec())
+        .expect("the chain of a real arm, moved a little")
+}
+
+/// Standard Denavit-Hartenberg rows d, a (m), alpha (quarter turns): the maker's support page.
+const UR10: [[f64; 3]; 6] = [
+    [0.1273, 0.0, 1.0],
+    [0.0, -0.612, 0.0],
+    [0.0, -0.5723, 0.0],
+    [0.163_941, 0.0, 1.0],
+    [0.1157, 0.0, -1.0],
+    [0.0922, 0.0, 0.0],
+];
+
+/// KUKA LBR iiwa 14 R820, from its data sheet.
+const IIWA14: [[f64; 3]; 7] = [
+    [0.36, 0.0, -1.0],
+    [0.0, 0.0, 1.0],
+    [0.42, 0.0, 1.0],
+    [0.0, 0.0, -1.0],
+    [0.40, 0.0, -1.0],
+    [0.0, 0.0, 1.0],
+    [0.126, 0.0, 0.0],
+];
+
+fn of_rows(name: &str, rows: &[[f64; 3]]) -> Robot {
+    let mut motions = Vec::new();
+    for (index, [d, a, quarters]) in rows.iter().enumerate() {
+        motions.extend([
+            Motion::About(Axis::Z, Amount::Joint(index)),
+            Motion::Along(Axis::Z, Amount::Constant(*d)),
+            Motion::Along(Axis::X, Amount::Constant(*a)),
+            Motion::About(Axis::X, Amount::Constant(quarters * std::f64::consts::FRAC_PI_2)),
+        ]);
+    }
+    let turn = |i: usize| Joint {
+        limits: Some(Limits {
+            lower: -std::f64::consts::PI,
+            upper: std::f64::consts::PI,
+        }),
+        ..Joint::plain(format!("A{}", i + 1))
+    };
+    Robot::new(name, motions, (0..rows.len()).map(turn).collect()).expect("the chain of a real arm")
+}

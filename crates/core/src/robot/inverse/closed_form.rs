@@ -1,0 +1,71 @@
+//! The closed forms: eight branches each, by name.
+
+use super::super::chain::Chain;
+use super::super::posture::{Branch, Singularity, Unreachable};
+use super::ortho_parallel::OrthoParallel;
+use super::three_parallel::ThreeParallel;
+use crate::frame::Isometry;
+
+/// A geometry whose postures follow in closed form.
+#[derive(Clone, Debug)]
+pub enum ClosedForm {
+    /// Axes 2 and 3 parallel, axes 4 to 6 through one point: most industrial arms.
+    OrthoParallel(OrthoParallel),
+    /// Axes 2, 3 and 4 parallel: UR and other cobots.
+    ThreeParallel(ThreeParallel),
+}
+
+/// How far (m, rad) the axes of a calibrated arm may stray from a closed form that gives its branches their names.
+pub const CALIBRATED: f64 = 0.01;
+/// How far (m) beyond the ideal arm's reach the calibrated one may still get.
+const SLACK: f64 = 0.03;
+
+impl ClosedForm {
+    /// The closed form of this chain, if it has one.
+    pub(super) fn recognise(chain: &Chain) -> Option<ClosedForm> {
+        OrthoParallel::recognise(chain)
+            .map(ClosedForm::OrthoParallel)
+            .or_else(|| ThreeParallel::recognise(chain).map(ClosedForm::ThreeParallel))
+    }
+
+    /// The closed form of an ideal arm that this chain strays from by less than [`CALIBRATED`].
+    pub(super) fn next_to(chain: &Chain) -> Option<ClosedForm> {
+        OrthoParallel::next_to(chain, CALIBRATED, SLACK)
+            .map(ClosedForm::OrthoParallel)
+            .or_else(|| ThreeParallel::next_to(chain, CALIBRATED, SLACK).map(ClosedForm::ThreeParallel))
+    }
+
+    /// Chain positions of one branch, whole turns anywhere, and near which singularity they stand; `near` are chain
+    /// positions, of which the joint keeps its place that a wrist singularity leaves free.
+    ///
+    /// # Errors
+    /// Why this branch does not reach, and by how much.
+    pub(super) fn chain_positions(
+        &self,
+        base_from_flange: &Isometry,
+        branch: Branch,
+        near: Option<&[f64]>,
+    ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
+        match self {
+            ClosedForm::OrthoParallel(arm) => {
+                arm.chain_positions(base_from_flange, branch, near.map(|theta| theta[3]))
+            }
+            ClosedForm::ThreeParallel(arm) => {
+                arm.chain_positions(base_from_flange, branch, near.map(|theta| theta[5]))
+            }
+        }
+    }
+
+    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    pub(super) fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
+        match self {
+            ClosedForm::OrthoParallel(arm) => arm.name(theta),
+            ClosedForm::ThreeParallel(arm) => arm.name(theta),
+        }
+    }
+
+    /// Whether flip and no-flip put every axis on the same line, and so give the same compliance.
+    pub(super) fn flips_are_alike(&self) -> bool {
+        matches!(self, ClosedForm::OrthoParallel(_))
+    }
+}

@@ -1,0 +1,272 @@
+//! From a start to a posture that holds the pose: damped least squares, and the pull of joints that are to spare.
+//!
+//! ```text
+//! e = [(p* - p)/l; angle axis of R* R^T]        J: screws at the flange, linear rows over l
+//! dtheta = J^T (J J^T + lambda I)^-1 e          lambda = damping |e|^2, more where a step does not help
+//! ```
+//!
+//! Damping by the squared error leaves Newton's steps near the solution: the number of right digits doubles. With more
+//! than six joints the pull `z = (home - theta)/2` goes through the null space: `dtheta = z + J^+ (e - J z)`.
+//!
+//! `theta` chain positions (rad, m), `l` a length of the arm (m) that makes both rows comparable. Source: Levenberg
+//! 1944, Marquardt 1963; damping by the error after Sugihara 2011; pull after Liegeois 1977.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
+
+use super::super::chain::{Chain, Motion};
+use super::super::forward::{Frames, chain_forward_into};
+use super::super::jacobian::chain_screws_into;
+use super::super::posture::Unreachable;
+use crate::spatial::Twist;
+
+/// Error (l, rad) below which a pose counts as reached: a hundred times below what is checked afterwards.
+const DONE: f64 = 1e-12;
+/// Steps of one descent at most: a Newton iteration that halves its error ends long before.
+const MOST_STEPS: usize = 60;
+/// Longest step of a joint, rad (l): beyond it the linear model says nothing.
+const LONGEST_STEP: f64 = 0.7;
+/// Steps that gain less than a twentieth before a descent is given up.
+const PATIENCE: usize = 5;
+/// Damping beyond which no step helps.
+const STUCK: f64 = 1e9;
+/// Pulls of a redundant chain at most, and the step (rad, l) below which it has settled.
+const MOST_PULLS: usize = 60;
+const SETTLED: f64 = 1e-6;
+/// Frobenius condition number of the Jacobian above which joints do nearly the same.
+const DEPENDENT: f64 = 300.0;
+
+/// A pose to reach, as rotation matrix and point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Goal {
+    rotation: SMatrix<f64, 3, 3>,
+    point: Vector3<f64>,
+}
+
+impl Goal {
+    pub fn new(base_from_flange: &crate::frame::Isometry) -> Goal {
+        Goal {
+            rotation: base_from_flange.rotation.to_rotation_matrix().into_inner(),
+            point: base_from_flange.translation.vector,
+        }
+    }
+}
+
+/// Room for descents of one chain.
+#[derive(Clone, Debug)]
+pub(super) struct Descent {
+    length: f64,
+    frames: Frames,
+    screws: Vec<Twist>,
+    columns: Vec<Vector6<f64>>,
+    trial: Vec<f64>,
+}
+
+impl Descent {
+    pub fn new(chain: &Chain) -> Descent {
+        let count = chain.links().len();
+        Descent {
+            length: chain.length(),
+            frames: Frames::for_joints(count),
+            screws: vec![Twist::ZERO; count],
+            columns: vec![Vector6::zeros(); count],
+            trial: vec![0.0; count],
+        }
+    }
+
+    /// Moves `theta` until the flange stands at `goal`.
+    ///
+    /// # Errors
+    /// [`Unreachable::NotFound`] with what is left; `theta` then holds the best that was found.
+    pub fn reach(&mut self, chain: &Chain, goal: &Goal, theta: &mut [f64]) -> Result<(), Unreachable> {
+        let mut error = self.error(chain, goal, theta);
+        let mut size = error.norm_squared();
+        let (mut damping, mut idle) = (1e-2, 0);
+        self.linearise(chain);
+        for _ in 0..MOST_STEPS {
+            if size < DONE * DONE || damping > STUCK || idle > PATIENCE {
+                break;
+            }
+            let step = self.least_squares(&error, damping * size);
+            self.try_step(theta, |column| column.dot(&step));
+            let trial_error = self.error_of_trial(chain, goal);
+            let trial_size = trial_error.norm_squared();
+            if trial_size < size {
+                idle = if trial_size > 0.9 * size { idle + 1 } else { 0 };
+                theta.copy_from_slice(&self.trial);
+                (error, size) = (trial_error, trial_size);
+                damping *= 0.2;
+                self.linearise(chain);
+            } else {
+                damping = damping.max(1e-3) * 10.0;
+            }
+        }
+        let (by, turned) = (error.xyz().norm() * self.length, error.fixed_rows::<3>(3).norm());
+        // Rounding of a long chain may stop short of DONE; what is checked afterwards decides.
+        if by < 1e-9 && turned < 1e-9 {
+            Ok(())
+        } else {
+            Err(Unreachable::NotFound { by, turned })
+        }
+    }
+
+    /// [`Descent::reach`], then as near to `home` (chain positions) as the joints to spare allow.
+    ///
+    /// # Errors
+    /// Those of [`Descent::reach`].
+    pub fn reach_near(
+        &mut self,
+        chain: &Chain,
+        goal: &Goal,
+        home: &[f64],
+        theta: &mut [f64],
+    ) -> Result<(), Unreachable> {
+        self.reach(chain, goal, theta)?;
+        for ((theta, home), link) in theta.iter_mut().zip(home).zip(chain.links()) {
+            if matches!(link.motion, Motion::About(..)) {
+                *theta -= TAU * ((*theta - home) / TAU).round();
+            }
+        }
+        for _ in 0..MOST_PULLS {
+            let error = self.error(chain, goal, theta);
+            self.linearise(chain);
+            let pull = |i: usize| 0.5 * (home[i] - theta[i]);
+            let pulled: Vector6<f64> = self.columns.iter().enumerate().map(|(i, c)| c * pull(i)).sum();
+            let step = self.least_squares(&(error - pulled), error.norm_squared());
+            let mut largest: f64 = 0.0;
+            for (i, (trial, column)) in self.trial.iter_mut().zip(&self.columns).enumerate() {
+                *trial = pull(i) + column.dot(&step);
+                largest = largest.max(trial.abs());
+            }
+            let shorter = (0.3 / largest).min(1.0);
+            for (theta, step) in theta.iter_mut().zip(&self.trial) {
+                *theta += shorter * step;
+            }
+            if largest < SETTLED {
+                break;
+            }
+        }
+        self.reach(chain, goal, theta)
+    }
+
+    /// Whether some joints do nearly the same at `theta`: the Jacobian is ill conditioned. False for fewer than six
+    /// joints, which never span all directions.
+    pub fn dependent(&mut self, chain: &Chain, theta: &[f64]) -> bool {
+        if theta.len() < 6 {
+            return false;
+        }
+        chain_forward_into(chain, |i| theta[i], &mut self.frames);
+        self.linearise(chain);
+        let gram = self.gram();
+        let inverse = gram.cholesky().map(|factor| factor.inverse());
+        inverse.is_none_or(|inverse| inverse.trace() * gram.trace() > DEPENDENT * DEPENDENT)
+    }
+
+    fn error(&mut self, chain: &Chain, goal: &Goal, theta: &[f64]) -> Vector6<f64> {
+        chain_forward_into(chain, |i| theta[i], &mut self.frames);
+        self.difference(goal)
+    }
+
+    fn error_of_trial(&mut self, chain: &Chain, goal: &Goal) -> Vector6<f64> {
+        chain_forward_into(chain, |i| self.trial[i], &mut self.frames);
+        self.difference(goal)
+    }
+
+    /// What the flange lacks to the goal, in units of `length` and rad.
+    fn difference(&self, goal: &Goal) -> Vector6<f64> {
+        let flange = &self.frames.base_from_flange;
+        let away = (goal.point - flange.translation.vector) / self.length;
+        let turned = turn_between(flange.rotation.matrix(), &goal.rotation);
+        Vector6::new(away.x, away.y, away.z, turned.x, turned.y, turned.z)
+    }
+
+    /// Fills the columns of the scaled Jacobian where the frames stand.
+    fn linearise(&mut self, chain: &Chain) {
+        let flange = self.frames.base_from_flange.translation.vector.into();
+        chain_screws_into(chain, &self.frames, &flange, &mut self.screws);
+        for (column, screw) in self.columns.iter_mut().zip(&self.screws) {
+            let (v, w) = (screw.linear / self.length, screw.angular);
+            *column = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+        }
+    }
+
+    fn gram(&self) -> Matrix6<f64> {
+        let mut gram = Matrix6::zeros();
+        for c in &self.columns {
+            gram.ger(1.0, c, c, 1.0);
+        }
+        gram
+    }
+
+    /// `(J J^T + lambda I)^-1 e`.
+    fn least_squares(&self, error: &Vector6<f64>, lambda: f64) -> Vector6<f64> {
+        let gram = self.gram();
+        // A singular Jacobian gets the least damping that the factors need.
+        let least = 1e-15 * gram.trace();
+        (0..16)
+            .map(|power| lambda.max(least * 10f64.powi(power)))
+            .find_map(|lambda| (gram + Matrix6::from_diagonal_element(lambda)).cholesky())
+            .map_or_else(Vector6::zeros, |factor| factor.solve(error))
+    }
+
+    /// Fills the trial with `theta` and the step of each column, none longer than a linear model bears.
+    fn try_step(&mut self, theta: &[f64], step: impl Fn(&Vector6<f64>) -> f64) {
+        let mut largest: f64 = 0.0;
+        for (trial, column) in self.trial.iter_mut().zip(&self.columns) {
+            *trial = step(column);
+            largest = largest.max(trial.abs());
+        }
+        let shorter = (LONGEST_STEP / largest).min(1.0);
+        for (trial, theta) in self.trial.iter_mut().zip(theta) {
+            *trial = theta + shorter * *trial;
+        }
+    }
+}
+
+/// Axis times angle (rad) of the turn that takes the axes `from` to the axes `to`.
+fn turn_between(from: &SMatrix<f64, 3, 3>, to: &SMatrix<f64, 3, 3>) -> Vector3<f64> {
+    let sine: Vector3<f64> = (0..3)
+        .map(|i| from.column(i).cross(&to.column(i)))
+        .sum::<Vector3<f64>>()
+        * 0.5;
+    let cosine = 0.5 * (from.dot(to) - 1.0);
+    let length = sine.norm();
+    if length > 1e-6 || cosine > 0.0 {
+        // For small angles the sine is the angle, to rounding.
+        let factor = if length > 1e-9 {
+            length.atan2(cosine) / length
+        } else {
+            1.0
+        };
+        return sine * factor;
+    }
+    // Half a turn: the axis is the longest column of R + I.
+    let turn = to * from.transpose() + SMatrix::identity();
+    let axis = turn
+        .column_iter()
+        .map(nalgebra::Matrix::into_owned)
+        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        .unwrap_or_else(Vector3::x);
+    axis.normalize() * std::f64::consts::PI
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Rotation3;
+
+    #[test]
+    fn turns_between_axes_are_those_that_were_made() {
+        let from = Rotation3::from_euler_angles(0.3, -1.0, 2.0);
+        let axis = Vector3::new(0.48, -0.6, 0.64);
+        for angle in [0.0, 1e-12, 1e-5, 0.3, 1.7, 3.0, 3.1] {
+            let to = Rotation3::new(axis * angle) * from;
+            let found = turn_between(from.matrix(), to.matrix());
+            assert!((found - axis * angle).norm() < 1e-9, "{angle}: {found}");
+        }
+        let half = Rotation3::new(axis * std::f64::consts::PI) * from;
+        let found = turn_between(from.matrix(), half.matrix());
+        assert!((found.norm() - std::f64::consts::PI).abs() < 1e-9 && found.cross(&axis).norm() < 1e-6);
+    }
+}

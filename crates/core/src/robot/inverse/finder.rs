@@ -1,0 +1,473 @@
+//! The postures of one robot at one pose after the other, with room that is reused.
+//!
+//! Closed forms give each branch at once; a calibrated arm takes them as starts; other chains are searched from
+//! starts spread over the ranges of their joints, or from the postures of the pose before. All work in chain
+//! positions; joints are counted, and every posture is verified by forward kinematics, in one place.
+
+use std::f64::consts::{PI, TAU};
+
+use super::super::chain::{Amount, Chain, Motion};
+use super::super::forward::{Frames, forward_into};
+use super::super::model::Robot;
+use super::super::posture::{Branch, BranchPattern, PostureName, Sides, Singularity, Unreachable};
+use super::closed_form::ClosedForm;
+use super::descent::{Descent, Goal};
+use super::holds;
+use super::kind::{ENOUGH, Inverse};
+use super::starts::spread;
+use crate::frame::Isometry;
+
+/// Postures of one pose at most: a general arm of six turning joints has up to 16.
+const MOST: usize = 16;
+/// Postures after which a search ends, to take the nearest of them: joints to spare and singular poses have no end.
+const PLENTY: usize = 32;
+/// Starts without a new posture that end a search.
+const BARREN: usize = 48;
+/// Starts of a search at most.
+const MOST_STARTS: usize = 400;
+/// Two postures nearer than this (rad, m) are one; joints to spare settle less sharply.
+const SAME: f64 = 1e-4;
+const SAME_TO_SPARE: f64 = 1e-2;
+/// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
+const JUMP: f64 = 0.5;
+
+/// Descents reached the pose, but all in other branches than those asked for.
+const OTHER_BRANCHES: Unreachable = Unreachable::NotFound { by: 0.0, turned: 0.0 };
+
+/// Where the flange should be, and where the arm stood or likes to stand.
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
+    /// The flange, in base.
+    pub base_from_flange: Isometry,
+    /// Joint positions of the point before, if there is one.
+    pub near: Option<&'a [f64]>,
+    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges,
+    /// or zero where they have none.
+    pub home: Option<&'a [f64]>,
+}
+
+/// A posture that holds the flange where it was wanted.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// Its name.
+    pub name: PostureName,
+    /// Joint positions `q`, rad (m).
+    pub joints: Vec<f64>,
+    /// Near which singularity, if any.
+    pub singularity: Option<Singularity>,
+}
+
+/// Finds postures; made once a thread.
+#[derive(Debug)]
+pub struct Finder<'r> {
+    robot: &'r Robot,
+    arm: Arm<'r>,
+    frames: Frames,
+    descent: Descent,
+    found: Vec<Found>,
+    /// Of each posture found: chain positions of the arm, kept for the pose that follows.
+    before: Vec<Vec<f64>>,
+    home: Vec<f64>,
+}
+
+/// The chain that postures are found for: the robot's own, or what its rail carries.
+#[derive(Clone, Copy, Debug)]
+struct Arm<'r> {
+    chain: &'r Chain,
+    inverse: &'r Inverse,
+    rail: &'r [Motion],
+    /// Index of its first joint.
+    first: usize,
+}
+
+impl<'r> Arm<'r> {
+    fn of(robot: &'r Robot) -> Arm<'r> {
+        match robot.inverse() {
+            Inverse::OnRail(rail) => Arm {
+                chain: &rail.chain,
+                inverse: &rail.inverse,
+                rail: &rail.motions,
+                first: rail.joints,
+            },
+            inverse => Arm {
+                chain: robot.chain(),
+                inverse,
+                rail: &[],
+                first: 0,
+            },
+        }
+    }
+}
+
+impl<'r> Finder<'r> {
+    /// Room to find postures of `robot`.
+    pub fn new(robot: &'r Robot) -> Finder<'r> {
+        let arm = Arm::of(robot);
+        Finder {
+            robot,
+            arm,
+            frames: Frames::for_robot(robot),
+            descent: Descent::new(arm.chain),
+            found: Vec::with_capacity(8),
+            before: Vec::new(),
+            home: vec![0.0; robot.joints().len()],
+        }
+    }
+
+    /// Forgets the postures of the pose before: the next search starts anew.
+    pub fn forget(&mut self) {
+        self.before.clear();
+    }
+
+    /// Every posture; of a searched chain those that are found, nearest to `near` (or `home`) first.
+    ///
+    /// # Errors
+    /// The reason of the branch that misses by least, or how near a search came.
+    pub fn all(&mut self, wanted: &Wanted<'_>) -> Result<&[Found], Unreachable> {
+        self.find(wanted, BranchPattern::default(), MOST)
+    }
+
+    /// The postures whose branch matches; of a chain without named branches the one nearest to `near` (or `home`).
+    ///
+    /// # Errors
+    /// Those of [`Finder::all`].
+    pub fn matching(&mut self, wanted: &Wanted<'_>, pattern: BranchPattern) -> Result<&[Found], Unreachable> {
+        self.find(wanted, pattern, 1)
+    }
+
+    fn find(
+        &mut self,
+        wanted: &Wanted<'_>,
+        pattern: BranchPattern,
+        most: usize,
+    ) -> Result<&[Found], Unreachable> {
+        self.found.clear();
+        self.settle_home(wanted);
+        let arm_from_flange = self.base_from_arm().inv_mul(&wanted.base_from_flange);
+        let missed = match self.arm.inverse {
+            Inverse::Closed(form) => self.branches(form, wanted, &arm_from_flange, pattern),
+            Inverse::Polished(form) => self.polished(form, wanted, &arm_from_flange, pattern),
+            Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most),
+        };
+        if self.found.is_empty() {
+            return Err(missed.unwrap_or(OTHER_BRANCHES));
+        }
+        Ok(&self.found)
+    }
+
+    /// Home with nothing left out.
+    fn settle_home(&mut self, wanted: &Wanted<'_>) {
+        match wanted.home {
+            Some(home) => self.home.copy_from_slice(home),
+            None => self.home = self.robot.middles(),
+        }
+    }
+
+    /// Where the rail has brought the arm.
+    fn base_from_arm(&self) -> Isometry {
+        let mut base_from_arm = Isometry::identity();
+        for motion in self.arm.rail {
+            let distance = match motion.amount() {
+                Amount::Constant(value) => value,
+                Amount::Joint(joint) => self.robot.theta(joint, &self.home),
+            };
+            base_from_arm *= motion.displacement(distance);
+        }
+        base_from_arm
+    }
+
+    /// Chain positions of the arm at joint positions of the robot.
+    fn chain_positions(&self, q: &[f64]) -> Vec<f64> {
+        (self.arm.first..q.len())
+            .map(|i| self.robot.theta(i, q))
+            .collect()
+    }
+
+    fn branches(
+        &mut self,
+        form: &ClosedForm,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        pattern: BranchPattern,
+    ) -> Option<Unreachable> {
+        let near = wanted.near.map(|q| self.chain_positions(q));
+        let mut missed: Option<Unreachable> = None;
+        for branch in Branch::ALL.into_iter().filter(|branch| pattern.matches(*branch)) {
+            let solved = form.chain_positions(arm_from_flange, branch, near.as_deref());
+            let kept = solved.and_then(|(theta, singularity)| {
+                self.keep(wanted, &theta, PostureName::Branch(branch), singularity)
+            });
+            if let Err(miss) = kept {
+                missed = Some(nearer(missed, miss));
+            }
+        }
+        missed
+    }
+
+    /// The branches of a calibrated arm, from those of the ideal one. The ideal arm names them too: where it stands
+    /// nearly straight a descent may end in another branch than it came from.
+    fn polished(
+        &mut self,
+        form: &ClosedForm,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        pattern: BranchPattern,
+    ) -> Option<Unreachable> {
+        let near = wanted.near.map(|q| self.chain_positions(q));
+        let goal = Goal::new(arm_from_flange);
+        let mut missed: Option<Unreachable> = None;
+        // Branches that are asked for first: mostly they are what the others need not be looked at for.
+        let (asked, others): (Vec<Branch>, Vec<Branch>) = Branch::ALL
+            .into_iter()
+            .partition(|branch| pattern.matches(*branch));
+        let mut strayed = false;
+        for branch in asked.iter().chain(&others) {
+            if !pattern.matches(*branch) && !strayed {
+                break;
+            }
+            let solved = form.chain_positions(arm_from_flange, *branch, near.as_deref());
+            let kept = solved.and_then(|(mut theta, _)| {
+                self.descent.reach(self.arm.chain, &goal, &mut theta)?;
+                let (own, singularity) = form.name(&theta);
+                strayed |= own != *branch;
+                if self.is_known(&theta, SAME) {
+                    return Ok(());
+                }
+                // Beside a singularity the ideal arm may give two postures one name: the second keeps its start's.
+                let taken = self
+                    .found
+                    .iter()
+                    .any(|found| found.name == PostureName::Branch(own));
+                let name = if taken { *branch } else { own };
+                self.keep(wanted, &theta, PostureName::Branch(name), singularity)
+            });
+            if let Err(miss) = kept {
+                missed = Some(nearer(missed, miss));
+            }
+        }
+        if self.found.is_empty() && matches!(missed, Some(Unreachable::NotFound { .. })) {
+            missed = self.search(wanted, arm_from_flange, MOST);
+        }
+        self.found
+            .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
+        missed
+    }
+
+    fn search(
+        &mut self,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        most: usize,
+    ) -> Option<Unreachable> {
+        let goal = Goal::new(arm_from_flange);
+        let home = self.chain_positions(&self.home);
+        if self.follow(wanted, &goal, &home, most) {
+            return None;
+        }
+        let ranges = self.ranges();
+        let mut theta = home.clone();
+        let mut missed: Option<Unreachable> = None;
+        let mut barren = 0;
+        for start in 1..=MOST_STARTS {
+            if barren == BARREN || self.found.len() == PLENTY {
+                break;
+            }
+            barren += 1;
+            spread(start, &ranges, &mut theta);
+            match self.descend(&goal, &home, &mut theta) {
+                Ok(()) if self.is_known(&theta, self.same()) => {}
+                Ok(()) => match self.keep_searched(wanted, &theta) {
+                    Ok(()) => barren = 0,
+                    Err(miss) => missed = Some(nearer(missed, miss)),
+                },
+                Err(miss) => missed = Some(nearer(missed, miss)),
+            }
+        }
+        self.sort(wanted.near);
+        self.found.truncate(most);
+        self.before = self
+            .found
+            .iter()
+            .map(|found| self.chain_positions(&found.joints))
+            .collect();
+        missed
+    }
+
+    /// Takes up the postures of the pose before; false if one of them has no continuation here.
+    fn follow(&mut self, wanted: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
+        if self.before.is_empty() || self.before.len() > most {
+            return false;
+        }
+        let mut before = std::mem::take(&mut self.before);
+        let followed = before.iter_mut().all(|theta| {
+            let from = theta.clone();
+            let reached = self.descend(goal, home, theta).is_ok();
+            let away = theta.iter().zip(&from).map(|(a, b)| (a - b).abs());
+            reached
+                && away.fold(0.0, f64::max) < JUMP
+                && !self.is_known(theta, self.same())
+                && self.keep_searched(wanted, theta).is_ok()
+        });
+        if followed {
+            self.before = before;
+        } else {
+            self.found.clear();
+        }
+        followed
+    }
+
+    fn descend(&mut self, goal: &Goal, home: &[f64], theta: &mut [f64]) -> Result<(), Unreachable> {
+        if theta.len() > ENOUGH {
+            self.descent.reach_near(self.arm.chain, goal, home, theta)
+        } else {
+            self.descent.reach(self.arm.chain, goal, theta)
+        }
+    }
+
+    fn same(&self) -> f64 {
+        if self.arm.chain.links().len() > ENOUGH {
+            SAME_TO_SPARE
+        } else {
+            SAME
+        }
+    }
+
+    /// Chain positions that the joints of the arm may take; a turn for joints without limits.
+    fn ranges(&self) -> Vec<[f64; 2]> {
+        let middles = self.chain_positions(&self.robot.middles());
+        let range = |(i, middle): (usize, f64)| {
+            let joint = self.arm.first + i;
+            let half = self.robot.joints()[joint]
+                .limits
+                .map(|limits| 0.5 * (limits.upper - limits.lower));
+            let half = if self.robot.slides(joint) {
+                half.unwrap_or(self.arm.chain.length())
+            } else {
+                half.unwrap_or(PI).min(PI)
+            };
+            [middle - half, middle + half]
+        };
+        middles.into_iter().enumerate().map(range).collect()
+    }
+
+    /// Whether these chain positions, whole turns apart, have been found already.
+    fn is_known(&self, theta: &[f64], same: f64) -> bool {
+        self.found.iter().any(|found| {
+            theta.iter().enumerate().all(|(i, theta)| {
+                let joint = self.arm.first + i;
+                let away = theta - self.robot.theta(joint, &found.joints);
+                let away = if self.robot.slides(joint) {
+                    away
+                } else {
+                    away - TAU * (away / TAU).round()
+                };
+                away.abs() < same
+            })
+        })
+    }
+
+    fn keep_searched(&mut self, wanted: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
+        let (name, singularity) = match self.arm.inverse.names() {
+            Some(form) => {
+                let (branch, singularity) = form.name(theta);
+                (PostureName::Branch(branch), singularity)
+            }
+            None => {
+                let dependent = self.descent.dependent(self.arm.chain, theta);
+                (
+                    PostureName::Sides(Sides::default()),
+                    dependent.then_some(Singularity::Dependent),
+                )
+            }
+        };
+        self.keep(wanted, theta, name, singularity)
+    }
+
+    /// Counts the joints of a posture, verifies it and keeps it; sides are told from the joints counted.
+    fn keep(
+        &mut self,
+        wanted: &Wanted<'_>,
+        theta: &[f64],
+        name: PostureName,
+        singularity: Option<Singularity>,
+    ) -> Result<(), Unreachable> {
+        let mut joints = self.home.clone();
+        for (i, theta) in theta.iter().enumerate() {
+            let joint = self.arm.first + i;
+            let counted = self.robot.joint_position(joint, *theta, &joints);
+            joints[joint] = if self.robot.slides(joint) {
+                counted
+            } else {
+                self.whole_turns(joint, counted, wanted.near)
+            };
+        }
+        forward_into(self.robot, &joints, &mut self.frames);
+        holds(&self.frames, &wanted.base_from_flange)?;
+        self.found.push(Found {
+            name: match name {
+                PostureName::Branch(_) => name,
+                PostureName::Sides(_) => sides(self.robot, &joints),
+            },
+            joints,
+            singularity,
+        });
+        Ok(())
+    }
+
+    /// The count of a turning joint as near as possible to where it stood, if its limits allow, otherwise to the
+    /// middle of its range. An ortho-parallel arm takes the middle always, as its lanes do.
+    fn whole_turns(&self, joint: usize, counted: f64, near: Option<&[f64]>) -> f64 {
+        let limits = self.robot.joints()[joint].limits;
+        if let Some(near) = near
+            && self.robot.ortho_parallel().is_none()
+        {
+            let close = nearest_turn(counted, near[joint]);
+            if limits.is_none_or(|limits| limits.margin(close) >= 0.0) {
+                return close;
+            }
+        }
+        nearest_turn(counted, limits.map_or(0.0, |limits| limits.middle()))
+    }
+
+    /// Nearest to `near`, or home, first.
+    fn sort(&mut self, near: Option<&[f64]>) {
+        let from = near.unwrap_or(&self.home);
+        let away =
+            |found: &Found| -> f64 { found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum() };
+        self.found.sort_by(|a, b| away(a).total_cmp(&away(b)));
+    }
+}
+
+/// Name of the posture at the joint positions `q`, and the singularity it stands near, if any.
+pub(super) fn name(robot: &Robot, q: &[f64]) -> (PostureName, Option<Singularity>) {
+    let arm = Arm::of(robot);
+    let theta: Vec<f64> = (arm.first..q.len()).map(|i| robot.theta(i, q)).collect();
+    match arm.inverse.names() {
+        Some(form) => {
+            let (branch, singularity) = form.name(&theta);
+            (PostureName::Branch(branch), singularity)
+        }
+        None => {
+            let dependent = Descent::new(arm.chain).dependent(arm.chain, &theta);
+            (sides(robot, q), dependent.then_some(Singularity::Dependent))
+        }
+    }
+}
+
+fn sides(robot: &Robot, q: &[f64]) -> PostureName {
+    PostureName::Sides(Sides::of(q, &robot.middles()))
+}
+
+/// The miss that is smaller.
+fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
+    known
+        .filter(|known| known.amount() <= miss.amount())
+        .unwrap_or(miss)
+}
+
+/// `angle` plus whole turns, in (middle - pi, middle + pi].
+fn nearest_turn(angle: f64, middle: f64) -> f64 {
+    let away = (angle - middle) / TAU;
+    // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
+    angle - TAU * (away - 0.5 - 1e-12).ceil()
+}

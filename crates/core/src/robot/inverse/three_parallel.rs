@@ -1,0 +1,253 @@
+//! Closed-form inverse for arms whose axes 2, 3 and 4 are parallel (UR and other cobots).
+//!
+//! Six turning joints qualify whose axis 2 is perpendicular to axis 1 and parallel to axes 3 and 4, whose axis 5 is
+//! perpendicular to axes 4 and 6 and meets axis 6 in the wrist centre. The arm's axes: z along axis 1 and up, y along
+//! axis 2, x to the front, origin on axis 1 at the height of axis 2. Joints 2 to 4 turn about y and move nothing
+//! along it, so that two subproblems split off:
+//!
+//! ```text
+//! joint 1: the wrist centre p stays b beside the arm's plane: r = +-sqrt(px^2 + py^2 - b^2)       + front, - back
+//! joint 5: axis 6, seen from the turned base as s, has the angle beta to axis 4: cos beta = s a4  beta >= 0 no-flip
+//! joint 6: axis 5 = a4 x (s - cos beta a4) / sin beta, against where the flange has it
+//! chi    : turn of joints 2 to 4 together, from axis 5; then axis 4 is a point in the plane
+//! joints 2, 3: triangle of `two_links`; joint 4 = chi less both
+//! ```
+//!
+//! Lengths m, angles rad. Source: subproblems after Paden 1986 and Kahan; the split for three parallel axes as in
+//! Elias & Wen 2022 (IK-Geo), here in the case of two meeting axes; `docs/theory/inverse.md`.
+
+use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+
+use super::super::chain::Chain;
+use super::super::posture::{Branch, Shoulder, Singularity, Unreachable, Wrist};
+use super::lines::{IDEAL, Line, Turn, across, lines_at_zero, sense_of, up_to_noise};
+use super::ortho_parallel::{NEAR_SINGULAR, WRIST_SINGULAR};
+use super::two_links::TwoLinks;
+use crate::frame::Isometry;
+
+/// The geometry of an arm with three parallel axes, read off its chain.
+#[derive(Clone, Debug)]
+pub struct ThreeParallel {
+    /// x to the front, y along axis 2, z along axis 1; origin on axis 1 at the height of axis 2.
+    arm_from_base: Isometry,
+    /// Axis 2 before axis 1.
+    a1: f64,
+    /// The wrist centre beside the arm's plane, along y.
+    b: f64,
+    links: TwoLinks,
+    /// From axis 4 to the wrist centre at chain zero, in the arm's plane.
+    hand: Vector3<f64>,
+    /// Axis 5 at chain zero, arm's axes.
+    axis_5: Vector3<f64>,
+    upper_arm_at_zero: f64,
+    forearm_at_zero: f64,
+    bend_at_zero: f64,
+    /// Sense of axes 1 to 4 against the common one, 1 or -1; 5 and 6 count by their own right hand.
+    sense: [f64; 6],
+    /// Axes 5 and 6 at chain zero, and the wrist centre, in the flange's axes.
+    flange_from_axis_5: Vector3<f64>,
+    flange_from_axis_6: Vector3<f64>,
+    flange_from_wrist: Point3<f64>,
+}
+
+impl ThreeParallel {
+    /// The geometry of `chain`, or `None` if it is of another kind.
+    pub fn recognise(chain: &Chain) -> Option<ThreeParallel> {
+        let lines = lines_at_zero(chain)?;
+        let wrist = lines[4].nearest_to(&lines[5])?;
+        (stray(&lines, wrist) < IDEAL)
+            .then(|| ThreeParallel::of_lines(chain, &lines, wrist))
+            .flatten()
+    }
+
+    /// The geometry with three parallel axes next to that of `chain`, if it strays by less than `within` (m, rad) from
+    /// one; it answers up to `slack` (m) beyond its reach.
+    pub(super) fn next_to(chain: &Chain, within: f64, slack: f64) -> Option<ThreeParallel> {
+        let mut lines = lines_at_zero(chain)?;
+        let wrist = lines[4].nearest_to(&lines[5])?;
+        if stray(&lines, wrist) >= within {
+            return None;
+        }
+        lines = lines.map(|line| line.told_near(wrist));
+        lines[1].axis = across(lines[1].axis, &lines[0].axis);
+        for parallel in [2, 3] {
+            lines[parallel].axis = lines[1].axis * sense_of(lines[parallel].axis.dot(&lines[1].axis));
+        }
+        lines[4].axis = across(lines[4].axis, &lines[1].axis);
+        lines[5].axis = across(lines[5].axis, &lines[4].axis);
+        let mut arm = ThreeParallel::of_lines(chain, &lines, wrist)?;
+        arm.links.slack = slack;
+        Some(arm)
+    }
+
+    fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<ThreeParallel> {
+        let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
+        let up = z1 * sense_of(z1.z);
+        let centre = lines[0].point + up * (lines[1].point - lines[0].point).dot(&up);
+        // The front is where base x points; if it points along axis 2, where the wrist is.
+        let forwards = z2.cross(&up);
+        let front = up_to_noise(forwards.x).or_else(|| up_to_noise((wrist - centre).dot(&forwards)));
+        let y = z2 * sense_of(front.unwrap_or(1.0));
+        let axes = Matrix3::from_columns(&[y.cross(&up), y, up]);
+        let base_from_arm = Isometry::from_parts(
+            centre.into(),
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
+        );
+        let arm_from_base = base_from_arm.inverse();
+        let [shoulder, elbow, hand] = [1, 2, 3].map(|i| arm_from_base * lines[i].point);
+        let w = arm_from_base * wrist;
+        let (upper_arm, forearm) = (elbow - shoulder, hand - elbow);
+        let [axis_4, axis_5, axis_6] = [z4, z5, z6].map(|axis| arm_from_base * axis);
+        let flange_from_base = chain.base_from_flange(&[0.0; 6]).inverse();
+        let parallel = |axis: Vector3<f64>| sense_of(axis.dot(&y));
+        Some(ThreeParallel {
+            a1: shoulder.x,
+            b: w.y,
+            links: TwoLinks {
+                l2: upper_arm.xz().norm(),
+                l3: forearm.xz().norm(),
+                slack: 0.0,
+            },
+            hand: Vector3::new(w.x - hand.x, 0.0, w.z - hand.z),
+            axis_5,
+            upper_arm_at_zero: upper_arm.x.atan2(upper_arm.z),
+            forearm_at_zero: forearm.x.atan2(forearm.z),
+            bend_at_zero: (axis_6.dot(&axis_5.cross(&axis_4))).atan2(axis_6.dot(&axis_4)),
+            sense: [
+                sense_of(z1.dot(&up)),
+                parallel(z2),
+                parallel(z3),
+                parallel(z4),
+                1.0,
+                1.0,
+            ],
+            flange_from_axis_5: flange_from_base * z5,
+            flange_from_axis_6: flange_from_base * z6,
+            flange_from_wrist: flange_from_base * wrist,
+            arm_from_base,
+        })
+        .filter(|arm| arm.links.l2 > IDEAL && arm.links.l3 > IDEAL)
+    }
+
+    /// Chain positions of one branch that bring the flange to `base_from_flange`, whole turns anywhere, and near which
+    /// singularity they stand.
+    ///
+    /// Where axis 6 is parallel to axes 2, 3 and 4, joint 6 stays at `kept` (chain position, rad), or at zero; if the
+    /// arm cannot hold the pose so, where its hand points away from the shoulder, or towards it.
+    /// Not checked: forward kinematics (see [`super::holds`]).
+    ///
+    /// # Errors
+    /// Axis 4 or the wrist centre is out of reach of this branch.
+    pub fn chain_positions(
+        &self,
+        base_from_flange: &Isometry,
+        branch: Branch,
+        kept: Option<f64>,
+    ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
+        let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
+        let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
+        if r_squared < 0.0 {
+            let by = self.b.abs() - p.x.hypot(p.y);
+            if by >= self.links.slack {
+                return Err(Unreachable::InsideLateralOffset { by });
+            }
+        }
+        let r = match branch.shoulder {
+            Shoulder::Front => r_squared.max(0.0).sqrt(),
+            Shoulder::Back => -r_squared.max(0.0).sqrt(),
+        };
+        let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
+        let seen =
+            |in_flange: &Vector3<f64>| phi1.back_about_z(self.arm_from_base * (base_from_flange * in_flange));
+        let (out, second) = (seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5));
+        let bent = out.x.hypot(out.z);
+        let flip = if branch.wrist == Wrist::NoFlip { 1.0 } else { -1.0 };
+        let bend = Turn::new(out.y * self.sense[3], flip * bent);
+        let hand_and_links = |axis_5: &Vector3<f64>| {
+            let turned = Turn::new(
+                self.axis_5.dot(axis_5),
+                axis_5.dot(&Vector3::y().cross(&self.axis_5)),
+            );
+            let hand = turned.about_y(self.hand);
+            let links = self
+                .links
+                .solve(r - hand.x - self.a1, p.z - hand.z, branch.elbow)?;
+            Ok::<_, Unreachable>((turned, links))
+        };
+        let (axis_5, (turned, (psi, chi))) = if bent < WRIST_SINGULAR {
+            // Joint 6 is free: as it was, or so that the hand points away from the shoulder, or towards it.
+            let kept = across(
+                UnitQuaternion::new(out * -kept.unwrap_or(0.0)) * second,
+                &Vector3::y(),
+            );
+            let away = Turn::new(r - self.a1, p.z).less(Turn::new(self.hand.x, self.hand.z));
+            let outwards = away.back_about_y(self.axis_5);
+            let solved = |axis_5: Vector3<f64>| Ok((axis_5, hand_and_links(&axis_5)?));
+            solved(kept).or_else(|miss| solved(outwards).or_else(|_| solved(-outwards)).map_err(|_| miss))?
+        } else {
+            let axis_5 = Vector3::new(out.z, 0.0, -out.x) * (self.sense[3] * flip / bent);
+            (axis_5, hand_and_links(&axis_5)?)
+        };
+        let phi6 = Turn::new(axis_5.dot(&second), out.dot(&axis_5.cross(&second)));
+        let (psi_angle, chi_angle) = (psi.angle(), chi.angle());
+        let phi2 = psi_angle - self.upper_arm_at_zero;
+        let forearm = chi_angle - self.forearm_at_zero;
+        let mut positions = [
+            phi1.angle(),
+            phi2,
+            forearm - phi2,
+            turned.angle() - forearm,
+            bend.angle() - self.bend_at_zero,
+            phi6.angle(),
+        ];
+        for (phi, sense) in positions.iter_mut().zip(self.sense) {
+            *phi *= sense;
+        }
+        Ok((positions, self.singularity(bend.sin, chi.less(psi).sin, r)))
+    }
+
+    /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
+    ///
+    /// Not checked: that there are six.
+    pub fn name(&self, theta: &[f64]) -> (Branch, Option<Singularity>) {
+        let phi = |i: usize| self.sense[i] * theta[i];
+        let psi = self.upper_arm_at_zero + phi(1);
+        let forearm = self.forearm_at_zero + phi(1) + phi(2);
+        let hand = Turn::by(phi(1) + phi(2) + phi(3)).about_y(self.hand);
+        let u = self.links.l2 * psi.sin() + self.links.l3 * forearm.sin();
+        let r = self.a1 + u + hand.x;
+        let (eps, bend) = (forearm - psi, self.bend_at_zero + phi(4));
+        let branch = Branch {
+            shoulder: Shoulder::at(r),
+            elbow: TwoLinks::elbow(eps, u),
+            wrist: Wrist::bent(bend.sin()),
+        };
+        (branch, self.singularity(bend.sin(), eps.sin(), r))
+    }
+
+    fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
+        if sin_bend.abs() < NEAR_SINGULAR {
+            Some(Singularity::Wrist)
+        } else if sin_elbow.abs() < NEAR_SINGULAR {
+            Some(Singularity::Elbow)
+        } else if r.abs() < NEAR_SINGULAR * (self.links.l2 + self.links.l3) {
+            Some(Singularity::Shoulder)
+        } else {
+            None
+        }
+    }
+}
+
+/// By how much (m, rad) these axes stray from those of an arm with three parallel axes.
+fn stray(lines: &[Line; 6], wrist: Point3<f64>) -> f64 {
+    let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
+    let strays = [
+        z1.dot(&z2).abs(),
+        z2.cross(&z3).norm(),
+        z2.cross(&z4).norm(),
+        z4.dot(&z5).abs(),
+        z5.dot(&z6).abs(),
+        lines[5].distance(wrist),
+    ];
+    strays.into_iter().fold(0.0, f64::max)
+}

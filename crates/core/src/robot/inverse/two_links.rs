@@ -1,0 +1,110 @@
+//! The triangle of upper arm and forearm in the plane of an arm: which angles bring its end to a point?
+//!
+//! ```text
+//! eps:  cos = (d^2 - l2^2 - l3^2) / (2 l2 l3), sin = +-sqrt(...)           d^2 = u^2 + v^2
+//! psi:  (cos, sin) = (v k1 + u k2, u k1 - v k2) / d^2                       k1 = l2 + l3 cos eps, k2 = l3 sin eps
+//! ```
+//!
+//! `u` to the front, `v` upwards, from the shoulder (m); `psi` of the upper arm and `chi` of the forearm from the
+//! vertical towards the front; `eps = chi - psi`. Source: textbook geometry; `docs/theory/inverse.md`.
+
+use super::super::posture::{Elbow, Unreachable};
+use super::lines::Turn;
+
+/// Lengths of upper arm and forearm, m.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TwoLinks {
+    pub l2: f64,
+    pub l3: f64,
+    /// How far (m) beyond its reach the arm still answers, with its elbow nearly straight: zero but for a starting
+    /// value.
+    pub slack: f64,
+}
+
+/// Bend of the elbow, as a part of the reach, that a point beyond it is answered with.
+const NEARLY_STRAIGHT: f64 = 2e-3;
+
+impl TwoLinks {
+    /// Angles of upper arm and forearm that bring its end to (`u`, `v`).
+    pub(super) fn solve(&self, u: f64, v: f64, elbow: Elbow) -> Result<(Turn, Turn), Unreachable> {
+        let d_squared = u * u + v * v;
+        let (reach, fold) = (self.l2 + self.l3, self.l2 - self.l3);
+        let (mut stretched, mut folded) = (reach * reach - d_squared, d_squared - fold * fold);
+        if stretched < 0.0 {
+            let by = d_squared.sqrt() - reach;
+            if by >= self.slack {
+                return Err(Unreachable::TooFar { by });
+            }
+        }
+        if folded < 0.0 {
+            let by = fold.abs() - d_squared.sqrt();
+            if by >= self.slack {
+                return Err(Unreachable::TooNear { by });
+            }
+        }
+        if self.slack > 0.0 {
+            let least = NEARLY_STRAIGHT * self.l2 * self.l3;
+            (stretched, folded) = (stretched.max(least), folded.max(least));
+        }
+        // l3 (cos, sin) of the elbow's bend; bending the forearm forwards lifts the elbow if the wrist is
+        // before the shoulder.
+        let along = 0.5 * (d_squared - self.l2 * self.l2 - self.l3 * self.l3) / self.l2;
+        let across = 0.5 * (stretched * folded).sqrt() / self.l2;
+        let k2 = if (elbow == Elbow::Up) == (u >= 0.0) {
+            across
+        } else {
+            -across
+        };
+        let k1 = self.l2 + along;
+        let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
+        let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
+        Ok((psi, chi))
+    }
+
+    /// Up or down, from the bend (rad) and the place `u` of the end before the shoulder.
+    pub fn elbow(bend: f64, u: f64) -> Elbow {
+        if (bend.sin() >= 0.0) == (u >= 0.0) {
+            Elbow::Up
+        } else {
+            Elbow::Down
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ARM: TwoLinks = TwoLinks {
+        l2: 0.6,
+        l3: 0.5,
+        slack: 0.0,
+    };
+
+    #[test]
+    fn both_elbows_end_at_the_point_and_the_upper_one_is_higher() {
+        for (u, v) in [(0.7, 0.3), (-0.4, 0.5), (0.2, -0.6)] {
+            let ends = [Elbow::Up, Elbow::Down].map(|elbow| {
+                let (psi, chi) = ARM.solve(u, v, elbow).unwrap();
+                let end = [0.6 * psi.sin + 0.5 * chi.sin, 0.6 * psi.cos + 0.5 * chi.cos];
+                assert!((end[0] - u).hypot(end[1] - v) < 1e-15);
+                assert_eq!(TwoLinks::elbow(chi.less(psi).angle(), u), elbow);
+                psi.cos
+            });
+            assert!(ends[0] > ends[1], "({u}, {v})");
+        }
+    }
+
+    #[test]
+    fn slack_answers_a_little_beyond_the_reach_with_both_elbows() {
+        let miss = ARM.solve(1.11, 0.0, Elbow::Up).unwrap_err();
+        assert!(matches!(miss, Unreachable::TooFar { by } if (by - 0.01).abs() < 1e-12));
+        let slack = TwoLinks { slack: 0.02, ..ARM };
+        let bend = |elbow| {
+            let (psi, chi) = slack.solve(1.11, 0.0, elbow).unwrap();
+            chi.less(psi).angle()
+        };
+        assert!(bend(Elbow::Up) > 0.01 && bend(Elbow::Down) < -0.01);
+        assert!(slack.solve(1.13, 0.0, Elbow::Up).is_err());
+    }
+}
