@@ -25,7 +25,7 @@ fn changed(from: &str, to: &str) -> Cell {
     let cell = Cell::new();
     let text = include_str!("../../../robots/yaskawa/mh12.toml");
     assert!(text.contains(from), "the robot file has no `{from}`");
-    cell.file("arm.toml", &text.replacen(from, to, 1));
+    cell.file("arm.toml", text.replacen(from, to, 1));
     cell
 }
 

@@ -1,6 +1,6 @@
 //! Springs from load tests: known ones are found again, with honest uncertainty; real tests are predicted as well as
 //! told.
-#![allow(missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
 
 mod arms;
 
@@ -265,12 +265,12 @@ fn the_way_of_the_paper_gives_each_joint_by_itself() {
     let unknowns = drives(&robot);
     let truth = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];
     let mut tests = Vec::new();
-    for joint in 0..6 {
+    for (joint, truth) in truth.into_iter().enumerate() {
         for mut test in loads(&robot, 2, &mut random) {
             let torque = Effects::of(&robot, &unknowns, &test).torques()[joint];
             test.readings = vec![Reading {
                 what: Measured::Turn(joint),
-                value: truth[joint] * torque,
+                value: truth * torque,
                 standard_uncertainty: 1e-5,
             }];
             tests.push(test);

@@ -91,7 +91,7 @@ fn counts_add_up_and_the_fraction_is_those_within_over_all() {
         );
         let expected: f64 = map.grid.probability_within.iter().flatten().sum();
         assert!(
-            (certainty.expected_fraction_within * 81.0 - expected).abs() < 1e-2,
+            (certainty.fraction_expected_within * 81.0 - expected).abs() < 1e-2,
             "{}",
             map.name
         );

@@ -65,7 +65,7 @@ const NO_UNIT_ENDINGS: &[&str] = &[
 ];
 
 /// First words that mark a number without unit: `fraction_within_limit`.
-const NO_UNIT_BEGINNINGS: &[&str] = &["fraction_", "share_", "ratio_"];
+const NO_UNIT_BEGINNINGS: &[&str] = &["fraction_", "share_", "ratio_", "probability_"];
 
 /// A comment that says the unit where a name cannot: `// unit: as the column it describes`.
 const EXEMPTION: &str = "// unit:";

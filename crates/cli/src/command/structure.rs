@@ -105,7 +105,7 @@ pub(super) fn as_json(robot: &Robot) -> Value {
         Some(json!({
             "joint": robot.joints()[joint].name,
             "torque_curve_n_m_rad": curve.rising.points(),
-            "torque_curve_falling_n_m_rad": curve.falling.as_ref().map(|falling| falling.points()),
+            "torque_curve_falling_n_m_rad": curve.falling.as_ref().map(armill_core::robot::TorqueCurve::points),
         }))
     });
     json!({

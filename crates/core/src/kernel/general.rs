@@ -127,11 +127,8 @@ impl<'q> General<'q> {
                     None
                 }
             };
-            if let Some(missed) = missed {
-                if miss.is_none_or(|miss| missed.amount() < miss.amount()) {
-                    miss = Some(missed);
-                }
-            }
+            let nearer = |missed: &Unreachable| miss.is_none_or(|miss| missed.amount() < miss.amount());
+            miss = missed.filter(nearer).or(miss);
         }
         self.candidates = candidates;
         best.ok_or(miss.unwrap_or(Unreachable::TooFar { by: f64::INFINITY }))

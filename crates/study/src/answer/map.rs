@@ -102,7 +102,7 @@ pub struct CertaintyAnswer {
     /// Points that would hold it with so much taken away, over all points.
     pub fraction_possibly_within: f64,
     /// Mean probability of all points to be within.
-    pub expected_fraction_within: f64,
+    pub fraction_expected_within: f64,
     /// Area that surely holds the limit.
     pub area_surely_mm2: f64,
     /// Its boundary.
@@ -190,7 +190,7 @@ fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
         coverage_factor: COVERAGE,
         fraction_surely_within: certainty.fraction_surely,
         fraction_possibly_within: certainty.fraction_possibly,
-        expected_fraction_within: certainty.expected_fraction,
+        fraction_expected_within: certainty.expected_fraction,
         area_surely_mm2: certainty.surely.area * 1e6,
         boundary_surely_mm: boundary(&certainty.surely),
         area_possibly_mm2: certainty.possibly.area * 1e6,

@@ -83,8 +83,8 @@ pub struct JointAnswer {
 /// The answer to one ask.
 enum Told {
     Maps(Vec<MapAnswer>),
-    Path(PathResult),
-    Volume(VolumeAnswer),
+    Path(Box<PathResult>),
+    Volume(Box<VolumeAnswer>),
 }
 
 /// The answer to `study` from what was found for each of its asks.
@@ -100,10 +100,10 @@ pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
             Told::Maps(sections.par_iter().zip(found).map(section).collect())
         }
         (Subject::Volume(setting, _), Found::Volume(volume)) => {
-            Told::Volume(volume::answer(study, &ask.name, setting, volume))
+            Told::Volume(Box::new(volume::answer(study, &ask.name, setting, volume)))
         }
         (Subject::Path(setting, ..), Found::Path(path)) => {
-            Told::Path(path::answer(study, &ask.name, setting, path))
+            Told::Path(Box::new(path::answer(study, &ask.name, setting, path)))
         }
         _ => Told::Maps(Vec::new()),
     };
@@ -112,8 +112,8 @@ pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
     for told in all {
         match told {
             Told::Maps(told) => maps.extend(told),
-            Told::Path(told) => paths.push(told),
-            Told::Volume(told) => volumes.push(told),
+            Told::Path(told) => paths.push(*told),
+            Told::Volume(told) => volumes.push(*told),
         }
     }
     StudyAnswer {

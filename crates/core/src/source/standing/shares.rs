@@ -67,7 +67,7 @@ impl Standing<'_> {
         S: std::ops::Add<Output = S> + std::ops::Mul<f64, Output = S>,
     {
         let known = self.arm.model.structure.covariance.as_ref();
-        let size = known.map_or(0, |s| s.nrows());
+        let size = known.map_or(0, nalgebra::DMatrix::nrows);
         let mut sum = zero;
         if let Some(s) = known {
             for i in 0..size {
