@@ -1,7 +1,7 @@
 //! `armill identify` as a user runs it: plan, fill in, identify, use; and everything that can be wrong.
 
 // A panic is how a test says that its claim is false; helper functions too.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

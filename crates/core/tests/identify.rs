@@ -383,6 +383,9 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         assert!(frames.base_from_flange.translation.vector.z > 0.2);
     }
     assert_eq!(plan(&robot, &unknowns, &asked).tests, planned.tests);
+    for (place, test) in planned.tests.iter().enumerate() {
+        assert!(!planned.tests[..place].contains(test), "{test:?} twice");
+    }
     let volume = |tests: &[LoadTest]| {
         let mut information = DMatrix::<f64>::identity(unknowns.len(), unknowns.len());
         let state = sizes(armill_core::identify::prior::typical_sizes(&unknowns));
