@@ -83,7 +83,7 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
         let value = spring["compliance_rad_per_n_m"].as_f64().unwrap();
         let u = spring["compliance_u_rad_per_n_m"].as_f64().unwrap();
         // The table gives displacements to 1 um.
-        assert!((value - 2e-6).abs() < 4.0 * u && u < 2e-7, "{spring}");
+        assert!((value - 2e-6).abs() < 4.0 * u && u < 5e-7, "{spring}");
     }
     assert!(
         answer["left_out"]["max_um"].as_f64().unwrap() < 3.0,

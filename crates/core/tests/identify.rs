@@ -151,10 +151,13 @@ fn every_spring_and_both_points_are_found_exactly_where_nothing_scatters() {
     // Three springs of one size about axes through the wrist centre yield alike in every posture: which of drives and
     // bendings of the wrist yields stays open, and no prediction needs it.
     let open = |k: &usize| found.together.iter().any(|set| set.contains(k));
-    assert_eq!(
-        (0..unknowns.len()).filter(open).collect::<Vec<_>>(),
-        [3, 4, 12, 13, 14, 15]
+    let in_wrist = |k: usize| matches!(unknowns[k].seat, Seat::Joint(3..=5));
+    assert!(
+        (0..unknowns.len()).filter(open).all(in_wrist),
+        "{:?}",
+        found.together
     );
+    assert!(!found.together.is_empty());
     for (k, (estimate, truth)) in found.estimates.iter().zip(&truth.sizes).enumerate() {
         let near = (estimate.value / truth - 1.0).abs() < 1e-4;
         assert!(near || open(&k), "{estimate:?} against {truth}");
@@ -380,6 +383,9 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
         assert!(frames.base_from_flange.translation.vector.z > 0.2);
     }
     assert_eq!(plan(&robot, &unknowns, &asked).tests, planned.tests);
+    for (place, test) in planned.tests.iter().enumerate() {
+        assert!(!planned.tests[..place].contains(test), "{test:?} twice");
+    }
     let volume = |tests: &[LoadTest]| {
         let mut information = DMatrix::<f64>::identity(unknowns.len(), unknowns.len());
         let state = sizes(armill_core::identify::prior::typical_sizes(&unknowns));

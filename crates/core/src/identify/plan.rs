@@ -77,17 +77,19 @@ pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
     let prior = prior_rows(unknowns);
     let mut information = prior.tr_mul(&prior);
     let mut chosen: Vec<usize> = Vec::new();
-    while chosen.len() < asked.tests && !candidates.is_empty() {
-        let best = best_addition(&information, &candidates);
+    while chosen.len() < asked.tests.min(candidates.len()) {
+        let best = best_addition(&information, &candidates, &chosen);
         add(&mut information, &candidates[best], 1.0);
         chosen.push(best);
     }
     for _ in 0..ROUNDS {
         let before = chosen.clone();
-        for place in &mut chosen {
-            add(&mut information, &candidates[*place], -1.0);
-            *place = best_addition(&information, &candidates);
-            add(&mut information, &candidates[*place], 1.0);
+        for _ in 0..chosen.len() {
+            let oldest = chosen.remove(0);
+            add(&mut information, &candidates[oldest], -1.0);
+            let best = best_addition(&information, &candidates, &chosen);
+            add(&mut information, &candidates[best], 1.0);
+            chosen.push(best);
         }
         if chosen == before {
             break;
@@ -122,20 +124,26 @@ fn add(information: &mut DMatrix<f64>, candidate: &Candidate, times: f64) {
     *information += candidate.rows.tr_mul(&candidate.rows) * times;
 }
 
-/// The candidate that multiplies the determinant most: `det(1 + D M^-1 D^T)`.
-fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate]) -> usize {
+/// The candidate that multiplies the determinant most, `det(1 + D M^-1 D^T)`, of those not yet chosen: to do a test twice
+/// tells of scatter alone.
+fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &[usize]) -> usize {
     let inverse = information.clone().cholesky().map(|c| c.inverse());
     let inverse = inverse.unwrap_or_else(|| DMatrix::identity(information.nrows(), information.ncols()));
     let gain = |candidate: &Candidate| {
         let inner = &candidate.rows * &inverse * candidate.rows.transpose();
         (DMatrix::identity(3, 3) + inner).determinant()
     };
-    let gains = candidates.iter().map(gain).enumerate();
+    let free = candidates
+        .iter()
+        .enumerate()
+        .filter(|(place, _)| !chosen.contains(place));
+    let gains = free.map(|(place, candidate)| (place, gain(candidate)));
     // Of equal ones the first.
     gains
-        .fold((0, f64::NEG_INFINITY), |best, (place, gain)| {
-            if gain > best.1 { (place, gain) } else { best }
-        })
+        .fold(
+            (0, f64::NEG_INFINITY),
+            |best, next| if next.1 > best.1 { next } else { best },
+        )
         .0
 }
 

@@ -12,8 +12,8 @@ use nalgebra::{DMatrix, DVector};
 
 /// Eigenvalues below this, of a matrix with unit diagonal, are rounding: such directions no test sees.
 const UNSEEN: f64 = 1e-11;
-/// Parts of a direction that are smaller than this share of its largest are not named.
-const NAMED: f64 = 0.05;
+/// Parts of a direction that are smaller than this share of its largest are rounding.
+const NAMED: f64 = 1e-3;
 
 /// Covariance and what is known from where.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -71,8 +71,9 @@ fn pseudo_inverse(matrix: &DMatrix<f64>) -> DMatrix<f64> {
     }
     let (scaled, scale) = unit_diagonal(matrix);
     let eigen = scaled.symmetric_eigen();
+    // A direction that neither tests nor prior see is uncertain beyond all others, not certain.
     let zero = UNSEEN * 1e-3;
-    let inverse = eigen.eigenvalues.map(|v| if v > zero { 1.0 / v } else { 0.0 });
+    let inverse = eigen.eigenvalues.map(|v| 1.0 / v.max(zero));
     let whole = &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
     DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| {
         whole[(i, j)] * scale[i] * scale[j]

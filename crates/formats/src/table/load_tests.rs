@@ -219,7 +219,7 @@ impl Reader<'_> {
                 match *column {
                     Column::Joint(joint, scale) => {
                         row.joints[joint] = value * scale;
-                        self.within_limits(cell, joint, value * scale);
+                        self.within_limits(cell, joint, [value, scale]);
                     }
                     Column::Force(axis, scale) => row.force[axis] = value * scale,
                     Column::Moment(axis) => row.moment[axis] = value,
@@ -275,11 +275,14 @@ impl Reader<'_> {
         None
     }
 
-    fn within_limits(&mut self, cell: &Cell, joint: usize, position: f64) {
+    fn within_limits(&mut self, cell: &Cell, joint: usize, [value, scale]: [f64; 2]) {
+        let position = value * scale;
         let described = &self.robot.joints()[joint];
         let Some(limits) = described.limits else { return };
         // An angle of many turns is told once a column, as degrees read as radians.
-        if limits.margin(position) >= -OUTSIDE || (!self.robot.slides(joint) && position.abs() > TURNS) {
+        if limits.margin(position) >= -OUTSIDE
+            || (!self.robot.slides(joint) && scale == 1.0 && value.abs() > TURNS)
+        {
             return;
         }
         let (scale, unit) = if self.robot.slides(joint) {
