@@ -27,6 +27,8 @@ pub struct StudyFile {
     pub compliance: Option<ComplianceTable>,
     /// The tool; the bare flange if left out.
     pub tool: Option<ToolTable>,
+    /// A turntable or positioner that carries the part; coordinates then may count from `table`.
+    pub positioner: Option<PositionerTable>,
     /// Gravity on the masses of robot and tool; left out without this table.
     pub gravity: Option<GravityTable>,
     /// Whether the load acts on the arm as it has yielded, instead of as it stood.
@@ -47,6 +49,21 @@ pub struct StudyFile {
     /// Figures published by others, to stand beside ours.
     #[serde(default)]
     pub statement: Vec<StatementTable>,
+}
+
+/// A turntable or positioner that carries the part.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PositionerTable {
+    /// Its chain: a robot file of any format relative to the study; the table is its flange.
+    pub robot: String,
+    /// Where it stands: base_link of the robot to its own root, x, y, z in mm, then turns about the fixed axes x, y, z in
+    /// degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub base_from_root_mm_deg: [f64; 6],
+    /// How it stands: one a joint, mm for sliding ones.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub joints_deg: Vec<f64>,
 }
 
 /// Joint compliances brought by the study: one a joint, or those of a class.

@@ -5,6 +5,7 @@
 
 pub mod compliance;
 pub mod format;
+pub mod positioner;
 pub mod quantities;
 pub mod resolve;
 pub mod stiffness;

@@ -21,6 +21,7 @@ use super::format::{AskKind, AskTable, StatementTable, StudyFile};
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::places::Places;
+use super::positioner;
 use crate::error::StudyError;
 use crate::robots;
 
@@ -267,6 +268,9 @@ fn find_robot(
         found.robot = robot
             .and_then(|robot| robot.with_structure(structure))
             .map_err(refused)?;
+    }
+    if let Some(table) = &file.positioner {
+        found.robot = positioner::beside(places, table, folder, found.robot)?;
     }
     Ok(Some(found))
 }

@@ -1,0 +1,99 @@
+//! A turntable or positioner that carries the part: a second chain beside the robot.
+//!
+//! Its table is a frame that coordinates count from, and what it yields under the cut adds to what the arm yields: the
+//! part gives way to `-w` where the tool gives way to `w`, so each of its joints is a spring under the arm, at its own
+//! axis in base.
+
+use std::path::Path;
+
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::Point3;
+use armill_core::robot::forward::forward;
+use armill_core::robot::inverse::tool_on;
+use armill_core::robot::jacobian::screws_at;
+use armill_core::robot::model::NamedFrame;
+use armill_core::robot::{Robot, Seat, Spring};
+use armill_core::spatial::Twist;
+
+use super::format::PositionerTable;
+use super::places::Places;
+use super::quantities::pose_mm_deg;
+use crate::error::StudyError;
+use crate::pose::joint_positions;
+use crate::robots;
+
+/// What its table is called where coordinates count from it.
+pub const TABLE: &str = "table";
+
+/// `robot` with the table of this positioner as a frame, and its joints as springs; unchanged where something is wrong.
+///
+/// # Errors
+/// The problems of the positioner's file.
+pub(super) fn beside(
+    places: &mut Places<'_>,
+    table: &PositionerTable,
+    folder: &Path,
+    robot: Robot,
+) -> Result<Robot, StudyError> {
+    let described = match robots::find(&table.robot, folder) {
+        Ok(found) => found,
+        Err(StudyError::Value { message, hint }) => {
+            places.problem("positioner.robot", message, &hint);
+            return Ok(robot);
+        }
+        Err(problems) => return Err(problems),
+    };
+    let q = match joint_positions(&described, &table.joints_deg) {
+        Ok(q) => q,
+        Err(StudyError::Value { message, hint }) => {
+            places.problem("positioner.joints_deg", message, &hint);
+            return Ok(robot);
+        }
+        Err(problems) => return Err(problems),
+    };
+    let positioner = &described.robot;
+    if let Some((joint, outside)) = positioner.limit_margin(&q).filter(|(_, margin)| *margin < 0.0) {
+        let name = &positioner.joints()[joint].name;
+        let beyond = if positioner.slides(joint) {
+            format!("{:.1} mm", -outside * 1e3)
+        } else {
+            format!("{:.1} deg", -outside.to_degrees())
+        };
+        let message = format!("the positioner's joint {name} stands {beyond} outside its range");
+        places.problem(
+            "positioner.joints_deg",
+            message,
+            "see `armill robots FILE` for its limits",
+        );
+    }
+    if robot.frames().iter().any(|frame| frame.name == TABLE) {
+        let message = format!("the robot has a frame `{TABLE}` already");
+        places.problem("positioner", message, "rename the frame in the robot file");
+    }
+
+    let base_from_root = pose_mm_deg(&table.base_from_root_mm_deg);
+    let frames = forward(positioner, &q);
+    let base_from_table = base_from_root * tool_on(&frames, &Isometry::identity());
+    let mut all = robot.frames().to_vec();
+    all.push(NamedFrame {
+        name: TABLE.to_owned(),
+        base_from_frame: base_from_table,
+    });
+    let mut structure = robot.structure().clone();
+    if let Some(compliances) = positioner.compliance() {
+        let origin: Point3<f64> = base_from_root.inverse_transform_point(&Point3::origin());
+        let screws = screws_at(positioner, &frames, &origin);
+        structure
+            .springs
+            .extend(screws.iter().zip(compliances).map(|(screw, compliance)| Spring {
+                seat: Seat::Base,
+                direction: Twist {
+                    linear: base_from_root * screw.linear,
+                    angular: base_from_root * screw.angular,
+                },
+                compliance: *compliance,
+            }));
+    }
+    let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
+    robot.with_frames(all).with_structure(structure).map_err(refused)
+}

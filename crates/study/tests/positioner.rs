@@ -1,0 +1,183 @@
+//! A part on a turntable or positioner: where its points are, and what the table's joints add.
+
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use armill_core::nalgebra::Vector3;
+use armill_core::watch::Watch;
+use armill_study::answer::{StudyAnswer, answer};
+use armill_study::file::resolve::read;
+use armill_study::run::run;
+
+/// Tilts about x at 400 mm, then turns about z at 500 mm above its root.
+const TABLE: &str = r#"format = 1
+name = "Two-axis positioner"
+[chain]
+source = "made-up"
+motions = [
+  { along = "z", length_mm = 400 },
+  { about = "x", joint = "tilt" },
+  { along = "z", length_mm = 100 },
+  { about = "z", joint = "turn" },
+]
+[[joint]]
+name = "tilt"
+sign = 1
+limits_deg = [-90, 90]
+source = "made-up"
+COMPLIANCE_TILT
+[[joint]]
+name = "turn"
+sign = 1
+limits_deg = [-360, 360]
+source = "made-up"
+COMPLIANCE_TURN
+[sources.made-up]
+what = "all"
+where = "this test"
+licence = "none needed"
+"#;
+
+const STUDY: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+BASE
+plane = { centre_mm = CENTRE, rotation_deg = ROTATION, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, -5, 5], [3, 5, 5]] }
+"#;
+
+/// A folder of its own with the positioner in it.
+fn cell(name: &str, tilt: &str, turn: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::create_dir_all(&folder).unwrap();
+    let compliance = |value: &str| match value {
+        "" => String::new(),
+        value => format!("compliance_rad_per_n_m = {value}\ncompliance_source = \"made-up\""),
+    };
+    let text = TABLE
+        .replace("COMPLIANCE_TILT", &compliance(tilt))
+        .replace("COMPLIANCE_TURN", &compliance(turn));
+    fs::write(folder.join("table.toml"), text).unwrap();
+    folder
+}
+
+fn study(base: &str, centre: &str, rotation: &str, more: &str) -> String {
+    let text = STUDY
+        .replace("BASE", base)
+        .replace("CENTRE", centre)
+        .replace("ROTATION", rotation);
+    format!("{text}{more}")
+}
+
+fn answered(folder: &Path, text: &str) -> StudyAnswer {
+    let study = read("study.toml", folder, text.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
+    answer(&study, &run(&study, Watch::NONE).unwrap())
+}
+
+fn positioner(joints: &str) -> String {
+    format!(
+        "[positioner]\nrobot = \"table.toml\"\nbase_from_root_mm_deg = [1000, 0, 0, 0, 0, 0]\njoints_deg = {joints}\n"
+    )
+}
+
+#[test]
+fn a_part_on_the_table_lies_where_its_joints_put_it() {
+    let folder = cell("positioner-frame", "", "");
+    // Tilted by 30 deg about x, turned by 90 deg about its own z. The table's origin stands at (1000, 0, 400) + 100 mm
+    // along the tilted z: (0, -sin 30, cos 30). Its x axis is the tilted y: (0, cos 30, sin 30).
+    let on_table = study(
+        "base = \"table\"",
+        "[50, 0, 200]",
+        "[0, 0, 0]",
+        &positioner("[30, 90]"),
+    );
+    let (sin, cos) = 30f64.to_radians().sin_cos();
+    let up = Vector3::new(0.0, -sin, cos);
+    let x = Vector3::new(0.0, cos, sin);
+    let centre = Vector3::new(1000.0, 0.0, 400.0) + up * 300.0 + x * 50.0;
+    // Rotation of the table told as turns about fixed x, y, z: first z by 90, then x by 30 is not of that order; with
+    // R = Rx(30) Rz(90) the columns are (0, cos, sin), (-1, 0, 0), (0, -sin, cos): fixed angles (0, -30, 90).
+    let in_base = study(
+        "",
+        &format!("[{}, {}, {}]", centre.x, centre.y, centre.z),
+        "[0, -30, 90]",
+        "",
+    );
+    let (a, b) = (answered(&folder, &on_table), answered(&folder, &in_base));
+    assert!(a.maps[0].counts.within + a.maps[0].counts.over_limit > 10);
+    assert_eq!(a.maps[0].setting.base, "table");
+    for (a, b) in a.maps[0].grid.in_plane_um.iter().zip(&b.maps[0].grid.in_plane_um) {
+        // Both are rounded to 0.1 nm.
+        assert!(
+            (a.unwrap_or(-1.0) - b.unwrap_or(-1.0)).abs() < 2e-4,
+            "{a:?} against {b:?} um"
+        );
+    }
+}
+
+#[test]
+fn what_the_table_yields_adds_to_what_the_arm_yields() {
+    // The tilt axis runs along x through (1000, 0, 400); a force of 5 N along y at height z turns it by c 5 N (z - 0.4 m).
+    let plane = ("[1000, 0, 900]", "[0, -90, 0]");
+    let load = "[[ask]]\nkind = \"map\"\nname = \"m\"\nload = { cases_n = [[0, 5, 0]] }\n";
+    let text = |more: &str| study("", plane.0, plane.1, &format!("{more}{load}"));
+    let stiff = cell("positioner-stiff", "0", "0");
+    let soft = cell("positioner-soft", "4e-6", "0");
+    let arm = answered(&stiff, &text(""));
+    let both = answered(&stiff, &text(&positioner("[0, 0]")));
+    assert_eq!(
+        arm.maps[0].grid.in_plane_um, both.maps[0].grid.in_plane_um,
+        "a rigid table adds nothing"
+    );
+    let yielding = answered(&soft, &text(&positioner("[0, 0]")));
+    let deviation = |answer: &StudyAnswer| answer.maps[0].worst.clone().unwrap();
+    let (arm, yielding) = (deviation(&arm), deviation(&yielding));
+    assert_eq!(arm.xyz_mm, yielding.xyz_mm);
+    let lever = (yielding.xyz_mm[2] - 400.0) * 1e-3;
+    let along_y_um = 4e-6 * 5.0 * lever * lever * 1e6;
+    let share = yielding.joint_share_um.last().unwrap();
+    // The plane is vertical and faces the robot: the deviation in it is mostly along y, the arm's and the table's alike.
+    assert!(
+        (share - along_y_um).abs() < 0.05 * along_y_um,
+        "{share} um by the table, {along_y_um} um along y"
+    );
+    assert!(yielding.in_plane_um > arm.in_plane_um + 0.9 * along_y_um);
+}
+
+#[test]
+fn what_is_wrong_with_a_positioner_is_told_at_its_place() {
+    let folder = cell("positioner-wrong", "", "");
+    for (positioner_text, at, told) in [
+        (
+            positioner("[30]"),
+            "joints_deg",
+            "1 joint positions for the 2 joints",
+        ),
+        (
+            positioner("[120, 0]"),
+            "joints_deg",
+            "tilt stands 30.0 deg outside its range",
+        ),
+        (
+            positioner("[0, 0]").replace("table.toml", "nothing.toml"),
+            "robot",
+            "nothing.toml",
+        ),
+    ] {
+        let text = study("", "[1000, 0, 800]", "[0, -90, 0]", &positioner_text);
+        let error = read("study.toml", &folder, text.as_bytes())
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(told), "{error}");
+        assert!(error.contains("study.toml:") && error.contains(at), "{error}");
+    }
+    // The frame is there only with a positioner.
+    let text = study("base = \"table\"", "[0, 0, 0]", "[0, -90, 0]", "");
+    let error = read("study.toml", &folder, text.as_bytes())
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("no frame `table`"), "{error}");
+}
