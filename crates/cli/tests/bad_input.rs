@@ -149,8 +149,9 @@ fn a_robot_without_compliance_is_told_what_to_add() {
         "study.toml:3:9",
         "no joint compliance is known",
         "[compliance]",
+        "armill identify",
         "rad_per_n_m",
-        "assumed = true",
+        "class = \"...\"",
     ];
     check("yaskawa/mh12", "kuka/kr120r2500pro").refused(&words);
 }

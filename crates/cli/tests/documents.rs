@@ -106,7 +106,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 5, "name the new page in `guide_runs`");
+    assert_eq!(pages, 6, "name the new page in `guide_runs`");
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! In reading order: [`unknown`] (which springs are asked for), [`load_test`] (what was done and measured),
 //! [`effect`] (what each unknown does in a test), [`bounded`] (least squares without negative springs), [`prior`]
 //! (what is known of any arm), [`fit`] (the most likely springs), [`spread`] (how far they can be trusted),
-//! [`outcome`] (all of it, with every test left out once), [`plan`] (which tests tell most).
+//! [`outcome`] (all of it, with every test left out once), [`mod@plan`] (which tests tell most).
 //!
 //! Theory, sources and what was tried: `docs/theory/identification.md`.
 
