@@ -31,7 +31,7 @@ pub(crate) enum Command {
     /// List the robot library, or show one robot
     Robots(RobotsArguments),
     /// Every posture of one pose: joints, compliance, deviation
-    Pose(PoseArguments),
+    Pose(Box<PoseArguments>),
     /// Print shell completions
     Completions(CompletionsArguments),
 }

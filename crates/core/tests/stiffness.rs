@@ -406,9 +406,9 @@ fn a_pressed_column_buckles_at_stiffness_over_length() {
             let middle = 0.5 * (low + high);
             let torque = down * middle.sin() + side * middle.cos();
             if torque > 1000.0 * middle {
-                low = middle
+                low = middle;
             } else {
-                high = middle
+                high = middle;
             }
         }
         let found = press(down, side).unwrap();

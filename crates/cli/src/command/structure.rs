@@ -1,7 +1,7 @@
 //! What a robot has beside its drives, for `armill robots NAME`.
 
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::{Robot, Seat};
+use armill_core::robot::{Robot, Seat, TorqueCurve};
 use serde_json::{Value, json};
 
 fn seat_name(robot: &Robot, seat: Seat) -> String {
@@ -105,7 +105,7 @@ pub(super) fn as_json(robot: &Robot) -> Value {
         Some(json!({
             "joint": robot.joints()[joint].name,
             "torque_curve_n_m_rad": curve.rising.points(),
-            "torque_curve_falling_n_m_rad": curve.falling.as_ref().map(|falling| falling.points()),
+            "torque_curve_falling_n_m_rad": curve.falling.as_ref().map(TorqueCurve::points),
         }))
     });
     json!({

@@ -26,7 +26,7 @@ pub(super) fn model(
         .gravity
         .as_ref()
         .and_then(|table| gravity(places, table, robot, &structure));
-    (places.problems.len() == before).then(|| StiffnessModel {
+    (places.problems.len() == before).then_some(StiffnessModel {
         structure,
         gravity,
         load_dependent: file.load_dependent,

@@ -3,7 +3,7 @@
 //! `cov(delta) = A S A^T`, columns `a_k`: displacement per unit of compliance k. `S` is the covariance of the structure;
 //! compliances that it does not reach are independent.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::Standing;
 use crate::robot::Seat;
@@ -67,7 +67,7 @@ impl Standing<'_> {
         S: std::ops::Add<Output = S> + std::ops::Mul<f64, Output = S>,
     {
         let known = self.arm.model.structure.covariance.as_ref();
-        let size = known.map_or(0, |s| s.nrows());
+        let size = known.map_or(0, DMatrix::nrows);
         let mut sum = zero;
         if let Some(s) = known {
             for i in 0..size {
