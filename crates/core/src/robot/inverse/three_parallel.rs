@@ -145,18 +145,7 @@ impl ThreeParallel {
         kept: Option<f64>,
     ) -> Result<([f64; 6], Option<Singularity>), Unreachable> {
         let p = self.arm_from_base * (base_from_flange * self.flange_from_wrist);
-        let r_squared = p.x * p.x + p.y * p.y - self.b * self.b;
-        if r_squared < 0.0 {
-            let by = self.b.abs() - p.x.hypot(p.y);
-            if by >= self.links.slack {
-                return Err(Unreachable::InsideLateralOffset { by });
-            }
-        }
-        let r = match branch.shoulder {
-            Shoulder::Front => r_squared.max(0.0).sqrt(),
-            Shoulder::Back => -r_squared.max(0.0).sqrt(),
-        };
-        let phi1 = Turn::new(r * p.x + self.b * p.y, r * p.y - self.b * p.x);
+        let (r, phi1) = self.links.reach(&p, self.b, branch.shoulder)?;
         let seen =
             |in_flange: &Vector3<f64>| phi1.back_about_z(self.arm_from_base * (base_from_flange * in_flange));
         let (out, second) = (seen(&self.flange_from_axis_6), seen(&self.flange_from_axis_5));

@@ -1,4 +1,4 @@
-//! The triangle of upper arm and forearm in the plane of an arm: which angles bring its end to a point?
+//! The plane of an arm, and the triangle of upper arm and forearm in it: which angles bring its end to a point?
 //!
 //! ```text
 //! eps:  cos = (d^2 - l2^2 - l3^2) / (2 l2 l3), sin = +-sqrt(...)           d^2 = u^2 + v^2
@@ -8,7 +8,9 @@
 //! `u` to the front, `v` upwards, from the shoulder (m); `psi` of the upper arm and `chi` of the forearm from the
 //! vertical towards the front; `eps = chi - psi`. Source: textbook geometry; `docs/theory/inverse.md`.
 
-use super::super::posture::{Elbow, Unreachable};
+use nalgebra::Point3;
+
+use super::super::posture::{Elbow, Shoulder, Unreachable};
 use super::lines::Turn;
 
 /// Lengths of upper arm and forearm, m.
@@ -25,6 +27,28 @@ pub(crate) struct TwoLinks {
 const NEARLY_STRAIGHT: f64 = 2e-3;
 
 impl TwoLinks {
+    /// Signed distance of `p` (m, arm axes) from axis 1 in the plane of the links, which runs at `b` (m) beside that axis;
+    /// and the turn that brings the plane there.
+    pub(super) fn reach(
+        &self,
+        p: &Point3<f64>,
+        b: f64,
+        shoulder: Shoulder,
+    ) -> Result<(f64, Turn), Unreachable> {
+        let r_squared = p.x * p.x + p.y * p.y - b * b;
+        if r_squared < 0.0 {
+            let by = b.abs() - p.x.hypot(p.y);
+            if by >= self.slack {
+                return Err(Unreachable::InsideLateralOffset { by });
+            }
+        }
+        let r = match shoulder {
+            Shoulder::Front => r_squared.max(0.0).sqrt(),
+            Shoulder::Back => -r_squared.max(0.0).sqrt(),
+        };
+        Ok((r, Turn::new(r * p.x + b * p.y, r * p.y - b * p.x)))
+    }
+
     /// Angles of upper arm and forearm that bring its end to (`u`, `v`).
     pub(super) fn solve(&self, u: f64, v: f64, elbow: Elbow) -> Result<(Turn, Turn), Unreachable> {
         let d_squared = u * u + v * v;
