@@ -7,7 +7,8 @@
 //! | UR10 | closed form, three parallel axes |
 //! | iiwa 14 | searched, one joint to spare |
 //!
-//! One thread. Maps of 61 x 61 points under four forces; a point out of reach counts as one.
+//! One thread. Maps of 61 x 61 points under four forces, 7 x 7 where all postures are searched for; a point out of
+//! reach counts as one.
 
 use std::hint::black_box;
 
@@ -16,7 +17,7 @@ use armill_core::kernel::{BranchChoice, Question};
 use armill_core::load::Doubt;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Point3, Unit};
-use armill_core::robot::inverse::{ToolAt, posture_at, postures};
+use armill_core::robot::inverse::{Inverse, ToolAt, posture_at, postures};
 use armill_core::robot::{Amount, Axis, BranchPattern, Joint, JointCompliance, Limits, Motion, Robot};
 use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
@@ -29,8 +30,14 @@ use crate::clock::Candidate;
 use crate::work::IK8;
 use crate::workload::{FORCES, NORMAL, TOOL};
 
-/// How many poses are taken one at a time: a search takes milliseconds.
+/// How many poses are taken one at a time.
 const POSES: usize = 200;
+/// The same where postures are searched for: that takes a tenth of a second.
+const POSES_SEARCHED: usize = 10;
+/// Pitch of a map, m.
+const STEP: f64 = 0.005;
+/// The same where all postures are searched for at every point, m.
+const STEP_SEARCHED: f64 = 0.05;
 
 /// An arm of another kind, and where the middle of its map lies.
 pub struct Other {
@@ -90,7 +97,9 @@ impl Other {
         };
         Other {
             who,
-            poses: (0..POSES).map(pose).collect(),
+            poses: (0..if searched(&robot) { POSES_SEARCHED } else { POSES })
+                .map(pose)
+                .collect(),
             robot,
             plane,
             tool,
@@ -99,15 +108,21 @@ impl Other {
     }
 
     fn candidates<'a>(&'a self, one_thread: &'a ThreadPool) -> Vec<Candidate<'a>> {
-        let grid = Grid::within([0.15, 0.15], 0.005);
+        let pitch = if searched(&self.robot) {
+            STEP_SEARCHED
+        } else {
+            STEP
+        };
         let choices = [
             (
                 "map, one posture",
                 BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP),
+                STEP,
             ),
-            ("map, best of all", BranchChoice::Best),
+            ("map, best of all", BranchChoice::Best, pitch),
         ];
-        let map = |(name, choice)| {
+        let map = |(name, choice, pitch)| {
+            let grid = Grid::within([0.15, 0.15], pitch);
             let question = Question {
                 robot: &self.robot,
                 compliance: self.robot.compliance().unwrap_or_default(),
@@ -137,10 +152,16 @@ impl Other {
         };
         let mut rows: Vec<Candidate<'a>> = choices.into_iter().map(map).collect();
         rows.push(
-            Candidate::new(self.who, IK8, POSES, all).note("another arm, other poses; verified, with screws"),
+            Candidate::new(self.who, IK8, self.poses.len(), all)
+                .note("another arm, other poses; verified, with screws"),
         );
         rows
     }
+}
+
+/// Whether the postures of this arm are searched for.
+fn searched(robot: &Robot) -> bool {
+    matches!(robot.inverse(), Inverse::Searched)
 }
 
 /// The MH12 with axes 2 and 5 moved along x by so many metres.
