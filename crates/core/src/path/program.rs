@@ -1,0 +1,109 @@
+//! Tool path programs: what the tip of the tool is told to do, move after move.
+//!
+//! Readers give [`Step`]s one by one, so a program of any length can be followed without room for all of it;
+//! [`Program`] keeps them. All in the frame of the path: the workpiece zero that the program counts from. m, rad, s.
+
+use nalgebra::{Point3, Unit, Vector3};
+
+/// What a program tells next.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Step {
+    /// From here on with this tool and spindle speed.
+    Operation(Operation),
+    /// The tip moves.
+    Move(Move),
+}
+
+/// A stretch of the program with one tool and one spindle speed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Operation {
+    /// What the program calls it, or its tool.
+    pub name: Option<String>,
+    /// Number of the tool.
+    pub tool: Option<u32>,
+    /// Diameter of the cutter, m.
+    pub diameter: Option<f64>,
+    /// Radius of its corner, m: half the diameter of a ball, none of a flat end mill.
+    pub corner_radius: Option<f64>,
+    /// Speed of the spindle, rad/s; clockwise seen from the spindle is positive.
+    pub spindle: Option<f64>,
+    /// Line of the program where it begins, from 1.
+    pub line: u32,
+}
+
+/// A move of the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Move {
+    /// Where it ends, m.
+    pub end: Point3<f64>,
+    /// The tool at its end, from the tip towards the spindle; `None` where the program says nothing of it.
+    pub axis: Option<Unit<Vector3<f64>>>,
+    /// What it follows.
+    pub course: Course,
+    /// How fast.
+    pub pace: Pace,
+    /// Its line in the program, from 1.
+    pub line: u32,
+}
+
+/// What a move follows from the end of the one before.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Course {
+    /// A straight line.
+    Line,
+    /// An arc or a helix.
+    Arc(Arc),
+}
+
+/// An arc about an axis; what start and end differ by along the axis makes it a helix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arc {
+    /// A point of the axis, m.
+    pub centre: Point3<f64>,
+    /// Its direction: the arc turns by the right hand.
+    pub axis: Unit<Vector3<f64>>,
+    /// By how much, full turns included, rad; positive.
+    pub sweep: f64,
+}
+
+/// How fast the tip moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pace {
+    /// As fast as it can, not cutting.
+    Rapid,
+    /// At this speed, m/s.
+    Feed(f64),
+    /// Cutting, at a speed that the program does not tell.
+    Untold,
+}
+
+impl Pace {
+    /// Whether the tool cuts on the way.
+    pub fn cuts(self) -> bool {
+        self != Pace::Rapid
+    }
+}
+
+/// A whole program.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Program {
+    /// Its operations, in order.
+    pub operations: Vec<Operation>,
+    /// Its moves, in order; the first says where the tip stands.
+    pub moves: Vec<Move>,
+    /// Of each operation the index of its first move.
+    pub starts: Vec<usize>,
+}
+
+impl Program {
+    /// Takes the next step.
+    pub fn push(&mut self, step: Step) {
+        match step {
+            Step::Operation(operation) => {
+                self.operations.push(operation);
+                self.starts.push(self.moves.len());
+            }
+            Step::Move(next) => self.moves.push(next),
+        }
+    }
+}

@@ -1,0 +1,353 @@
+//! Moves as points: near enough to the arc, and no farther apart than a step.
+//!
+//! A chord over the angle `phi` of a circle of radius `r` leaves it by `r (1 - cos(phi / 2))`; pieces of a move are
+//! equal. The tool axis turns evenly from the one of the move before to its own.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Point3, Rotation3, Unit, Vector3};
+
+use super::program::{Arc, Course, Move, Pace};
+
+/// How finely moves are cut into points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Farthest that a chord may leave its arc, m.
+    pub chord_error: f64,
+    /// Longest distance between points of a cutting move, m.
+    pub step: f64,
+}
+
+/// A point of the path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// Where, m.
+    pub at: Point3<f64>,
+    /// The tool, from the tip towards the spindle, if the program tells it.
+    pub axis: Option<Unit<Vector3<f64>>>,
+    /// Where the tip is going.
+    pub direction: Unit<Vector3<f64>>,
+    /// Distance along all cutting moves before, m.
+    pub along: f64,
+    /// How fast it came here.
+    pub pace: Pace,
+    /// Line of the program.
+    pub line: u32,
+}
+
+/// Cuts one move after the other into points.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    sampling: Sampling,
+    stands: Option<Stands>,
+    along: f64,
+}
+
+/// Where the moves before have left the tool.
+#[derive(Clone, Copy, Debug)]
+struct Stands {
+    at: Point3<f64>,
+    axis: Option<Unit<Vector3<f64>>>,
+    /// Whether the last move was a cut that ended here: its end is a point already.
+    cutting: bool,
+}
+
+impl Sampler {
+    /// Before the first move.
+    pub fn new(sampling: Sampling) -> Sampler {
+        Sampler {
+            sampling,
+            stands: None,
+            along: 0.0,
+        }
+    }
+
+    /// Gives `out` the points of the next move: of a cut its start, where no cut led there, and then one at the end of
+    /// each piece; of a rapid nothing. The first move of a program says where the tip stands and has no points.
+    pub fn points(&mut self, next: &Move, mut out: impl FnMut(PathPoint)) {
+        let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
+        if let Some(from) = self.stands.filter(|_| next.pace.cuts()) {
+            let way = Way::of(&from, next, axis);
+            let pieces = way.pieces(&self.sampling);
+            if pieces == 0 {
+                // A move to where the tip stands: nothing is cut, and no direction is told.
+                self.stands = Some(Stands { axis, ..from });
+                return;
+            }
+            for piece in usize::from(from.cutting)..=pieces {
+                let part = piece as f64 / pieces as f64;
+                out(PathPoint {
+                    at: way.at(part),
+                    axis: way.axis(part),
+                    direction: way.direction(part),
+                    along: self.along + way.length * part,
+                    pace: next.pace,
+                    line: next.line,
+                });
+            }
+            self.along += way.length;
+        }
+        self.stands = Some(Stands {
+            at: next.end,
+            axis,
+            cutting: next.pace.cuts() && self.stands.is_some(),
+        });
+    }
+}
+
+/// One move, laid out.
+struct Way {
+    from: Point3<f64>,
+    end: Point3<f64>,
+    length: f64,
+    bend: Option<Bend>,
+    axes: Option<Axes>,
+}
+
+/// How the tool turns from one axis to the next.
+struct Axes {
+    before: Unit<Vector3<f64>>,
+    after: Unit<Vector3<f64>>,
+    /// About which axis and by how much, rad; `None` where both are the same or opposite.
+    turn: Option<(Unit<Vector3<f64>>, f64)>,
+}
+
+/// The arc of a move, with what its ends lack to a perfect one spread along it.
+struct Bend {
+    arc: Arc,
+    /// From the axis to the start, across the axis, m.
+    arm: Vector3<f64>,
+    /// What the turned start lacks to the end: rise of a helix and rounding of the program, m.
+    rest: Vector3<f64>,
+}
+
+impl Way {
+    fn of(from: &Stands, next: &Move, axis: Option<Unit<Vector3<f64>>>) -> Way {
+        let chord = next.end - from.at;
+        let bend = match next.course {
+            Course::Line => None,
+            Course::Arc(arc) => {
+                let out = from.at - arc.centre;
+                let arm = out - arc.axis.into_inner() * out.dot(&arc.axis);
+                let turned = Rotation3::from_axis_angle(&arc.axis, arc.sweep) * arm;
+                Some(Bend {
+                    arc,
+                    arm,
+                    rest: chord - (turned - arm),
+                })
+            }
+        };
+        let length = bend.as_ref().map_or(chord.norm(), |bend| {
+            (bend.arm.norm() * bend.arc.sweep).hypot(bend.rest.norm())
+        });
+        let axes = from.axis.or(axis).zip(axis).map(|(before, after)| {
+            let turn = Rotation3::rotation_between(&before, &after).and_then(|turn| turn.axis_angle());
+            Axes { before, after, turn }
+        });
+        Way {
+            from: from.at,
+            end: next.end,
+            length,
+            bend,
+            axes,
+        }
+    }
+
+    fn pieces(&self, sampling: &Sampling) -> usize {
+        // A hair of slack, so that 10 mm by 1 mm gives ten pieces and not eleven.
+        let by_step = (self.length / sampling.step - 1e-9).ceil();
+        let by_chord = self.bend.as_ref().map_or(0.0, |bend| {
+            let cosine = 1.0 - sampling.chord_error / bend.arm.norm();
+            // At least four chords a turn, however small the arc.
+            let most = (2.0 * cosine.max(-1.0).acos()).min(0.25 * TAU);
+            (bend.arc.sweep / most - 1e-9).ceil()
+        });
+        if self.length > 0.0 {
+            by_step.max(by_chord).max(1.0) as usize
+        } else {
+            0
+        }
+    }
+
+    fn at(&self, part: f64) -> Point3<f64> {
+        if part == 1.0 {
+            return self.end;
+        }
+        match &self.bend {
+            None => self.from + (self.end - self.from) * part,
+            Some(bend) => {
+                let turned = bend.turned(part);
+                self.from + (turned - bend.arm) + bend.rest * part
+            }
+        }
+    }
+
+    fn direction(&self, part: f64) -> Unit<Vector3<f64>> {
+        let along = match &self.bend {
+            None => self.end - self.from,
+            Some(bend) => bend.arc.axis.cross(&bend.turned(part)) * bend.arc.sweep + bend.rest,
+        };
+        Unit::new_normalize(along)
+    }
+
+    fn axis(&self, part: f64) -> Option<Unit<Vector3<f64>>> {
+        let axes = self.axes.as_ref()?;
+        Some(match axes.turn {
+            Some((about, angle)) if part < 1.0 => {
+                Rotation3::from_axis_angle(&about, angle * part) * axes.before
+            }
+            None if part < 1.0 => axes.before,
+            _ => axes.after,
+        })
+    }
+}
+
+impl Bend {
+    fn turned(&self, part: f64) -> Vector3<f64> {
+        Rotation3::from_axis_angle(&self.arc.axis, self.arc.sweep * part) * self.arm
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cut(end: [f64; 3], course: Course) -> Move {
+        Move {
+            end: end.into(),
+            axis: None,
+            course,
+            pace: Pace::Feed(0.01),
+            line: 1,
+        }
+    }
+
+    fn start(end: [f64; 3]) -> Move {
+        Move {
+            pace: Pace::Rapid,
+            ..cut(end, Course::Line)
+        }
+    }
+
+    fn points(sampling: Sampling, moves: &[Move]) -> Vec<PathPoint> {
+        let (mut sampler, mut points) = (Sampler::new(sampling), Vec::new());
+        for next in moves {
+            sampler.points(next, |point| points.push(point));
+        }
+        points
+    }
+
+    fn half_turn(end: [f64; 3]) -> Move {
+        let arc = Arc {
+            centre: Point3::new(0.0, 0.0, 5.0),
+            axis: Vector3::z_axis(),
+            sweep: TAU / 2.0,
+        };
+        cut(end, Course::Arc(arc))
+    }
+
+    const FINE: Sampling = Sampling {
+        chord_error: 1e-6,
+        step: 1e-3,
+    };
+
+    #[test]
+    fn a_line_has_its_start_once_and_points_no_farther_apart_than_the_step() {
+        let moves = [
+            start([0.0, 0.0, 0.0]),
+            cut([0.01, 0.0, 0.0], Course::Line),
+            cut([0.01, 0.0045, 0.0], Course::Line),
+        ];
+        let points = points(FINE, &moves);
+        assert_eq!(points.len(), 11 + 5);
+        assert!((points[15].along - 0.0145).abs() < 1e-15);
+        assert_eq!(points[10].direction, Vector3::x_axis());
+        assert_eq!(points[11].direction, Vector3::y_axis());
+    }
+
+    #[test]
+    fn chords_leave_a_helix_by_no_more_than_the_chord_error() {
+        for chord_error in [1e-7, 1e-5, 1e-3] {
+            let sampling = Sampling {
+                chord_error,
+                step: 1.0,
+            };
+            let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05, 0.0, 0.01])];
+            let points = points(sampling, &moves);
+            for pair in points.windows(2) {
+                let middle = nalgebra::center(&pair[0].at, &pair[1].at);
+                assert!(0.05 - middle.xy().coords.norm() < chord_error * (1.0 + 1e-9));
+                assert!((pair[1].at.xy().coords.norm() - 0.05).abs() < 1e-15);
+            }
+            let last = points.last().unwrap();
+            assert!((last.along - (TAU / 2.0 * 0.05).hypot(0.01)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn directions_are_those_of_differences() {
+        let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05, 0.0, 0.01])];
+        let points = points(FINE, &moves);
+        for three in points.windows(3) {
+            let secant = (three[2].at - three[0].at).normalize();
+            // The secant of a circle is parallel to the tangent in the middle.
+            assert!((secant - three[1].direction.into_inner()).norm() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn an_arc_ends_where_the_program_says_even_if_its_radii_differ() {
+        let moves = [start([0.05, 0.0, 0.0]), half_turn([-0.05001, 0.0, 0.0])];
+        let points = points(FINE, &moves);
+        assert_eq!(points.last().unwrap().at, Point3::new(-0.05001, 0.0, 0.0));
+        let widest = points.windows(2).map(|p| (p[1].at - p[0].at).norm());
+        assert!(widest.fold(0.0, f64::max) < 1.01e-3);
+    }
+
+    #[test]
+    fn rapids_have_no_points_and_the_cut_after_one_begins_with_its_start() {
+        let moves = [
+            cut([0.0, 0.0, 0.0], Course::Line),
+            start([0.0, 0.0, 0.1]),
+            cut([0.001, 0.0, 0.1], Course::Line),
+            start([0.2, 0.0, 0.1]),
+            cut([0.2, 0.001, 0.1], Course::Line),
+        ];
+        let points = points(FINE, &moves);
+        let xs: Vec<f64> = points.iter().map(|point| point.at.x).collect();
+        assert_eq!(xs, [0.0, 0.001, 0.2, 0.2]);
+        assert!((points[3].along - 0.002).abs() < 1e-18);
+    }
+
+    #[test]
+    fn the_tool_turns_evenly_from_one_axis_to_the_next() {
+        let tilted = Move {
+            axis: Some(Vector3::x_axis()),
+            ..cut([0.01, 0.0, 0.0], Course::Line)
+        };
+        let upright = Move {
+            axis: Some(Vector3::z_axis()),
+            ..start([0.0, 0.0, 0.0])
+        };
+        let points = points(FINE, &[upright, tilted]);
+        let angles: Vec<f64> = points
+            .iter()
+            .map(|p| p.axis.unwrap().angle(&Vector3::z_axis()).to_degrees())
+            .collect();
+        for (i, angle) in angles.iter().enumerate() {
+            assert!((angle - 9.0 * i as f64).abs() < 1e-9, "{angles:?}");
+        }
+    }
+
+    #[test]
+    fn a_move_to_where_the_tip_stands_has_no_points() {
+        let moves = [
+            start([0.0; 3]),
+            cut([0.0; 3], Course::Line),
+            cut([0.002, 0.0, 0.0], Course::Line),
+        ];
+        let points = points(FINE, &moves);
+        assert_eq!(points.len(), 3);
+        assert!(points.iter().all(|p| p.direction == Vector3::x_axis()));
+    }
+}
