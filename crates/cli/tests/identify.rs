@@ -3,6 +3,8 @@
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod cell;
+
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -96,6 +98,7 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
         "{written}"
     );
     assert!(!written.contains("[sources.paper]"), "{written}");
+    assert!(written.contains("[covariance]"), "{written}");
     let pose = [
         "pose",
         "mine.toml",
@@ -322,4 +325,38 @@ fn real_tests_left_out_are_predicted_better_than_by_least_squares() {
     assert!(left_out(&best) < 0.089, "{}", best["left_out"]);
     assert_eq!(best["outliers"], serde_json::json!(["line 12"]));
     assert_eq!(best["not_told_apart"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn a_robot_from_a_urdf_gets_a_robot_file_with_its_springs() {
+    let folder = tempfile::tempdir().unwrap();
+    filled_in(folder.path());
+    std::fs::write(folder.path().join("arm.urdf"), cell::MH12_URDF).unwrap();
+    let arguments = [
+        "identify",
+        "tests.csv",
+        "--robot",
+        "arm.urdf",
+        "--tool-mm",
+        "0,60,150",
+        "--unknowns",
+        "drives+bending",
+        "--out",
+        "mine.toml",
+    ];
+    let (code, _, stderr) = armill(folder.path(), &arguments);
+    assert_eq!(code, 0, "{stderr}");
+    let pose = |robot: &str| {
+        let flags = ["--joints-deg", "0,11.6,-27.8,0,39.4,0", "--json"];
+        let arguments = [&["pose", robot], &flags[..]].concat();
+        let (code, stdout, stderr) = armill(folder.path(), &arguments);
+        assert_eq!(code, 0, "{stderr}");
+        serde_json::from_str::<Value>(&stdout).unwrap()["postures"][0].clone()
+    };
+    let (theirs, ours) = (pose("arm.urdf"), pose("mine.toml"));
+    assert_eq!(theirs["tool"]["xyz_mm"], ours["tool"]["xyz_mm"]);
+    let written = std::fs::read_to_string(folder.path().join("mine.toml")).unwrap();
+    for part in ["[[spring]]", "[covariance]", "[sources.identified]"] {
+        assert!(written.contains(part), "{part} in\n{written}");
+    }
 }

@@ -15,7 +15,7 @@ fn an_imported_urdf_poses_as_the_urdf_does() {
         .armill(&["robots", "import", "arm.urdf", "--out", "arm.toml"])
         .fine();
     assert!(
-        said.err.contains("made arm.toml") && said.err.contains("6 joints, closed-form inverse"),
+        said.err.contains("made arm.toml") && said.err.contains("6 joints; inverse: closed form"),
         "{}",
         said.err
     );
@@ -59,7 +59,7 @@ fn without_out_the_file_is_printed() {
         .json();
     assert!(said["text"].as_str().unwrap().contains("format = 1"));
     assert_eq!(said["joints"][0], "S");
-    assert_eq!(said["closed_form_inverse"], true);
+    assert_eq!(said["inverse"], "closed_form");
 }
 
 #[test]

@@ -9,12 +9,7 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
     let cell = Cell::new();
     let robots = cell.armill(&["robots", "--json"]).fine().json();
     assert!(robots.as_array().unwrap().len() >= 25);
-    let with_inverse = robots
-        .as_array()
-        .unwrap()
-        .iter()
-        .filter(|robot| robot["closed_form_inverse"] == true);
-    for (index, robot) in with_inverse.enumerate() {
+    for (index, robot) in robots.as_array().unwrap().iter().enumerate() {
         let (name, folder) = (robot["name"].as_str().unwrap(), format!("cell {index}"));
         cell.armill(&["new", &folder, "--robot", name]).fine();
         let text = std::fs::read_to_string(cell.at(&folder).join("study.toml")).unwrap();
@@ -23,6 +18,18 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
             "{text}"
         );
         assert!(text.contains(&format!("robot = \"{name}\"")), "{text}");
+        if name == "kuka/lbr-iiwa-14-r820" {
+            // Seven joints: no class fits, and none is made up.
+            cell.armill(&["check", &folder]).refused(&["rad_per_n_m", "7"]);
+            let known = text.replace(
+                "rad_per_n_m = []",
+                "rad_per_n_m = [1e-5, 1e-5, 1e-5, 1e-5, 1e-5, 1e-5, 1e-5]",
+            );
+            cell.file(
+                &format!("{folder}/study.toml"),
+                &known.replace("source = \"\"", "source = \"made up here\""),
+            );
+        }
         cell.armill(&["check", &folder]).fine();
         cell.armill(&["run", &folder, "--no-pictures"]).fine();
         let result = cell.result(&format!("{folder}/out"));

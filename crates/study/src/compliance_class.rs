@@ -147,8 +147,13 @@ impl ComplianceClass {
         let (least, most) = factors.iter().fold((f64::INFINITY, 0.0_f64), |(least, most), f| {
             (least.min(*f), most.max(*f))
         });
+        let factor = if most - least < 0.05 {
+            format!("{least:.1}")
+        } else {
+            format!("{least:.1} to {most:.1}")
+        };
         Ok(format!(
-            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {least:.1} to {most:.1}. Compare postures and places with them; do not promise micrometres.",
+            "The joint compliances are assumed, not measured: values of the class {}, each of which may be wrong by a factor of {factor}. Compare postures and places with them; do not promise micrometres.",
             self.name()
         ))
     }

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use armill_formats::robot::RobotDescription;
 use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::{RobotDescription, armill};
 
 use crate::error::StudyError;
 use crate::library;
@@ -70,21 +70,17 @@ fn read(path: &Path, wanted: &Wanted) -> Result<RobotDescription, StudyError> {
     Ok(format::read(path, &id, &bytes, wanted)?)
 }
 
-/// Path and text of the armill robot file behind `name`: of the library, or a `.toml` file of the current folder.
+/// Path and text of the armill robot file behind `name`: of the library, a `.toml` file, or what `found`, read from a
+/// file of another format, is as one.
 ///
 /// # Errors
-/// Another format; a file that cannot be read.
-pub fn text_of(name: &str) -> Result<[String; 2], StudyError> {
+/// A file that cannot be read.
+pub fn text_of(name: &str, found: &RobotDescription) -> Result<[String; 2], StudyError> {
     if let Some(entry) = library::ROBOTS.iter().find(|robot| robot.name == name) {
         return Ok([entry.path.to_owned(), entry.text.to_owned()]);
     }
     if !name.to_lowercase().ends_with(".toml") {
-        let message =
-            format!("robot `{name}` is no armill robot file: compliances cannot be written into it");
-        return Err(StudyError::value(
-            message,
-            "make one from it first, see docs/guide/robot-file.md",
-        ));
+        return Ok([name.to_owned(), armill::write(found)]);
     }
     let text = std::fs::read_to_string(name).map_err(|error| {
         StudyError::value(

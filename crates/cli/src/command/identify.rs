@@ -148,7 +148,7 @@ fn from_tests(
     let tests = load_tests::read(&shown, text, &found.robot, question.tool_point)?;
     let answer = answer(&found.robot, &tests, question)?;
     if let Some(file) = &arguments.out {
-        let [path, text] = robots::text_of(&arguments.robot)?;
+        let [path, text] = robots::text_of(&arguments.robot, found)?;
         let written = robot_file(&found.robot, [&path, &text], &answer, &shown)?;
         write_atomically(file, written.as_bytes())?;
         say(&format!("robot with these compliances in {}", file.display()));

@@ -54,7 +54,7 @@ fn as_json(found: &RobotDescription, file: Option<&str>, text: &str) -> serde_js
         "text": if file.is_none() { Some(text) } else { None },
         "title": found.title,
         "joints": joints.iter().map(|joint| &joint.name).collect::<Vec<_>>(),
-        "closed_form_inverse": found.robot.ortho_parallel().is_some(),
+        "inverse": found.robot.inverse().kind(),
         "assumed": found.remarks,
         "without_limits": joints.iter().filter(|j| j.limits.is_none()).map(|j| &j.name).collect::<Vec<_>>(),
     })
@@ -62,12 +62,12 @@ fn as_json(found: &RobotDescription, file: Option<&str>, text: &str) -> serde_js
 
 /// What a user should know of the robot that was made.
 fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
-    let inverse = match found.robot.ortho_parallel() {
-        Some(_) => "closed-form inverse",
-        None => "no closed-form inverse: posed by joints only",
-    };
     let count = found.robot.joints().len();
-    let mut lines = vec![format!("{}: {count} joints, {inverse}", found.title)];
+    let mut lines = vec![format!(
+        "{}: {count} joints; inverse: {}",
+        found.title,
+        found.robot.inverse()
+    )];
     lines.extend(found.remarks.iter().map(|remark| format!("assumed: {remark}")));
     lines.push("missing: joint compliances; see the comments in the file".to_owned());
     lines.extend(file.map(|file| {

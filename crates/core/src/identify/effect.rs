@@ -14,9 +14,9 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::load_test::{LoadTest, Measured};
-use super::unknown::{Seat, Unknown};
-use crate::robot::Robot;
+use super::unknown::Unknown;
 use crate::robot::forward::{forward, joint_axis};
+use crate::robot::{Robot, Seat};
 use crate::spatial::{Twist, Wrench};
 
 /// A test with all that its posture decides.

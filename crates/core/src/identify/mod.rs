@@ -22,4 +22,4 @@ pub use load_test::{LoadTest, Measured, Reading};
 pub use outcome::{Estimate, Identified, Refusal, TestOutcome, identify};
 pub use plan::{Asked, PlannedTest, plan};
 pub use prior::Prior;
-pub use unknown::{Role, Seat, Unknown};
+pub use unknown::{Role, Unknown};

@@ -12,7 +12,8 @@
 //! | tool and holder | 3e-7 m/N, factor e^1.5 | holder 1.07e-7 and tool 9.34e-7 m/N of a roboforming cell, Sci. Rep. 14:20291 |
 //! | lost motion | 3e-5 rad, factor e | a tenth of an arc minute: reducers of industrial arms |
 
-use super::unknown::{Role, Seat, Unknown};
+use super::unknown::{Role, Unknown};
+use crate::robot::Seat;
 
 /// Whether anything is known beforehand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,23 +11,13 @@
 //!
 //! The seat of a joint is the frame right after the joint's motion.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 
-use crate::robot::Robot;
 use crate::robot::chain::{Axis, Motion};
 use crate::robot::forward::{Frames, forward, joint_axis};
+use crate::robot::yielding::{seat_frame, spring_screw};
+use crate::robot::{Robot, Seat};
 use crate::spatial::Twist;
-
-/// Where an unknown sits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seat {
-    /// Under the whole arm, in the base frame.
-    Base,
-    /// On the link after the joint with this index, in the frame right after its motion.
-    Joint(usize),
-    /// On the flange, in its frame: tool, holder, spindle.
-    Flange,
-}
 
 /// What yields there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,22 +82,10 @@ impl Unknown {
 
     /// Its screw at the flange origin in base axes.
     pub fn screw_at_flange(&self, frames: &Frames) -> Twist {
-        let (axes, origin) = match self.seat {
-            Seat::Base => (Matrix3::identity(), Vector3::zeros()),
-            Seat::Joint(index) => {
-                let frame = &frames.base_from_joint[index];
-                (*frame.rotation.matrix(), frame.translation.vector)
-            }
-            Seat::Flange => {
-                let frame = &frames.base_from_flange;
-                (*frame.rotation.matrix(), frame.translation.vector)
-            }
-        };
-        let at_seat = Twist {
-            linear: axes * self.direction.linear,
-            angular: axes * self.direction.angular,
-        };
-        at_seat.moved(frames.base_from_flange.translation.vector - origin)
+        let flange = &frames.base_from_flange;
+        // Tests are told in the flange frame: a tool sits on it as it is.
+        let base_from_seat = seat_frame(self.seat, frames, flange);
+        spring_screw(&self.direction, &base_from_seat, flange.translation.vector)
     }
 
     /// `g(tau)` and its derivative.

@@ -2,9 +2,9 @@
 
 use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
-use armill_core::identify::{LoadTest, Points, Prior, Role, Seat, Unknown};
+use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::Robot;
+use armill_core::robot::{Robot, Seat};
 use armill_formats::robot::armill::Yields;
 
 use crate::StudyError;
@@ -129,6 +129,7 @@ pub fn seat_name(robot: &Robot, unknown: &Unknown) -> String {
         Seat::Base => "base".to_owned(),
         Seat::Joint(joint) => robot.joints()[joint].name.clone(),
         Seat::Flange => "flange".to_owned(),
+        Seat::Tool => "tool".to_owned(),
     }
 }
 

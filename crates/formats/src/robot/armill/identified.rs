@@ -84,9 +84,11 @@ pub fn with_springs(
             Yields::Drive | Yields::SlidingDrive => {}
         }
     }
-    let alone = others.is_empty();
-    if !alone {
+    if !others.is_empty() {
         document.insert("spring", Item::ArrayOfTables(others));
+    }
+    // One spring alone has its standard uncertainty and shares nothing.
+    if covariance.len() > 1 {
         let turning = springs.iter().filter(|spring| spring.turns());
         document.insert("covariance", covariance_table(turning, covariance));
     }
@@ -275,6 +277,25 @@ mod tests {
     }
 
     #[test]
+    fn drives_identified_together_keep_their_covariance() {
+        let two = FILE.replace("compliance_um_per_n = 1", "compliance_rad_per_n_m = 1e-3");
+        let two = two.replace(
+            "{ along = \"x\", joint = \"B\" }",
+            "{ about = \"x\", joint = \"B\" }",
+        );
+        let springs = [
+            spring("A", Yields::Drive, 2.5e-6),
+            spring("B", Yields::Drive, 3e-6),
+        ];
+        let covariance = [vec![1e-14, 4e-15], vec![4e-15, 9e-14]];
+        let text = with_springs("lever.toml", &two, &springs, &covariance, ["", ""]).unwrap();
+        let read = super::super::read("lever.toml", "lever", &text).unwrap();
+        let known = read.robot.structure().covariance.clone().unwrap();
+        assert_eq!(known[(0, 1)], 4e-15);
+        assert!(read.robot.structure().springs.is_empty());
+    }
+
+    #[test]
     fn other_springs_stand_in_tables_of_their_own_with_their_covariance() {
         let springs = [
             spring("A", Yields::Drive, 2.5e-6),
@@ -292,12 +313,19 @@ mod tests {
             table["covariance"]["matrix_rad2_per_n2_m2"][1][0].as_float(),
             Some(-2e-16)
         );
+        let read = super::super::read("lever.toml", "lever", &text).unwrap();
+        let known = read.robot.structure().covariance.clone().unwrap();
+        // Drives first, then springs: A, B, A about x, flange along z. 7 digits are written.
+        assert_eq!(known.shape(), (4, 4));
+        assert!((known[(0, 0)] - 1e-14).abs() < 1e-20 && (known[(2, 2)] - 1e-16).abs() < 1e-22);
+        assert!((known[(0, 2)] + 2e-16).abs() < 1e-22 && known[(0, 3)] == 0.0);
+        assert!((read.robot.structure().springs[1].compliance.value - 2e-8).abs() < 1e-14);
         // Identified once more, nothing of the first time is left.
         let again = with_springs(
             "lever.toml",
             &text,
             &[spring("A", Yields::Drive, 1e-6)],
-            &[],
+            &[vec![1e-14]],
             ["", ""],
         )
         .unwrap();

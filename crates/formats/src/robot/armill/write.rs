@@ -84,12 +84,7 @@ fn head(text: &mut String, found: &RobotDescription) {
             line(text, &format!("# - {missing} of {count} joints: {what}"));
         }
     }
-    if robot.ortho_parallel().is_none() {
-        line(
-            text,
-            "#\n# This arm has no closed-form inverse: it can be posed by its joints, not by a point.",
-        );
-    }
+    line(text, &format!("#\n# Inverse: {}.", robot.inverse()));
     line(text, "\nformat = 1");
     line(text, &format!("name = {}", quoted(&found.title)));
     line(

@@ -122,7 +122,7 @@ fn what_is_missing_stands_in_comments() {
         "# - the joints' compliances",
         "# - 1 of 1 joints: limits",
         "# compliance_rad_per_n_m = ...",
-        "no closed-form inverse",
+        "# Inverse: numeric from many starts",
     ] {
         assert!(text.contains(words), "no `{words}` in\n{text}");
     }
