@@ -20,8 +20,10 @@ pub(crate) const OVER: &str = "#d9d9d9";
 /// Share of white mixed into the field colours, so that dark labels stay readable on them.
 const SOFTENING: f64 = 0.12;
 
-const CATEGORIES: [&str; 8] = [
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5a5a5a", "#b5a900",
+/// Seven joints, base, flange and tool; the last two are of Paul Tol's muted set (2021).
+const CATEGORIES: [&str; 10] = [
+    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#5a5a5a", "#b5a900", "#882255",
+    "#332288",
 ];
 
 /// Which colour scale a field is drawn in.

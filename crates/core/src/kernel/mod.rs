@@ -3,8 +3,8 @@
 //! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
 //! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
-//! other. [`at_joints`] takes any chain at
-//! joint positions that are known. Blocks run on all
+//! other. [`evaluate_loaded`] takes a
+//! load of its own at every point, [`at_joints`] any chain at joint positions that are known. Blocks run on all
 //! threads of the current rayon pool; every point is written by index, so any number of threads gives the same
 //! bits.
 
@@ -14,11 +14,13 @@ mod general;
 // Loops over lanes index many planes at once.
 #[allow(clippy::needless_range_loop)]
 pub mod lanes;
+mod loaded;
 mod question;
 mod solver;
 
 pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, Loaded, at_joints};
+pub use loaded::{Stop, evaluate_loaded};
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

@@ -12,6 +12,8 @@ pub enum LoadFrame {
     Base,
     /// The workpiece frame: z is its outward normal.
     Part,
+    /// The feed frame of a path: x along the feed, z from the tip towards the spindle ([`crate::path::placing`]).
+    Feed,
 }
 
 /// Wrenches, each of which may act at every point.
@@ -24,11 +26,11 @@ pub struct LoadCases {
 }
 
 impl LoadCases {
-    /// The cases told in base, for a part that lies at `base_from_part`.
+    /// The cases told in base, for a part that lies at `base_from_part`. No path tells where the feed goes: along part x.
     pub fn in_base(&self, base_from_part: &Isometry) -> Vec<Wrench> {
         let turned = |wrench: &Wrench| match self.frame {
             LoadFrame::Base => *wrench,
-            LoadFrame::Part => Wrench {
+            LoadFrame::Part | LoadFrame::Feed => Wrench {
                 force: base_from_part * wrench.force,
                 moment: base_from_part * wrench.moment,
             },

@@ -37,7 +37,7 @@ impl Doubt {
             let axis = Vector3::ith(k, u[k]);
             match frame {
                 LoadFrame::Base => axis,
-                LoadFrame::Part => base_from_part * axis,
+                LoadFrame::Part | LoadFrame::Feed => base_from_part * axis,
             }
         };
         Doubt {

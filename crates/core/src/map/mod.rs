@@ -1,7 +1,7 @@
 //! Where does the tolerance hold?
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path on a plane, with radial
-//! deviation and roundness on a circle; [`region`]: the part within a limit, its area, boundary and what fits;
+//! deviation and roundness on a circle; [`program`]: along a tool path program; [`region`]: the part within a limit, its area, boundary and what fits;
 //! [`certainty`]: how sure that is.
 
 pub mod along;
@@ -9,11 +9,13 @@ pub mod certainty;
 mod inscribed;
 mod marching_squares;
 pub mod plane;
+pub mod program;
 pub mod region;
 pub mod volume;
 
 pub use along::{PathAnswer, RadialDeviation, along_path};
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use plane::{Counts, PlaneMap, plane_map};
+pub use program::{Parts, ProgramAnswer, Track, along_program};
 pub use region::{Region, region_within};
 pub use volume::{BoxGrid, VolumeMap, volume_map};

@@ -47,6 +47,12 @@ impl StiffnessModel {
         plain && !self.load_dependent && (self.gravity.is_none() || s.masses.is_empty())
     }
 
+    /// Whether the deviation under a wrench `w` is `C w + g` in one posture: no joint stiffens with its torque, and the
+    /// load does not change the arm that it acts on.
+    pub fn is_affine(&self) -> bool {
+        !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
+    }
+
     /// What the deviation is shared out to: every joint, then base, flange and tool where springs sit.
     pub fn sharers(&self, joints: usize) -> Vec<Seat> {
         let others = [Seat::Base, Seat::Flange, Seat::Tool];

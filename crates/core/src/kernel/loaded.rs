@@ -1,0 +1,215 @@
+//! Points that each have a load of their own: a tool path, where forces turn with the feed.
+//!
+//! Of a model whose deviation is `C w + g` a point is asked under unit loads, and `C` and `g` serve any wrench; a model
+//! in which the load changes the arm is asked under each wrench as it is.
+
+use nalgebra::{Matrix3, Unit, Vector3};
+
+use super::answer::{Answers, Held};
+use super::general::General;
+use super::question::Question;
+use super::solver::{BLOCK, Order, Slots, Solver};
+use crate::frame::Isometry;
+use crate::load::Doubt;
+use crate::robot::Unreachable;
+use crate::spatial::Wrench;
+use crate::watch::{Cancelled, Watch};
+
+/// A point of a path: where the tool stands, and what its deviation is split on.
+#[derive(Clone, Copy, Debug)]
+pub struct Stop {
+    /// The tool pose.
+    pub base_from_tool: Isometry,
+    /// What counts as normal there, base: the tool axis of a path.
+    pub normal: Unit<Vector3<f64>>,
+}
+
+/// Answers `question` at `count` points one after the other, each under wrenches of its own.
+///
+/// `stop(i)` tells where the tool stands; `load(i, wrenches)` fills in the wrenches on the tool at the TCP, base basis, as
+/// many as `question.cases`, whose values, like its `normal` and `doubt`, are not looked at. No shares and no
+/// uncertainties are told: ask [`super::evaluate`] at the points that matter.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+pub fn evaluate_loaded(
+    question: &Question<'_>,
+    count: usize,
+    stop: impl Fn(usize) -> Stop,
+    load: impl Fn(usize, &mut [Wrench]),
+    watch: Watch<'_>,
+) -> Result<Answers, Cancelled> {
+    let question = Question {
+        doubt: Doubt::NONE,
+        ..*question
+    };
+    let (joint_count, case_count) = (question.robot.joints().len(), question.cases.len());
+    let mut answers = Answers {
+        points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
+        joints: vec![0.0; count * joint_count],
+        deviations: vec![Vector3::zeros(); count * case_count],
+        shares: Vec::new(),
+        joint_count,
+        case_count,
+        share_count: 0,
+    };
+    let rows = Rows {
+        answers: &mut answers,
+        wrenches: vec![Wrench::from_force(Vector3::zeros()); case_count],
+    };
+    if question.model.is_affine() {
+        rows.by_unit_loads(&question, stop, load, watch)?;
+    } else {
+        rows.one_by_one(&question, stop, load, watch)?;
+    }
+    Ok(answers)
+}
+
+/// Answers to be filled, and room for the wrenches of a point.
+struct Rows<'a> {
+    answers: &'a mut Answers,
+    wrenches: Vec<Wrench>,
+}
+
+impl Rows<'_> {
+    fn by_unit_loads(
+        mut self,
+        question: &Question<'_>,
+        stop: impl Fn(usize) -> Stop,
+        load: impl Fn(usize, &mut [Wrench]),
+        watch: Watch<'_>,
+    ) -> Result<(), Cancelled> {
+        let units = unit_loads();
+        let asked = Question {
+            cases: &units,
+            ..*question
+        };
+        let (count, joint_count) = (self.answers.points.len(), self.answers.joint_count);
+        let mut solver = Solver::new(&asked, Order::AlongPath);
+        let mut under_units = vec![Vector3::zeros(); BLOCK * units.len()];
+        let mut shares = vec![0.0; BLOCK * question.model.sharers(joint_count).len()];
+        for first in (0..count).step_by(BLOCK) {
+            let here = first..(first + BLOCK).min(count);
+            let size = here.len();
+            let slots = Slots {
+                points: &mut self.answers.points[here.clone()],
+                joints: &mut self.answers.joints[first * joint_count..][..size * joint_count],
+                deviations: &mut under_units[..size * units.len()],
+                shares: {
+                    let width = shares.len() / BLOCK;
+                    &mut shares[..size * width]
+                },
+            };
+            solver.answer(|i| stop(first + i).base_from_tool, slots, watch)?;
+            for index in here {
+                load(index, &mut self.wrenches);
+                let yields = Yields::of(&under_units[(index - first) * units.len()..][..units.len()]);
+                let cases = self.answers.case_count;
+                let deviations = &mut self.answers.deviations[index * cases..][..cases];
+                for (deviation, wrench) in deviations.iter_mut().zip(&self.wrenches) {
+                    *deviation = yields.under(wrench);
+                }
+                if let Ok(held) = &mut self.answers.points[index] {
+                    settle(held, deviations, stop(index).normal);
+                } else {
+                    deviations.fill(Vector3::zeros());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn one_by_one(
+        mut self,
+        question: &Question<'_>,
+        stop: impl Fn(usize) -> Stop,
+        load: impl Fn(usize, &mut [Wrench]),
+        watch: Watch<'_>,
+    ) -> Result<(), Cancelled> {
+        let mut general = General::new(question);
+        let (joint_count, case_count) = (self.answers.joint_count, self.answers.case_count);
+        let mut shares = vec![0.0; question.model.sharers(joint_count).len()];
+        let mut before: Option<Vec<f64>> = None;
+        for index in 0..self.answers.points.len() {
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
+            load(index, &mut self.wrenches);
+            let stop = stop(index);
+            let asked = Question {
+                cases: &self.wrenches,
+                normal: stop.normal,
+                ..*question
+            };
+            let joints = &mut self.answers.joints[index * joint_count..][..joint_count];
+            let deviations = &mut self.answers.deviations[index * case_count..][..case_count];
+            self.answers.points[index] = general
+                .answer(&asked, &stop.base_from_tool, before.as_deref())
+                .inspect(|_| general.write(joints, deviations, &mut shares))
+                .inspect(|_| before = Some(joints.to_vec()));
+            if let Ok(held) = &mut self.answers.points[index] {
+                settle(held, deviations, stop.normal);
+            }
+            (watch.finished)(1);
+        }
+        Ok(())
+    }
+}
+
+/// No load, then one newton along each base axis, then one newton metre about each.
+fn unit_loads() -> [Wrench; 7] {
+    let none = Wrench::from_force(Vector3::zeros());
+    let force = |axis| Wrench::from_force(axis);
+    let moment = |axis| Wrench { moment: axis, ..none };
+    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+    [
+        none,
+        force(x),
+        force(y),
+        force(z),
+        moment(x),
+        moment(y),
+        moment(z),
+    ]
+}
+
+/// `delta = C_f f + C_m m + g`.
+struct Yields {
+    by_force: Matrix3<f64>,
+    by_moment: Matrix3<f64>,
+    unloaded: Vector3<f64>,
+}
+
+impl Yields {
+    /// From the deviations under [`unit_loads`].
+    fn of(deviations: &[Vector3<f64>]) -> Yields {
+        let unloaded = deviations[0];
+        let columns =
+            |first: usize| Matrix3::from_fn(|row, column| (deviations[first + column] - unloaded)[row]);
+        Yields {
+            by_force: columns(1),
+            by_moment: columns(4),
+            unloaded,
+        }
+    }
+
+    fn under(&self, wrench: &Wrench) -> Vector3<f64> {
+        self.by_force * wrench.force + self.by_moment * wrench.moment + self.unloaded
+    }
+}
+
+/// Fills in what the deviations of a point are on its normal.
+fn settle(held: &mut Held, deviations: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
+    (held.in_plane, held.normal, held.full) = (0.0, 0.0, 0.0);
+    (held.deciding_case, held.in_plane_uncertainty) = (0, 0.0);
+    for (case, deviation) in deviations.iter().enumerate() {
+        let split = crate::workpiece::Split::of(deviation, normal);
+        if split.in_plane > held.in_plane {
+            (held.in_plane, held.deciding_case) = (split.in_plane, case);
+        }
+        if split.normal.abs() > held.normal.abs() {
+            held.normal = split.normal;
+        }
+        held.full = held.full.max(split.full);
+    }
+}

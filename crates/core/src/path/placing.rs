@@ -1,0 +1,165 @@
+//! Where a path lies in the cell, and how the tool is turned on it.
+//!
+//! | frame | origin and axes |
+//! |---|---|
+//! | `path` | the zero that the program counts from |
+//! | `feed` | TCP; x where the tip goes (across the tool), z from the tip towards the spindle, y to the left |
+//!
+//! The tool's z points the other way round, from the spindle to the tip. Where the tip goes along the tool alone
+//! (a plunge) x of the feed frame is x of the tool.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+
+use super::sampler::PathPoint;
+use crate::frame::{Isometry, tool_orientation};
+
+/// How the tool is turned about its own axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spin {
+    /// By this angle (rad) from where [`tool_orientation`] has it.
+    Fixed(f64),
+    /// By this angle (rad) from x of the tool along the feed.
+    AlongFeed(f64),
+}
+
+/// A path in the cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placing {
+    /// Base to path.
+    pub base_from_path: Isometry,
+    /// The tool where the program does not tell it: from the tip towards the spindle, path axes.
+    pub axis: Unit<Vector3<f64>>,
+    /// Whether the tool is held along `axis` whatever the program tells.
+    pub keeps_axis: bool,
+    /// How the tool is turned.
+    pub spin: Spin,
+}
+
+/// Below this sine of the angle between feed and tool the tip plunges.
+const PLUNGE: f64 = 1e-6;
+
+impl Placing {
+    /// The tool at `point`, from the tip towards the spindle, base.
+    pub fn spindle(&self, point: &PathPoint) -> Unit<Vector3<f64>> {
+        let told = point.axis.filter(|_| !self.keeps_axis);
+        self.base_from_path.rotation * told.unwrap_or(self.axis)
+    }
+
+    /// The tool pose at `point`.
+    pub fn base_from_tool(&self, point: &PathPoint) -> Isometry {
+        let axis = -self.spindle(point);
+        let rotation = match self.spin {
+            Spin::Fixed(angle) => tool_orientation(axis, angle),
+            Spin::AlongFeed(angle) => {
+                let tool = axis.into_inner();
+                let x = self.across(point).unwrap_or_else(|| self.unspun_x(point));
+                let axes = Matrix3::from_columns(&[x, tool.cross(&x), tool]);
+                let along = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+                UnitQuaternion::from_axis_angle(&axis, angle) * along
+            }
+        };
+        let tip = self.base_from_path * point.at;
+        Isometry3::from_parts(tip.coords.into(), rotation)
+    }
+
+    /// Axes of the feed frame at `point`, in base.
+    pub fn base_from_feed(&self, point: &PathPoint) -> Rotation3<f64> {
+        let z = self.spindle(point).into_inner();
+        let x = self
+            .across(point)
+            .unwrap_or_else(|| self.base_from_tool(point) * Vector3::x());
+        Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
+    }
+
+    /// Where the tip goes across the tool, base; `None` in a plunge.
+    fn across(&self, point: &PathPoint) -> Option<Vector3<f64>> {
+        let feed = (self.base_from_path.rotation * point.direction).into_inner();
+        let z = self.spindle(point);
+        (feed - z.into_inner() * feed.dot(&z)).try_normalize(PLUNGE)
+    }
+
+    fn unspun_x(&self, point: &PathPoint) -> Vector3<f64> {
+        tool_orientation(-self.spindle(point), 0.0) * Vector3::x()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::from_xyz_and_fixed_angles;
+    use crate::path::Pace;
+    use nalgebra::Point3;
+
+    fn point(direction: Vector3<f64>, axis: Option<Vector3<f64>>) -> PathPoint {
+        PathPoint {
+            at: Point3::new(0.1, 0.2, 0.3),
+            axis: axis.map(Unit::new_normalize),
+            direction: Unit::new_normalize(direction),
+            along: 0.0,
+            pace: Pace::Feed(0.01),
+            line: 1,
+        }
+    }
+
+    fn placing(spin: Spin) -> Placing {
+        Placing {
+            base_from_path: from_xyz_and_fixed_angles(
+                Vector3::new(1.0, -0.2, 0.5),
+                Vector3::new(0.3, -0.8, 2.0),
+            ),
+            axis: Vector3::z_axis(),
+            keeps_axis: false,
+            spin,
+        }
+    }
+
+    #[test]
+    fn the_tool_points_against_the_axis_that_the_program_tells() {
+        let tilted = Vector3::new(0.2, 0.1, 1.0);
+        for spin in [Spin::Fixed(0.4), Spin::AlongFeed(-1.0)] {
+            let placing = placing(spin);
+            let pose = placing.base_from_tool(&point(Vector3::x(), Some(tilted)));
+            let told = placing.base_from_path * tilted.normalize();
+            assert!((pose * Vector3::z() + told).norm() < 1e-14);
+            assert!(
+                (pose.translation.vector - (placing.base_from_path * Point3::new(0.1, 0.2, 0.3)).coords)
+                    .norm()
+                    < 1e-15
+            );
+            let upright = Placing {
+                keeps_axis: true,
+                ..placing
+            };
+            let pose = upright.base_from_tool(&point(Vector3::x(), Some(tilted)));
+            assert!((pose * Vector3::z() + placing.base_from_path * Vector3::z()).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn along_the_feed_x_of_the_tool_goes_where_the_tip_goes() {
+        let placing = placing(Spin::AlongFeed(0.0));
+        // Ramping down: the feed leaves the plane across the tool.
+        let point = point(Vector3::new(0.6, 0.8, -0.5), None);
+        let x = placing.base_from_tool(&point) * Vector3::x();
+        assert!((x - placing.base_from_path * Vector3::new(0.6, 0.8, 0.0)).norm() < 1e-14);
+    }
+
+    #[test]
+    fn the_feed_frame_is_right_handed_and_its_y_lies_to_the_left() {
+        let placing = placing(Spin::Fixed(0.7));
+        let axes = placing.base_from_feed(&point(Vector3::x(), None));
+        assert!((axes.matrix().determinant() - 1.0).abs() < 1e-14);
+        // Seen from the spindle, left of x is y of the path.
+        assert!((axes * Vector3::y() - placing.base_from_path * Vector3::y()).norm() < 1e-14);
+    }
+
+    #[test]
+    fn a_plunge_takes_x_from_the_tool() {
+        for spin in [Spin::Fixed(0.7), Spin::AlongFeed(0.7)] {
+            let placing = placing(spin);
+            let point = point(-Vector3::z(), None);
+            let (axes, pose) = (placing.base_from_feed(&point), placing.base_from_tool(&point));
+            assert!((axes * Vector3::x() - pose * Vector3::x()).norm() < 1e-14);
+        }
+    }
+}
