@@ -1,14 +1,17 @@
 //! Which points does the tool pass, and in which direction?
 //!
 //! [`shape`]: circles and lines on a workpiece plane. [`program`]: what a tool path program tells, move after move.
-//! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned. [`roundness`](mod@roundness): the circle that comes out.
+//! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned. [`roundness`](mod@roundness) and
+//! [`feature`]: the circle, line, plane or hole that comes out.
 
+pub mod feature;
 pub mod placing;
 pub mod program;
 pub mod roundness;
 pub mod sampler;
 pub mod shape;
 
+pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, Move, Operation, Pace, Program, Step};
 pub use roundness::{Roundness, roundness};

@@ -1,0 +1,327 @@
+//! What becomes of a feature: the circle, line, plane or hole that a stretch of the path was to make.
+//!
+//! Each is fitted to the points where the tool really went. Lengths m, angles rad, path axes.
+//!
+//! | feature | told | fitted |
+//! |---|---|---|
+//! | circle | radius, shift of its centre, roundness | least-squares circle in the plane of the nominal points |
+//! | line | straightness across and along the tool, offset | least-squares line through each part of the deviation |
+//! | plane | flatness, offset | least-squares plane through the normal parts |
+//! | hole | how far its axis was moved | mean of the points |
+//!
+//! Straightness and flatness are peak to valley about the least-squares line or plane (LSLI, LSPL of ISO 12780 and 12781,
+//! without filter), roundness about the least-squares circle (LSCI of ISO 12181).
+
+use nalgebra::{Matrix3, Point2, Point3, Unit, Vector3};
+
+use super::roundness::roundness;
+
+/// What a stretch of the path was to make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FeatureKind {
+    /// A full circle, or a good part of one.
+    Circle,
+    /// A straight edge.
+    Line,
+    /// A flat face, from several passes.
+    Plane,
+    /// A drilled hole.
+    Hole,
+}
+
+/// What it became.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Became {
+    /// A circle.
+    Circle {
+        /// Radius as programmed, of the tool tip's path.
+        radius: f64,
+        /// What it became larger by.
+        radius_change: f64,
+        /// How far its centre was moved.
+        centre_shift: Vector3<f64>,
+        /// Peak to valley about the least-squares circle.
+        roundness: f64,
+    },
+    /// A line.
+    Line {
+        /// Peak to valley to the left and right.
+        straightness_across: f64,
+        /// Peak to valley along the tool.
+        straightness_normal: f64,
+        /// How far it was moved in the mean, without the part along it.
+        offset: Vector3<f64>,
+    },
+    /// A plane.
+    Plane {
+        /// Peak to valley.
+        flatness: f64,
+        /// How far it was moved in the mean, along the tool.
+        offset: f64,
+    },
+    /// A hole.
+    Hole {
+        /// How far its axis was moved, across the tool.
+        shift: Vector3<f64>,
+    },
+}
+
+/// A point of a stretch: where the tip should be, where the tool points, and how far it is off.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strayed {
+    /// As programmed.
+    pub at: Point3<f64>,
+    /// From the tip towards the spindle.
+    pub axis: Unit<Vector3<f64>>,
+    /// Deviation.
+    pub by: Vector3<f64>,
+}
+
+/// What the stretch `points` became; `None` where the points cannot make such a feature: too few, on top of each other, a
+/// circle on a line.
+pub fn became(kind: FeatureKind, points: &[Strayed]) -> Option<Became> {
+    match kind {
+        FeatureKind::Circle => circle(points),
+        FeatureKind::Line => line(points),
+        FeatureKind::Plane => plane(points),
+        FeatureKind::Hole => hole(points),
+    }
+}
+
+fn circle(points: &[Strayed]) -> Option<Became> {
+    let middle = mean(points.iter().map(|p| p.at.coords))?;
+    let normal = least_direction(points.iter().map(|p| p.at.coords - middle))?;
+    let x = across(&normal);
+    let y = normal.cross(&x);
+    let seen = |v: Vector3<f64>| Point2::new((v - middle).dot(&x), (v - middle).dot(&y));
+    let told: Vec<_> = points.iter().map(|p| seen(p.at.coords)).collect();
+    let made: Vec<_> = points.iter().map(|p| seen(p.at.coords + p.by)).collect();
+    let (told, made) = (roundness(&told)?, roundness(&made)?);
+    let shift = made.centre - told.centre;
+    Some(Became::Circle {
+        radius: told.radius,
+        radius_change: made.radius - told.radius,
+        centre_shift: x * shift.x + y * shift.y,
+        roundness: made.peak_to_valley,
+    })
+}
+
+fn line(points: &[Strayed]) -> Option<Became> {
+    let [first, .., last] = points else {
+        return None;
+    };
+    let along = (last.at - first.at).try_normalize(0.0)?;
+    let normal = mean(points.iter().map(|p| p.axis.into_inner()))?;
+    let normal = (normal - along * normal.dot(&along)).try_normalize(1e-9)?;
+    let left = normal.cross(&along);
+    let straightness = |direction: Vector3<f64>| {
+        let part = |p: &Strayed| [(p.at - first.at).dot(&along), 0.0, p.by.dot(&direction)];
+        peak_to_valley(points.iter().map(part))
+    };
+    let offset = mean(points.iter().map(|p| p.by - along * p.by.dot(&along)))?;
+    Some(Became::Line {
+        straightness_across: straightness(left)?,
+        straightness_normal: straightness(normal)?,
+        offset,
+    })
+}
+
+fn plane(points: &[Strayed]) -> Option<Became> {
+    if points.len() < 4 {
+        return None;
+    }
+    let normal = mean(points.iter().map(|p| p.axis.into_inner()))?.try_normalize(1e-9)?;
+    let x = across(&normal);
+    let y = normal.cross(&x);
+    let middle = mean(points.iter().map(|p| p.at.coords))?;
+    let part = |p: &Strayed| {
+        let from = p.at.coords - middle;
+        [from.dot(&x), from.dot(&y), p.by.dot(&normal)]
+    };
+    Some(Became::Plane {
+        flatness: peak_to_valley(points.iter().map(part))?,
+        offset: mean(points.iter().map(|p| p.by))?.dot(&normal),
+    })
+}
+
+fn hole(points: &[Strayed]) -> Option<Became> {
+    let across = |p: &Strayed| p.by - p.axis.into_inner() * p.by.dot(&p.axis);
+    Some(Became::Hole {
+        shift: mean(points.iter().map(across))?,
+    })
+}
+
+fn mean(vectors: impl Iterator<Item = Vector3<f64>>) -> Option<Vector3<f64>> {
+    let (sum, count) = vectors.fold((Vector3::zeros(), 0.0), |(sum, count), v| (sum + v, count + 1.0));
+    (count > 0.0).then(|| sum / count)
+}
+
+/// The direction in which these vectors reach least.
+fn least_direction(vectors: impl Iterator<Item = Vector3<f64>>) -> Option<Vector3<f64>> {
+    let spread: Matrix3<f64> = vectors.map(|v| v * v.transpose()).sum();
+    let eigen = spread.symmetric_eigen();
+    let values = eigen.eigenvalues;
+    let (least, most) = (values.imin(), values.imax());
+    // Points on a line have no plane.
+    let middle = values.sum() - values[least] - values[most];
+    (middle > 1e-9 * values[most]).then(|| eigen.eigenvectors.column(least).into_owned())
+}
+
+/// Some unit vector across `axis`.
+fn across(axis: &Vector3<f64>) -> Vector3<f64> {
+    axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
+}
+
+/// Peak to valley of the heights (third entries) about their least-squares plane over the first two; about a line, where
+/// the second are all the same.
+fn peak_to_valley(points: impl Iterator<Item = [f64; 3]> + Clone) -> Option<f64> {
+    let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+    let largest = points
+        .clone()
+        .flat_map(|[x, y, _]| [x.abs(), y.abs()])
+        .fold(0.0, f64::max);
+    if largest <= 0.0 {
+        return None;
+    }
+    let row = |[x, y, _]: [f64; 3]| Vector3::new(x / largest, y / largest, 1.0);
+    for point in points.clone() {
+        normal += row(point) * row(point).transpose();
+        right += row(point) * point[2];
+    }
+    // The pseudo-inverse leaves out a direction that no point shows.
+    let fitted = normal.pseudo_inverse(1e-9 * normal.trace()).ok()? * right;
+    let rests = points.map(|point| point[2] - row(point).dot(&fitted));
+    let (low, high) = rests.fold((f64::MAX, f64::MIN), |(low, high), r| (low.min(r), high.max(r)));
+    (high >= low).then_some(high - low)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::TAU;
+
+    fn strayed(at: Vector3<f64>, by: Vector3<f64>) -> Strayed {
+        Strayed {
+            at: at.into(),
+            axis: Vector3::z_axis(),
+            by,
+        }
+    }
+
+    /// A turn about an axis that lies in no plane of the axes.
+    fn tilt() -> nalgebra::Rotation3<f64> {
+        nalgebra::Rotation3::new(Vector3::new(0.4, -0.9, 0.3))
+    }
+
+    fn tilted(points: &[Strayed]) -> Vec<Strayed> {
+        let tilt = tilt();
+        points
+            .iter()
+            .map(|p| Strayed {
+                at: tilt * p.at,
+                axis: tilt * p.axis,
+                by: tilt * p.by,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_circle_that_grows_moves_and_becomes_oval_is_told_so() {
+        let points: Vec<_> = (0..360)
+            .map(|i| {
+                let phi = TAU * f64::from(i) / 360.0;
+                let out = Vector3::new(phi.cos(), phi.sin(), 0.0);
+                let by = out * (12e-6 + 5e-6 * (2.0 * phi).cos()) + Vector3::new(30e-6, -7e-6, 90e-6);
+                strayed(out * 0.1 + Vector3::new(0.3, 0.2, -0.1), by)
+            })
+            .collect();
+        let Some(Became::Circle {
+            radius,
+            radius_change,
+            centre_shift,
+            roundness,
+        }) = became(FeatureKind::Circle, &tilted(&points))
+        else {
+            panic!("a circle")
+        };
+        assert!((radius - 0.1).abs() < 1e-12 && (radius_change - 12e-6).abs() < 1e-9);
+        assert!((centre_shift - tilt() * Vector3::new(30e-6, -7e-6, 0.0)).norm() < 1e-9);
+        assert!((roundness - 10e-6).abs() < 1e-9, "{roundness}");
+    }
+
+    #[test]
+    fn a_line_that_bows_has_its_bow_as_straightness_whatever_its_slope() {
+        // h = b (s/L)^2 on -L..L about its least-squares line, b/3: from -b/3 in the middle to 2b/3 at the ends.
+        let bow = |s: f64| 30e-6 * s * s;
+        let points: Vec<_> = (-1000..=1000)
+            .map(|i| {
+                let s = f64::from(i) / 1000.0;
+                let by = Vector3::new(400e-6, 5e-6 + 20e-6 * s + bow(s), -8e-6 * s);
+                strayed(Vector3::new(0.2 * s, 0.1, 0.0), by)
+            })
+            .collect();
+        let Some(Became::Line {
+            straightness_across,
+            straightness_normal,
+            offset,
+        }) = became(FeatureKind::Line, &tilted(&points))
+        else {
+            panic!("a line")
+        };
+        assert!(
+            (straightness_across - 30e-6).abs() < 1e-11,
+            "{straightness_across}"
+        );
+        assert!(straightness_normal < 1e-15);
+        // What lies along the line does not count: 5 um and a third of the bow to the left.
+        assert!((offset.norm() - 15e-6).abs() < 2e-8, "{offset}");
+    }
+
+    #[test]
+    fn a_plane_that_twists_has_its_twist_as_flatness_and_a_tilt_does_not_count() {
+        let points: Vec<_> = (-10..=10)
+            .flat_map(|i| (-10..=10).map(move |j| (f64::from(i) / 10.0, f64::from(j) / 10.0)))
+            .map(|(x, y)| {
+                let height = 4e-6 + 50e-6 * x - 20e-6 * y + 6e-6 * x * y;
+                strayed(
+                    Vector3::new(0.1 * x, 0.2 * y, 0.0),
+                    Vector3::new(0.0, 1e-3, height),
+                )
+            })
+            .collect();
+        let Some(Became::Plane { flatness, offset }) = became(FeatureKind::Plane, &tilted(&points)) else {
+            panic!("a plane")
+        };
+        assert!((flatness - 12e-6).abs() < 1e-12 && (offset - 4e-6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_hole_moves_across_the_tool_only() {
+        let points: Vec<_> = (0..10)
+            .map(|i| {
+                strayed(
+                    Vector3::new(0.0, 0.0, -1e-3 * f64::from(i)),
+                    Vector3::new(3e-6, 4e-6, 80e-6),
+                )
+            })
+            .collect();
+        let Some(Became::Hole { shift }) = became(FeatureKind::Hole, &points) else {
+            panic!("a hole")
+        };
+        assert!((shift - Vector3::new(3e-6, 4e-6, 0.0)).norm() < 1e-18);
+    }
+
+    #[test]
+    fn points_that_make_no_such_feature_are_none() {
+        let still = vec![strayed(Vector3::zeros(), Vector3::x()); 5];
+        let row: Vec<_> = (0..5)
+            .map(|i| strayed(Vector3::x() * f64::from(i), Vector3::zeros()))
+            .collect();
+        for kind in [FeatureKind::Circle, FeatureKind::Line, FeatureKind::Plane] {
+            assert_eq!(became(kind, &still), None);
+        }
+        assert_eq!(became(FeatureKind::Circle, &row), None);
+        assert_eq!(became(FeatureKind::Hole, &[]), None);
+        assert_eq!(became(FeatureKind::Line, &row[..1]), None);
+    }
+}
