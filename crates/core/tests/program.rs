@@ -95,7 +95,7 @@ fn followed(robot: &Robot, model: &StiffnessModel, choice: BranchChoice, load: P
         normal: Vector3::z_axis(),
         choice,
     };
-    along_program(&question, track(load), Watch::NONE).unwrap()
+    along_program(&question, &track(load), Watch::NONE).unwrap()
 }
 
 /// Every point against [`predict_in_full`] at its joint positions, with wrenches turned here.
@@ -111,10 +111,11 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
     let PathLoad::Cases(told) = cases(frame) else {
         unreachable!()
     };
+    let track = track(cases(frame));
     assert!(found.answers.points.len() > 200);
     for (i, held) in found.answers.held() {
-        let point = &found.track.points[i];
-        let part = found.track.base_from_part.rotation;
+        let point = &track.points[i];
+        let part = track.base_from_part.rotation;
         let z = part * point.axis.map_or(Vector3::z(), Unit::into_inner);
         let feed = part * point.direction.into_inner();
         let x = feed - z * feed.dot(&z);
@@ -123,7 +124,7 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
                 LoadFrame::Base => v,
                 LoadFrame::Part => part * v,
                 // In the plunge x comes from the tool: any direction across it will do here.
-                LoadFrame::Feed if x.norm() < 1e-6 => found.track.base_from_feed(i) * v,
+                LoadFrame::Feed if x.norm() < 1e-6 => track.base_from_feed(i) * v,
                 LoadFrame::Feed => x.normalize() * v.x + z.cross(&x.normalize()) * v.y + z * v.z,
             };
             let turned = Wrench {
@@ -230,9 +231,10 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
         BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP),
         cases(LoadFrame::Feed),
     );
+    let track = track(cases(LoadFrame::Feed));
     for (i, held) in found.answers.held() {
-        let parts = found.parts(i, held.deciding_case);
-        let whole = found.answers.deviations_at(i)[held.deciding_case].norm();
+        let deviation = found.answers.deviations_at(i)[held.deciding_case];
+        let (parts, whole) = (track.parts(i, &deviation), deviation.norm());
         assert!((parts.along.hypot(parts.cross).hypot(parts.normal) - whole).abs() < 1e-12 * whole);
         assert!((parts.along.hypot(parts.cross) - held.in_plane).abs() < 1e-10 * whole);
     }

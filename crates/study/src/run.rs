@@ -1,7 +1,9 @@
 //! Runs a study: every ask through the core.
 
 use armill_core::kernel::Question;
-use armill_core::map::{PathAnswer, PlaneMap, VolumeMap, along_path, plane_map, volume_map};
+use armill_core::map::{
+    PathAnswer, PlaneMap, ProgramAnswer, VolumeMap, along_path, along_program, plane_map, volume_map,
+};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::watch::Watch;
 
@@ -19,6 +21,8 @@ pub enum Found {
     Volume(VolumeMap),
     /// A path.
     Path(PathAnswer),
+    /// A tool path program.
+    Program(Box<ProgramAnswer>),
 }
 
 /// How many points the study asks for.
@@ -28,6 +32,7 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
         Subject::Path(_, shape, step) => (shape.length() / step).ceil() as usize,
+        Subject::Program(program) => program.track.points.len(),
     };
     study.asks.iter().map(of).sum()
 }
@@ -79,6 +84,11 @@ impl Runner<'_> {
                 *step,
                 self.watch,
             )?),
+            Subject::Program(program) => Found::Program(Box::new(along_program(
+                &self.question(&program.setting),
+                &program.track,
+                self.watch,
+            )?)),
         })
     }
 
@@ -88,16 +98,25 @@ impl Runner<'_> {
     }
 
     fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
-        Question {
-            robot: self.robot,
-            compliance: self.compliance,
-            model: &setting.model,
-            flange_from_tool: &setting.flange_from_tool,
-            home: setting.home.as_deref(),
-            cases: &setting.cases,
-            doubt: setting.doubt,
-            normal: setting.plane.normal(),
-            choice: setting.choice,
-        }
+        question(self.robot, self.compliance, setting)
+    }
+}
+
+/// What is asked of every point of this setting.
+pub(crate) fn question<'q>(
+    robot: &'q Robot,
+    compliance: &'q [JointCompliance],
+    setting: &'q Setting,
+) -> Question<'q> {
+    Question {
+        robot,
+        compliance,
+        model: &setting.model,
+        flange_from_tool: &setting.flange_from_tool,
+        home: setting.home.as_deref(),
+        cases: &setting.cases,
+        doubt: setting.doubt,
+        normal: setting.plane.normal(),
+        choice: setting.choice,
     }
 }

@@ -33,8 +33,6 @@ pub struct Track {
 /// Answers along a program.
 #[derive(Clone, Debug)]
 pub struct ProgramAnswer {
-    /// The path.
-    pub track: Track,
     /// The branch it was followed in.
     pub choice: BranchChoice,
     /// What came out at each point; in-plane is across the tool, normal along it. No shares, no uncertainties.
@@ -52,19 +50,6 @@ pub struct Parts {
     pub normal: f64,
 }
 
-impl ProgramAnswer {
-    /// The deviation of load case `case` at point `index`, seen from the path.
-    pub fn parts(&self, index: usize, case: usize) -> Parts {
-        let axes = self.track.base_from_feed(index);
-        let seen = axes.inverse() * self.answers.deviations_at(index)[case];
-        Parts {
-            along: seen.x,
-            cross: seen.y,
-            normal: seen.z,
-        }
-    }
-}
-
 impl Track {
     /// The tool pose at point `index`, and the tool axis as its normal.
     pub fn stop(&self, index: usize) -> Stop {
@@ -72,6 +57,16 @@ impl Track {
         Stop {
             base_from_tool: self.placing.base_from_tool(point),
             normal: self.placing.spindle(point),
+        }
+    }
+
+    /// A deviation (m, base) at point `index`, seen from the path.
+    pub fn parts(&self, index: usize, deviation: &Vector3<f64>) -> Parts {
+        let seen = self.base_from_feed(index).inverse() * deviation;
+        Parts {
+            along: seen.x,
+            cross: seen.y,
+            normal: seen.z,
         }
     }
 
@@ -97,7 +92,7 @@ impl Track {
 /// [`Cancelled`] if the watch says so.
 pub fn along_program(
     question: &Question<'_>,
-    track: Track,
+    track: &Track,
     watch: Watch<'_>,
 ) -> Result<ProgramAnswer, Cancelled> {
     let cases = vec![Wrench::from_force(Vector3::zeros()); track.load.case_count()];
@@ -105,7 +100,7 @@ pub fn along_program(
         cases: &cases,
         ..*question
     };
-    let choice = chosen(&asked, &track, watch)?;
+    let choice = chosen(&asked, track, watch)?;
     let asked = Question { choice, ..asked };
     let answers = evaluate_loaded(
         &asked,
@@ -114,11 +109,7 @@ pub fn along_program(
         |i, out| track.wrenches(i, out),
         watch,
     )?;
-    Ok(ProgramAnswer {
-        track,
-        choice,
-        answers,
-    })
+    Ok(ProgramAnswer { choice, answers })
 }
 
 /// The one branch that the whole path is followed in.

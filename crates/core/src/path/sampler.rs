@@ -62,6 +62,18 @@ impl Sampler {
         }
     }
 
+    /// How many points [`Sampler::points`] would give of `next`.
+    pub fn count(&self, next: &Move) -> usize {
+        let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
+        let from = self.stands.filter(|_| next.pace.cuts());
+        from.map_or(0, |from| {
+            match Way::of(&from, next, axis).pieces(&self.sampling) {
+                0 => 0,
+                pieces => pieces + usize::from(!from.cutting),
+            }
+        })
+    }
+
     /// Gives `out` the points of the next move: of a cut its start, where no cut led there, and then one at the end of
     /// each piece; of a rapid nothing. The first move of a program says where the tip stands and has no points.
     pub fn points(&mut self, next: &Move, mut out: impl FnMut(PathPoint)) {
@@ -260,6 +272,13 @@ mod tests {
         ];
         let points = points(FINE, &moves);
         assert_eq!(points.len(), 11 + 5);
+        let mut sampler = Sampler::new(FINE);
+        let counted = moves.map(|next| {
+            let count = sampler.count(&next);
+            sampler.points(&next, |_| ());
+            count
+        });
+        assert_eq!(counted, [0, 11, 5]);
         assert!((points[15].along - 0.0145).abs() < 1e-15);
         assert_eq!(points[10].direction, Vector3::x_axis());
         assert_eq!(points[11].direction, Vector3::y_axis());

@@ -6,6 +6,7 @@
 mod map;
 mod path;
 mod point;
+mod program;
 mod sentence;
 mod statement;
 mod volume;
@@ -13,6 +14,7 @@ mod volume;
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
 pub use path::PathResult;
 pub use point::{PointAnswer, SettingAnswer};
+pub use program::{FeatureResult, OperationResult, ProgramResult, WorstPoint};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
@@ -104,6 +106,9 @@ pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
         }
         (Subject::Path(setting, ..), Found::Path(path)) => {
             Told::Path(Box::new(path::answer(study, &ask.name, setting, path)))
+        }
+        (Subject::Program(ask_of), Found::Program(found)) => {
+            Told::Path(Box::new(program::answer(study, &ask.name, ask_of, found)))
         }
         _ => Told::Maps(Vec::new()),
     };

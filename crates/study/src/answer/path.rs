@@ -1,9 +1,11 @@
 //! A path in the answer.
 
+use armill_core::kernel::Answers;
 use armill_core::map::PathAnswer;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer, tidy};
+use super::program::ProgramResult;
 use crate::file::resolve::{Setting, Study};
 
 /// A path on a plane.
@@ -38,6 +40,8 @@ pub struct PathResult {
     pub setting: SettingAnswer,
     /// Range of each joint (mm for sliding joints) along the path.
     pub joint_range_deg: Vec<[f64; 2]>,
+    /// What only a tool path program has.
+    pub program: Option<ProgramResult>,
 }
 
 /// What becomes of a circle under one load case.
@@ -83,9 +87,8 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, path: &PathAn
             .worst()
             .map(|(i, held)| PointAnswer::of(study, setting, answers, (i, held, at(i)))),
         setting: SettingAnswer::of(study, setting),
-        joint_range_deg: (0..answers.joint_count)
-            .map(|joint| joint_range(study, path, joint))
-            .collect(),
+        joint_range_deg: joint_ranges(study, answers),
+        program: None,
     }
 }
 
@@ -114,16 +117,22 @@ fn circle_cases(path: &PathAnswer) -> Vec<CircleCase> {
         .collect()
 }
 
-fn joint_range(study: &Study, path: &PathAnswer, joint: usize) -> [f64; 2] {
+/// Range of each joint, deg (mm).
+pub(super) fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
+    (0..answers.joint_count)
+        .map(|joint| joint_range(study, answers, joint))
+        .collect()
+}
+
+fn joint_range(study: &Study, answers: &Answers, joint: usize) -> [f64; 2] {
     let scale = if study.robot.robot.slides(joint) {
         1e3
     } else {
         1f64.to_degrees()
     };
-    let positions = path
-        .answers
+    let positions = answers
         .held()
-        .map(|(index, _)| path.answers.joints_at(index)[joint] * scale);
+        .map(|(index, _)| answers.joints_at(index)[joint] * scale);
     let (low, high) = positions.fold((f64::MAX, f64::MIN), |(low, high), q| (low.min(q), high.max(q)));
     if low > high {
         [0.0, 0.0]

@@ -1,5 +1,7 @@
 //! One ask against its study: what it does not say it takes from there.
 
+use std::path::Path;
+
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::Doubt;
@@ -10,9 +12,12 @@ use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use super::format::{AskKind, AskTable, HalfSize, PlaneTable, PostureTable, StudyFile};
+use super::format::{
+    AskKind, AskTable, HalfSize, LoadFrameName, LoadTable, PlaneTable, PostureTable, StudyFile,
+};
 use super::memory;
 use super::places::Places;
+use super::program;
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
@@ -31,6 +36,7 @@ pub(super) fn kind_name(kind: AskKind) -> &'static str {
         AskKind::Sections => "sections",
         AskKind::Volume => "volume",
         AskKind::Path => "path",
+        AskKind::Program => "program",
     }
 }
 
@@ -39,30 +45,61 @@ pub(super) struct Resolver<'a> {
     pub file: &'a StudyFile,
     pub robot: Option<&'a RobotDescription>,
     pub table: &'a AskTable,
+    /// Where files of the study are looked for.
+    pub folder: &'a Path,
 }
 
 impl Resolver<'_> {
     /// What the ask is about; `None` where it has problems.
-    pub(super) fn subject(&self, places: &mut Places<'_>) -> Option<Subject> {
+    ///
+    /// # Errors
+    /// The problems of a file that the ask names.
+    pub(super) fn subject(&self, places: &mut Places<'_>) -> Result<Option<Subject>, StudyError> {
         self.refuse_keys_of_other_kinds(places);
         self.refuse_what_no_cell_has(places);
         let plane = self.plane_table();
         let grid = grid(places, &plane);
         let setting = self.setting(places, &plane);
         // Each is checked whether the others are fine or not: all problems are told at once.
-        match self.table.kind {
-            AskKind::Map => Some(Subject::Map(self.sheet(places, setting?, grid?)?)),
+        Ok(match self.table.kind {
+            AskKind::Map => setting
+                .zip(grid)
+                .and_then(|(setting, grid)| self.sheet(places, setting, grid))
+                .map(Subject::Map),
             AskKind::Sections => self.sections(places, setting, grid),
             AskKind::Volume => self.volume(places, setting),
             AskKind::Path => self.path(places, setting),
-        }
+            AskKind::Program => self.program(places, setting)?,
+        })
+    }
+
+    fn program(
+        &self,
+        places: &mut Places<'_>,
+        setting: Option<Setting>,
+    ) -> Result<Option<Subject>, StudyError> {
+        let Some(table) = &self.table.program else {
+            let hint = "program = { file = \"part.ngc\" }";
+            places.problem_here("a program needs its `program`", hint);
+            return Ok(None);
+        };
+        let load = load_cases(places, self.load());
+        let Some((setting, load)) = setting.zip(load) else {
+            return Ok(None);
+        };
+        let read = program::read(places, table, self.folder, setting, load)?;
+        Ok(read.map(|read| Subject::Program(Box::new(read))))
+    }
+
+    fn load(&self) -> &LoadTable {
+        self.table.load.as_ref().unwrap_or(&self.file.load)
     }
 
     /// Lengths, angles, forces and moments beyond all reason.
     fn refuse_what_no_cell_has(&self, places: &mut Places<'_>) {
         let t = self.table;
         let plane = self.plane_table();
-        let load = t.load.as_ref().unwrap_or(&self.file.load);
+        let load = self.load();
         let tool = t.tool.as_ref().or(self.file.tool.as_ref());
         let half_size = match plane.half_size_mm {
             HalfSize::Square(half) => vec![half],
@@ -173,7 +210,12 @@ impl Resolver<'_> {
             ("polyline_mm", AskKind::Path, t.polyline_mm.is_some()),
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
+            ("program", AskKind::Program, t.program.is_some()),
         ];
+        if t.kind != AskKind::Program && matches!(self.load().frame, Some(LoadFrameName::Feed)) {
+            let message = format!("a {} has no feed that a load could turn with", kind_name(t.kind));
+            places.problem("load.frame", message, "`base` or `part`; `feed` along a program");
+        }
         for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
             let message = format!("`{key}` means nothing to a {}", kind_name(t.kind));
             let hint = format!(
@@ -209,7 +251,7 @@ impl Resolver<'_> {
             plane,
             &base_from_counted.unwrap_or_else(Isometry::identity),
         );
-        let load = self.table.load.as_ref().unwrap_or(&self.file.load);
+        let load = self.load();
         let cases = load_cases(places, load);
         let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
         let model = self

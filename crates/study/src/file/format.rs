@@ -6,6 +6,7 @@ use armill_formats::robot::structure::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::program::ProgramTable;
 use crate::compliance_class::ComplianceClass;
 
 /// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
@@ -187,7 +188,8 @@ pub struct PlaneChange {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadTable {
-    /// Axes of the components: `base` (default) or `part` (z = outward normal).
+    /// Axes of the components: `base` (default), `part` (z = outward normal), or along a program `feed` (x along the feed,
+    /// y to the left, z from the tip towards the spindle).
     pub frame: Option<LoadFrameName>,
     /// Force on the tool, x, y, z, one a case.
     #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
@@ -213,6 +215,8 @@ pub enum LoadFrameName {
     Base,
     /// Workpiece.
     Part,
+    /// Feed.
+    Feed,
 }
 
 /// How the arm stands.
@@ -243,13 +247,15 @@ pub enum AskKind {
     Volume,
     /// The deviation along a path on the plane.
     Path,
+    /// The deviation along a tool path program.
+    Program,
 }
 
 /// One ask; what it does not say it takes from the study.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AskTable {
-    /// `map`, `sections`, `volume` or `path`.
+    /// `map`, `sections`, `volume`, `path` or `program`.
     pub kind: AskKind,
     /// Name of the answer; made from kind and number if left out.
     pub name: Option<String>,
@@ -287,6 +293,8 @@ pub struct AskTable {
     /// Path: greatest distance between points along it.
     #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
+    /// Program: its file, and how the tool follows it.
+    pub program: Option<ProgramTable>,
 }
 
 /// A box of points along the base axes.

@@ -6,6 +6,7 @@
 pub mod compliance;
 pub mod format;
 pub mod positioner;
+pub mod program;
 pub mod quantities;
 pub mod resolve;
 pub mod stiffness;

@@ -124,6 +124,7 @@ pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<L
     let frame = match table.frame {
         None | Some(LoadFrameName::Base) => LoadFrame::Base,
         Some(LoadFrameName::Part) => LoadFrame::Part,
+        Some(LoadFrameName::Feed) => LoadFrame::Feed,
     };
     Some(LoadCases {
         frame,

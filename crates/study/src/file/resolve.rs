@@ -22,6 +22,7 @@ use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::places::Places;
 use super::positioner;
+use super::program::ProgramAsk;
 use crate::error::StudyError;
 use crate::robots;
 
@@ -58,6 +59,7 @@ impl Study {
             Subject::Map(sheet) => Some(&sheet.setting),
             Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
             Subject::Volume(setting, _) | Subject::Path(setting, ..) => Some(setting),
+            Subject::Program(program) => Some(&program.setting),
         })
     }
 }
@@ -82,6 +84,8 @@ pub enum Subject {
     Volume(Setting, BoxGrid),
     /// A path on a plane.
     Path(Setting, Shape, f64),
+    /// A tool path program.
+    Program(Box<ProgramAsk>),
 }
 
 /// A plane with its grid.
@@ -172,9 +176,10 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
             file: &file,
             robot: robot.as_ref(),
             table,
+            folder,
         };
         let name = name_of(table, index);
-        if let Some(subject) = resolver.subject(&mut places) {
+        if let Some(subject) = resolver.subject(&mut places)? {
             asks.push(Ask { name, subject });
         }
         problems.append(&mut places.problems);
@@ -224,6 +229,7 @@ fn whole_plane() -> AskTable {
         polyline_mm: None,
         rectangle: None,
         step_mm: None,
+        program: None,
     }
 }
 

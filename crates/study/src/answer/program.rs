@@ -1,0 +1,452 @@
+//! A tool path program in the answer: a path like any other, with what only a program has beside it.
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::{Answers, Held, evaluate};
+use armill_core::map::{ProgramAnswer, Track};
+use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
+use armill_core::path::{Became, Strayed, became};
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+use armill_core::workpiece::Plane;
+use serde::Serialize;
+
+use super::path::{PathResult, joint_ranges};
+use super::point::{PointAnswer, SettingAnswer, tidy};
+use crate::file::program::ProgramAsk;
+use crate::file::resolve::{Setting, Study};
+use crate::run::question;
+
+/// What only a program has.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProgramResult {
+    /// Its file, as the study calls it.
+    pub file: String,
+    /// The format it is in.
+    pub format: &'static str,
+    /// Moves, rapids included.
+    pub moves: usize,
+    /// Length of all cuts.
+    pub cutting_length_mm: f64,
+    /// Time of the cuts whose feed is told.
+    pub cutting_time_s: f64,
+    /// Largest deviation along the track, by size.
+    pub max_along_um: Option<f64>,
+    /// Largest deviation across the track, by size: what walls get.
+    pub max_cross_um: Option<f64>,
+    /// Largest deviation along the tool, by size: what floors get.
+    pub max_normal_um: Option<f64>,
+    /// Stretches with the same tool and spindle speed.
+    pub operations: Vec<OperationResult>,
+    /// What became of the features asked for.
+    pub features: Vec<FeatureResult>,
+    /// Where it is worst, each from another part of the path.
+    pub worst_points: Vec<WorstPoint>,
+    /// Words of the program that were not followed, and how often they stood.
+    pub ignored: Vec<String>,
+    /// Where a joint jumps from one point to the next.
+    pub jumps: Vec<String>,
+}
+
+/// A stretch with the same tool and spindle speed.
+#[derive(Clone, Debug, Serialize)]
+pub struct OperationResult {
+    /// What the program calls it.
+    pub name: Option<String>,
+    /// Number of its tool.
+    pub tool: Option<u32>,
+    /// Line where it begins.
+    pub line: u32,
+    /// Its points.
+    pub points: usize,
+    /// Largest in-plane deviation.
+    pub max_in_plane_um: Option<f64>,
+}
+
+/// What became of a feature under one load case.
+#[derive(Clone, Debug, Serialize)]
+pub struct FeatureResult {
+    /// Its name.
+    pub name: String,
+    /// `circle`, `line`, `plane` or `hole`.
+    pub kind: &'static str,
+    /// The case, from 1.
+    pub case: usize,
+    /// Points that made it.
+    pub points: usize,
+    /// Circle: radius of the tool's path as programmed.
+    pub radius_mm: Option<f64>,
+    /// Circle: what it became larger by.
+    pub radius_change_um: Option<f64>,
+    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along the
+    /// tool.
+    pub shift_um: Option<[f64; 3]>,
+    /// Circle: peak to valley about the least-squares circle.
+    pub roundness_um: Option<f64>,
+    /// Line: peak to valley across the tool.
+    pub straightness_across_um: Option<f64>,
+    /// Line: peak to valley along the tool.
+    pub straightness_normal_um: Option<f64>,
+    /// Plane: peak to valley.
+    pub flatness_um: Option<f64>,
+    /// Why there is no result.
+    pub missing: Option<&'static str>,
+}
+
+/// A point where the deviation is large, and why.
+#[derive(Clone, Debug, Serialize)]
+pub struct WorstPoint {
+    /// Line of the program.
+    pub line: u32,
+    /// Distance along all cuts.
+    pub along_mm: f64,
+    /// Deviation of the deciding case along the track, across it and along the tool.
+    pub along_cross_normal_um: [f64; 3],
+    /// What makes it large.
+    pub cause: String,
+    /// The point.
+    pub point: PointAnswer,
+}
+
+/// Points told as worst at most.
+const WORST: usize = 5;
+/// Part of the path that one of them stands for.
+const APART: f64 = 0.02;
+/// A joint that turns farther than this from one point to the next jumps, rad.
+const JUMP: f64 = 0.5;
+/// Jumps told at most.
+const MOST_JUMPS: usize = 10;
+/// A feed that turns by more than this between two points turns sharply, rad.
+const SHARP: f64 = 0.5;
+/// A joint nearer to its limit than this is told, rad.
+const NEAR_LIMIT: f64 = 0.087;
+
+pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &ProgramAnswer) -> PathResult {
+    let (setting, answers) = (&ask.setting, &found.answers);
+    let told = Told { study, ask, found };
+    let held = || answers.held().map(|(_, held)| held);
+    let within = held().filter(|held| held.in_plane <= setting.limit).count();
+    let points = answers.points.len();
+    let worst_points = told.worst_points();
+    let largest = |part: fn([f64; 3]) -> f64| {
+        let of_point = |(i, _)| told.cases_at(i).map(part).fold(0.0_f64, |a, b| a.max(b.abs()));
+        answers
+            .held()
+            .map(of_point)
+            .max_by(f64::total_cmp)
+            .map(|m| m * 1e6)
+    };
+    PathResult {
+        name: name.to_owned(),
+        branch: Setting {
+            choice: found.choice,
+            ..setting.clone()
+        }
+        .branch(),
+        points,
+        unreached: points - held().count(),
+        outside_joint_limits: held().filter(|held| !held.within_limits()).count(),
+        max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),
+        min_in_plane_um: answers.best().map(|(_, held)| held.in_plane * 1e6),
+        max_full_um: held().map(|held| held.full * 1e6).max_by(f64::total_cmp),
+        fraction_within: within as f64 / points.max(1) as f64,
+        roundness_um: told
+            .features()
+            .iter()
+            .filter_map(|feature| feature.roundness_um)
+            .max_by(f64::total_cmp),
+        circle_cases: Vec::new(),
+        worst: worst_points.first().map(|worst| worst.point.clone()),
+        setting: SettingAnswer::of(study, setting),
+        joint_range_deg: joint_ranges(study, answers),
+        program: Some(ProgramResult {
+            file: ask.file.clone(),
+            format: ask.summary.format,
+            moves: ask.moves,
+            cutting_length_mm: ask.length * 1e3,
+            cutting_time_s: ask.time,
+            max_along_um: largest(|[along, ..]| along),
+            max_cross_um: largest(|[_, cross, _]| cross),
+            max_normal_um: largest(|[.., normal]| normal),
+            operations: told.operations(),
+            features: told.features(),
+            worst_points,
+            ignored: ask.summary.ignored_words(),
+            jumps: told.jumps(),
+        }),
+    }
+}
+
+struct Told<'a> {
+    study: &'a Study,
+    ask: &'a ProgramAsk,
+    found: &'a ProgramAnswer,
+}
+
+impl Told<'_> {
+    fn track(&self) -> &Track {
+        &self.ask.track
+    }
+
+    /// Deviation of each case at a point along the track, across it and along the tool, m.
+    fn cases_at(&self, index: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+        let deviations = self.found.answers.deviations_at(index).iter();
+        deviations.map(move |deviation| {
+            let parts = self.track().parts(index, deviation);
+            [parts.along, parts.cross, parts.normal]
+        })
+    }
+
+    fn operations(&self) -> Vec<OperationResult> {
+        let all = &self.ask.operations;
+        let end = |i: usize| {
+            all.get(i + 1)
+                .map_or(self.found.answers.points.len(), |next| next.0)
+        };
+        let of = |(i, (first, operation)): (usize, &(usize, armill_core::path::Operation))| {
+            let points = &self.found.answers.points[*first..end(i)];
+            let largest = points.iter().flatten().map(|held| held.in_plane * 1e6);
+            OperationResult {
+                name: operation.name.clone(),
+                tool: operation.tool,
+                line: operation.line,
+                points: points.len(),
+                max_in_plane_um: largest.max_by(f64::total_cmp),
+            }
+        };
+        let told = all.iter().enumerate().map(of);
+        told.filter(|operation| operation.points > 0).collect()
+    }
+
+    fn features(&self) -> Vec<FeatureResult> {
+        let cases = 0..self.found.answers.case_count;
+        let of = |feature: &crate::file::program::FeatureTable| {
+            let [first, last] = feature.lines;
+            let points = &self.track().points;
+            let within: Vec<usize> = (0..points.len())
+                .filter(|i| (first..=last).contains(&points[*i].line))
+                .collect();
+            cases
+                .clone()
+                .map(|case| self.feature(feature, &within, case))
+                .collect::<Vec<_>>()
+        };
+        self.ask.features.iter().flat_map(of).collect()
+    }
+
+    fn feature(
+        &self,
+        feature: &crate::file::program::FeatureTable,
+        points: &[usize],
+        case: usize,
+    ) -> FeatureResult {
+        let kind = feature.kind.kind();
+        let mut told = FeatureResult {
+            name: feature.name.clone(),
+            kind: feature.kind.word(),
+            case: case + 1,
+            points: points.len(),
+            radius_mm: None,
+            radius_change_um: None,
+            shift_um: None,
+            roundness_um: None,
+            straightness_across_um: None,
+            straightness_normal_um: None,
+            flatness_um: None,
+            missing: None,
+        };
+        let answers = &self.found.answers;
+        if points.iter().any(|i| answers.points[*i].is_err()) {
+            told.missing = Some("not every point of it is reached");
+            return told;
+        }
+        let path_from_base = self.track().placing.base_from_path.inverse();
+        let strayed = |i: &usize| {
+            let point = &self.track().points[*i];
+            Strayed {
+                at: point.at,
+                axis: path_from_base.rotation * self.track().placing.spindle(point),
+                by: path_from_base * answers.deviations_at(*i)[case],
+            }
+        };
+        let strayed: Vec<Strayed> = points.iter().map(strayed).collect();
+        let um = |v: Vector3<f64>| Some(v.map(|c| c * 1e6).into());
+        match became(kind, &strayed) {
+            Some(Became::Circle {
+                radius,
+                radius_change,
+                centre_shift,
+                roundness,
+            }) => {
+                told.radius_mm = Some(tidy(radius * 1e3));
+                told.radius_change_um = Some(radius_change * 1e6);
+                told.shift_um = um(centre_shift);
+                told.roundness_um = Some(roundness * 1e6);
+            }
+            Some(Became::Line {
+                straightness_across,
+                straightness_normal,
+                offset,
+            }) => {
+                told.straightness_across_um = Some(straightness_across * 1e6);
+                told.straightness_normal_um = Some(straightness_normal * 1e6);
+                told.shift_um = um(offset);
+            }
+            Some(Became::Plane { flatness, offset }) => {
+                told.flatness_um = Some(flatness * 1e6);
+                let normal = strayed.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
+                told.shift_um = um(normal * offset);
+            }
+            Some(Became::Hole { shift }) => told.shift_um = um(shift),
+            None => told.missing = Some("its points make no such feature"),
+        }
+        told
+    }
+
+    /// The worst point, then the worst of what is not near the ones before.
+    fn worst_points(&self) -> Vec<WorstPoint> {
+        let points = &self.track().points;
+        let apart = (APART * self.ask.length).max(f64::MIN_POSITIVE);
+        let mut by_size: Vec<(usize, f64)> = self
+            .found
+            .answers
+            .held()
+            .map(|(i, held)| (i, held.in_plane))
+            .collect();
+        let mut kept: Vec<usize> = Vec::new();
+        // Only the largest are looked at: far more than are told, far fewer than a long path has.
+        let most = by_size.len().min(by_size.len() / 10 + 10_000);
+        if most < by_size.len() {
+            by_size.select_nth_unstable_by(most, |a, b| b.1.total_cmp(&a.1));
+            by_size.truncate(most);
+        }
+        by_size.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
+        for (index, _) in by_size {
+            if kept.len() == WORST {
+                break;
+            }
+            let near = |other: &usize| (points[index].along - points[*other].along).abs() < apart;
+            if !kept.iter().any(near) {
+                kept.push(index);
+            }
+        }
+        kept.into_iter()
+            .filter_map(|index| self.worst_point(index))
+            .collect()
+    }
+
+    fn worst_point(&self, index: usize) -> Option<WorstPoint> {
+        let (setting, answers) = self.here(index)?;
+        let held = *answers.points.first()?.as_ref().ok()?;
+        let parts = self
+            .track()
+            .parts(index, &answers.deviations_at(0)[held.deciding_case]);
+        let at = setting.plane.base_from_part.translation.vector.into();
+        let point = PointAnswer::of(self.study, &setting, &answers, (0, &held, at));
+        Some(WorstPoint {
+            line: self.track().points[index].line,
+            along_mm: self.track().points[index].along * 1e3,
+            along_cross_normal_um: [parts.along, parts.cross, parts.normal].map(|c| c * 1e6),
+            cause: self.cause(index, &held, &point),
+            point,
+        })
+    }
+
+    /// One point asked in full: with shares and uncertainty, on a plane across the tool.
+    fn here(&self, index: usize) -> Option<(Setting, Answers)> {
+        let track = self.track();
+        let mut cases = vec![Wrench::from_force(Vector3::zeros()); self.found.answers.case_count];
+        track.wrenches(index, &mut cases);
+        let stop = track.stop(index);
+        let across = Plane {
+            base_from_part: Isometry::from_parts(
+                Translation3::from(stop.base_from_tool.translation.vector),
+                UnitQuaternion::from_rotation_matrix(&track.base_from_feed(index)),
+            ),
+        };
+        let setting = Setting {
+            plane: across,
+            tilt: None,
+            cases,
+            choice: self.found.choice,
+            // The arm stands as it does on the path, whatever its joints to spare.
+            home: Some(self.found.answers.joints_at(index).to_vec()),
+            ..self.ask.setting.clone()
+        };
+        let robot = &self.study.robot.robot;
+        let asked = question(robot, robot.compliance()?, &setting);
+        let answers = evaluate(&asked, 1, |_| stop.base_from_tool, Watch::NONE).ok()?;
+        Some((setting, answers))
+    }
+
+    fn cause(&self, index: usize, held: &Held, point: &PointAnswer) -> String {
+        let names = self
+            .ask
+            .setting
+            .model
+            .sharer_names(self.study.robot.robot.joints());
+        let largest = (0..names.len().min(point.joint_share_um.len())).max_by(|a, b| {
+            point.joint_share_um[*a]
+                .abs()
+                .total_cmp(&point.joint_share_um[*b].abs())
+        });
+        let mut parts: Vec<String> = largest
+            .filter(|_| point.in_plane_um > 0.0)
+            .map(|i| {
+                let share = 100.0 * point.joint_share_um[i] / point.in_plane_um;
+                format!("{} {share:.0} %", names[i])
+            })
+            .into_iter()
+            .collect();
+        if let Some(singularity) = held.singularity {
+            parts.push(format!("near the {singularity}"));
+        }
+        if held.limit_margin < NEAR_LIMIT {
+            let joint = &self.study.robot.robot.joints()[held.limit_joint];
+            parts.push(format!("joint {} at its limit", joint.name));
+        }
+        let points = &self.track().points;
+        if let Some(before) = index.checked_sub(1).map(|i| &points[i]) {
+            let turn = before.direction.angle(&points[index].direction);
+            if turn > SHARP {
+                parts.push(format!("the feed turns by {:.0} deg here", turn.to_degrees()));
+            }
+        }
+        parts.join(", ")
+    }
+
+    /// Joints that jump between points next to each other on the path.
+    fn jumps(&self) -> Vec<String> {
+        let (answers, robot) = (&self.found.answers, &self.study.robot.robot);
+        let points = &self.track().points;
+        let mut told = Vec::new();
+        for index in 1..points.len() {
+            // After a rapid the arm may have turned on the way.
+            let follows = points[index].along > points[index - 1].along;
+            if !follows || answers.points[index].is_err() || answers.points[index - 1].is_err() {
+                continue;
+            }
+            for (joint, (before, after)) in answers
+                .joints_at(index - 1)
+                .iter()
+                .zip(answers.joints_at(index))
+                .enumerate()
+            {
+                let by = after - before;
+                if robot.slides(joint) || by.abs() < JUMP {
+                    continue;
+                }
+                if told.len() == MOST_JUMPS {
+                    told.push("more jumps follow".to_owned());
+                    return told;
+                }
+                told.push(format!(
+                    "joint {} turns by {:.0} deg at once in line {}",
+                    robot.joints()[joint].name,
+                    by.to_degrees(),
+                    points[index].line
+                ));
+            }
+        }
+        told
+    }
+}

@@ -1,0 +1,301 @@
+//! A tool path program of an ask: its file, where it lies on the part, how the tool is turned, how finely it is cut.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_core::frame::Isometry;
+use armill_core::load::{LoadCases, PathLoad};
+use armill_core::map::Track;
+use armill_core::nalgebra::Vector3;
+use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
+use armill_formats::toolpath::{self, Summary};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::places::Places;
+use super::quantities::{pose_mm_deg, positive};
+use super::resolve::Setting;
+use crate::StudyError;
+
+/// A program that the tool follows.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ProgramTable {
+    /// Its file, relative to the study: G-code, APT-CL or CLSF, or a CSV of points.
+    pub file: String,
+    /// Unit of lengths where the file does not tell.
+    pub unit: Option<LengthUnit>,
+    /// What the rotary words of G-code turn; see the guide.
+    pub rotaries: Option<String>,
+    /// Where its zero lies in the part frame (z = outward normal of the plane, origin at its centre): x, y, z in mm,
+    /// then turns about the fixed axes x, y, z in degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub part_from_path_mm_deg: Option<[f64; 6]>,
+    /// Where the tool points.
+    pub tool_axis: Option<ToolAxisName>,
+    /// How the tool is turned about its axis.
+    pub spin: Option<SpinName>,
+    /// By what angle more.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub spin_deg: Option<f64>,
+    /// Farthest that a chord may leave its arc; 0.01 if left out.
+    #[schemars(range(max = 1e3))]
+    pub chord_error_mm: Option<f64>,
+    /// Longest distance between points; 1 if left out.
+    #[schemars(range(max = 1e6))]
+    pub step_mm: Option<f64>,
+    /// Stretches of the program that make a feature.
+    #[serde(default)]
+    pub feature: Vec<FeatureTable>,
+}
+
+/// Unit of lengths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LengthUnit {
+    /// Millimetre.
+    Mm,
+    /// Inch.
+    Inch,
+}
+
+/// Where the tool points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ToolAxisName {
+    /// Where the program says; against the plane's normal where it says nothing.
+    Program,
+    /// Always against the plane's normal.
+    Normal,
+}
+
+/// How the tool is turned about its axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpinName {
+    /// The same everywhere.
+    Fixed,
+    /// With the feed.
+    AlongFeed,
+}
+
+/// A stretch of the program that makes a feature.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureTable {
+    /// Its name.
+    pub name: String,
+    /// What it is to be.
+    pub kind: FeatureName,
+    /// First and last line of the program that cut it.
+    pub lines: [u32; 2],
+}
+
+/// What a feature is to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FeatureName {
+    /// Radius, centre, roundness.
+    Circle,
+    /// Straightness.
+    Line,
+    /// Flatness.
+    Plane,
+    /// Position.
+    Hole,
+}
+
+impl FeatureName {
+    /// As the study calls it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            FeatureName::Circle => "circle",
+            FeatureName::Line => "line",
+            FeatureName::Plane => "plane",
+            FeatureName::Hole => "hole",
+        }
+    }
+
+    /// As the core knows it.
+    pub(crate) fn kind(self) -> FeatureKind {
+        match self {
+            FeatureName::Circle => FeatureKind::Circle,
+            FeatureName::Line => FeatureKind::Line,
+            FeatureName::Plane => FeatureKind::Plane,
+            FeatureName::Hole => FeatureKind::Hole,
+        }
+    }
+}
+
+/// A program that was read and cut into points.
+#[derive(Clone, Debug)]
+pub struct ProgramAsk {
+    /// How its points are asked; cases in base as far as they do not turn with the feed.
+    pub setting: Setting,
+    /// Its file, as the study calls it.
+    pub file: String,
+    /// What was read.
+    pub summary: Summary,
+    /// Moves, rapids included.
+    pub moves: usize,
+    /// Length of all cuts, m.
+    pub length: f64,
+    /// Time of all cuts with a known feed, s.
+    pub time: f64,
+    /// Its operations, and the first point of each.
+    pub operations: Vec<(usize, Operation)>,
+    /// The points, where they lie, and what pushes there.
+    pub track: Track,
+    /// Features asked for.
+    pub features: Vec<FeatureTable>,
+}
+
+/// Most points of a program: what the memory of a study holds.
+pub(super) const MOST_POINTS: usize = 8_000_000;
+/// Greatest distance of a chord from its arc where the study says nothing, mm.
+const CHORD_ERROR_MM: f64 = 0.01;
+/// Greatest distance of points where the study says nothing, mm.
+const STEP_MM: f64 = 1.0;
+
+/// The program of this table; `None` where it has problems, told at their places.
+///
+/// # Errors
+/// The problems of its file.
+pub(super) fn read(
+    places: &mut Places<'_>,
+    table: &ProgramTable,
+    folder: &Path,
+    setting: Setting,
+    load: LoadCases,
+) -> Result<Option<ProgramAsk>, StudyError> {
+    let chord_error = positive(
+        places,
+        "program.chord_error_mm",
+        table.chord_error_mm.unwrap_or(CHORD_ERROR_MM),
+    );
+    let step = positive(places, "program.step_mm", table.step_mm.unwrap_or(STEP_MM));
+    for (index, feature) in table.feature.iter().enumerate() {
+        let [first, last] = feature.lines;
+        if first == 0 || last < first {
+            let message = format!("`{}` is cut by lines {first} to {last}", feature.name);
+            let hint = "first and last line of the program, counted from 1";
+            places.problem(&format!("program.feature[{index}].lines"), message, hint);
+        }
+    }
+    let options = toolpath::Options {
+        unit: table.unit.map(|unit| match unit {
+            LengthUnit::Mm => toolpath::Unit::Millimetre,
+            LengthUnit::Inch => toolpath::Unit::Inch,
+        }),
+        rotaries: table.rotaries.clone(),
+    };
+    let (Some(chord_error), Some(step)) = (chord_error, step) else {
+        return Ok(None);
+    };
+    let path = folder.join(&table.file);
+    let file = match File::open(&path) {
+        Ok(file) => file,
+        Err(error) => {
+            let message = format!("cannot read {}: {error}", path.display());
+            places.problem(
+                "program.file",
+                message,
+                "the path counts from the folder of the study",
+            );
+            return Ok(None);
+        }
+    };
+    let mut cut = Cut::new(Sampling { chord_error, step });
+    let shown = path.display().to_string();
+    let summary = toolpath::read(&shown, BufReader::new(file), &options, &mut |step| cut.take(step))?;
+    if cut.too_many {
+        let message = format!("{shown} gives more than {MOST_POINTS} points");
+        places.problem(
+            "program.step_mm",
+            message,
+            "a larger step, or a part of the program",
+        );
+        return Ok(None);
+    }
+    if cut.points.is_empty() {
+        let message = format!("{shown} has no cutting move");
+        places.problem("program.file", message, "rapids alone cut nothing");
+        return Ok(None);
+    }
+    let base_from_part = setting.plane.base_from_part;
+    let part_from_path = table
+        .part_from_path_mm_deg
+        .as_ref()
+        .map_or_else(Isometry::identity, pose_mm_deg);
+    let spin = table.spin_deg.unwrap_or(0.0).to_radians();
+    let placing = Placing {
+        base_from_path: base_from_part * part_from_path,
+        axis: part_from_path.rotation.inverse() * Vector3::z_axis(),
+        keeps_axis: table.tool_axis == Some(ToolAxisName::Normal),
+        spin: match table.spin {
+            None | Some(SpinName::Fixed) => Spin::Fixed(spin),
+            Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
+        },
+    };
+    Ok(Some(ProgramAsk {
+        file: table.file.clone(),
+        summary,
+        moves: cut.moves,
+        length: cut.points.last().map_or(0.0, |point| point.along),
+        time: cut.time,
+        operations: cut.operations,
+        track: Track {
+            points: cut.points,
+            placing,
+            load: PathLoad::Cases(load),
+            base_from_part,
+        },
+        features: table.feature.clone(),
+        setting,
+    }))
+}
+
+/// A program while it is cut into points.
+struct Cut {
+    sampler: Sampler,
+    points: Vec<PathPoint>,
+    operations: Vec<(usize, Operation)>,
+    moves: usize,
+    time: f64,
+    too_many: bool,
+}
+
+impl Cut {
+    fn new(sampling: Sampling) -> Cut {
+        Cut {
+            sampler: Sampler::new(sampling),
+            points: Vec::new(),
+            operations: Vec::new(),
+            moves: 0,
+            time: 0.0,
+            too_many: false,
+        }
+    }
+
+    fn take(&mut self, step: Step) {
+        match step {
+            Step::Operation(operation) => self.operations.push((self.points.len(), operation)),
+            Step::Move(next) => {
+                self.moves += 1;
+                if self.points.len().saturating_add(self.sampler.count(&next)) > MOST_POINTS {
+                    self.too_many = true;
+                    return;
+                }
+                let before = self.points.last().map_or(0.0, |point| point.along);
+                self.sampler.points(&next, |point| self.points.push(point));
+                let length = self.points.last().map_or(0.0, |point| point.along) - before;
+                if let Pace::Feed(speed) = next.pace
+                    && speed > 0.0
+                {
+                    self.time += length / speed;
+                }
+            }
+        }
+    }
+}
