@@ -8,7 +8,7 @@ pub mod roundness;
 pub mod sampler;
 pub mod shape;
 
-pub use program::{Arc, Course, Move, Operation, Pace, Program, Step};
+pub use program::{Arc, Course, Engagement, Move, Operation, Pace, Program, Step};
 pub use roundness::{Roundness, roundness};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::{Sample, Shape};
