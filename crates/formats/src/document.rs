@@ -22,6 +22,7 @@
 
 mod check;
 mod limits;
+pub(crate) mod lines;
 mod merge;
 mod path;
 mod problem;

@@ -4,11 +4,15 @@
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in: our robot file, URDF.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
+//! - [`toolpath`]: tool path programs in.
+//! - [`measurement`]: measured forces in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints. Same input, same bytes.
 
 pub mod document;
 pub mod file;
+pub mod measurement;
 pub mod robot;
 pub mod table;
+pub mod toolpath;

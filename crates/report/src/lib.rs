@@ -21,6 +21,7 @@ mod sheet;
 
 mod path_plot;
 mod polar_plot;
+mod track;
 mod vector_field;
 
 mod ellipse;
@@ -61,4 +62,5 @@ pub use polar_plot::{PolarPlot, RadialSeries};
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{Arrangement, ShareBar, ShareBars};
 pub use sheet::{Panel, Sheet};
+pub use track::{Stretch, TrackMap};
 pub use vector_field::{Arrow, ArrowCase, Growth, VectorField};

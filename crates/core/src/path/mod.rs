@@ -13,7 +13,7 @@ pub mod shape;
 
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
-pub use program::{Arc, Course, Move, Operation, Pace, Program, Step};
+pub use program::{Arc, Course, Engagement, Move, Operation, Pace, Program, Step};
 pub use roundness::{Roundness, roundness};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::{Sample, Shape};

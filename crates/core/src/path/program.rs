@@ -14,7 +14,7 @@ pub enum Step {
     Move(Move),
 }
 
-/// A stretch of the program with one tool and one spindle speed.
+/// A stretch of the program with one tool, one spindle speed and one engagement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
     /// What the program calls it, or its tool.
@@ -27,8 +27,19 @@ pub struct Operation {
     pub corner_radius: Option<f64>,
     /// Speed of the spindle, rad/s; clockwise seen from the spindle is positive.
     pub spindle: Option<f64>,
+    /// How deep the cutter goes, where the program tells it.
+    pub engagement: Option<Engagement>,
     /// Line of the program where it begins, from 1.
     pub line: u32,
+}
+
+/// How deep the cutter is in the material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Engagement {
+    /// Along the tool, m.
+    pub axial_depth: f64,
+    /// Across the tool and the feed, m.
+    pub radial_depth: f64,
 }
 
 /// A move of the tip.

@@ -18,7 +18,6 @@
 //! and empty ones are passed over, and so are rows without any reading.
 
 mod columns;
-mod sheet;
 
 use armill_core::identify::{LoadTest, Measured, Reading};
 use armill_core::nalgebra::Vector3;
@@ -26,7 +25,7 @@ use armill_core::robot::{Axis, Robot};
 use armill_core::spatial::Wrench;
 
 use self::columns::{Column, Columns};
-use self::sheet::{Cell, Sheet};
+use super::sheet::{Cell, Sheet};
 use crate::document::{Problem, Problems, Source};
 
 /// Load tests as a file tells them.

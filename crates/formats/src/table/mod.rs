@@ -10,6 +10,7 @@ pub mod csv;
 pub mod load_tests;
 #[cfg(feature = "parquet")]
 pub mod parquet;
+pub(crate) mod sheet;
 pub mod vtk;
 
 /// Columns of equal length under a name.

@@ -41,8 +41,8 @@ pub struct ProgramResult {
     pub features: Vec<FeatureResult>,
     /// Where it is worst, each from another part of the path.
     pub worst_points: Vec<WorstPoint>,
-    /// Words of the program that were not followed, and how often they stood.
-    pub ignored: Vec<String>,
+    /// What was passed over in the program, or taken for granted.
+    pub notes: Vec<String>,
     /// Where a joint jumps from one point to the next.
     pub jumps: Vec<String>,
 }
@@ -170,7 +170,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             operations: told.operations(),
             features: told.features(),
             worst_points,
-            ignored: ask.summary.ignored_words(),
+            notes: ask.summary.notes.clone(),
             jumps: told.jumps(),
         }),
     }

@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::BufReader;
+use std::ops::Range;
 use std::path::Path;
 
 use armill_core::frame::Isometry;
@@ -9,7 +10,8 @@ use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
-use armill_formats::toolpath::{self, Summary};
+use armill_formats::toolpath::apt::LengthUnit;
+use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -25,7 +27,7 @@ pub struct ProgramTable {
     /// Its file, relative to the study: G-code, APT-CL or CLSF, or a CSV of points.
     pub file: String,
     /// Unit of lengths where the file does not tell.
-    pub unit: Option<LengthUnit>,
+    pub unit: Option<UnitName>,
     /// What the rotary words of G-code turn; see the guide.
     pub rotaries: Option<String>,
     /// Where its zero lies in the part frame (z = outward normal of the plane, origin at its centre): x, y, z in mm,
@@ -53,7 +55,7 @@ pub struct ProgramTable {
 /// Unit of lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum LengthUnit {
+pub enum UnitName {
     /// Millimetre.
     Mm,
     /// Inch.
@@ -151,6 +153,17 @@ pub struct ProgramAsk {
     pub features: Vec<FeatureTable>,
 }
 
+impl ProgramAsk {
+    /// Points that follow on each other without a rapid between them.
+    pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        let points = &self.track.points;
+        let begins = |i: &usize| *i == 0 || points[*i].along <= points[*i - 1].along;
+        let starts: Vec<usize> = (0..points.len()).filter(begins).collect();
+        let ends: Vec<usize> = starts.iter().skip(1).copied().chain([points.len()]).collect();
+        starts.into_iter().zip(ends).map(|(start, end)| start..end)
+    }
+}
+
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
@@ -183,12 +196,11 @@ pub(super) fn read(
             places.problem(&format!("program.feature[{index}].lines"), message, hint);
         }
     }
-    let options = toolpath::Options {
+    let wanted = Wanted {
         unit: table.unit.map(|unit| match unit {
-            LengthUnit::Mm => toolpath::Unit::Millimetre,
-            LengthUnit::Inch => toolpath::Unit::Inch,
+            UnitName::Mm => LengthUnit::Millimetre,
+            UnitName::Inch => LengthUnit::Inch,
         }),
-        rotaries: table.rotaries.clone(),
     };
     let (Some(chord_error), Some(step)) = (chord_error, step) else {
         return Ok(None);
@@ -208,7 +220,7 @@ pub(super) fn read(
     };
     let mut cut = Cut::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
-    let summary = toolpath::read(&shown, BufReader::new(file), &options, &mut |step| cut.take(step))?;
+    let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| cut.take(step))?;
     if cut.too_many {
         let message = format!("{shown} gives more than {MOST_POINTS} points");
         places.problem(

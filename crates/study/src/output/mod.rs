@@ -8,6 +8,7 @@ mod arm;
 mod folder;
 mod pictures;
 mod plates;
+mod program;
 mod report;
 mod rows;
 mod tables;
@@ -71,7 +72,9 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 7] = ["region", "shares", "ellipse", "arm", "vectors", "along", "polar"];
+const PICTURES: [&str; 8] = [
+    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
+];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.
 pub(crate) fn is_picture_of(slug: &str, ask: &str) -> bool {

@@ -30,7 +30,7 @@ pub struct Picture {
 /// Arrows that are drawn along a path at most.
 const ARROWS: usize = 72;
 /// Postures that are drawn faintly along a path.
-const GHOSTS: usize = 5;
+pub(super) const GHOSTS: usize = 5;
 
 /// The pictures of every ask, in order.
 pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<Picture> {
@@ -40,11 +40,12 @@ pub(super) fn draw(study: &Study, found: &[Found], answer: &StudyAnswer) -> Vec<
         let count = match found {
             Found::Map(_) => 1,
             Found::Sections(found) => found.len(),
-            Found::Volume(_) | Found::Path(_) => 0,
+            Found::Volume(_) | Found::Path(_) | Found::Program(_) => 0,
         };
         let (of_ask, others) = maps.split_at(count.min(maps.len()));
         maps = others;
-        let path = matches!(found, Found::Path(_)).then(|| paths.next()).flatten();
+        let is_path = matches!(found, Found::Path(_) | Found::Program(_));
+        let path = is_path.then(|| paths.next()).flatten();
         (ask, found, of_ask, path)
     });
     let asks: Vec<_> = asks.collect();
@@ -88,6 +89,10 @@ fn pictures_of(
             Some(told) => path_pictures(study, setting, told, path),
             None => Vec::new(),
         },
+        (Subject::Program(of), Found::Program(found)) => {
+            let told = path_result.and_then(|told| Some((told, told.program.as_ref()?)));
+            told.map_or_else(Vec::new, |told| super::program::pictures(study, of, told, found))
+        }
         _ => Vec::new(),
     }
 }
@@ -160,7 +165,7 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
     ]
 }
 
-fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
+pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     ShareBar {
         label: format!(
             "{label} ({:.0}, {:.0}, {:.0}) mm",
@@ -173,7 +178,7 @@ fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     }
 }
 
-fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) -> String {
+pub(super) fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) -> String {
     let picture = ShareBars {
         title: title.to_owned(),
         subtitle: subtitle(setting),

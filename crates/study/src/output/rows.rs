@@ -7,6 +7,7 @@ use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::Unreachable;
 
+use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Ask, Setting, Subject};
 use crate::run::Found;
 
@@ -20,6 +21,8 @@ pub(super) struct Rows<'a> {
     pub answers: &'a Answers,
     /// TCP of each point, mm, in the frame that the study counts from.
     pub at_mm: Vec<[f64; 3]>,
+    /// The program whose points they are.
+    pub program: Option<&'a ProgramAsk>,
 }
 
 impl<'a> Rows<'a> {
@@ -36,6 +39,7 @@ impl<'a> Rows<'a> {
             setting,
             answers,
             at_mm: points.map(mm).collect(),
+            program: None,
         }
     }
 
@@ -97,6 +101,17 @@ pub(super) fn rows<'a>(ask: &'a Ask, found: &'a Found) -> Vec<Rows<'a>> {
         (Subject::Path(setting, ..), Found::Path(path)) => {
             let points = path.samples.iter().map(|sample| path.plane.at(sample.at));
             vec![Rows::new("", setting, &path.answers, points)]
+        }
+        (Subject::Program(program), Found::Program(found)) => {
+            let track = &program.track;
+            let points = track
+                .points
+                .iter()
+                .map(|point| track.placing.base_from_path * point.at);
+            vec![Rows {
+                program: Some(program),
+                ..Rows::new("", &program.setting, &found.answers, points)
+            }]
         }
         _ => Vec::new(),
     }

@@ -5,8 +5,9 @@
 use std::fmt::Display;
 use std::ops::Range;
 
-use armill_core::kernel::Held;
-use armill_core::map::probability_within;
+use armill_core::kernel::{Answers, Held};
+use armill_core::map::{Parts, probability_within};
+use armill_core::path::Pace;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
@@ -14,6 +15,7 @@ use rayon::prelude::*;
 use super::Csv;
 use super::rows::{Rows, of_held, of_points, rows};
 use crate::error::StudyError;
+use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::Found;
 
@@ -32,14 +34,21 @@ pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
     }
     extensions.push(match &ask.subject {
         Subject::Volume(..) => IMAGE,
-        Subject::Map(_) | Subject::Sections(_) | Subject::Path(..) => POLY_DATA,
+        Subject::Map(_) | Subject::Sections(_) | Subject::Path(..) | Subject::Program(_) => POLY_DATA,
     });
     extensions
 }
 
+/// A spreadsheet shows so many points of a program with ease.
+const FEW: usize = 100_000;
+
 /// Many points are for programs; without Parquet they have nothing else to read.
 fn has_csv(ask: &Ask, csv: Csv) -> bool {
-    let few = matches!(ask.subject, Subject::Map(_) | Subject::Path(..));
+    let few = match &ask.subject {
+        Subject::Map(_) | Subject::Path(..) => true,
+        Subject::Program(program) => program.track.points.len() <= FEW,
+        Subject::Sections(_) | Subject::Volume(..) => false,
+    };
     few || csv == Csv::Every || cfg!(not(feature = "parquet"))
 }
 
@@ -74,8 +83,8 @@ pub(super) fn files(
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
             save(IMAGE, &write_image(&image))
         }
-        (_, Found::Path(_)) => {
-            let paths: Vec<Vec<[f64; 3]>> = series.iter().map(|rows| rows.at_mm.clone()).collect();
+        (_, Found::Path(_) | Found::Program(_)) => {
+            let paths: Vec<Vec<[f64; 3]>> = series.iter().flat_map(stretches).collect();
             save(
                 POLY_DATA,
                 &write_poly_data(&PolyData::paths(&paths, arrays(&series))?),
@@ -101,12 +110,23 @@ fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadat
         .collect()
 }
 
+/// The points of a path, stretch by stretch where rapids part them.
+fn stretches(rows: &Rows<'_>) -> Vec<Vec<[f64; 3]>> {
+    match rows.program {
+        None => vec![rows.at_mm.clone()],
+        Some(program) => program
+            .stretches()
+            .map(|stretch| rows.at_mm[stretch].to_vec())
+            .collect(),
+    }
+}
+
 /// All planes of an ask as one surface.
 fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
     let maps: &[armill_core::map::PlaneMap] = match found {
         Found::Map(map) => std::slice::from_ref(map),
         Found::Sections(maps) => maps,
-        Found::Volume(_) | Found::Path(_) => &[],
+        Found::Volume(_) | Found::Path(_) | Found::Program(_) => &[],
     };
     let mut quads = Vec::new();
     let mut first = 0;
@@ -270,13 +290,75 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     ));
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
-        numbers(study, sharers, rows.answers.case_count)
+        let mut columns = rows.program.map_or_else(Vec::new, of_program);
+        columns.extend(numbers(study, sharers, rows.answers));
+        columns
     });
     columns.extend(filled(&numbers, series));
     Ok(Table::new(name, columns)?)
 }
 
-fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>> {
+/// Columns that only a program has.
+fn of_program(program: &ProgramAsk) -> Vec<Numbers<'_>> {
+    let points = &program.track.points;
+    let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
+        Numbers::um(name.to_owned(), description, move |rows, index, held| {
+            let deviation = rows.answers.deviations_at(index)[held.deciding_case];
+            of(program.track.parts(index, &deviation)) * 1e6
+        })
+    };
+    vec![
+        Numbers {
+            unit: None,
+            decimals: 0,
+            ..Numbers::um("line".to_owned(), "line of the program", move |_, index, _| {
+                f64::from(points[index].line)
+            })
+        },
+        Numbers {
+            unit: Some("mm"),
+            decimals: MM_DECIMALS,
+            ..Numbers::um(
+                "along_mm".to_owned(),
+                "distance along all cuts before",
+                move |_, index, _| points[index].along * 1e3,
+            )
+        },
+        Numbers {
+            unit: Some("mm/s"),
+            decimals: MM_DECIMALS,
+            ..Numbers::um(
+                "feed_mm_s".to_owned(),
+                "speed of the tip, where the program tells it",
+                move |_, index, _| match points[index].pace {
+                    Pace::Feed(speed) => speed * 1e3,
+                    _ => f64::NAN,
+                },
+            )
+        },
+        part(
+            "along_um",
+            "deviation of the deciding case along the track",
+            |parts| parts.along,
+        ),
+        part(
+            "cross_um",
+            "deviation of the deciding case across the track, to the left",
+            |parts| parts.cross,
+        ),
+        part(
+            "axial_um",
+            "deviation of the deciding case along the tool, away from the part",
+            |parts| parts.normal,
+        ),
+    ]
+}
+
+/// Columns whose values a program does not tell at every point.
+const NOT_ALONG_PROGRAMS: [&str; 2] = ["in_plane_u_um", "probability_within"];
+
+fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
+    let (cases, shared) = (answers.case_count, answers.share_count > 0);
     let mut columns = vec![
         Numbers::deg(
             "limit_margin_deg".to_owned(),
@@ -325,6 +407,9 @@ fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>
             |_, _, held| held.full * 1e6,
         ),
     ];
+    if !shared {
+        columns.retain(|column| !NOT_ALONG_PROGRAMS.contains(&column.name.as_str()));
+    }
     let joints = study.robot.robot.joints();
     columns.extend(joints.iter().enumerate().map(|(i, joint)| {
         let what = "joint position in the robot file's counting";
@@ -344,7 +429,8 @@ fn numbers(study: &Study, sharers: Vec<String>, cases: usize) -> Vec<Numbers<'_>
             )
         }
     }));
-    columns.extend(sharers.into_iter().enumerate().map(|(i, sharer)| {
+    let sharers = sharers.into_iter().filter(|_| shared);
+    columns.extend(sharers.enumerate().map(|(i, sharer)| {
         let name = format!("share_{sharer}_um");
         Numbers::um(
             name,

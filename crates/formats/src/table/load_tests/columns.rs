@@ -2,9 +2,9 @@
 
 use armill_core::robot::Robot;
 
-use super::sheet::Sheet;
 use crate::document::unit::suggestion;
 use crate::document::{Problem, Source};
+use crate::table::sheet::Sheet;
 
 /// The meaning of a column; numbers are axis or joint, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,14 +6,14 @@ use crate::document::Source;
 
 /// One cell: what it says, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Cell {
+pub(crate) struct Cell {
     pub text: String,
     pub span: Range<usize>,
 }
 
 /// A header and rows, not yet of equal length.
 #[derive(Clone, Debug)]
-pub(super) struct Sheet {
+pub(crate) struct Sheet {
     pub separator: char,
     pub header: Vec<Cell>,
     pub rows: Vec<Vec<Cell>>,
@@ -56,7 +56,7 @@ impl Sheet {
 }
 
 /// The cells of a line that begins at this byte; quotes around a cell are taken off.
-fn cells((start, line): (usize, &str), separator: char) -> Vec<Cell> {
+pub(crate) fn cells((start, line): (usize, &str), separator: char) -> Vec<Cell> {
     let mut cells = Vec::new();
     let (mut from, mut quoted) = (0, false);
     for (at, c) in line.char_indices().chain([(line.len(), separator)]) {

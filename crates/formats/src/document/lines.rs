@@ -1,0 +1,240 @@
+//! A text that is read line by line, never held as a whole: tool paths and force records may be of any length.
+//!
+//! UTF-8 with or without byte order mark, any line ends; a line that is no UTF-8 is taken as Latin-1, which only
+//! comments and names can hold. Zero bytes at the end of a line are dropped.
+
+use std::io::{BufRead, ErrorKind};
+use std::ops::Range;
+
+use super::problem::{Excerpt, Problem};
+
+/// No line of a tool path or of a record is longer, in bytes.
+pub(crate) const LONGEST_LINE: usize = 1 << 16;
+
+/// A line longer than this is not shown: its problem is told by line and column alone.
+const LONGEST_EXCERPT_BYTES: usize = 8192;
+
+/// One line, and where it stands in its file.
+#[derive(Clone, Debug)]
+pub(crate) struct Line {
+    /// From 1.
+    pub number: usize,
+    /// What stands on it, without its end.
+    pub text: String,
+    /// Bytes of the file before it.
+    start: usize,
+}
+
+impl Line {
+    /// A problem at a byte range of this line of the file `name`.
+    pub fn problem(&self, name: &str, span: Range<usize>, message: impl Into<String>, hint: &str) -> Problem {
+        let begin = self.text.floor_char_boundary(span.start);
+        let end = self.text.ceil_char_boundary(span.end).max(begin);
+        Problem {
+            file: name.to_owned(),
+            line: self.number,
+            column: self.text[..begin].chars().count() + 1,
+            span: self.start + begin..self.start + end,
+            message: message.into(),
+            hint: Some(hint.to_owned()),
+            excerpt: (self.text.len() <= LONGEST_EXCERPT_BYTES).then(|| Excerpt {
+                text: self.text.clone(),
+                span: begin..end,
+            }),
+        }
+    }
+}
+
+/// The lines of a text, one by one.
+#[derive(Debug)]
+pub(crate) struct Lines<R> {
+    reader: R,
+    name: String,
+    bytes: Vec<u8>,
+    number: usize,
+    start: usize,
+    /// Whether the line before ended with a carriage return, to which a line feed may belong.
+    after_return: bool,
+}
+
+impl<R: BufRead> Lines<R> {
+    /// Before the first line of the file `name`.
+    pub fn new(name: &str, reader: R) -> Lines<R> {
+        Lines {
+            reader,
+            name: name.to_owned(),
+            bytes: Vec::new(),
+            number: 0,
+            start: 0,
+            after_return: false,
+        }
+    }
+
+    /// The path that problems show.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The next line; `None` behind the last.
+    ///
+    /// # Errors
+    /// A reader that fails, a line longer than [`LONGEST_LINE`], bytes that no text has.
+    pub fn next(&mut self) -> Result<Option<Line>, Problem> {
+        let Some(length) = self.take_bytes()? else {
+            return Ok(None);
+        };
+        let begin = self.start;
+        self.number += 1;
+        self.start += length;
+        let mut bytes = self.bytes.as_slice();
+        let mut start = begin;
+        if self.number == 1 {
+            if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
+                let hint = "this file is UTF-16: save it as UTF-8";
+                return Err(self.nothing_to_show(0, "not a text of single bytes", hint));
+            }
+            if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
+                (bytes, start) = (rest, start + 3);
+            }
+        }
+        let kept = bytes
+            .iter()
+            .rposition(|byte| *byte != 0)
+            .map_or(0, |last| last + 1);
+        let bytes = bytes.get(..kept).unwrap_or_default();
+        let text = match std::str::from_utf8(bytes) {
+            Ok(text) => text.to_owned(),
+            Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
+        };
+        let line = Line {
+            number: self.number,
+            text,
+            start,
+        };
+        // 0x1a ends a text in DOS.
+        let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\x0c' | '\x1a');
+        if let Some((at, c)) = line.text.char_indices().find(|(_, c)| strange(*c)) {
+            let message = format!("not a text: it holds the byte 0x{:02x}", u32::from(c));
+            let hint = "a text is wanted here: this is a file of another kind";
+            return Err(line.problem(&self.name, at..at + 1, message, hint));
+        }
+        Ok(Some(line))
+    }
+
+    /// Takes the bytes of a line, without its end; how many with it, `None` at the end of the file.
+    fn take_bytes(&mut self) -> Result<Option<usize>, Problem> {
+        self.bytes.clear();
+        let mut taken = 0;
+        loop {
+            let buffer = match self.reader.fill_buf() {
+                Ok(buffer) => buffer,
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => {
+                    let message = format!("cannot be read further: {error}");
+                    return Err(self.nothing_to_show(self.number, message, "copy the file anew"));
+                }
+            };
+            if buffer.is_empty() {
+                return Ok((taken > 0).then_some(taken));
+            }
+            if self.after_return {
+                self.after_return = false;
+                if buffer.first() == Some(&b'\n') {
+                    self.reader.consume(1);
+                    self.start += 1;
+                    continue;
+                }
+            }
+            let end = buffer.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+            let length = end.unwrap_or(buffer.len());
+            let room = LONGEST_LINE.saturating_sub(self.bytes.len());
+            self.bytes.extend(buffer.iter().take(length.min(room)));
+            self.after_return = end.is_some_and(|end| buffer.get(end) == Some(&b'\r'));
+            let used = length + usize::from(end.is_some());
+            self.reader.consume(used);
+            taken += used;
+            if length > room {
+                let message = format!("line {} is longer than {LONGEST_LINE} bytes", self.number + 1);
+                return Err(self.nothing_to_show(self.number, message, "a text of lines is wanted here"));
+            }
+            if end.is_some() {
+                return Ok(Some(taken));
+            }
+        }
+    }
+
+    /// A problem behind line `number`, of which no text can be shown.
+    fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problem {
+        Problem {
+            file: self.name.clone(),
+            line: number + 1,
+            column: 1,
+            span: self.start..self.start,
+            message: message.into(),
+            hint: Some(hint.to_owned()),
+            excerpt: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn lines(bytes: &[u8]) -> Result<Vec<Line>, Problem> {
+        let mut lines = Lines::new("a.txt", bytes);
+        let mut all = Vec::new();
+        while let Some(line) = lines.next()? {
+            all.push(line);
+        }
+        Ok(all)
+    }
+
+    #[test]
+    fn all_line_ends_marks_zero_bytes_and_latin_letters_are_read() {
+        let text = b"\xef\xbb\xbfone\r\ntwo\rthree\n\nH\xf6he\0\0";
+        let found: Vec<String> = lines(text).unwrap().into_iter().map(|line| line.text).collect();
+        assert_eq!(found, ["one", "two", "three", "", "H\u{f6}he"]);
+    }
+
+    #[test]
+    fn a_carriage_return_and_its_line_feed_are_one_end_across_a_buffer() {
+        let reader = std::io::BufReader::with_capacity(4, &b"one\r\ntwo\r\n"[..]);
+        let mut lines = Lines::new("a.txt", reader);
+        assert_eq!(lines.next().unwrap().unwrap().text, "one");
+        let two = lines.next().unwrap().unwrap();
+        assert_eq!((two.text.as_str(), two.number), ("two", 2));
+        assert!(lines.next().unwrap().is_none());
+    }
+
+    #[test]
+    fn a_problem_stands_at_line_column_and_byte() {
+        let all = lines("\u{e4}\r\n\u{e4}bc".as_bytes()).unwrap();
+        let problem = all[1].problem("a.txt", 2..3, "no", "yes");
+        assert_eq!((problem.line(), problem.column()), (2, 2));
+        assert_eq!(problem.span(), 6..7);
+        assert_eq!(problem.to_string(), "a.txt:2:2: no");
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_with_its_place() {
+        assert_eq!(
+            lines(b"a\nb\x01\n").unwrap_err().to_string(),
+            "a.txt:2:2: not a text: it holds the byte 0x01"
+        );
+        assert!(
+            lines(b"\xff\xfea\0")
+                .unwrap_err()
+                .hint()
+                .unwrap()
+                .contains("UTF-16")
+        );
+        let long = vec![b'x'; LONGEST_LINE + 1];
+        assert!(
+            lines(&long)
+                .unwrap_err()
+                .to_string()
+                .contains("longer than 65536 bytes")
+        );
+    }
+}

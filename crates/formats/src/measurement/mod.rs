@@ -1,0 +1,1 @@
+//! What was measured? Force records in.

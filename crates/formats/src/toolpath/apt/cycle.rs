@@ -1,0 +1,227 @@
+//! Drilling cycles as moves: each GOTO between CYCLE/... and CYCLE/OFF is the top of a hole `p` under the tool axis `a`.
+//!
+//! | parameter | meaning |
+//! |---|---|
+//! | `FEDTO,d` | depth: the tip cuts to `p - d a`; NX writes it with the sign of the axis, below the point negative |
+//! | `RAPTO,h` | the tip cuts from `p + h a` on |
+//! | `RTRCTO,h` | between holes it goes at `p + h a`; without it at RAPTO |
+//! | `MMPM,v`, `IPM`, `MMPR`, `IPR` | feed of the cycle; without it that of FEDRAT |
+//! | `INCR,q` (DEEP) | depth of a peck |
+//! | `1STPECK,q`, `SUBPECK,q` (DEEP2) | of the first, of each that follows |
+//! | `DWELL,t` | wait at the bottom: no move |
+//!
+//! Pecks count from RAPTO; after each the tip goes back there and down again in rapid. What is cut is the same if a
+//! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2; others are refused, since what they do depends on
+//! the machine.
+
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::path::{Course, Move, Pace};
+
+use super::Dialect;
+use super::modal::{Feed, Interpreter};
+use super::statement::Statement;
+
+/// No hole has more pecks.
+const MOST_PECKS: f64 = 1000.0;
+
+/// A cycle that holds until CYCLE/OFF; lengths in m.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cycle {
+    depth: f64,
+    rapid_to: f64,
+    retract_to: f64,
+    feed: Option<Feed>,
+    /// First peck and those that follow.
+    pecks: Option<[f64; 2]>,
+}
+
+/// What the parameters of a CYCLE tell, in its own units.
+#[derive(Default)]
+struct Told {
+    depth: Option<f64>,
+    rapid_to: Option<f64>,
+    retract_to: Option<f64>,
+    first_peck: Option<f64>,
+    next_peck: Option<f64>,
+    feed: Option<Feed>,
+}
+
+impl Interpreter<'_> {
+    /// CYCLE/...
+    pub fn cycle(&mut self, statement: &Statement) {
+        let kind = statement.word_at(0);
+        match kind.as_str() {
+            "OFF" => self.cycle = None,
+            // Opens the list of holes, and chooses how to go between them: the cycle itself follows.
+            "INIT" | "CLEAR" => self.ignore(statement),
+            "DRILL" | "DEEP" | "DEEP2" => self.drill(statement, &kind),
+            _ => {
+                let message = format!("the cycle `{kind}` is not understood");
+                let hint = "understood are DRILL, DEEP and DEEP2; let the CAM system write others as GOTO";
+                let span = statement
+                    .parameters()
+                    .next()
+                    .map_or(statement.word_span(), |first| first.span);
+                self.tell(statement, span, message, hint);
+            }
+        }
+    }
+
+    fn drill(&mut self, statement: &Statement, kind: &str) {
+        let metres = self.metres(statement);
+        let before = self.problems.len();
+        let mut told = Told::default();
+        let mut parameters = statement.parameters().skip(1);
+        while let Some(key) = parameters.next() {
+            let name = key.text.to_uppercase();
+            let Some(value) = parameters.next() else {
+                let message = format!("`{name}` has no number");
+                self.tell(
+                    statement,
+                    key.span,
+                    message,
+                    "each word of a cycle is followed by its number",
+                );
+                break;
+            };
+            let Some(value) = self.number(statement, &value) else {
+                continue;
+            };
+            match name.as_str() {
+                "FEDTO" => told.depth = Some(value * metres),
+                "RAPTO" => told.rapid_to = Some(value * metres),
+                "RTRCTO" => told.retract_to = Some(value * metres),
+                "INCR" if kind == "DEEP" => told.first_peck = Some(value * metres),
+                "1STPECK" if kind == "DEEP2" => told.first_peck = Some(value * metres),
+                "SUBPECK" if kind == "DEEP2" => told.next_peck = Some(value * metres),
+                "DWELL" => {}
+                "MMPM" | "IPM" | "MMPR" | "IPR" => told.feed = self.feed_in(statement, &name, value),
+                _ => {
+                    let message = format!("`{name}` is not understood in the cycle {kind}");
+                    let hint = "understood are FEDTO, RAPTO, RTRCTO, DWELL, MMPM, IPM, MMPR, IPR; in DEEP INCR, in \
+                                DEEP2 1STPECK and SUBPECK";
+                    self.tell(statement, key.span, message, hint);
+                }
+            }
+        }
+        self.cycle = None;
+        if self.problems.len() > before {
+            return;
+        }
+        match made(&told, kind, self.dialect) {
+            Ok(cycle) => self.cycle = Some(cycle),
+            Err((message, hint)) => self.tell(statement, statement.parameters_span(), message, hint),
+        }
+    }
+
+    /// The moves of a hole whose top is `top`.
+    pub fn hole(
+        &mut self,
+        statement: &Statement,
+        cycle: &Cycle,
+        top: Point3<f64>,
+        axis: Option<Unit<Vector3<f64>>>,
+    ) {
+        let Some(up) = axis else {
+            let message = "a hole, but nothing tells the tool axis";
+            self.tell(
+                statement,
+                statement.parameters_span(),
+                message,
+                "write the axis: `GOTO/x,y,z,i,j,k`",
+            );
+            return;
+        };
+        self.summary.holes += 1;
+        let modal = self.feed;
+        self.feed = cycle.feed.or(modal);
+        let feed = self.pace(statement);
+        self.feed = modal;
+        let mut go = |height: f64, pace: Pace| {
+            let next = Move {
+                end: top + up.into_inner() * height,
+                axis,
+                course: Course::Line,
+                pace,
+                line: statement.line(),
+            };
+            self.give(statement, next);
+        };
+        go(cycle.retract_to, Pace::Rapid);
+        go(cycle.rapid_to, Pace::Rapid);
+        let bottom = -cycle.depth;
+        let mut reached = cycle.rapid_to;
+        // `made` has bounded the number of pecks.
+        for peck in cycle
+            .pecks
+            .into_iter()
+            .flat_map(|[first, next]| std::iter::once(first).chain(std::iter::repeat(next)))
+        {
+            let to = reached - peck;
+            // A last peck of nothing but rounding is none.
+            if to <= bottom + 1e-9 {
+                break;
+            }
+            go(to, feed);
+            go(cycle.rapid_to, Pace::Rapid);
+            go(to, Pace::Rapid);
+            reached = to;
+        }
+        go(bottom, feed);
+        go(cycle.retract_to, Pace::Rapid);
+    }
+}
+
+/// The cycle that was told, or what is wrong with it and what to do.
+fn made(told: &Told, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
+    let missing = |name: &str| {
+        let hint = "a cycle tells how deep (FEDTO) and from which height above the point (RAPTO) it cuts";
+        (format!("the cycle {kind} has no {name}"), hint)
+    };
+    let fed_to = told.depth.ok_or_else(|| missing("FEDTO"))?;
+    let rapid_to = told.rapid_to.ok_or_else(|| missing("RAPTO"))?;
+    let depth = match dialect {
+        Some(Dialect::Nx) => -fed_to,
+        _ => fed_to,
+    };
+    if depth + rapid_to <= 0.0 || depth < 0.0 {
+        let hint = match dialect {
+            Some(Dialect::Nx) => "NX writes a depth below the point as a negative FEDTO",
+            _ => "a depth below the point is a positive FEDTO",
+        };
+        return Err((format!("the cycle {kind} cuts nothing below its points"), hint));
+    }
+    let retract_to = told.retract_to.unwrap_or(rapid_to);
+    if retract_to < rapid_to {
+        let hint = "RTRCTO and RAPTO are heights above the point";
+        return Err((
+            format!("the cycle {kind} goes back lower (RTRCTO) than it begins to cut (RAPTO)"),
+            hint,
+        ));
+    }
+    let pecks = match kind {
+        "DRILL" => None,
+        _ => {
+            let first = told
+                .first_peck
+                .ok_or_else(|| missing(if kind == "DEEP" { "INCR" } else { "1STPECK" }))?;
+            let next = told.next_peck.unwrap_or(first);
+            let most = (depth + rapid_to) / MOST_PECKS;
+            if first < most || next < most {
+                let hint = "the depth of a peck is a length above 0";
+                return Err((
+                    format!("the cycle {kind} needs more than {MOST_PECKS} pecks"),
+                    hint,
+                ));
+            }
+            Some([first, next])
+        }
+    };
+    Ok(Cycle {
+        depth,
+        rapid_to,
+        retract_to,
+        feed: told.feed,
+        pecks,
+    })
+}

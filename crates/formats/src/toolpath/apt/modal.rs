@@ -1,0 +1,261 @@
+//! What holds until something else is said: unit, dialect, frame, axis, feed, spindle, tool, cycle.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use armill_core::frame::Isometry;
+use armill_core::nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
+use armill_core::path::{Move, Operation, Step};
+
+use super::cycle::Cycle;
+use super::motion::Circle;
+use super::statement::{Parameter, Statement};
+use super::{Dialect, LengthUnit, Noted, Summary, Wanted};
+use crate::document::{Problem, Problems};
+
+/// No number of a program is larger, in its own units.
+const LARGEST: f64 = 1e9;
+/// So many different words are counted; a file with more is of another kind.
+const MOST_WORDS: usize = 1000;
+
+/// How feed is told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Feed {
+    /// m/s
+    Speed(f64),
+    /// m for each turn of the spindle.
+    PerTurn(f64),
+}
+
+/// Follows a program word by word.
+pub(super) struct Interpreter<'a> {
+    pub name: &'a str,
+    pub wanted: &'a Wanted,
+    out: &'a mut dyn FnMut(Step),
+    pub problems: Vec<Problem>,
+    pub summary: Summary,
+    pub dialect: Option<Dialect>,
+    /// Whether the missing unit has been told already.
+    unit_asked: bool,
+    /// Cutter in the unit of the file, until a move needs it: the unit may be told later.
+    pub cutter: [Option<f64>; 2],
+    pub operation: Operation,
+    /// Whether the next move begins an operation.
+    begins: bool,
+    /// INSERT right before a CUTTER names the tool.
+    pub inserted: Option<String>,
+    /// Speed that SPINDL/ON comes back to, rad/s.
+    pub told_spindle: Option<f64>,
+    pub feed: Option<Feed>,
+    pub feed_mode: Option<&'static str>,
+    pub rapid: bool,
+    pub circle: Option<Circle>,
+    pub cycle: Option<Cycle>,
+    /// What was told of the tool axis, in the frame of the path.
+    pub axis: Option<Unit<Vector3<f64>>>,
+    /// Where the tip stands, m.
+    pub at: Option<Point3<f64>>,
+    /// The last MSYS, in the unit of the file, until a point needs it.
+    pub system: Option<(Vector3<f64>, UnitQuaternion<f64>)>,
+    /// Path from the system that GOTO counts in.
+    pub path_from_here: Isometry,
+    pub world_told: bool,
+    pub ended: bool,
+}
+
+impl<'a> Interpreter<'a> {
+    pub fn new(name: &'a str, wanted: &'a Wanted, out: &'a mut dyn FnMut(Step)) -> Interpreter<'a> {
+        Interpreter {
+            name,
+            wanted,
+            out,
+            problems: Vec::new(),
+            summary: Summary::default(),
+            dialect: wanted.dialect,
+            unit_asked: false,
+            cutter: [None; 2],
+            operation: Operation::default(),
+            begins: true,
+            inserted: None,
+            told_spindle: None,
+            feed: None,
+            feed_mode: None,
+            rapid: false,
+            circle: None,
+            cycle: None,
+            axis: None,
+            at: None,
+            system: None,
+            path_from_here: Isometry::identity(),
+            world_told: false,
+            ended: false,
+        }
+    }
+
+    /// What was found, or every problem.
+    pub fn finish(mut self) -> Result<Summary, Problems> {
+        if let Some(circle) = &self.circle {
+            self.problems.push(circle.without_end.clone());
+        }
+        if self.summary.points == 0 && self.problems.is_empty() {
+            let message = "no GOTO in this file: it moves no tool";
+            let hint = "cutter locations have lines such as `GOTO/10.,20.,-5.`";
+            let source = crate::document::Source::new(self.name, "");
+            self.problems
+                .push(source.problem(0..0, message, Some(hint.to_owned())));
+        }
+        Problems::from(self.problems).into_result()?;
+        self.summary.dialect = self.dialect;
+        Ok(self.summary)
+    }
+
+    pub fn tell(
+        &mut self,
+        statement: &Statement,
+        span: Range<usize>,
+        message: impl Into<String>,
+        hint: &str,
+    ) {
+        self.problems
+            .push(statement.problem(self.name, span, message, hint));
+    }
+
+    /// Counts a word that says nothing about the path.
+    pub fn ignore(&mut self, statement: &Statement) {
+        note(
+            &mut self.summary.ignored,
+            statement.word.clone(),
+            statement.line(),
+        );
+    }
+
+    /// Counts what is not known or was assumed.
+    pub fn warn(&mut self, statement: &Statement, sentence: String) {
+        note(&mut self.summary.warnings, sentence, statement.line());
+    }
+
+    /// From here on another tool, speed or name.
+    pub fn begin_operation(&mut self, statement: &Statement) {
+        if !self.begins {
+            self.begins = true;
+            self.operation.line = 0;
+        }
+        if self.operation.line == 0 {
+            self.operation.line = statement.line();
+        }
+    }
+
+    /// Gives a move, and before it the operation that it begins.
+    pub fn give(&mut self, statement: &Statement, next: Move) {
+        if self.begins {
+            self.begins = false;
+            let metres = self.metres(statement);
+            let [diameter, corner_radius] = self.cutter.map(|length| length.map(|length| length * metres));
+            self.summary.operations += 1;
+            (self.out)(Step::Operation(Operation {
+                diameter,
+                corner_radius,
+                line: match self.operation.line {
+                    0 => statement.line(),
+                    line => line,
+                },
+                ..self.operation.clone()
+            }));
+        }
+        self.summary.moves += 1;
+        self.at = Some(next.end);
+        (self.out)(Step::Move(next));
+    }
+
+    /// Metres of the unit of length; asks for it once if nobody told it.
+    pub fn metres(&mut self, statement: &Statement) -> f64 {
+        if self.summary.unit.is_none() {
+            self.summary.unit = self.wanted.unit;
+        }
+        if self.summary.unit.is_none() && !self.unit_asked {
+            self.unit_asked = true;
+            let message = "a length, but nothing before it tells the unit of this file";
+            let hint = "say whether it is in mm or inch (option `unit`), or add the line `UNITS/MM` at its beginning";
+            self.tell(statement, statement.parameters_span(), message, hint);
+        }
+        self.summary.unit.unwrap_or(LengthUnit::Millimetre).metres()
+    }
+
+    /// What a word tells of whose file this is.
+    pub fn evidence(&mut self, statement: &Statement, dialect: Dialect) {
+        match self.dialect {
+            None => self.dialect = Some(dialect),
+            Some(known) if known != dialect && self.wanted.dialect.is_none() => {
+                let message = format!(
+                    "`{}` is a word of {dialect:?}, but those before are of {known:?}",
+                    statement.word
+                );
+                self.tell(
+                    statement,
+                    statement.word_span(),
+                    message,
+                    "say which dialect this file is in (option `dialect`)",
+                );
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// All parameters as numbers; `None` if one is none, which is told.
+    pub fn numbers(&mut self, statement: &Statement) -> Option<Vec<f64>> {
+        let before = self.problems.len();
+        let numbers: Vec<f64> = statement
+            .parameters()
+            .filter_map(|parameter| self.number(statement, &parameter))
+            .collect();
+        (self.problems.len() == before).then_some(numbers)
+    }
+
+    /// A parameter as a number; `None` if it is none, which is told.
+    pub fn number(&mut self, statement: &Statement, parameter: &Parameter) -> Option<f64> {
+        match parameter.text.parse::<f64>() {
+            Ok(number) if number.abs() <= LARGEST => Some(number),
+            Ok(_) => {
+                let message = format!("`{}` is not a number from -1e9 to 1e9", parameter.text);
+                self.tell(
+                    statement,
+                    parameter.span.clone(),
+                    message,
+                    "is a decimal point missing?",
+                );
+                None
+            }
+            Err(_) if parameter.text.is_empty() => {
+                let at = parameter.span.clone();
+                self.tell(
+                    statement,
+                    at,
+                    "a number is missing here",
+                    "two commas stand side by side, or one at the end",
+                );
+                None
+            }
+            Err(_) => {
+                let message = format!("`{}` is not a number", parameter.text);
+                let hint = format!(
+                    "`{}` takes numbers such as `12.5`, separated by commas",
+                    statement.word
+                );
+                self.tell(statement, parameter.span.clone(), message, &hint);
+                None
+            }
+        }
+    }
+}
+
+fn note(words: &mut BTreeMap<String, Noted>, word: String, line: u32) {
+    let word = match words.len() < MOST_WORDS || words.contains_key(&word) {
+        true => word,
+        false => "other words".to_owned(),
+    };
+    let noted = words.entry(word).or_insert(Noted {
+        first_line: line,
+        count: 0,
+    });
+    noted.count += 1;
+}

@@ -1,0 +1,299 @@
+//! GOTO and CIRCLE as lines and arcs.
+//!
+//! An arc turns by the right hand about its axis `n`, from where the tip stands (`a` from the centre, across the axis)
+//! to the next GOTO (`b`): `sweep = atan2(n . (a x b), a . b)`, between 0 and a full turn; where both are the same
+//! point it is a full turn.
+
+use std::f64::consts::TAU;
+
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::path::{Arc, Course, Move, Pace};
+
+use super::Dialect;
+use super::modal::{Feed, Interpreter};
+use super::statement::Statement;
+use crate::document::Problem;
+
+/// Points no farther apart are the same, m: programs write six decimals of mm, old ones four.
+const SAME_POINT: f64 = 1e-7;
+/// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse rounding
+/// of the centre gives, and far below any radius that was mistaken.
+const RADIUS_SLACK: [f64; 2] = [1e-3, 1e-5];
+/// A direction has a length of 1 within this: three decimals.
+const UNIT_SLACK: f64 = 2e-3;
+/// A helix ends at the angle that its number of turns says, within this, rad.
+const TURN_SLACK: f64 = 1e-3;
+/// No helix has more turns.
+const MOST_TURNS: f64 = 10_000.0;
+
+/// What a CIRCLE says, until the GOTO that ends it.
+#[derive(Clone, Debug)]
+pub(super) struct Circle {
+    centre: Point3<f64>,
+    axis: Unit<Vector3<f64>>,
+    /// m, where it is written.
+    radius: Option<f64>,
+    /// Turns of a helix, where they are written.
+    turns: Option<f64>,
+    /// What to tell if nothing follows.
+    pub without_end: Problem,
+}
+
+impl Interpreter<'_> {
+    /// GOTO, FROM and GOHOME; the latter two in rapid.
+    pub fn goto(&mut self, statement: &Statement) {
+        let rapid = std::mem::take(&mut self.rapid) || statement.word != "GOTO";
+        let circle = self.circle.take();
+        self.summary.points += 1;
+        let Some((end, told)) = self.point_and_axis(statement) else {
+            return;
+        };
+        let axis = self.axis_of(statement, told);
+        if let Some(cycle) = self.cycle.clone() {
+            if rapid || circle.is_some() {
+                let message = "RAPID or CIRCLE within a drilling cycle: is this a hole?";
+                self.tell(
+                    statement,
+                    statement.word_span(),
+                    message,
+                    "end the cycle before with `CYCLE/OFF`",
+                );
+                return;
+            }
+            return self.hole(statement, &cycle, end, axis);
+        }
+        let course = match circle {
+            None => Course::Line,
+            Some(circle) => match self.arc(statement, &circle, end) {
+                Some(arc) => {
+                    self.summary.arcs += 1;
+                    Course::Arc(arc)
+                }
+                None => {
+                    self.at = Some(end);
+                    return;
+                }
+            },
+        };
+        let pace = match rapid {
+            true => Pace::Rapid,
+            false => self.pace(statement),
+        };
+        let line = statement.line();
+        self.give(
+            statement,
+            Move {
+                end,
+                axis,
+                course,
+                pace,
+                line,
+            },
+        );
+    }
+
+    /// CIRCLE: three numbers of the centre, three of the axis; NX adds the radius, two tolerances, diameter and corner
+    /// of the tool, and for a helix `TIMES,n`.
+    pub fn circle(&mut self, statement: &Statement) {
+        let without_end = statement.problem(
+            self.name,
+            statement.word_span(),
+            "no GOTO ends this CIRCLE",
+            "the next GOTO is the end of the arc",
+        );
+        if let Some(before) = self.circle.take() {
+            self.problems.push(before.without_end);
+        }
+        let names: Vec<String> = statement
+            .parameters()
+            .map(|parameter| parameter.text.to_uppercase())
+            .collect();
+        let numbered = names
+            .iter()
+            .position(|name| name == "TIMES")
+            .unwrap_or(names.len());
+        let before = self.problems.len();
+        let mut numbers = Vec::new();
+        for (index, parameter) in statement.parameters().enumerate() {
+            if index != numbered {
+                numbers.extend(self.number(statement, &parameter));
+            }
+        }
+        if self.problems.len() > before {
+            return;
+        }
+        let after = names.len().saturating_sub(numbered + 1);
+        let ([x, y, z, i, j, k, rest @ ..], true) = (
+            numbers.as_slice(),
+            matches!(numbered, 6 | 7 | 11) && after == usize::from(numbered < names.len()),
+        ) else {
+            let message = format!("{} parameters of a CIRCLE", names.len());
+            let hint = "centre and axis: `CIRCLE/x,y,z,i,j,k`; or centre, axis, radius, two tolerances, diameter and \
+                        corner of the tool, for a helix followed by `TIMES,n`";
+            self.tell(statement, statement.parameters_span(), message, hint);
+            return;
+        };
+        let metres = self.metres(statement);
+        let Some(axis) = self.direction(statement, [*i, *j, *k]) else {
+            return;
+        };
+        let turns = (after == 1).then(|| rest.last().copied()).flatten();
+        if let Some(turns) = turns.filter(|turns| !(*turns > 0.0 && *turns <= MOST_TURNS)) {
+            let message = format!("a helix of {turns} turns is not between 0 and {MOST_TURNS}");
+            self.tell(
+                statement,
+                statement.parameters_span(),
+                message,
+                "TIMES is followed by the number of turns",
+            );
+            return;
+        }
+        self.circle = Some(Circle {
+            centre: self.path_from_here * (Point3::new(*x, *y, *z) * metres),
+            axis,
+            radius: (numbered > 6)
+                .then(|| rest.first().map(|radius| radius.abs() * metres))
+                .flatten(),
+            turns,
+            without_end,
+        });
+    }
+
+    /// How fast a GOTO that is no rapid goes.
+    pub fn pace(&mut self, statement: &Statement) -> Pace {
+        match self.feed {
+            None => Pace::Untold,
+            Some(Feed::Speed(speed)) => Pace::Feed(speed),
+            Some(Feed::PerTurn(length)) => match self.operation.spindle.filter(|speed| *speed != 0.0) {
+                Some(speed) => Pace::Feed(length * speed.abs() / TAU),
+                None => {
+                    // Told once for each FEDRAT.
+                    self.feed = None;
+                    let message = "feed is told for each turn, but the spindle does not turn here";
+                    let hint = "a `SPINDL/n,RPM,CLW` is missing before";
+                    self.tell(statement, statement.word_span(), message, hint);
+                    Pace::Untold
+                }
+            },
+        }
+    }
+
+    /// The point of a GOTO in the frame of the path, m, and the axis it writes.
+    fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, Option<Unit<Vector3<f64>>>)> {
+        let numbers = self.numbers(statement)?;
+        let (point, axis) = match numbers.as_slice() {
+            [x, y, z] => ([*x, *y, *z], None),
+            [x, y, z, i, j, k] => ([*x, *y, *z], Some(self.direction(statement, [*i, *j, *k])?)),
+            _ => {
+                let message = format!("{} numbers of a {}", numbers.len(), statement.word);
+                let hint = "three of the point, or six with the tool axis";
+                self.tell(statement, statement.parameters_span(), message, hint);
+                return None;
+            }
+        };
+        let metres = self.metres(statement);
+        Some((self.path_from_here * (Point3::from(point) * metres), axis))
+    }
+
+    /// The tool axis at a point that writes `told`, as the dialect has it.
+    fn axis_of(
+        &mut self,
+        statement: &Statement,
+        told: Option<Unit<Vector3<f64>>>,
+    ) -> Option<Unit<Vector3<f64>>> {
+        match (told, self.dialect) {
+            (Some(axis), _) => self.axis = Some(axis),
+            (None, Some(Dialect::Nx)) => {}
+            (None, Some(Dialect::SolidWorks)) => self.axis = Some(Vector3::z_axis()),
+            (None, None) if self.axis.is_some() => {
+                let message = "no tool axis here, but one before: is it the same, or 0,0,1?";
+                let hint = "say which dialect this file is in (option `dialect`): NX keeps the axis, SolidWorks means 0,0,1";
+                self.tell(statement, statement.parameters_span(), message, hint);
+                self.axis = None;
+            }
+            (None, None) => {}
+        }
+        self.axis
+    }
+
+    /// A direction of length 1, in the frame of the path.
+    fn direction(&mut self, statement: &Statement, ijk: [f64; 3]) -> Option<Unit<Vector3<f64>>> {
+        let vector = Vector3::from(ijk);
+        let length = vector.norm();
+        if (length - 1.0).abs() > UNIT_SLACK {
+            let message = format!(
+                "the direction {},{},{} has a length of {length:.4}, not 1",
+                ijk[0], ijk[1], ijk[2]
+            );
+            let hint = "three numbers of the point come first, then three of a direction of length 1";
+            self.tell(statement, statement.parameters_span(), message, hint);
+            return None;
+        }
+        Some(self.path_from_here * Unit::new_normalize(vector))
+    }
+
+    /// The arc from where the tip stands to `end`.
+    fn arc(&mut self, statement: &Statement, circle: &Circle, end: Point3<f64>) -> Option<Arc> {
+        let Some(from) = self.at else {
+            let message = "an arc from nowhere: no GOTO before it says where the tip stands";
+            self.tell(statement, statement.word_span(), message, "begin with a GOTO");
+            return None;
+        };
+        let across = |point: Point3<f64>| {
+            let out = point - circle.centre;
+            out - circle.axis.into_inner() * out.dot(&circle.axis)
+        };
+        let (a, b) = (across(from), across(end));
+        let radii = [Some(a.norm()), Some(b.norm()), circle.radius];
+        let [least, most] = radii
+            .into_iter()
+            .flatten()
+            .fold([f64::INFINITY, 0.0], |[least, most]: [f64; 2], radius| {
+                [least.min(radius), most.max(radius)]
+            });
+        if most - least > RADIUS_SLACK[0] * most + RADIUS_SLACK[1] || least <= SAME_POINT {
+            let mm = |radius: f64| radius * 1e3;
+            let written = circle.radius.map_or_else(String::new, |radius| {
+                format!(", and {:.4} mm is written", mm(radius))
+            });
+            let message = format!(
+                "this arc begins {:.4} mm from its centre and ends {:.4} mm from it{written}",
+                mm(a.norm()),
+                mm(b.norm())
+            );
+            let hint = "the CIRCLE before gives the centre; both ends lie on the circle";
+            self.tell(statement, statement.parameters_span(), message, hint);
+            return None;
+        }
+        let angle = match (b - a).norm() <= SAME_POINT {
+            true => TAU,
+            false => circle.axis.dot(&a.cross(&b)).atan2(a.dot(&b)).rem_euclid(TAU),
+        };
+        let sweep = match circle.turns {
+            None => angle,
+            Some(turns) => {
+                let sweep = turns * TAU;
+                let apart = (sweep - angle).rem_euclid(TAU);
+                if apart.min(TAU - apart) > TURN_SLACK {
+                    let message = format!(
+                        "a helix of {turns} turns that ends {:.3} deg from where it begins",
+                        angle.to_degrees()
+                    );
+                    let hint = "whether the part of a turn comes on top is not certain: write the helix as full turns, \
+                                or as lines";
+                    self.tell(statement, statement.parameters_span(), message, hint);
+                    return None;
+                }
+                sweep
+            }
+        };
+        if (b - a).norm() <= SAME_POINT {
+            self.summary.full_turns += 1;
+        }
+        Some(Arc {
+            centre: circle.centre,
+            axis: circle.axis,
+            sweep,
+        })
+    }
+}

@@ -1,0 +1,477 @@
+//! A path as a table: one row a point, the unit of each column in its name.
+//!
+//! | column | meaning | unit |
+//! |---|---|---|
+//! | `x_mm`, `y_mm`, `z_mm` | where the tip goes, on a straight line | `_mm`, `_m`, `_in` |
+//! | `i`, `j`, `k` | the tool, from the tip towards the spindle; empty: as in the row before | length 1 |
+//! | `feed_mm_min` | how fast; empty or missing: not told | `_mm_min`, `_mm_s`, `_m_s`, `_in_min` |
+//! | `rapid` | `1`, `true`, `yes`: as fast as it can, not cutting | |
+//! | `spindle_rpm` | speed of the spindle, clockwise positive; empty: not told | |
+//! | `axial_depth_mm`, `radial_depth_mm` | how deep the cutter is on the way to this point; both or neither | as the point |
+//! | `op` | the operation; empty: as in the row before | |
+//! | `note` | for people | |
+//!
+//! The first row says where the tip stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma
+//! is read too. Lines that begin with `#` and empty ones are passed over.
+
+use std::f64::consts::TAU;
+use std::io::BufRead;
+
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::path::{Course, Engagement, Move, Operation, Pace, Step};
+
+use crate::document::lines::{Line, Lines};
+use crate::document::unit::suggestion;
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{Cell, cells};
+
+/// More problems than this are not looked for.
+const MOST_PROBLEMS: usize = 200;
+/// No number of a table is larger, in its own unit.
+const LARGEST: f64 = 1e9;
+/// A direction has a length of 1 within this: three decimals.
+const UNIT_SLACK: f64 = 2e-3;
+/// No table has more columns than this.
+const MOST_COLUMNS: usize = 100;
+
+/// What a table held.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Summary {
+    /// Operations given.
+    pub operations: u64,
+    /// Moves given: rows.
+    pub moves: u64,
+}
+
+/// What a column tells; numbers are the axis, then the factor to SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Column {
+    Point(usize, f64),
+    Axis(usize),
+    Feed(f64),
+    Rapid,
+    Spindle,
+    AxialDepth(f64),
+    RadialDepth(f64),
+    Operation,
+    Note,
+}
+
+const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("m", 1.0), ("in", 0.0254)];
+const SPEEDS: [(&str, f64); 4] = [
+    ("mm_min", 1e-3 / 60.0),
+    ("mm_s", 1e-3),
+    ("m_s", 1.0),
+    ("in_min", 0.0254 / 60.0),
+];
+
+/// Every name that means something.
+fn known() -> Vec<(String, Column)> {
+    let mut known: Vec<(String, Column)> = [
+        ("i", Column::Axis(0)),
+        ("j", Column::Axis(1)),
+        ("k", Column::Axis(2)),
+        ("rapid", Column::Rapid),
+        ("spindle_rpm", Column::Spindle),
+        ("op", Column::Operation),
+        ("note", Column::Note),
+    ]
+    .map(|(name, column)| (name.to_owned(), column))
+    .into();
+    for (unit, factor) in LENGTHS {
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            known.push((format!("{letter}_{unit}"), Column::Point(axis, factor)));
+        }
+        known.push((format!("axial_depth_{unit}"), Column::AxialDepth(factor)));
+        known.push((format!("radial_depth_{unit}"), Column::RadialDepth(factor)));
+    }
+    known.extend(SPEEDS.map(|(unit, factor)| (format!("feed_{unit}"), Column::Feed(factor))));
+    known
+}
+
+impl Column {
+    /// Whether both tell the same, whatever their units.
+    fn same(self, other: Column) -> bool {
+        match (self, other) {
+            (Column::Point(a, _), Column::Point(b, _)) => a == b,
+            (Column::Note, Column::Note) => false,
+            (a, b) => {
+                a == b
+                    || std::mem::discriminant(&a) == std::mem::discriminant(&b)
+                        && !matches!(a, Column::Axis(_))
+            }
+        }
+    }
+}
+
+/// Reads the path in `reader`, and gives `out` its steps one by one; `path` is what problems show.
+///
+/// With problems the steps given so far are worth nothing.
+///
+/// # Errors
+/// Every problem of the file, at most 200: unknown, double and missing columns, names without unit, cells that are no
+/// numbers, rows of another length than the header, a table without rows.
+pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Result<Summary, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let mut table = None;
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        let line = match lines.next() {
+            Ok(Some(line)) => line,
+            Ok(None) => break,
+            Err(problem) => {
+                problems.push(problem);
+                break;
+            }
+        };
+        let text = line.text.trim();
+        if text.is_empty() || text.starts_with('#') {
+            continue;
+        }
+        let Some(table) = &mut table else {
+            let (made, mut wrong) = Table::of(path, &line);
+            let without_columns = !wrong.is_empty();
+            problems.append(&mut wrong);
+            if without_columns {
+                break;
+            }
+            table = Some(made);
+            continue;
+        };
+        // Spreadsheets leave lines of separators behind.
+        if text.chars().all(|c| c == table.separator || c.is_whitespace()) {
+            continue;
+        }
+        table.row(path, &line, &mut problems, out);
+    }
+    if problems.is_empty() && table.as_ref().is_none_or(|table| table.summary.moves == 0) {
+        let source = crate::document::Source::new(path, "");
+        let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm`; each line below is a point";
+        problems.push(source.problem(0..0, "no point in this file", Some(hint.to_owned())));
+    }
+    Problems::from(problems).into_result()?;
+    Ok(table.map(|table| table.summary).unwrap_or_default())
+}
+
+/// The header, and what the rows so far have told.
+struct Table {
+    separator: char,
+    header: Vec<String>,
+    columns: Vec<Column>,
+    operation: Option<Operation>,
+    summary: Summary,
+}
+
+/// What the cells of one row say, in SI.
+#[derive(Default)]
+struct Row {
+    point: [Option<f64>; 3],
+    axis: [Option<f64>; 3],
+    feed: Option<f64>,
+    rapid: bool,
+    spindle: Option<f64>,
+    depths: [Option<f64>; 2],
+    operation: Option<String>,
+}
+
+impl Table {
+    /// The columns that this line names, and what is wrong with them.
+    fn of(path: &str, line: &Line) -> (Table, Vec<Problem>) {
+        let separator = [';', '\t']
+            .into_iter()
+            .find(|c| line.text.contains(*c))
+            .unwrap_or(',');
+        let known = known();
+        let names: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
+        let mut problems = Vec::new();
+        let mut table = Table {
+            separator,
+            header: Vec::new(),
+            columns: Vec::new(),
+            operation: None,
+            summary: Summary::default(),
+        };
+        let heads = cells((0, &line.text), separator);
+        for cell in heads.iter().take(MOST_COLUMNS) {
+            let name = cell.text.to_lowercase();
+            let mut tell = |message: String, hint: &str| {
+                problems.push(line.problem(path, cell.span.clone(), message, hint))
+            };
+            let Some((_, column)) = known.iter().find(|(known, _)| *known == name) else {
+                let (message, hint) = unknown(&cell.text, &name, &names);
+                tell(message, &hint);
+                continue;
+            };
+            if let Some(first) = table.columns.iter().position(|before| before.same(*column)) {
+                let told = table.header.get(first).map_or("", String::as_str);
+                tell(
+                    format!("`{}` tells what `{told}` tells", cell.text),
+                    "keep one of the two",
+                );
+            }
+            table.columns.push(*column);
+            table.header.push(cell.text.clone());
+        }
+        if problems.is_empty() {
+            let whole = 0..line.text.len();
+            for (missing, hint) in table.missing() {
+                problems.push(line.problem(path, whole.clone(), format!("missing columns: {missing}"), hint));
+            }
+        }
+        (table, problems)
+    }
+
+    fn missing(&self) -> Vec<(String, &'static str)> {
+        let has = |wanted: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| wanted(*column));
+        let absent = |names: [&str; 3], of: &dyn Fn(Column) -> Option<usize>| -> Vec<String> {
+            let absent = (0..3).filter(|axis| !has(&|column| of(column) == Some(*axis)));
+            absent.map(|axis| format!("`{}`", names[axis])).collect()
+        };
+        let mut missing = Vec::new();
+        let point = absent(["x_mm", "y_mm", "z_mm"], &|column| match column {
+            Column::Point(axis, _) => Some(axis),
+            _ => None,
+        });
+        if !point.is_empty() {
+            missing.push((
+                point.join(", "),
+                "every point has three coordinates, each with its unit in its name",
+            ));
+        }
+        let axis = absent(["i", "j", "k"], &|column| match column {
+            Column::Axis(axis) => Some(axis),
+            _ => None,
+        });
+        if !axis.is_empty() && axis.len() < 3 {
+            missing.push((axis.join(", "), "the direction of the tool has three numbers"));
+        }
+        let axial = has(&|column| matches!(column, Column::AxialDepth(_)));
+        if axial != has(&|column| matches!(column, Column::RadialDepth(_))) {
+            let name = if axial {
+                "`radial_depth_mm`"
+            } else {
+                "`axial_depth_mm`"
+            };
+            missing.push((name.to_owned(), "both depths together say how deep the cutter is"));
+        }
+        missing
+    }
+
+    fn row(&mut self, path: &str, line: &Line, problems: &mut Vec<Problem>, out: &mut dyn FnMut(Step)) {
+        let found = cells((0, &line.text), self.separator);
+        let before = problems.len();
+        if found.len() != self.columns.len() {
+            let message = format!(
+                "{} cells in a table of {} columns",
+                found.len(),
+                self.columns.len()
+            );
+            let hint = match self.separator {
+                ',' => {
+                    "decimal commas need `;` between cells; an empty cell is nothing between two separators"
+                }
+                _ => "an empty cell is nothing between two separators",
+            };
+            problems.push(line.problem(path, 0..line.text.len(), message, hint));
+            return;
+        }
+        let mut row = Row::default();
+        for (cell, column) in found.iter().zip(&self.columns) {
+            if let Err((message, hint)) = row.take(cell, *column, self.separator) {
+                problems.push(line.problem(path, cell.span.clone(), message, hint));
+            }
+        }
+        if problems.len() > before {
+            return;
+        }
+        match row.said() {
+            Ok((end, axis, engagement)) => self.give(line, row, (end, axis, engagement), out),
+            Err((message, hint)) => problems.push(line.problem(path, 0..line.text.len(), message, hint)),
+        }
+    }
+
+    fn give(
+        &mut self,
+        line: &Line,
+        row: Row,
+        (end, axis, engagement): (Point3<f64>, Option<Unit<Vector3<f64>>>, Option<Engagement>),
+        out: &mut dyn FnMut(Step),
+    ) {
+        let number = u32::try_from(line.number).unwrap_or(u32::MAX);
+        let before = self.operation.as_ref();
+        let operation = Operation {
+            name: row
+                .operation
+                .or_else(|| before.and_then(|before| before.name.clone())),
+            spindle: row.spindle,
+            engagement,
+            line: before.map_or(number, |before| before.line),
+            ..Operation::default()
+        };
+        if before != Some(&operation) {
+            let operation = Operation {
+                line: number,
+                ..operation
+            };
+            self.operation = Some(operation.clone());
+            self.summary.operations += 1;
+            out(Step::Operation(operation));
+        }
+        self.summary.moves += 1;
+        out(Step::Move(Move {
+            end,
+            axis,
+            course: Course::Line,
+            pace: match (row.rapid, row.feed) {
+                (true, _) => Pace::Rapid,
+                (false, Some(speed)) => Pace::Feed(speed),
+                (false, None) => Pace::Untold,
+            },
+            line: number,
+        }));
+    }
+}
+
+/// What is wrong, and what to do.
+type Wrong = (String, &'static str);
+
+impl Row {
+    fn take(&mut self, cell: &Cell, column: Column, separator: char) -> Result<(), Wrong> {
+        match column {
+            Column::Note => {}
+            Column::Operation => self.operation = Some(cell.text.clone()).filter(|name| !name.is_empty()),
+            Column::Rapid => {
+                self.rapid = match cell.text.to_lowercase().as_str() {
+                    "1" | "true" | "yes" => true,
+                    "" | "0" | "false" | "no" => false,
+                    _ => {
+                        return Err((
+                            format!("`{}` is neither yes nor no", cell.text),
+                            "1 for a rapid move, 0 for a cut",
+                        ));
+                    }
+                };
+            }
+            _ if cell.text.is_empty() => {}
+            Column::Point(axis, factor) => self.point[axis] = Some(number(cell, separator)? * factor),
+            Column::Axis(axis) => self.axis[axis] = Some(number(cell, separator)?),
+            Column::Spindle => self.spindle = Some(number(cell, separator)? * TAU / 60.0),
+            Column::Feed(factor) => self.feed = Some(above(cell, separator, false)? * factor),
+            Column::AxialDepth(factor) => self.depths[0] = Some(above(cell, separator, true)? * factor),
+            Column::RadialDepth(factor) => self.depths[1] = Some(above(cell, separator, true)? * factor),
+        }
+        Ok(())
+    }
+
+    #[expect(clippy::type_complexity, reason = "three parts of one row")]
+    fn said(&self) -> Result<(Point3<f64>, Option<Unit<Vector3<f64>>>, Option<Engagement>), Wrong> {
+        let [Some(x), Some(y), Some(z)] = self.point else {
+            return Err((
+                "a point without one of its coordinates".to_owned(),
+                "fill in all three",
+            ));
+        };
+        let axis = match self.axis {
+            [None, None, None] => None,
+            [Some(i), Some(j), Some(k)] => {
+                let axis = Vector3::new(i, j, k);
+                let length = axis.norm();
+                if (length - 1.0).abs() > UNIT_SLACK {
+                    let message = format!("the direction of the tool has a length of {length:.4}, not 1");
+                    return Err((
+                        message,
+                        "i, j, k is a direction of length 1, from the tip towards the spindle",
+                    ));
+                }
+                Some(Unit::new_normalize(axis))
+            }
+            _ => {
+                return Err((
+                    "a direction of less than three numbers".to_owned(),
+                    "fill in i, j and k, or none",
+                ));
+            }
+        };
+        let engagement = match self.depths {
+            [None, None] => None,
+            [Some(axial_depth), Some(radial_depth)] => Some(Engagement {
+                axial_depth,
+                radial_depth,
+            }),
+            _ => {
+                return Err((
+                    "one depth without the other".to_owned(),
+                    "fill in both depths, or none",
+                ));
+            }
+        };
+        Ok((Point3::new(x, y, z), axis, engagement))
+    }
+}
+
+fn number(cell: &Cell, separator: char) -> Result<f64, Wrong> {
+    let text = match separator {
+        ',' => cell.text.clone(),
+        _ => cell.text.replace(',', "."),
+    };
+    match text.parse::<f64>() {
+        Ok(number) if number.abs() <= LARGEST => Ok(number),
+        Ok(_) => Err((
+            format!("`{}` is not a number from -1e9 to 1e9", cell.text),
+            "leave the cell empty if it is not known",
+        )),
+        Err(_) => Err((
+            format!("`{}` is not a number", cell.text),
+            "units stand in the column's name",
+        )),
+    }
+}
+
+/// A number above zero, or zero too.
+fn above(cell: &Cell, separator: char, zero_too: bool) -> Result<f64, Wrong> {
+    let number = number(cell, separator)?;
+    match number > 0.0 || zero_too && number == 0.0 {
+        true => Ok(number),
+        false => Err((
+            format!("`{}` is not above 0", cell.text),
+            "leave the cell empty if it is not known",
+        )),
+    }
+}
+
+/// What to say of a name that means nothing.
+fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
+    if name.parse::<f64>().is_ok() {
+        let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm,i,j,k,feed_mm_min`";
+        return (format!("`{shown}` is no name of a column"), hint.to_owned());
+    }
+    let unit = match name {
+        "x" | "y" | "z" => Some(("lengths", format!("`{name}_mm`, `{name}_m` or `{name}_in`"))),
+        "feed" | "f" => Some((
+            "speeds",
+            "`feed_mm_min`, `feed_mm_s`, `feed_m_s` or `feed_in_min`".to_owned(),
+        )),
+        "spindle" | "s" | "rpm" => Some(("speeds", "`spindle_rpm`".to_owned())),
+        "axial_depth" | "radial_depth" => Some(("lengths", format!("`{name}_mm`"))),
+        _ => None,
+    };
+    if let Some((quantity, names)) = unit {
+        return (
+            format!("column `{shown}` without unit"),
+            format!("{quantity} carry their unit: write {names}"),
+        );
+    }
+    let hint = suggestion(name, names).map_or_else(
+        || {
+            format!(
+                "remove it, or call it `note`; understood are {}",
+                names.join(", ")
+            )
+        },
+        |(_, advice)| advice,
+    );
+    (format!("unknown column `{shown}`"), hint)
+}
+
+#[cfg(test)]
+mod tests;

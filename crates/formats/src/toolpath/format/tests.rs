@@ -1,0 +1,63 @@
+use super::*;
+
+fn of(name: &str, text: &str) -> Result<Format, String> {
+    Format::of(Path::new(name), text).map_err(|problems| problems.to_string())
+}
+
+#[test]
+fn content_tells_the_format_whatever_the_name() {
+    for name in ["part.txt", "part", "part.nc", "part.csv"] {
+        for (text, format) in [
+            ("PARTNO/1\r\nUNIT/MM\r\n", Format::Apt),
+            ("$$ written by me\nTOOL PATH/A,TOOL,B\n", Format::Apt),
+            ("INSERT/x\ngoto / 1,2,3\n", Format::Apt),
+            ("\u{feff}# path\nx_mm;y_mm;z_mm;op\n1;2;3;a\n", Format::Csv),
+            ("\"X [mm]\",\"Y [mm]\",\"Z [mm]\"\n", Format::Csv),
+            ("x,y,z\n1,2,3\n", Format::Csv),
+            ("%\nO1234 (PART)\n", Format::Gcode),
+            ("(a program)\n; more\nN10 G21\nG1 X1\n", Format::Gcode),
+            ("g0x1y2", Format::Gcode),
+            ("/N5 G0 Z1\n", Format::Gcode),
+            ("#1=5\nG1 X#1\n", Format::Gcode),
+        ] {
+            assert_eq!(of(name, text), Ok(format), "{name}: {text}");
+        }
+    }
+}
+
+#[test]
+fn the_name_tells_where_content_does_not() {
+    assert_eq!(of("a.NGC", "(nothing yet)\n"), Ok(Format::Gcode));
+    assert_eq!(of("a.cls", "$$ nothing yet\n"), Ok(Format::Apt));
+    assert_eq!(of("a.csv", "1,2,3\n"), Ok(Format::Csv));
+    let told = of("a.pdf", "hello\n").unwrap_err();
+    assert!(
+        told.contains("neither content nor name") && told.contains("G-code, cutter locations"),
+        "{told}"
+    );
+}
+
+#[test]
+fn programs_of_robots_are_known_and_refused() {
+    for (text, language) in [
+        ("&ACCESS RVP\nDEF part()\n", "KUKA KRL"),
+        ("; part\nLIN {X 1,Y 2}\n", "KUKA KRL"),
+        ("%%%\n VERSION:1\n%%%\nMODULE m\n", "ABB RAPID"),
+        ("  MoveL p1,v100,fine,tool0;\n", "ABB RAPID"),
+        ("/PROG  PART\n/ATTR\n", "FANUC TP"),
+        ("/JOB\n//NAME PART\n", "Yaskawa INFORM"),
+        ("def part():\n  movel(p[1,2,3,0,0,0])\n", "URScript"),
+        (
+            "<?xml version=\"1.0\"?>\n<Programs xmlns=\"x\">\n",
+            "Staubli VAL3",
+        ),
+    ] {
+        let told = of("part.txt", text).unwrap_err();
+        assert!(
+            told.contains(language) && told.contains("come in a later version"),
+            "{text}: {told}"
+        );
+    }
+    assert!(of("a.src", "hello\n").unwrap_err().contains("program of a robot"));
+    assert!(Format::ALL.map(Format::name).iter().all(|name| !name.is_empty()));
+}

@@ -1,0 +1,13 @@
+//! Which way does the tool go? Tool path programs in.
+//!
+//! - [`program`]: a program in any of these formats.
+//! - [`format`](mod@format): which format is a file in?
+//! - [`apt`]: cutter locations of CAM systems: APT-CL, CLDATA, CLSF.
+//! - [`csv`]: a table of points, for those without CAM.
+//!
+//! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is.
+
+pub mod apt;
+pub mod csv;
+pub mod format;
+pub mod program;

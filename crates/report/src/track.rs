@@ -1,0 +1,227 @@
+//! A tool path seen from above, coloured by the deviation along it; where there is no posture it is drawn in grey.
+
+use crate::axis::{extent, plain};
+use crate::colour::{ColourScale, INK, MUTED};
+use crate::colour_bar::ColourBar;
+use crate::levels::Levels;
+use crate::map::{Marker, MarkerKind, write_on_map};
+use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
+use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
+use crate::svg::{Rect, Style, Svg};
+
+/// Largest drawing: width, height.
+const MOST_PX: [f64; 2] = [620.0, 520.0];
+/// A picture is at least this wide, for its title and legend.
+const LEAST_WIDTH_PX: f64 = 430.0;
+/// White around the path, part of its size.
+const MARGIN: f64 = 0.06;
+
+/// A stretch of path without rapids.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Stretch {
+    /// Points in mm: horizontal, vertical.
+    pub points_mm: Vec<[f64; 2]>,
+    /// The deviation at each; not finite where there is no posture.
+    pub deviation_um: Vec<f64>,
+}
+
+/// What a picture of a tool path shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct TrackMap {
+    /// First line, bold.
+    pub title: String,
+    /// Second line: posture, load.
+    pub subtitle: String,
+    /// Axis labels with units.
+    pub axes: AxisLabels,
+    /// What is drawn, with its unit: `deviation across the tool (µm)`.
+    pub quantity: String,
+    /// Permissible deviation in um.
+    pub limit_um: Option<f64>,
+    /// Colours.
+    pub scale: ColourScale,
+    /// The path.
+    pub stretches: Vec<Stretch>,
+    /// Points drawn on top, each with its label beside it.
+    pub markers: Vec<Marker>,
+}
+
+impl TrackMap {
+    /// The picture as a complete SVG document; a path without points gives one that says so.
+    pub fn to_svg(&self) -> String {
+        let Some(window) = self.window() else {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "There is nothing to draw: the path has no points.",
+            );
+        };
+        let values = self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
+        let Some(levels) = Levels::covering(values) else {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "The robot reaches no point of the path.",
+            );
+        };
+        let bar = ColourBar {
+            levels: &levels,
+            scale: self.scale,
+            quantity: &self.quantity,
+            limit_um: self.limit_um,
+        };
+        let left = BORDER_PX + Plane::left_room_px(&window);
+        let plane = Plane::fit(window, [left, 0.0], MOST_PX);
+        let bar_height = plane.area.h.max(150.0);
+        let width = (plane.area.right() + 22.0 + bar.width_px(bar_height) + BORDER_PX).max(LEAST_WIDTH_PX);
+        let mut svg = Svg::new();
+        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
+        svg.clipped(plane.area, |svg| {
+            self.draw_path(svg, &plane, &levels);
+            for marker in &self.markers {
+                let at = plane.at(marker.at_mm);
+                svg.circle(at, 4.0, &Style::fill("#fff").outlined(INK, 1.6));
+                write_on_map(svg, [at[0], at[1] - 8.0], &marker.label);
+            }
+        });
+        plane.draw_frame(&mut svg, Marks::ALL);
+        plane.draw_labels(&mut svg, &self.axes);
+        bar.draw(
+            &mut svg,
+            Rect {
+                x: plane.area.right() + 22.0,
+                y: plane.area.y,
+                w: 0.0,
+                h: bar_height,
+            },
+        );
+        let below = plane.area.y + bar_height.max(plane.area.h + BELOW_PX) + 8.0;
+        let entries = self.entries();
+        let bottom = if entries.is_empty() {
+            below
+        } else {
+            legend(&mut svg, &entries, [left, below], width - left - BORDER_PX)
+        };
+        svg.finish(width, bottom + BORDER_PX, &self.title)
+    }
+
+    fn window(&self) -> Option<Window> {
+        let along = |k: usize| {
+            let points = self.stretches.iter().flat_map(|s| &s.points_mm);
+            extent(points.map(move |p| p[k]))
+        };
+        let ((left, right), (bottom, top)) = (along(0)?, along(1)?);
+        let margin = MARGIN * (right - left).max(top - bottom).max(1e-3);
+        Some(Window {
+            left_mm: left - margin,
+            right_mm: right + margin,
+            bottom_mm: bottom - margin,
+            top_mm: top + margin,
+        })
+    }
+
+    /// Pieces of one colour after the other, the largest deviations last: nothing hides them.
+    fn draw_path(&self, svg: &mut Svg, plane: &Plane, levels: &Levels) {
+        let lost = Style::line(MUTED, 1.2).dashed("2 3");
+        for line in self.pieces(None, levels) {
+            svg.polyline(&line.iter().map(|p| plane.at(*p)).collect::<Vec<_>>(), &lost);
+        }
+        for band in 0..levels.bands() {
+            let style = Style::line(levels.colour(band, self.scale), 2.2);
+            for line in self.pieces(Some(band), levels) {
+                svg.polyline(&line.iter().map(|p| plane.at(*p)).collect::<Vec<_>>(), &style);
+            }
+        }
+    }
+
+    /// The pieces of the path whose larger end lies in this band, or that have an end without a value.
+    fn pieces(&self, band: Option<usize>, levels: &Levels) -> Vec<Vec<[f64; 2]>> {
+        let band_of = |a: f64, b: f64| {
+            let value = (a.is_finite() && b.is_finite()).then(|| a.max(b))?;
+            let above = levels.inner_um().iter().take_while(|edge| value > **edge).count();
+            Some(above)
+        };
+        let mut pieces: Vec<Vec<[f64; 2]>> = Vec::new();
+        for stretch in &self.stretches {
+            let mut open = false;
+            let ends = stretch.points_mm.windows(2).zip(stretch.deviation_um.windows(2));
+            for (points, values) in ends {
+                let here = band_of(values[0], values[1]) == band;
+                match (here, open, pieces.last_mut()) {
+                    (true, true, Some(piece)) => piece.push(points[1]),
+                    (true, ..) => pieces.push(points.to_vec()),
+                    (false, ..) => {}
+                }
+                open = here;
+            }
+        }
+        pieces
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let values = || self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
+        if let (Some(limit), Some((low, high))) = (self.limit_um, extent(values())) {
+            let remark = if limit <= low {
+                " (exceeded everywhere)"
+            } else if limit > high {
+                " (kept everywhere)"
+            } else {
+                ""
+            };
+            let label = format!("limit {} µm{remark}", plain(limit));
+            entries.push(Entry::new(Key::Line(vec![crate::field::limit_style()]), label));
+        }
+        if values().any(|value| !value.is_finite()) {
+            let style = Style::line(MUTED, 1.2).dashed("2 3");
+            entries.push(Entry::new(Key::Line(vec![style]), "no posture"));
+        }
+        if self.markers.iter().any(|marker| marker.kind == MarkerKind::Point) {
+            let style = Style::fill("#fff").outlined(INK, 1.6);
+            entries.push(Entry::new(Key::Dot(style), "worst points"));
+        }
+        entries
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn track(values: [f64; 5]) -> TrackMap {
+        TrackMap {
+            title: "part".to_owned(),
+            limit_um: Some(30.0),
+            stretches: vec![Stretch {
+                points_mm: (0..5).map(|i| [f64::from(i) * 10.0, f64::from(i % 2)]).collect(),
+                deviation_um: values.to_vec(),
+            }],
+            ..TrackMap::default()
+        }
+    }
+
+    #[test]
+    fn every_piece_is_drawn_once_in_one_band_or_as_lost() {
+        let track = track([10.0, 20.0, 50.0, f64::NAN, 40.0]);
+        let levels = Levels::covering(track.stretches[0].deviation_um.iter().copied()).unwrap();
+        let drawn: usize = (0..levels.bands())
+            .map(|band| track.pieces(Some(band), &levels))
+            .chain([track.pieces(None, &levels)])
+            .flatten()
+            .map(|piece| piece.len() - 1)
+            .sum();
+        assert_eq!(drawn, 4);
+        assert_eq!(
+            track.pieces(None, &levels),
+            [vec![[20.0, 0.0], [30.0, 1.0], [40.0, 0.0]]]
+        );
+    }
+
+    #[test]
+    fn a_path_without_values_or_points_says_so() {
+        assert!(TrackMap::default().to_svg().contains("no points"));
+        assert!(track([f64::NAN; 5]).to_svg().contains("reaches no point"));
+        assert!(track([40.0; 5]).to_svg().contains("exceeded everywhere"));
+    }
+}

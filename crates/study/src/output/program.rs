@@ -1,0 +1,239 @@
+//! Pictures of a tool path program: the path coloured by its deviation, the deviation along it, who is to blame, the arm.
+
+use armill_core::map::ProgramAnswer;
+use armill_core::nalgebra::Point3;
+use armill_report::{ArmDrawing, AxisLabels, Marker, MarkerKind, PathPlot, Series, Stretch, TrackMap, View};
+
+use super::arm::arm_posture;
+use super::pictures::{GHOSTS, Picture, shares};
+use super::plates::subtitle;
+use crate::answer::{PathResult, ProgramResult, WorstPoint};
+use crate::file::program::ProgramAsk;
+use crate::file::resolve::{Setting, Study};
+
+/// Points that a picture of a path shows at most: each stands for the worst of those around it.
+const MOST_POINTS: usize = 6000;
+
+/// The pictures of a program.
+pub(super) fn pictures(
+    study: &Study,
+    ask: &ProgramAsk,
+    (told, program): (&PathResult, &ProgramResult),
+    found: &ProgramAnswer,
+) -> Vec<Picture> {
+    let slug = super::slug(&told.name);
+    let picture = |what: &str, caption: String, svg: String| Picture {
+        name: format!("{slug}-{what}"),
+        caption: format!("{}: {caption}", told.name),
+        svg,
+    };
+    let drawing = Drawing {
+        study,
+        ask,
+        told,
+        found,
+    };
+    let mut pictures = vec![
+        picture(
+            "track",
+            "the path seen along the z axis of the program, coloured by the deviation across the tool."
+                .to_owned(),
+            drawing.track(&program.worst_points),
+        ),
+        picture(
+            "along",
+            "the deviation along the cuts.".to_owned(),
+            drawing.along(),
+        ),
+    ];
+    if !program.worst_points.is_empty() {
+        let bars = program.worst_points.iter().enumerate().map(|(i, worst)| {
+            let label = format!("{}: line {}", i + 1, worst.line);
+            super::pictures::share_bar(&label, &worst.point)
+        });
+        pictures.push(picture(
+            "shares",
+            "share of each joint at the worst points.".to_owned(),
+            shares(
+                study,
+                &format!("{}: which joint is to blame", told.name),
+                &ask.setting,
+                bars.collect(),
+            ),
+        ));
+    }
+    let arm = drawing.arm();
+    pictures.extend(arm.map(|svg| {
+        picture(
+            "arm",
+            "the arm along the path, in full where the deviation is largest.".to_owned(),
+            svg,
+        )
+    }));
+    pictures
+}
+
+struct Drawing<'a> {
+    study: &'a Study,
+    ask: &'a ProgramAsk,
+    told: &'a PathResult,
+    found: &'a ProgramAnswer,
+}
+
+impl Drawing<'_> {
+    /// What a reader must know beside the title.
+    fn subtitle(&self) -> String {
+        subtitle(&Setting {
+            choice: self.found.choice,
+            ..self.ask.setting.clone()
+        })
+    }
+
+    /// Points that are drawn: the worst of each handful, and the ends of every stretch.
+    fn shown(&self) -> Vec<usize> {
+        let points = &self.ask.track.points;
+        let handful = points.len().div_ceil(MOST_POINTS).max(1);
+        let size = |i: usize| {
+            self.found.answers.points[i]
+                .as_ref()
+                .map_or(0.0, |held| held.in_plane)
+        };
+        let mut shown = Vec::new();
+        for stretch in self.ask.stretches() {
+            shown.push(stretch.start);
+            let inner = stretch.start + 1..stretch.end.saturating_sub(1).max(stretch.start + 1);
+            for first in inner.clone().step_by(handful) {
+                let here = first..(first + handful).min(inner.end);
+                shown.extend(here.max_by(|a, b| size(*a).total_cmp(&size(*b))));
+            }
+            if stretch.end > stretch.start + 1 {
+                shown.push(stretch.end - 1);
+            }
+        }
+        shown
+    }
+
+    fn in_plane_um(&self, index: usize) -> f64 {
+        let point = &self.found.answers.points[index];
+        point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
+    }
+
+    fn track(&self, worst: &[WorstPoint]) -> String {
+        let points = &self.ask.track.points;
+        let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
+        let mut stretches: Vec<Stretch> = Vec::new();
+        let starts: Vec<usize> = self.ask.stretches().map(|stretch| stretch.start).collect();
+        for index in self.shown() {
+            if starts.binary_search(&index).is_ok() || stretches.is_empty() {
+                stretches.push(Stretch::default());
+            }
+            if let Some(stretch) = stretches.last_mut() {
+                stretch.points_mm.push(at(index));
+                stretch.deviation_um.push(self.in_plane_um(index));
+            }
+        }
+        let place = |line: u32, along_mm: f64| {
+            let same =
+                |i: &usize| points[*i].line == line && (points[*i].along * 1e3 - along_mm).abs() < 1e-6;
+            (0..points.len()).find(same)
+        };
+        let marker = |(i, worst): (usize, &WorstPoint)| {
+            place(worst.line, worst.along_mm).map(|index| Marker {
+                at_mm: at(index),
+                label: (i + 1).to_string(),
+                kind: MarkerKind::Point,
+            })
+        };
+        let picture = TrackMap {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            axes: AxisLabels {
+                horizontal: "program x (mm)".to_owned(),
+                vertical: "program y (mm)".to_owned(),
+            },
+            quantity: "deviation across the tool (µm)".to_owned(),
+            limit_um: Some(self.ask.setting.limit * 1e6),
+            stretches,
+            markers: worst.iter().enumerate().filter_map(marker).collect(),
+            ..TrackMap::default()
+        };
+        picture.to_svg()
+    }
+
+    fn along(&self) -> String {
+        let shown = self.shown();
+        let points = &self.ask.track.points;
+        let position: Vec<f64> = shown.iter().map(|i| points[*i].along * 1e3).collect();
+        let part = |name: &str, of: fn(armill_core::map::Parts) -> f64| Series {
+            name: name.to_owned(),
+            position: position.clone(),
+            deviation_um: shown
+                .iter()
+                .map(|i| match &self.found.answers.points[*i] {
+                    Ok(held) => {
+                        let deviation = self.found.answers.deviations_at(*i)[held.deciding_case];
+                        of(self.ask.track.parts(*i, &deviation)) * 1e6
+                    }
+                    Err(_) => f64::NAN,
+                })
+                .collect(),
+        };
+        let picture = PathPlot {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            position_label: "along the cuts (mm)".to_owned(),
+            quantity: "deviation (µm)".to_owned(),
+            series: vec![
+                part("along the track", |parts| parts.along),
+                part("across it, to the left", |parts| parts.cross),
+                part("along the tool", |parts| parts.normal),
+            ],
+            envelope: Some(Series {
+                name: "largest across the tool".to_owned(),
+                position,
+                deviation_um: shown.iter().map(|i| self.in_plane_um(*i)).collect(),
+            }),
+            limit_um: Some(self.ask.setting.limit * 1e6),
+        };
+        picture.to_svg()
+    }
+
+    fn arm(&self) -> Option<String> {
+        let (answers, track) = (&self.found.answers, &self.ask.track);
+        let (worst, _) = answers.worst()?;
+        let robot = &self.study.robot.robot;
+        let flange_from_tool = &self.ask.setting.flange_from_tool;
+        let stand = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
+        let ghosts = (0..GHOSTS)
+            .map(|k| k * track.points.len() / GHOSTS)
+            .filter(|i| answers.points[*i].is_ok());
+        let base =
+            |at: &Point3<f64>| -> [f64; 3] { ((track.placing.base_from_path * at).coords * 1e3).into() };
+        let drawing = ArmDrawing {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            posture: stand(worst),
+            ghosts: ghosts.map(stand).collect(),
+            plate_mm: Some(self.floor().map(|corner| base(&corner))),
+            path_mm: self.shown().iter().map(|i| base(&track.points[*i].at)).collect(),
+            view: View::Iso,
+        };
+        Some(drawing.to_svg_views(&[View::Iso, View::Side]))
+    }
+
+    /// Corners of the rectangle below the path, path axes.
+    fn floor(&self) -> [Point3<f64>; 4] {
+        let (mut low, mut high) = (Point3::from([f64::MAX; 3]), Point3::from([f64::MIN; 3]));
+        for point in &self.ask.track.points {
+            low = low.inf(&point.at);
+            high = high.sup(&point.at);
+        }
+        let corner = |x: f64, y: f64| Point3::new(x, y, low.z);
+        [
+            corner(low.x, low.y),
+            corner(high.x, low.y),
+            corner(high.x, high.y),
+            corner(low.x, high.y),
+        ]
+    }
+}
