@@ -7,7 +7,7 @@ use crate::levels::Levels;
 use crate::map::{Marker, MarkerKind, write_on_map};
 use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
 use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
-use crate::svg::{Rect, Style, Svg};
+use crate::svg::{Point, Rect, Style, Svg};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [620.0, 520.0];
@@ -123,15 +123,15 @@ impl TrackMap {
 
     /// Pieces of one colour after the other, the largest deviations last: nothing hides them.
     fn draw_path(&self, svg: &mut Svg, plane: &Plane, levels: &Levels) {
-        let lost = Style::line(MUTED, 1.2).dashed("2 3");
-        for line in self.pieces(None, levels) {
-            svg.polyline(&line.iter().map(|p| plane.at(*p)).collect::<Vec<_>>(), &lost);
-        }
-        for band in 0..levels.bands() {
-            let style = Style::line(levels.colour(band, self.scale), 2.2);
-            for line in self.pieces(Some(band), levels) {
-                svg.polyline(&line.iter().map(|p| plane.at(*p)).collect::<Vec<_>>(), &style);
+        let mut draw = |band: Option<usize>, style: &Style| {
+            for line in self.pieces(band, levels) {
+                let line: Vec<Point> = line.iter().map(|p| plane.at(*p)).collect();
+                svg.polyline(&without_straight(&line), style);
             }
+        };
+        draw(None, &Style::line(MUTED, 1.2).dashed("2 3"));
+        for band in 0..levels.bands() {
+            draw(Some(band), &Style::line(levels.colour(band, self.scale), 2.0));
         }
     }
 
@@ -185,6 +185,46 @@ impl TrackMap {
     }
 }
 
+/// Farthest that a point which is left out lies from the line drawn, px.
+const SEEN_PX: f64 = 0.25;
+
+/// A line without the points that nobody would miss: each kept point is joined to the farthest one for which all points
+/// between lie in a cone about the line.
+fn without_straight(line: &[Point]) -> Vec<Point> {
+    let mut kept: Vec<Point> = line.first().copied().into_iter().collect();
+    let mut cone: Option<(f64, f64)> = None;
+    for pair in line.windows(2) {
+        let Some(&[x, y]) = kept.last() else { break };
+        let [dx, dy] = [pair[1][0] - x, pair[1][1] - y];
+        let distance = dx.hypot(dy);
+        if distance <= SEEN_PX {
+            continue;
+        }
+        let (towards, half) = (dy.atan2(dx), (SEEN_PX / distance).asin());
+        cone = match cone {
+            None => Some((towards - half, towards + half)),
+            Some((low, high)) => {
+                // The same direction, told near the middle of the cone.
+                let turns = ((0.5 * (low + high) - towards) / std::f64::consts::TAU).round();
+                let towards = towards + turns * std::f64::consts::TAU;
+                let back = [pair[0][0] - x, pair[0][1] - y];
+                let goes_on = back[0].hypot(back[1]) <= distance;
+                if goes_on && towards >= low && towards <= high {
+                    Some((low.max(towards - half), high.min(towards + half)))
+                } else {
+                    kept.push(pair[0]);
+                    let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
+                    let distance = dx.hypot(dy).max(SEEN_PX);
+                    let (towards, half) = (dy.atan2(dx), (SEEN_PX / distance).asin());
+                    Some((towards - half, towards + half))
+                }
+            }
+        };
+    }
+    kept.extend(line.last().copied().filter(|_| line.len() > 1));
+    kept
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,6 +256,33 @@ mod tests {
             track.pieces(None, &levels),
             [vec![[20.0, 0.0], [30.0, 1.0], [40.0, 0.0]]]
         );
+    }
+
+    #[test]
+    fn points_on_a_straight_line_are_left_out_and_corners_are_kept() {
+        let there: Vec<Point> = (0..=1000).map(|i| [f64::from(i), 0.0]).collect();
+        let up: Vec<Point> = (1..=1000).map(|i| [1000.0, f64::from(i)]).collect();
+        let corner = without_straight(&[there.clone(), up].concat());
+        assert_eq!(corner, [[0.0, 0.0], [1000.0, 0.0], [1000.0, 1000.0]]);
+        // There and back again: the turning point stays.
+        let back: Vec<Point> = there.iter().rev().copied().collect();
+        let both = without_straight(&[there, back].concat());
+        assert!(both.contains(&[1000.0, 0.0]) && both.len() <= 4, "{both:?}");
+    }
+
+    #[test]
+    fn a_curve_keeps_within_a_quarter_of_a_pixel() {
+        let on = |i: u32| {
+            let phi = f64::from(i) * 1e-3;
+            [300.0 * phi.cos(), 300.0 * phi.sin()]
+        };
+        let line: Vec<Point> = (0..6000).map(on).collect();
+        let kept = without_straight(&line);
+        assert!(kept.len() < 200, "{}", kept.len());
+        for pair in kept.windows(2) {
+            let middle = [0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])];
+            assert!(300.0 - middle[0].hypot(middle[1]) < 2.0 * SEEN_PX);
+        }
     }
 
     #[test]

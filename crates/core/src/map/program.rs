@@ -4,7 +4,7 @@
 //! A program is followed in one posture: the branch is chosen once, from points spread over the path, so the arm does not
 //! change its elbow in the middle of a part.
 
-use nalgebra::{Rotation3, Vector3};
+use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::frame::Isometry;
 use crate::kernel::{Answers, BranchChoice, Question, Stop, evaluate_loaded};
@@ -58,6 +58,13 @@ impl Track {
             base_from_tool: self.placing.base_from_tool(point),
             normal: self.placing.spindle(point),
         }
+    }
+
+    /// The least and the greatest coordinates of its points, path axes, m.
+    pub fn corners(&self) -> [Point3<f64>; 2] {
+        let first = self.points.first().map_or_else(Point3::origin, |point| point.at);
+        let points = self.points.iter().map(|point| point.at);
+        points.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)])
     }
 
     /// A deviation (m, base) at point `index`, seen from the path.

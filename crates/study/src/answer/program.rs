@@ -109,8 +109,8 @@ pub struct WorstPoint {
 
 /// Points told as worst at most.
 const WORST: usize = 5;
-/// Part of the path that one of them stands for.
-const APART: f64 = 0.02;
+/// Part of the size of the path, corner to corner, that one of them stands for.
+const APART: f64 = 0.05;
 /// A joint that turns farther than this from one point to the next jumps, rad.
 const JUMP: f64 = 0.5;
 /// Jumps told at most.
@@ -305,7 +305,8 @@ impl Told<'_> {
     /// The worst point, then the worst of what is not near the ones before.
     fn worst_points(&self) -> Vec<WorstPoint> {
         let points = &self.track().points;
-        let apart = (APART * self.ask.length).max(f64::MIN_POSITIVE);
+        let [low, high] = self.ask.track.corners();
+        let apart = APART * (high - low).norm();
         let mut by_size: Vec<(usize, f64)> = self
             .found
             .answers
@@ -324,7 +325,7 @@ impl Told<'_> {
             if kept.len() == WORST {
                 break;
             }
-            let near = |other: &usize| (points[index].along - points[*other].along).abs() < apart;
+            let near = |other: &usize| (points[index].at - points[*other].at).norm() < apart;
             if !kept.iter().any(near) {
                 kept.push(index);
             }

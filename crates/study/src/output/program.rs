@@ -1,6 +1,6 @@
 //! Pictures of a tool path program: the path coloured by its deviation, the deviation along it, who is to blame, the arm.
 
-use armill_core::map::ProgramAnswer;
+use armill_core::map::{Parts, ProgramAnswer};
 use armill_core::nalgebra::Point3;
 use armill_report::{ArmDrawing, AxisLabels, Marker, MarkerKind, PathPlot, Series, Stretch, TrackMap, View};
 
@@ -11,8 +11,10 @@ use crate::answer::{PathResult, ProgramResult, WorstPoint};
 use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Setting, Study};
 
-/// Points that a picture of a path shows at most: each stands for the worst of those around it.
-const MOST_POINTS: usize = 6000;
+/// Points that a chart shows at most: of a longer path each stands for the largest deviations of those around it.
+const MOST_POINTS: usize = 1200;
+/// Points that the arm's picture has of the path at most.
+const MOST_IN_SPACE: usize = 20_000;
 
 /// The pictures of a program.
 pub(super) fn pictures(
@@ -89,30 +91,6 @@ impl Drawing<'_> {
         })
     }
 
-    /// Points that are drawn: the worst of each handful, and the ends of every stretch.
-    fn shown(&self) -> Vec<usize> {
-        let points = &self.ask.track.points;
-        let handful = points.len().div_ceil(MOST_POINTS).max(1);
-        let size = |i: usize| {
-            self.found.answers.points[i]
-                .as_ref()
-                .map_or(0.0, |held| held.in_plane)
-        };
-        let mut shown = Vec::new();
-        for stretch in self.ask.stretches() {
-            shown.push(stretch.start);
-            let inner = stretch.start + 1..stretch.end.saturating_sub(1).max(stretch.start + 1);
-            for first in inner.clone().step_by(handful) {
-                let here = first..(first + handful).min(inner.end);
-                shown.extend(here.max_by(|a, b| size(*a).total_cmp(&size(*b))));
-            }
-            if stretch.end > stretch.start + 1 {
-                shown.push(stretch.end - 1);
-            }
-        }
-        shown
-    }
-
     fn in_plane_um(&self, index: usize) -> f64 {
         let point = &self.found.answers.points[index];
         point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
@@ -121,17 +99,11 @@ impl Drawing<'_> {
     fn track(&self, worst: &[WorstPoint]) -> String {
         let points = &self.ask.track.points;
         let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
-        let mut stretches: Vec<Stretch> = Vec::new();
-        let starts: Vec<usize> = self.ask.stretches().map(|stretch| stretch.start).collect();
-        for index in self.shown() {
-            if starts.binary_search(&index).is_ok() || stretches.is_empty() {
-                stretches.push(Stretch::default());
-            }
-            if let Some(stretch) = stretches.last_mut() {
-                stretch.points_mm.push(at(index));
-                stretch.deviation_um.push(self.in_plane_um(index));
-            }
-        }
+        let stretch = |range: std::ops::Range<usize>| Stretch {
+            points_mm: range.clone().map(at).collect(),
+            deviation_um: range.map(|i| self.in_plane_um(i)).collect(),
+        };
+        let stretches = self.ask.stretches().map(stretch).collect();
         let place = |line: u32, along_mm: f64| {
             let same =
                 |i: &usize| points[*i].line == line && (points[*i].along * 1e3 - along_mm).abs() < 1e-6;
@@ -160,38 +132,54 @@ impl Drawing<'_> {
         picture.to_svg()
     }
 
+    /// Of a path too long for a chart the largest sizes of each handful of points.
     fn along(&self) -> String {
-        let shown = self.shown();
         let points = &self.ask.track.points;
-        let position: Vec<f64> = shown.iter().map(|i| points[*i].along * 1e3).collect();
-        let part = |name: &str, of: fn(armill_core::map::Parts) -> f64| Series {
+        let handful = points.len().div_ceil(MOST_POINTS).max(1);
+        let largest = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let sizes = |first: usize| first..(first + handful).min(points.len());
+            (0..points.len())
+                .step_by(handful)
+                .map(|first| match handful {
+                    1 => of(first),
+                    _ => sizes(first).map(|i| of(i).abs()).fold(f64::NAN, f64::max),
+                })
+                .collect()
+        };
+        let position: Vec<f64> = points.iter().step_by(handful).map(|p| p.along * 1e3).collect();
+        let part = |name: &str, of: fn(Parts) -> f64| Series {
             name: name.to_owned(),
             position: position.clone(),
-            deviation_um: shown
-                .iter()
-                .map(|i| match &self.found.answers.points[*i] {
-                    Ok(held) => {
-                        let deviation = self.found.answers.deviations_at(*i)[held.deciding_case];
-                        of(self.ask.track.parts(*i, &deviation)) * 1e6
-                    }
-                    Err(_) => f64::NAN,
-                })
-                .collect(),
+            deviation_um: largest(&|i| match &self.found.answers.points[i] {
+                Ok(held) => {
+                    let deviation = self.found.answers.deviations_at(i)[held.deciding_case];
+                    of(self.ask.track.parts(i, &deviation)) * 1e6
+                }
+                Err(_) => f64::NAN,
+            }),
+        };
+        let quantity = match handful {
+            1 => "deviation (µm)",
+            _ => "size of the deviation (µm)",
+        };
+        let across = match handful {
+            1 => "across it, to the left",
+            _ => "across it",
         };
         let picture = PathPlot {
             title: self.told.name.clone(),
             subtitle: self.subtitle(),
             position_label: "along the cuts (mm)".to_owned(),
-            quantity: "deviation (µm)".to_owned(),
+            quantity: quantity.to_owned(),
             series: vec![
                 part("along the track", |parts| parts.along),
-                part("across it, to the left", |parts| parts.cross),
+                part(across, |parts| parts.cross),
                 part("along the tool", |parts| parts.normal),
             ],
             envelope: Some(Series {
                 name: "largest across the tool".to_owned(),
+                deviation_um: largest(&|i| self.in_plane_um(i)),
                 position,
-                deviation_um: shown.iter().map(|i| self.in_plane_um(*i)).collect(),
             }),
             limit_um: Some(self.ask.setting.limit * 1e6),
         };
@@ -207,6 +195,7 @@ impl Drawing<'_> {
         let ghosts = (0..GHOSTS)
             .map(|k| k * track.points.len() / GHOSTS)
             .filter(|i| answers.points[*i].is_ok());
+        let stride = track.points.len().div_ceil(MOST_IN_SPACE).max(1);
         let base =
             |at: &Point3<f64>| -> [f64; 3] { ((track.placing.base_from_path * at).coords * 1e3).into() };
         let drawing = ArmDrawing {
@@ -215,7 +204,7 @@ impl Drawing<'_> {
             posture: stand(worst),
             ghosts: ghosts.map(stand).collect(),
             plate_mm: Some(self.floor().map(|corner| base(&corner))),
-            path_mm: self.shown().iter().map(|i| base(&track.points[*i].at)).collect(),
+            path_mm: track.points.iter().step_by(stride).map(|p| base(&p.at)).collect(),
             view: View::Iso,
         };
         Some(drawing.to_svg_views(&[View::Iso, View::Side]))
@@ -223,11 +212,7 @@ impl Drawing<'_> {
 
     /// Corners of the rectangle below the path, path axes.
     fn floor(&self) -> [Point3<f64>; 4] {
-        let (mut low, mut high) = (Point3::from([f64::MAX; 3]), Point3::from([f64::MIN; 3]));
-        for point in &self.ask.track.points {
-            low = low.inf(&point.at);
-            high = high.sup(&point.at);
-        }
+        let [low, high] = self.ask.track.corners();
         let corner = |x: f64, y: f64| Point3::new(x, y, low.z);
         [
             corner(low.x, low.y),
