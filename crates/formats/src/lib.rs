@@ -3,6 +3,7 @@
 //! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in: our robot file, URDF.
+//! - [`material`]: what materials take to cut: our material file.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
@@ -10,5 +11,6 @@
 
 pub mod document;
 pub mod file;
+pub mod material;
 pub mod robot;
 pub mod table;
