@@ -7,6 +7,10 @@ use super::mechanistic::Mechanistic;
 
 /// Force of an edge over the thickness of its chip.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "a law is copied once a cut; a box would cost more than its covariance"
+)]
 pub enum CuttingLaw {
     /// Linear in the chip, with a force of the edge.
     Mechanistic(Mechanistic),
