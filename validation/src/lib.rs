@@ -29,6 +29,8 @@ mod mh12_fractions;
 mod mh12_readings;
 #[path = "../mh12-regression/case.rs"]
 mod mh12_regression;
+#[path = "../milling-mean-force/case.rs"]
+mod milling_mean_force;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
 #[path = "../tx200-compliance/case.rs"]
@@ -56,6 +58,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "force-to-deflection",
         checks: force_to_deflection::checks,
+    },
+    Case {
+        folder: "milling-mean-force",
+        checks: milling_mean_force::checks,
     },
     Case {
         folder: "fanuc-rows",

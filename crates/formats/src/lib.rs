@@ -3,6 +3,7 @@
 //! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in: our robot file, URDF.
+//! - [`material`]: what materials take to cut: our material file.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`measurement`]: measured forces in.
@@ -12,6 +13,7 @@
 
 pub mod document;
 pub mod file;
+pub mod material;
 pub mod measurement;
 pub mod robot;
 pub mod table;

@@ -1,6 +1,7 @@
-//! The robot library and the example studies, embedded: every command works from an empty folder.
+//! The robot and material libraries and the example studies, embedded: every command works from an empty folder.
 
 use armill_formats::document::Problems;
+use armill_formats::material::{self, Material};
 use armill_formats::robot::{RobotDescription, armill};
 
 /// A text file that travels inside the program.
@@ -56,6 +57,52 @@ pub const ROBOTS: &[Embedded] = embedded![
     "yaskawa/mh50" in "robots/yaskawa/mh50.toml",
 ];
 
+/// Every material of the library.
+pub const MATERIALS: &[Embedded] = embedded![
+    "aluminium-6061-t6" in "materials/aluminium-6061-t6.toml",
+    "aluminium-6082-t6" in "materials/aluminium-6082-t6.toml",
+    "aluminium-7075-t6" in "materials/aluminium-7075-t6.toml",
+    "aluminium-almgsi0.5" in "materials/aluminium-almgsi0.5.toml",
+    "aluminium-cast-high-silicon" in "materials/aluminium-cast-high-silicon.toml",
+    "aluminium-cast-low-silicon" in "materials/aluminium-cast-low-silicon.toml",
+    "aluminium-cast-low-silicon-cured" in "materials/aluminium-cast-low-silicon-cured.toml",
+    "aluminium-wrought" in "materials/aluminium-wrought.toml",
+    "aluminium-wrought-cured" in "materials/aluminium-wrought-cured.toml",
+    "aluminium-wrought-not-cured" in "materials/aluminium-wrought-not-cured.toml",
+    "brass" in "materials/brass.toml",
+    "cast-iron-grey" in "materials/cast-iron-grey.toml",
+    "cast-iron-grey-180-hb" in "materials/cast-iron-grey-180-hb.toml",
+    "cast-iron-grey-260-hb" in "materials/cast-iron-grey-260-hb.toml",
+    "cast-iron-malleable-ferritic" in "materials/cast-iron-malleable-ferritic.toml",
+    "cast-iron-malleable-pearlitic" in "materials/cast-iron-malleable-pearlitic.toml",
+    "cast-iron-nodular-ferritic" in "materials/cast-iron-nodular-ferritic.toml",
+    "cast-iron-nodular-pearlitic" in "materials/cast-iron-nodular-pearlitic.toml",
+    "copper-electrolytic" in "materials/copper-electrolytic.toml",
+    "copper-free-cutting" in "materials/copper-free-cutting.toml",
+    "stainless-austenitic" in "materials/stainless-austenitic.toml",
+    "stainless-ferritic" in "materials/stainless-ferritic.toml",
+    "stainless-martensitic" in "materials/stainless-martensitic.toml",
+    "steel-high-carbon-annealed" in "materials/steel-high-carbon-annealed.toml",
+    "steel-high-carbon-quenched" in "materials/steel-high-carbon-quenched.toml",
+    "steel-low-alloy" in "materials/steel-low-alloy.toml",
+    "steel-low-alloy-275-hb" in "materials/steel-low-alloy-275-hb.toml",
+    "steel-low-alloy-300-hb" in "materials/steel-low-alloy-300-hb.toml",
+    "steel-low-alloy-350-hb" in "materials/steel-low-alloy-350-hb.toml",
+    "steel-low-alloy-annealed" in "materials/steel-low-alloy-annealed.toml",
+    "steel-tool-annealed" in "materials/steel-tool-annealed.toml",
+    "steel-tool-quenched" in "materials/steel-tool-quenched.toml",
+    "steel-unalloyed-annealed" in "materials/steel-unalloyed-annealed.toml",
+    "steel-unalloyed-low-carbon" in "materials/steel-unalloyed-low-carbon.toml",
+    "steel-unalloyed-quenched" in "materials/steel-unalloyed-quenched.toml",
+    "superalloy-iron-annealed" in "materials/superalloy-iron-annealed.toml",
+    "superalloy-iron-cured" in "materials/superalloy-iron-cured.toml",
+    "superalloy-nickel-annealed" in "materials/superalloy-nickel-annealed.toml",
+    "superalloy-nickel-cast" in "materials/superalloy-nickel-cast.toml",
+    "superalloy-nickel-cured" in "materials/superalloy-nickel-cured.toml",
+    "titanium-alpha-beta" in "materials/titanium-alpha-beta.toml",
+    "titanium-pure" in "materials/titanium-pure.toml",
+];
+
 /// Every example study.
 pub const STUDIES: &[Embedded] = embedded![
     "mh12-groove" in "studies/mh12-groove/study.toml",
@@ -69,6 +116,15 @@ pub const STUDIES: &[Embedded] = embedded![
 pub fn robot(name: &str) -> Option<Result<RobotDescription, Problems>> {
     let entry = ROBOTS.iter().find(|robot| robot.name == name)?;
     Some(armill::read(entry.path, entry.name, entry.text))
+}
+
+/// The library material of this name; `None` if there is none.
+///
+/// # Errors
+/// The problems of an embedded file: a defect of the library.
+pub fn material(name: &str) -> Option<Result<Material, Problems>> {
+    let entry = MATERIALS.iter().find(|material| material.name == name)?;
+    Some(material::read(entry.path, entry.text))
 }
 
 /// The name in the library that is most like `name`, if any is.
@@ -98,6 +154,37 @@ mod tests {
             let read = robot(entry.name).unwrap();
             assert!(read.is_ok(), "{}", read.unwrap_err());
         }
+    }
+
+    #[test]
+    fn every_embedded_material_reads_and_has_its_file_as_name() {
+        for entry in MATERIALS {
+            let read = material(entry.name).unwrap();
+            assert!(read.is_ok(), "{}", read.unwrap_err());
+            assert_eq!(entry.path, format!("materials/{}.toml", entry.name));
+        }
+        assert!(material("cheese").is_none());
+    }
+
+    #[test]
+    fn sets_of_7075_spread_and_one_of_6082_does_not() {
+        let law = |name: &str| material(name).unwrap().unwrap().mechanistic();
+        let spread = law("aluminium-7075-t6").unwrap();
+        assert_eq!(spread.sets, 3);
+        let (mean, u) = (
+            spread.law.coefficients()[0],
+            spread.law.covariance()[(0, 0)].sqrt(),
+        );
+        // 767.01, 951.365 and 1319.41 N/mm2: 1012.60 with a standard deviation of 281.24.
+        assert!(
+            (mean * 1e-6 - 1012.595).abs() < 1e-9 && (u * 1e-6 - 281.24).abs() < 0.01,
+            "{mean} {u}"
+        );
+        assert_eq!(law("aluminium-6082-t6").unwrap().sets, 1);
+        assert!(
+            law("aluminium-6061-t6").is_none(),
+            "its set has no axial coefficients"
+        );
     }
 
     #[test]

@@ -2,11 +2,38 @@
 //!
 //! [`cases`]: a set of given wrenches, the same at every point. [`along`]: wrenches that turn with the feed, or change
 //! from point to point. [`doubt`]: how sure they are.
+//!
+//! What a cut pushes with: [`cutter`] (the edge), [`engagement`] and [`arc`] (where and how thick it cuts),
+//! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either), [`milling`] (force at an angle of the spindle
+//! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
+//! its way).
 
 pub mod along;
+pub mod arc;
 pub mod cases;
+pub mod cutter;
 pub mod doubt;
+pub mod drilling;
+pub mod engagement;
+pub mod error;
+pub mod kienzle;
+pub mod law;
+pub mod mean;
+pub mod mechanistic;
+pub mod milling;
+pub mod process;
+
+mod quadrature;
 
 pub use along::PathLoad;
 pub use cases::{LoadCases, LoadFrame};
+pub use cutter::{Cutter, Hand, Runout};
 pub use doubt::Doubt;
+pub use engagement::{Engagement, Immersion};
+pub use error::CuttingError;
+pub use kienzle::{Estimate, Kienzle, KienzleValues};
+pub use law::CuttingLaw;
+pub use mean::MeanForce;
+pub use mechanistic::Mechanistic;
+pub use milling::{Cut, Milling, Peak};
+pub use process::{Advance, CuttingForce, FeedFrame, Process};

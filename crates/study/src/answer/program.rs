@@ -110,7 +110,7 @@ pub struct WorstPoint {
 /// Points told as worst at most.
 const WORST: usize = 5;
 /// Part of the size of the path, corner to corner, that one of them stands for.
-const APART: f64 = 0.05;
+const APART: f64 = 0.1;
 /// A joint that turns farther than this from one point to the next jumps, rad.
 const JUMP: f64 = 0.5;
 /// Jumps told at most.

@@ -1,0 +1,219 @@
+//! Engagement: where round the tool its teeth meet the part, and how thick their chips are.
+//!
+//! Seen from the spindle, feed upwards on this page:
+//!
+//!                 x, feed                     phi counts clockwise, as the spindle turns, from the left (+y).
+//!               phi = 90 deg                  A tooth in front of the tool (0 to 180 deg) makes a chip of
+//!                   |                         c sin(phi): none at the sides, most straight ahead.
+//!       y  phi = 0 -+- phi = 180 deg
+//!                   |                         Part on the left: teeth enter at 0, thin chip first: up-milling.
+//!                  tool                       Part on the right: teeth leave at 180 deg: down-milling.
+//!
+//! The part fills a strip in front of the tool, told by where it lies to the left of the axis. At the radius `R` of a
+//! point of the edge `y = R cos(phi)`, so
+//!
+//!     up:       entry = 0                       exit = acos((R - ae)/R)
+//!     down:     entry = 180 deg - that          exit = 180 deg
+//!     centred:  entry = acos(ae/(2 R))          exit = 180 deg - entry
+//!     c = f / (n N) = 2 pi v / (omega N)        h = c sin(phi),   mean h = c (cos entry - cos exit)/(exit - entry)
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `phi` | immersion angle of a tooth | rad |
+//! | `ae` | radial depth of cut | m |
+//! | `c` | feed per tooth | m |
+//! | `v`, `omega`, `N` | feed speed, spindle speed, number of flutes | m/s, rad/s, - |
+//! | `h` | chip thickness | m |
+//!
+//! Teeth run on circles: the trochoid that they really run on changes the chip by about `c/(2 pi R)` of itself.
+//!
+//! Source: plane geometry; `docs/theory/cutting.md`.
+
+use std::f64::consts::{PI, TAU};
+
+use super::arc::Arc;
+use super::error::{CuttingError, within};
+
+/// How the tool meets the part, seen along the feed; the spindle turns clockwise.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Immersion {
+    /// Part on the left of the feed, radial depth (m): chips begin thin.
+    Up(f64),
+    /// Part on the right of the feed, radial depth (m): chips end thin.
+    Down(f64),
+    /// A strip of this width (m) in the middle of the tool.
+    Centred(f64),
+    /// The whole width of the tool.
+    Slot,
+}
+
+/// The strip of part that the tool moves into, by its distances to the left of the tool axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Engagement {
+    /// Where it begins on the right, m; negative right of the axis.
+    right: f64,
+    /// Where it ends on the left, m.
+    left: f64,
+}
+
+impl Engagement {
+    /// The engagement of a tool of this `diameter` (m).
+    ///
+    /// # Errors
+    /// A radial depth that is not above zero or beyond the diameter.
+    pub fn of(immersion: Immersion, diameter: f64) -> Result<Engagement, CuttingError> {
+        let radius = diameter / 2.0;
+        let depth = |ae: f64| {
+            // The least positive number: no cut at all is no engagement.
+            within("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
+        };
+        Ok(match immersion {
+            Immersion::Up(ae) => Engagement {
+                right: radius - depth(ae)?,
+                left: radius,
+            },
+            Immersion::Down(ae) => Engagement {
+                right: -radius,
+                left: depth(ae)? - radius,
+            },
+            Immersion::Centred(ae) => Engagement {
+                right: -depth(ae)? / 2.0,
+                left: ae / 2.0,
+            },
+            Immersion::Slot => Engagement {
+                right: -radius,
+                left: radius,
+            },
+        })
+    }
+
+    /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
+    pub fn arc_at(&self, radius: f64) -> Option<Arc> {
+        let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
+        let beside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
+        let arc = (!beside).then(|| Arc {
+            entry: angle(self.left),
+            exit: angle(self.right),
+        })?;
+        (arc.exit > arc.entry).then_some(arc)
+    }
+
+    /// The radii at which the arc begins to depend on them, or ceases to: there it has a kink.
+    pub(super) fn kinks(&self) -> [f64; 2] {
+        [self.right.abs(), self.left.abs()]
+    }
+}
+
+/// Feed per tooth (m) from feed speed (m/s), spindle speed (rad/s) and number of flutes.
+///
+/// # Errors
+/// A spindle that stands still or turns backwards, a negative feed, no flute.
+pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, CuttingError> {
+    within("feed speed", feed, [0.0, f64::MAX], "m/s")?;
+    within("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
+    within("number of flutes", f64::from(flutes), [1.0, f64::MAX], "")?;
+    within(
+        "feed per tooth",
+        feed * TAU / (spindle * f64::from(flutes)),
+        [0.0, f64::MAX],
+        "m",
+    )
+}
+
+/// Mean chip thickness over the arc, at the feed per tooth `c` (m): m.
+pub fn mean_chip(arc: Arc, c: f64) -> f64 {
+    c * (arc.entry.cos() - arc.exit.cos()) / (arc.exit - arc.entry)
+}
+
+/// Greatest chip thickness in the arc, at the feed per tooth `c` (m): m.
+pub fn greatest_chip(arc: Arc, c: f64) -> f64 {
+    let ahead = PI / 2.0;
+    c * ahead.clamp(arc.entry, arc.exit).sin()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MM: f64 = 1e-3;
+
+    fn arc_deg(immersion: Immersion, diameter: f64) -> [f64; 2] {
+        let arc = Engagement::of(immersion, diameter)
+            .unwrap()
+            .arc_at(diameter / 2.0)
+            .unwrap();
+        [arc.entry.to_degrees(), arc.exit.to_degrees()]
+    }
+
+    #[test]
+    fn angles_of_the_published_cut() {
+        // D 16 mm, ae 5 mm: acos(3/8) = 67.9757 deg, printed to four decimals.
+        let [entry, exit] = arc_deg(Immersion::Up(5.0 * MM), 16.0 * MM);
+        assert!(entry == 0.0 && (exit - 67.9757).abs() < 5e-5, "{entry} {exit}");
+        let [entry, exit] = arc_deg(Immersion::Down(5.0 * MM), 16.0 * MM);
+        assert!((entry - 112.0243).abs() < 5e-5 && exit == 180.0, "{entry} {exit}");
+    }
+
+    #[test]
+    fn full_depth_from_either_side_is_a_slot() {
+        for immersion in [
+            Immersion::Up(0.01),
+            Immersion::Down(0.01),
+            Immersion::Centred(0.01),
+            Immersion::Slot,
+        ] {
+            assert_eq!(arc_deg(immersion, 0.01), [0.0, 180.0], "{immersion:?}");
+        }
+    }
+
+    #[test]
+    fn a_centred_strip_of_half_the_width_is_cut_from_60_to_120_deg() {
+        let [entry, exit] = arc_deg(Immersion::Centred(5.0 * MM), 10.0 * MM);
+        assert!((entry - 60.0).abs() < 1e-12 && (exit - 120.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn points_near_the_axis_pass_beside_a_shallow_strip() {
+        let up = Engagement::of(Immersion::Up(MM), 10.0 * MM).unwrap();
+        assert_eq!(up.arc_at(3.9 * MM), None);
+        assert!(up.arc_at(4.1 * MM).is_some());
+        let down = Engagement::of(Immersion::Down(MM), 10.0 * MM).unwrap();
+        assert_eq!(down.arc_at(3.9 * MM), None);
+        // More than half: points near the axis are in the part all the way.
+        let deep = Engagement::of(Immersion::Up(7.0 * MM), 10.0 * MM).unwrap();
+        assert_eq!(deep.arc_at(MM), Some(Arc { entry: 0.0, exit: PI }));
+    }
+
+    #[test]
+    fn feed_per_tooth_of_the_published_cut() {
+        // 40 mm/s, 3333 rpm, 4 teeth: 0.180018 mm, printed to six decimals.
+        let spindle = 3333.0 * TAU / 60.0;
+        let c = feed_per_tooth(40.0 * MM, spindle, 4).unwrap();
+        assert!((c / MM - 0.180018).abs() < 5e-7);
+        assert!(feed_per_tooth(40.0 * MM, 0.0, 4).is_err());
+        assert!(feed_per_tooth(-1.0, spindle, 4).is_err());
+        assert!(feed_per_tooth(f64::MAX, f64::MIN_POSITIVE, 1).is_err());
+    }
+
+    #[test]
+    fn chips_of_a_slot() {
+        let slot = Engagement::of(Immersion::Slot, 0.01)
+            .unwrap()
+            .arc_at(0.005)
+            .unwrap();
+        // The mean of a sine over half a turn is 2/pi.
+        assert!((mean_chip(slot, 1.0) - 2.0 / PI).abs() < 1e-15);
+        assert_eq!(greatest_chip(slot, 1.0), 1.0);
+        let quarter = Engagement::of(Immersion::Up(2.5 * MM), 0.01).unwrap();
+        let arc = quarter.arc_at(0.005).unwrap();
+        // Exit at 60 deg, before the thickest chip of a slot.
+        assert!((greatest_chip(arc, 1.0) - 60_f64.to_radians().sin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn no_depth_and_too_much_depth_are_refused() {
+        for ae in [0.0, -MM, 10.1 * MM, f64::INFINITY] {
+            assert!(Engagement::of(Immersion::Up(ae), 10.0 * MM).is_err(), "{ae}");
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! The mean milling force over a revolution, and how sure it is.
+//!
+//! Every point of an edge passes all angles alike, so the helix drops out:
+//!
+//!     F = N/(2 pi) integral over db integral from entry to exit of dF(phi) dphi
+//!
+//! Under a linear law without runout the integral over `phi` is closed, and so is all of it for a flat end mill; along
+//! a rounded corner it is summed over 16 nodes between the points where the arc has a kink. Kienzle's law takes 16
+//! nodes in `phi` too. The force is linear in the coefficients `k`, so `F = M k` and
+//!
+//!     cov F = M S M^T            S: covariance of the coefficients (Kienzle: M by differentiation)
+//!
+//! What a revolution cuts does not depend on runout: teeth share the same `N c` otherwise. So the shear part of the
+//! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs.
+//!
+//! Source: integrals of [`super::milling`]; `docs/theory/cutting.md`.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Matrix3, SMatrix, Vector3};
+
+use super::arc::Moments;
+use super::cutter::EdgePoint;
+use super::law::CuttingLaw;
+use super::milling::Milling;
+use super::quadrature::{nodes_between_powers, nodes_from_root};
+
+/// The mean force on the tool.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanForce {
+    /// N, feed frame.
+    pub force: Vector3<f64>,
+    /// N², feed frame: from the coefficients of the cutting law alone.
+    pub covariance: Matrix3<f64>,
+}
+
+/// A force and its derivatives by the parameters of the law.
+#[derive(Clone, Copy)]
+struct Sum {
+    force: Vector3<f64>,
+    by_parameters: SMatrix<f64, 3, 6>,
+}
+
+/// Steps over the arc where teeth differ by runout.
+const STEPS_WITH_RUNOUT: u32 = 256;
+
+impl Milling {
+    /// The mean force over a revolution.
+    pub fn mean(&self) -> MeanForce {
+        let mut sum = Sum {
+            force: Vector3::zeros(),
+            by_parameters: SMatrix::zeros(),
+        };
+        if self.teeth_cut_alike() {
+            self.add_corner(&mut sum);
+            self.add_cylinder(&mut sum);
+            sum = sum.scaled(f64::from(self.cutter.flutes()) / TAU);
+        } else {
+            self.add_each_tooth(&mut sum);
+            sum = sum.scaled(1.0 / TAU);
+        }
+        MeanForce {
+            force: sum.force,
+            covariance: sum.by_parameters * self.law.covariance() * sum.by_parameters.transpose(),
+        }
+    }
+
+    /// Whether the mean is that of a true tool: no runout, or a law for which sharing chips otherwise changes nothing.
+    fn teeth_cut_alike(&self) -> bool {
+        let ploughs = match &self.law {
+            CuttingLaw::Mechanistic(law) => law.coefficients().fixed_rows::<3>(3).amax() > 0.0,
+            CuttingLaw::Kienzle(_) => true,
+        };
+        // Lifted off by a ramp, an edge stops cutting: what is left behind is then shared otherwise.
+        self.cutter.runout().offset == 0.0 || (!ploughs && self.cut.rise <= 0.0)
+    }
+
+    fn add_cylinder(&self, sum: &mut Sum) {
+        let straight = self.cut.depth - self.cutter.corner_radius();
+        if straight > 0.0 {
+            self.add_slice(&self.cutter.at_height(self.cut.depth), straight, sum);
+        }
+    }
+
+    fn add_corner(&self, sum: &mut Sum) {
+        let r = self.cutter.corner_radius();
+        if r == 0.0 {
+            return;
+        }
+        let end = self.cutter.corner_end(self.cut.depth);
+        let mut from = 0.0;
+        for kink in self.kinks(end) {
+            for (kappa, weight) in nodes_from_root(from, kink) {
+                self.add_slice(&self.cutter.in_corner(kappa), r * weight, sum);
+            }
+            from = kink;
+        }
+    }
+
+    /// Axial immersion angles at which pieces of the corner end, rising, the last of them `end`.
+    fn kinks(&self, end: f64) -> [f64; 4] {
+        let r = self.cutter.corner_radius();
+        let begin_of_corner = self.cutter.radius() - r;
+        let at_radius = |radius: f64| ((radius - begin_of_corner) / r).clamp(0.0, 1.0).asin();
+        let [a, b] = self.cut.engagement.kinks().map(at_radius);
+        // Below this angle a rising edge lifts off.
+        let lifts = self.cut.rise.max(0.0).atan2(self.cut.feed);
+        let mut kinks = [a, b, lifts, end].map(|kappa| kappa.min(end));
+        kinks.sort_by(f64::total_cmp);
+        kinks
+    }
+
+    /// Adds what a slice of chip width `width` gives over its arc.
+    fn add_slice(&self, point: &EdgePoint, width: f64, sum: &mut Sum) {
+        let chip = self.chip(point);
+        let arc = self.cut.engagement.arc_at(point.radius);
+        let Some(arc) = arc.and_then(|arc| chip.cut_part(arc)) else {
+            return;
+        };
+        match &self.law {
+            CuttingLaw::Mechanistic(law) => {
+                let hand = self.cutter.hand();
+                let [edge, shear] = arc
+                    .moments(chip)
+                    .map(|moments| moments.directions(point, hand) * width);
+                let k = law.coefficients();
+                sum.force += shear * k.fixed_rows::<3>(0) + edge * k.fixed_rows::<3>(3);
+                let mut by_shear = sum.by_parameters.fixed_view_mut::<3, 3>(0, 0);
+                by_shear += shear;
+                let mut by_edge = sum.by_parameters.fixed_view_mut::<3, 3>(0, 3);
+                by_edge += edge;
+            }
+            CuttingLaw::Kienzle(_) => {
+                for (phi, weight) in nodes_between_powers(arc.entry, arc.exit) {
+                    self.add_point(point, (phi, chip.at(phi)), width * weight, sum);
+                }
+            }
+        }
+    }
+
+    /// Adds every tooth by itself, over the arc in even steps.
+    fn add_each_tooth(&self, sum: &mut Sum) {
+        for (point, width) in self.slices() {
+            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
+                continue;
+            };
+            let step = (arc.exit - arc.entry) / f64::from(STEPS_WITH_RUNOUT);
+            for tooth in 0..self.cutter.flutes() {
+                for index in 0..STEPS_WITH_RUNOUT {
+                    let phi = arc.entry + (f64::from(index) + 0.5) * step;
+                    let h = self.chip_of_tooth(tooth, &point, phi);
+                    if h >= 0.0 {
+                        self.add_point(&point, (phi, h), width * step, sum);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds an edge at the angle `phi` with the chip `h`, times `weight`.
+    fn add_point(&self, point: &EdgePoint, (phi, h): (f64, f64), weight: f64, sum: &mut Sum) {
+        let directions = Moments::at(phi).directions(point, self.cutter.hand()) * weight;
+        sum.force += directions * self.law.force(h);
+        sum.by_parameters += directions * self.law.derivatives(h);
+    }
+}
+
+impl Sum {
+    fn scaled(self, factor: f64) -> Sum {
+        Sum {
+            force: self.force * factor,
+            by_parameters: self.by_parameters * factor,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,277 @@
+//! Milling force on the tool at an angle of the spindle, over a revolution, and at its greatest.
+//!
+//! Every tooth that meets the part pushes with `dFt` against its way, `dFr` along the inward normal of the body and
+//! `dFa` along its profile to the tip (`s` = 1 for a right-hand helix, -1 for a left-hand one):
+//!
+//!     dFx = -dFt cos(phi) - (dFr sin(kappa) + s dFa cos(kappa)) sin(phi)
+//!     dFy =  dFt sin(phi) - (dFr sin(kappa) + s dFa cos(kappa)) cos(phi)
+//!     dFz =  dFr cos(kappa) - s dFa sin(kappa)
+//!     phi = spindle angle - j 2 pi/N - psi(z)          h = c sin(phi) sin(kappa) - c_z cos(kappa)
+//!
+//! **Signs.** The force acts **on the tool**; the part feels the opposite. Feed frame: x along the feed of the tool, z
+//! from part to spindle, y to the left. Picture, seen from the spindle, feed to the right of this page, slot:
+//!
+//!        y  |    <- tooth at phi = 0 moves to the right   In front of the tool (phi = 90 deg) the tooth moves down the
+//!           |   ( tool )  ---> x, feed                    page, to -y: the part pushes the tool to +y by Ft, and back
+//!           |      turns clockwise                        to -x by Fr.
+//!
+//! So a slot pushes the tool back and to the left; up-milling (part on the left) pushes it back, down-milling (part on
+//! the right) pushes it away from the part, to the left. A right-hand helix draws it to the part (-z).
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `phi` | immersion angle of a point of an edge, clockwise from +y | rad |
+//! | `kappa`, `psi` | axial immersion angle and lag, see [`super::cutter`] | rad |
+//! | `c`, `c_z` | feed per tooth across the tool axis, and along it to the spindle | m |
+//! | `h`, `db` | chip thickness; chip width, the length of the profile | m |
+//! | `rho_j` | how far tooth `j` stands out by runout | m |
+//!
+//! With runout a tooth cuts what the teeth before it left, so one that cuts nothing leaves its chip to the next:
+//! `h = min over m of (m c sin(phi) sin(kappa) + (rho_j - rho_(j-m)) sin(kappa) - m c_z cos(kappa))`, `m` from 1 to `N`.
+//!
+//! Where the engagement of a ramp differs from that of the level cut, and what edges on the bottom do, is left out.
+//!
+//! Source: Altintas, Manufacturing Automation; Engin and Altintas 2001 for general end mills [both recalled]; the
+//! signs are derived in `docs/theory/cutting.md` and tested here.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use super::arc::{Arc, Chip, Moments};
+use super::cutter::{Cutter, EdgePoint};
+use super::engagement::Engagement;
+use super::error::{CuttingError, within};
+use super::law::CuttingLaw;
+use super::mechanistic::Mechanistic;
+
+/// What is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// Axial depth, m.
+    pub depth: f64,
+    /// Where round the tool.
+    pub engagement: Engagement,
+    /// Feed per tooth across the tool axis, m.
+    pub feed: f64,
+    /// Feed per tooth along the tool axis to the spindle, m; negative on a ramp down.
+    pub rise: f64,
+}
+
+/// A cutter in a cut, under a cutting law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Milling {
+    pub(super) cutter: Cutter,
+    pub(super) law: CuttingLaw,
+    pub(super) cut: Cut,
+}
+
+/// The greatest force of a revolution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// The force of greatest length, N, feed frame.
+    pub force: Vector3<f64>,
+    /// Of each component its value of greatest size, N; they need not act together.
+    pub components: Vector3<f64>,
+}
+
+/// Deepest cut in diameters: it bounds how often a helix winds round.
+const MOST_DEPTH_IN_DIAMETERS: f64 = 100.0;
+/// Largest feed per tooth in diameters: beyond it the circles of the teeth no longer overlap.
+const MOST_FEED_IN_DIAMETERS: f64 = 1.0;
+/// Slices of the corner, and of the cylinder, where forces are summed.
+const SLICES: u32 = 256;
+/// Lag over the depth of cut, rad, below which an edge counts as straight: its force then differs by rounding.
+const STRAIGHT: f64 = 1e-12;
+/// Most steps of a revolution.
+const MOST_STEPS: u32 = 100_000;
+
+impl Milling {
+    /// This cutter in this cut; Kienzle's law is taken at the rake of the cutter.
+    ///
+    /// # Errors
+    /// A depth of cut that is not above zero, feeds beyond the diameter, numbers that are not finite.
+    pub fn new(cutter: Cutter, law: CuttingLaw, cut: Cut) -> Result<Milling, CuttingError> {
+        let most_depth = MOST_DEPTH_IN_DIAMETERS * cutter.diameter();
+        within(
+            "axial depth of cut",
+            cut.depth,
+            [f64::MIN_POSITIVE, most_depth],
+            "m",
+        )?;
+        let most_feed = MOST_FEED_IN_DIAMETERS * cutter.diameter();
+        within("feed per tooth", cut.feed, [0.0, most_feed], "m")?;
+        within("rise per tooth", cut.rise, [-most_feed, most_feed], "m")?;
+        Ok(Milling {
+            law: law.with_rake(cutter.rake()),
+            cutter,
+            cut,
+        })
+    }
+
+    /// Force on the tool (N, feed frame) when tooth 0 stands at `angle` (rad) with its tip.
+    ///
+    /// In closed form for a flat end mill without runout under a linear law; else summed over 256 slices of the corner
+    /// and as many of the cylinder, with an error of some thousandths of the peak where an edge enters or leaves.
+    pub fn force_at(&self, angle: f64) -> Vector3<f64> {
+        match (&self.law, self.arc_of_cylinder()) {
+            (CuttingLaw::Mechanistic(law), Some(arc)) if self.is_plain() => {
+                self.closed_force(law, arc, angle)
+            }
+            (CuttingLaw::Mechanistic(_), None) if self.is_plain() => Vector3::zeros(),
+            _ => self.summed_force(angle),
+        }
+    }
+
+    /// After what turn of the spindle (rad) the force comes again: a pitch, with runout a revolution.
+    pub fn period(&self) -> f64 {
+        if self.cutter.runout().offset == 0.0 {
+            self.cutter.pitch()
+        } else {
+            TAU
+        }
+    }
+
+    /// Forces (N, feed frame) at `steps` even steps of one revolution, from the angle zero; from 1 to 100 000 steps.
+    pub fn revolution(&self, steps: u32) -> Vec<Vector3<f64>> {
+        self.history(TAU, steps)
+    }
+
+    /// The greatest force, sought at `steps` even steps of one period.
+    pub fn peak(&self, steps: u32) -> Peak {
+        let mut peak = Peak {
+            force: Vector3::zeros(),
+            components: Vector3::zeros(),
+        };
+        for force in self.history(self.period(), steps) {
+            if force.norm_squared() > peak.force.norm_squared() {
+                peak.force = force;
+            }
+            let greater = |was: f64, is: f64| if is.abs() > was.abs() { is } else { was };
+            peak.components = peak.components.zip_map(&force, greater);
+        }
+        peak
+    }
+
+    fn history(&self, turn: f64, steps: u32) -> Vec<Vector3<f64>> {
+        let steps = steps.clamp(1, MOST_STEPS);
+        let angle = |step: u32| turn * f64::from(step) / f64::from(steps);
+        (0..steps).map(|step| self.force_at(angle(step))).collect()
+    }
+
+    /// Chip thickness of an evenly cutting tooth at `point`.
+    pub(super) fn chip(&self, point: &EdgePoint) -> Chip {
+        Chip {
+            across: self.cut.feed * point.sin_kappa,
+            along: -self.cut.rise * point.cos_kappa,
+        }
+    }
+
+    /// Chip thickness (m) of tooth `tooth` at `point` and the immersion angle `phi`; negative where it cuts nothing.
+    pub(super) fn chip_of_tooth(&self, tooth: u32, point: &EdgePoint, phi: f64) -> f64 {
+        let even = self.chip(point).at(phi);
+        if self.cutter.runout().offset == 0.0 {
+            return even;
+        }
+        let flutes = self.cutter.flutes();
+        let own = self.cutter.stands_out(tooth, point.height);
+        let left_by_the_one = |before: u32| {
+            let other = (tooth + flutes - before % flutes) % flutes;
+            let farther_out = own - self.cutter.stands_out(other, point.height);
+            f64::from(before) * even + farther_out * point.sin_kappa
+        };
+        (1..=flutes).map(left_by_the_one).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Points of the edge with their chip width (m): middles of even slices of the profile.
+    pub(super) fn slices(&self) -> impl Iterator<Item = (EdgePoint, f64)> + '_ {
+        let r = self.cutter.corner_radius();
+        let corner_end = self.cutter.corner_end(self.cut.depth);
+        let straight = (self.cut.depth - r).max(0.0);
+        let middle = |slice: u32| (f64::from(slice) + 0.5) / f64::from(SLICES);
+        let corner = (0..if r > 0.0 { SLICES } else { 0 }).map(move |slice| {
+            let point = self.cutter.in_corner(middle(slice) * corner_end);
+            (point, r * corner_end / f64::from(SLICES))
+        });
+        let cylinder = (0..if straight > 0.0 { SLICES } else { 0 }).map(move |slice| {
+            let point = self.cutter.at_height(r + middle(slice) * straight);
+            (point, straight / f64::from(SLICES))
+        });
+        corner.chain(cylinder)
+    }
+
+    /// Where the cylinder cuts; `None` if the strip lies beside it.
+    fn arc_of_cylinder(&self) -> Option<Arc> {
+        self.cut.engagement.arc_at(self.cutter.radius())
+    }
+
+    fn is_plain(&self) -> bool {
+        self.cutter.corner_radius() == 0.0 && self.cutter.runout().offset == 0.0
+    }
+
+    /// Immersion angle of the tip of tooth `tooth`, rad.
+    fn tip_angle(&self, tooth: u32, angle: f64) -> f64 {
+        angle - f64::from(tooth) * self.cutter.pitch()
+    }
+
+    fn summed_force(&self, angle: f64) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
+        for (point, width) in self.slices() {
+            let Some(arc) = self.cut.engagement.arc_at(point.radius) else {
+                continue;
+            };
+            let lag = self.cutter.lag(point.height);
+            for tooth in 0..self.cutter.flutes() {
+                let phi = (self.tip_angle(tooth, angle) - lag).rem_euclid(TAU);
+                if !arc.holds(phi) {
+                    continue;
+                }
+                let h = self.chip_of_tooth(tooth, &point, phi);
+                if h >= 0.0 {
+                    let directions = Moments::at(phi).directions(&point, self.cutter.hand());
+                    sum += directions * self.law.force(h) * width;
+                }
+            }
+        }
+        sum
+    }
+
+    /// The integral along a flat end mill: with `dz = depth/lag dphi` it runs over the angles that the edge covers.
+    fn closed_force(&self, law: &Mechanistic, arc: Arc, angle: f64) -> Vector3<f64> {
+        let depth = self.cut.depth;
+        let point = self.cutter.at_height(0.0);
+        let lag = self.cutter.lag(depth);
+        let hand = self.cutter.hand();
+        let mut sum = Vector3::zeros();
+        for tooth in 0..self.cutter.flutes() {
+            let tip = self.tip_angle(tooth, angle).rem_euclid(TAU);
+            if lag.abs() < STRAIGHT {
+                if arc.holds(tip) {
+                    let force = law.force(self.chip(&point).at(tip));
+                    sum += Moments::at(tip).directions(&point, hand) * force * depth;
+                }
+                continue;
+            }
+            let (low, high) = (tip.min(tip - lag), tip.max(tip - lag));
+            let mut turn = TAU * ((low - arc.exit) / TAU).ceil();
+            while arc.entry + turn < high {
+                let covered = Arc {
+                    entry: low - turn,
+                    exit: high - turn,
+                };
+                if let Some(cut) = arc.common_with(covered) {
+                    let [edge, shear] = cut.moments(self.chip(&point));
+                    let k = law.coefficients();
+                    let force = shear.directions(&point, hand) * k.fixed_rows::<3>(0)
+                        + edge.directions(&point, hand) * k.fixed_rows::<3>(3);
+                    sum += force * (depth / lag.abs());
+                }
+                turn += TAU;
+            }
+        }
+        sum
+    }
+}
+
+#[cfg(test)]
+mod tests;

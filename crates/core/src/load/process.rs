@@ -1,0 +1,181 @@
+//! A tool that mills on its way: cutter, law, cut, feed and spindle to a force, and the force to wrenches in base.
+//!
+//!     z = -tool axis,   x = the feed less its part along z, made a unit vector,   y = z x x
+//!     rise = asin(feed . z)          c = c_f cos(rise),  c_z = c_f sin(rise)
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | x, y, z | feed frame: along the feed, to its left, from part to spindle | - |
+//! | `rise` | how steeply the feed leaves the plane across the tool axis, towards the spindle | rad |
+//! | `c_f` | feed per tooth | m |
+//!
+//! The force turns with the path. A dive steeper than 30 deg is refused: the edges on the bottom cut then, and they are
+//! not modelled; a straight plunge of a drill is [`super::drilling`]. The force acts at the TCP; the moment that the
+//! spindle's torque makes, and the lever of the depth of cut, are left out.
+
+use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+
+use super::cutter::Cutter;
+use super::engagement::{Engagement, Immersion, feed_per_tooth};
+use super::error::CuttingError;
+use super::law::CuttingLaw;
+use super::mean::MeanForce;
+use super::milling::{Cut, Milling, Peak};
+use crate::frame::tool_orientation;
+use crate::spatial::Wrench;
+
+/// What mills, and how. Not checked before it is asked for a force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Process {
+    /// The tool.
+    pub cutter: Cutter,
+    /// Force of a chip.
+    pub law: CuttingLaw,
+    /// Axial depth of cut, m.
+    pub depth: f64,
+    /// Radial depth of cut, and on which side.
+    pub immersion: Immersion,
+    /// Feed speed, m/s.
+    pub feed: f64,
+    /// Spindle speed, rad/s; clockwise seen from the spindle.
+    pub spindle: f64,
+}
+
+/// Which way a tool advances, against its own axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Advance {
+    /// Across its axis.
+    Level,
+    /// Out of the plane across its axis by this angle (rad), positive towards the spindle, negative into the part.
+    Ramp(f64),
+    /// Along its axis into the part.
+    Plunge,
+    /// Along its axis away from the part.
+    Withdrawal,
+}
+
+/// Force on the tool, feed frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CuttingForce {
+    /// Mean over a revolution, N.
+    pub mean: Vector3<f64>,
+    /// Greatest of a revolution.
+    pub peak: Peak,
+    /// Covariance of the mean, N².
+    pub covariance: Matrix3<f64>,
+}
+
+/// The feed frame in base, and how the tool advances in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FeedFrame {
+    /// Turns feed components into base components.
+    pub base_from_feed: UnitQuaternion<f64>,
+    /// How the tool advances.
+    pub advance: Advance,
+}
+
+/// Steepest dive, rad.
+const STEEPEST_DIVE: f64 = std::f64::consts::FRAC_PI_6;
+/// Sine of the rise below which a feed counts as level: 1 nm in a metre, far below any path.
+const LEVEL: f64 = 1e-9;
+/// Part of the feed across the axis below which its direction there says nothing.
+const ALONG_AXIS: f64 = 1e-6;
+/// Steps of one period at which the peak is sought.
+const PEAK_STEPS: u32 = 360;
+
+impl Process {
+    /// The cut that the tool makes when it advances so.
+    ///
+    /// # Errors
+    /// Inputs outside what can be; a plunge, a withdrawal.
+    pub fn milling(&self, advance: Advance) -> Result<Milling, CuttingError> {
+        let rise = match advance {
+            Advance::Level => 0.0,
+            Advance::Ramp(rise) if rise.is_nan() => return Err(CuttingError::NotFinite("rise of the feed")),
+            Advance::Ramp(rise) if rise >= -STEEPEST_DIVE => rise,
+            Advance::Ramp(rise) => return Err(plunge(-rise)),
+            Advance::Plunge => return Err(plunge(std::f64::consts::FRAC_PI_2)),
+            Advance::Withdrawal => return Err(CuttingError::Withdrawal),
+        };
+        let per_tooth = feed_per_tooth(self.feed, self.spindle, self.cutter.flutes())?;
+        let cut = Cut {
+            depth: self.depth,
+            engagement: Engagement::of(self.immersion, self.cutter.diameter())?,
+            feed: per_tooth * rise.cos(),
+            rise: per_tooth * rise.sin(),
+        };
+        Milling::new(self.cutter, self.law, cut)
+    }
+
+    /// The mean force alone: closed, for every point of a path.
+    ///
+    /// # Errors
+    /// As [`Process::milling`].
+    pub fn mean(&self, advance: Advance) -> Result<MeanForce, CuttingError> {
+        Ok(self.milling(advance)?.mean())
+    }
+
+    /// Mean and peak.
+    ///
+    /// # Errors
+    /// As [`Process::milling`].
+    pub fn force(&self, advance: Advance) -> Result<CuttingForce, CuttingError> {
+        let milling = self.milling(advance)?;
+        let mean = milling.mean();
+        Ok(CuttingForce {
+            mean: mean.force,
+            peak: milling.peak(PEAK_STEPS),
+            covariance: mean.covariance,
+        })
+    }
+}
+
+fn plunge(dive: f64) -> CuttingError {
+    CuttingError::Plunge {
+        angle_deg: dive.to_degrees(),
+        most_deg: STEEPEST_DIVE.to_degrees(),
+    }
+}
+
+impl FeedFrame {
+    /// The feed frame of a tool that moves along `feed` with its axis along `tool_axis` (from spindle to part); base.
+    pub fn in_base(feed: Unit<Vector3<f64>>, tool_axis: Unit<Vector3<f64>>) -> FeedFrame {
+        let z = -tool_axis.into_inner();
+        let up = feed.dot(&z);
+        let across = feed.into_inner() - z * up;
+        if across.norm() < ALONG_AXIS {
+            return FeedFrame {
+                base_from_feed: tool_orientation(-tool_axis, 0.0),
+                advance: if up < 0.0 {
+                    Advance::Plunge
+                } else {
+                    Advance::Withdrawal
+                },
+            };
+        }
+        let x = across.normalize();
+        let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+        FeedFrame {
+            base_from_feed: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
+            advance: if up.abs() < LEVEL {
+                Advance::Level
+            } else {
+                Advance::Ramp(up.atan2(across.norm()))
+            },
+        }
+    }
+
+    /// A force told in the feed frame (N) as the wrench on the tool at the TCP, base.
+    pub fn wrench(&self, force: Vector3<f64>) -> Wrench {
+        Wrench::from_force(self.base_from_feed * force)
+    }
+
+    /// A covariance told in the feed frame (N²), in base.
+    pub fn covariance(&self, covariance: Matrix3<f64>) -> Matrix3<f64> {
+        let turn = self.base_from_feed.to_rotation_matrix().into_inner();
+        turn * covariance * turn.transpose()
+    }
+}
+
+#[cfg(test)]
+mod tests;

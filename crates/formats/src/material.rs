@@ -1,0 +1,220 @@
+//! armill's own material file, format 1: TOML, cutting forces of a material with a source for every number.
+//!
+//! A material has sets of mechanistic coefficients (N/mm2, N/mm), each as somebody identified it with some tool, and
+//! sets of Kienzle values. A set may lack a coefficient; no force is computed from it then. Where several sets of one
+//! material are whole, their mean stands for the material and their scatter for its uncertainty.
+
+mod file;
+
+use armill_core::load::{Estimate, Mechanistic};
+use armill_core::nalgebra::{Matrix6, Vector3, Vector6};
+
+use self::file::{KienzleTable, MaterialFile, MechanisticTable};
+use crate::document::{Document, Problem, Problems};
+use crate::robot::Source;
+
+/// N/mm2 in Pa.
+const PA_PER_N_PER_MM2: f64 = 1e6;
+/// N/mm in N/m.
+const N_PER_M_PER_N_PER_MM: f64 = 1e3;
+
+/// What is known of the forces that a material takes to cut.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// For people.
+    pub name: String,
+    /// What a user should know before trusting the numbers.
+    pub note: Option<String>,
+    /// Sets of mechanistic coefficients, in the order of the file.
+    pub mechanistic: Vec<MechanisticSet>,
+    /// Sets of Kienzle values, in the order of the file.
+    pub kienzle: Vec<KienzleSet>,
+    /// Every source, by key.
+    pub sources: Vec<Source>,
+}
+
+/// Mechanistic coefficients as one source gives them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MechanisticSet {
+    /// With which tool they were identified.
+    pub tool: String,
+    /// Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m); `None` where the source has none.
+    pub coefficients: [Option<f64>; 6],
+    /// Key of the source.
+    pub source: String,
+    /// What to make of them.
+    pub note: Option<String>,
+}
+
+/// Kienzle values as one source gives them, at 0 deg rake.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KienzleSet {
+    /// Group of VDI 3323, if the source goes by them.
+    pub group: Option<u8>,
+    /// Strength, hardness or treatment that they hold for.
+    pub condition: Option<String>,
+    /// Cutting force over the section of a chip 1 mm thick, Pa.
+    pub specific_force: f64,
+    /// How fast it falls with the thickness.
+    pub exponent: f64,
+    /// Key of the source.
+    pub source: String,
+}
+
+/// What all whole sets of a material say together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Together<T> {
+    /// Their mean, with their scatter as its uncertainty; of a single set the uncertainty is not known, and told as zero.
+    pub law: T,
+    /// How many sets.
+    pub sets: usize,
+}
+
+impl Material {
+    /// The mean of the whole sets of mechanistic coefficients, with the covariance of one set among them.
+    ///
+    /// That covariance says how far a tool that was not measured may lie from the mean. `None` without a whole set.
+    pub fn mechanistic(&self) -> Option<Together<Mechanistic>> {
+        let whole: Vec<Vector6<f64>> = self
+            .mechanistic
+            .iter()
+            .filter_map(MechanisticSet::whole)
+            .collect();
+        let sets = whole.len();
+        let mean = whole.iter().sum::<Vector6<f64>>() / sets.max(1) as f64;
+        let mut covariance = Matrix6::zeros();
+        for set in &whole {
+            let from_mean = set - mean;
+            covariance += from_mean * from_mean.transpose() / (sets.max(2) - 1) as f64;
+        }
+        let (shear, edge): (Vector3<f64>, Vector3<f64>) =
+            (mean.fixed_rows::<3>(0).into(), mean.fixed_rows::<3>(3).into());
+        let law = Mechanistic::new(shear, edge).and_then(|law| law.with_covariance(covariance));
+        law.ok().filter(|_| sets > 0).map(|law| Together { law, sets })
+    }
+
+    /// Mean `kc1` (Pa) and `mc` of the sets of Kienzle values, with the standard deviation of one set among them.
+    pub fn kienzle(&self) -> Option<Together<[Estimate; 2]>> {
+        let sets = self.kienzle.len();
+        let estimate = |value: fn(&KienzleSet) -> f64| {
+            let mean = self.kienzle.iter().map(value).sum::<f64>() / sets.max(1) as f64;
+            let squares = self.kienzle.iter().map(|set| (value(set) - mean).powi(2));
+            Estimate {
+                value: mean,
+                standard_uncertainty: (squares.sum::<f64>() / (sets.max(2) - 1) as f64).sqrt(),
+            }
+        };
+        let law = [estimate(|set| set.specific_force), estimate(|set| set.exponent)];
+        (sets > 0).then_some(Together { law, sets })
+    }
+}
+
+impl MechanisticSet {
+    /// All six coefficients, if the source has all.
+    fn whole(&self) -> Option<Vector6<f64>> {
+        let mut whole = Vector6::zeros();
+        for (place, coefficient) in whole.iter_mut().zip(self.coefficients) {
+            *place = coefficient?;
+        }
+        Some(whole)
+    }
+}
+
+/// The material of this file; `path` is what errors show.
+///
+/// # Errors
+/// Every problem of the file, each with its place.
+pub fn read(path: &str, text: &str) -> Result<Material, Problems> {
+    let document = Document::parse(path, text)?;
+    let file: MaterialFile = document.read()?;
+    Problems::from(problems(&document, &file)).into_result()?;
+    Ok(Material {
+        name: file.name,
+        note: file.note,
+        mechanistic: file.mechanistic.into_iter().map(mechanistic_set).collect(),
+        kienzle: file.kienzle.into_iter().map(kienzle_set).collect(),
+        sources: file
+            .sources
+            .into_iter()
+            .map(|(key, s)| Source {
+                key,
+                what: s.what,
+                place: s.place,
+                licence: s.licence,
+            })
+            .collect(),
+    })
+}
+
+/// What no schema can say of a material file.
+fn problems(document: &Document, file: &MaterialFile) -> Vec<Problem> {
+    let mut problems = Vec::new();
+    if file.mechanistic.is_empty() && file.kienzle.is_empty() {
+        let hint = "add a table [[mechanistic]] or [[kienzle]]";
+        problems.push(document.problem("name", "the material has no cutting force", Some(hint)));
+    }
+    for (index, table) in file.mechanistic.iter().enumerate() {
+        if table.coefficients().iter().all(Option::is_none) {
+            let hint = "give ktc_n_per_mm2 and its like, or take the table out";
+            let path = format!("mechanistic[{index}]");
+            problems.push(document.problem(&path, "the set has no coefficient", Some(hint)));
+        }
+    }
+    let mechanistic = file.mechanistic.iter().map(|table| table.source.as_str());
+    let used: Vec<(String, &str)> = mechanistic
+        .enumerate()
+        .map(|(index, source)| (format!("mechanistic[{index}].source"), source))
+        .chain(
+            file.kienzle
+                .iter()
+                .enumerate()
+                .map(|(index, table)| (format!("kienzle[{index}].source"), table.source.as_str())),
+        )
+        .collect();
+    for (path, key) in &used {
+        if !file.sources.contains_key(*key) {
+            let known: Vec<&str> = file.sources.keys().map(String::as_str).collect();
+            let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
+            let message = format!("source `{key}` is not among the sources");
+            problems.push(document.problem(path, message, Some(&hint)));
+        }
+    }
+    for key in file.sources.keys() {
+        if used.iter().all(|(_, named)| named != key) {
+            let message = format!("source `{key}` is used by no number");
+            let hint = "name it where its numbers stand, or remove it";
+            problems.push(document.problem(&format!("sources.{key}"), message, Some(hint)));
+        }
+    }
+    problems
+}
+
+fn mechanistic_set(table: MechanisticTable) -> MechanisticSet {
+    let mut coefficients = table.coefficients();
+    let (shear, edge) = coefficients.split_at_mut(3);
+    for coefficient in shear.iter_mut().flatten() {
+        *coefficient *= PA_PER_N_PER_MM2;
+    }
+    for coefficient in edge.iter_mut().flatten() {
+        *coefficient *= N_PER_M_PER_N_PER_MM;
+    }
+    MechanisticSet {
+        tool: table.tool,
+        coefficients,
+        source: table.source,
+        note: table.note,
+    }
+}
+
+fn kienzle_set(table: KienzleTable) -> KienzleSet {
+    KienzleSet {
+        group: table.group,
+        condition: table.condition,
+        specific_force: table.kc1_n_per_mm2 * PA_PER_N_PER_MM2,
+        exponent: table.mc_exponent,
+        source: table.source,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,150 @@
+use super::*;
+
+const SMALL: &str = r#"
+format = 1
+name = "cheese"
+[[mechanistic]]
+tool = "wire"
+source = "made-up"
+ktc_n_per_mm2 = 100
+krc_n_per_mm2 = 40
+kac_n_per_mm2 = 10
+kte_n_per_mm = 2
+kre_n_per_mm = 1
+kae_n_per_mm = 0.5
+[[mechanistic]]
+tool = "knife"
+source = "made-up"
+ktc_n_per_mm2 = 140
+krc_n_per_mm2 = 60
+kac_n_per_mm2 = 10
+kte_n_per_mm = 4
+kre_n_per_mm = 1
+kae_n_per_mm = 0.5
+[[mechanistic]]
+tool = "spoon"
+source = "made-up"
+ktc_n_per_mm2 = 9999
+[[kienzle]]
+source = "made-up"
+group = 22
+kc1_n_per_mm2 = 800
+mc_exponent = 0.25
+[sources.made-up]
+what = "nothing real"
+where = "this test"
+licence = "none"
+"#;
+
+fn problems_of(from: &str, to: &str) -> String {
+    assert!(SMALL.contains(from), "the sample has no `{from}`");
+    read("cheese.toml", &SMALL.replacen(from, to, 1))
+        .unwrap_err()
+        .to_string()
+}
+
+#[test]
+fn coefficients_arrive_in_si() {
+    let cheese = read("cheese.toml", SMALL).unwrap();
+    let [ktc, _, _, kte, ..] = cheese.mechanistic[0].coefficients;
+    assert_eq!((ktc, kte), (Some(100e6), Some(2e3)));
+    assert_eq!(cheese.mechanistic[2].coefficients[3], None);
+    assert_eq!(cheese.kienzle[0].specific_force, 800e6);
+    assert_eq!(cheese.sources[0].place, "this test");
+}
+
+#[test]
+fn whole_sets_make_mean_and_covariance_and_others_take_no_part() {
+    let together = read("cheese.toml", SMALL).unwrap().mechanistic().unwrap();
+    assert_eq!(together.sets, 2);
+    let k = together.law.coefficients();
+    assert_eq!((k[0], k[1], k[3]), (120e6, 50e6, 3e3));
+    // Two sets 40 N/mm2 apart: each 20 from the mean, the standard deviation 20 times the root of two.
+    let covariance = together.law.covariance();
+    assert!((covariance[(0, 0)].sqrt() - 20e6 * 2_f64.sqrt()).abs() < 1.0);
+    // Ktc and Krc rose together, and Kac not at all.
+    assert!((covariance[(0, 1)] - 2.0 * 20e6 * 10e6).abs() < 1.0);
+    assert_eq!(covariance[(2, 2)], 0.0);
+}
+
+#[test]
+fn one_set_has_no_spread_and_none_no_law() {
+    let one = SMALL.replace("ktc_n_per_mm2 = 140\n", "");
+    let together = read("cheese.toml", &one).unwrap().mechanistic().unwrap();
+    assert_eq!((together.sets, together.law.covariance().amax()), (1, 0.0));
+    let none = one.replace("kae_n_per_mm = 0.5\n", "");
+    assert!(read("cheese.toml", &none).unwrap().mechanistic().is_none());
+}
+
+#[test]
+fn kienzle_values_of_several_sets_scatter() {
+    let one = read("cheese.toml", SMALL).unwrap().kienzle().unwrap();
+    assert_eq!(
+        (one.sets, one.law[0].value, one.law[0].standard_uncertainty),
+        (1, 800e6, 0.0)
+    );
+    let second = "[[kienzle]]\nsource = \"made-up\"\nkc1_n_per_mm2 = 600\nmc_exponent = 0.25\n[sources";
+    let two = read("cheese.toml", &SMALL.replacen("[sources", second, 1)).unwrap();
+    let two = two.kienzle().unwrap();
+    assert_eq!((two.sets, two.law[0].value), (2, 700e6));
+    assert!((two.law[0].standard_uncertainty - 100e6 * 2_f64.sqrt()).abs() < 1.0);
+    assert_eq!(two.law[1].standard_uncertainty, 0.0);
+}
+
+#[test]
+fn a_field_that_is_not_known_is_told_with_its_unit() {
+    let text = problems_of("kte_n_per_mm = 2\n", "kte = 2\n");
+    assert!(text.contains("cheese.toml:10:1: unknown field `kte`"), "{text}");
+    assert!(text.contains("`kte_n_per_mm`"), "{text}");
+}
+
+#[test]
+fn every_problem_is_told_at_once() {
+    let broken = SMALL
+        .replacen("source = \"made-up\"", "source = \"hearsay\"", 1)
+        .replace("ktc_n_per_mm2 = 9999\n", "")
+        .replace(
+            "[sources.made-up]",
+            "[sources.lost]\nwhat=\"\"\nwhere=\"\"\nlicence=\"\"\n[sources.made-up]",
+        );
+    let text = read("cheese.toml", &broken).unwrap_err().to_string();
+    for part in [
+        "source `hearsay` is not among the sources",
+        "the set has no coefficient",
+        "source `lost` is used by no number",
+    ] {
+        assert!(text.contains(part), "no `{part}` in:\n{text}");
+    }
+}
+
+#[test]
+fn numbers_that_no_material_has_are_refused() {
+    for (from, to) in [
+        ("kc1_n_per_mm2 = 800", "kc1_n_per_mm2 = 0"),
+        ("mc_exponent = 0.25", "mc_exponent = 1.5"),
+        ("ktc_n_per_mm2 = 100", "ktc_n_per_mm2 = nan"),
+        ("ktc_n_per_mm2 = 100", "ktc_n_per_mm2 = 1e9"),
+        ("group = 22", "group = 42"),
+        ("format = 1", "format = 2"),
+    ] {
+        assert!(problems_of(from, to).contains("cheese.toml:"), "{to}");
+    }
+}
+
+#[test]
+fn a_material_without_a_force_is_refused() {
+    let text = "format = 1\nname = \"air\"\n[sources]\n";
+    let problems = read("air.toml", text).unwrap_err().to_string();
+    assert!(
+        problems.contains("the material has no cutting force"),
+        "{problems}"
+    );
+}
+
+#[test]
+fn what_is_not_toml_is_told_with_its_line() {
+    let problems = read("air.toml", "format = 1\nname = air\n")
+        .unwrap_err()
+        .to_string();
+    assert!(problems.contains("air.toml:2:"), "{problems}");
+}

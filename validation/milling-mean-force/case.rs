@@ -1,0 +1,133 @@
+//! From a published cut to its mean milling force, and on to the deflection of a TX200. See README.md.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Vector3;
+
+use armill_core::load::process::Advance;
+use armill_core::load::{Cutter, CuttingLaw, Hand, Immersion, Mechanistic, Process};
+use armill_core::predict::predict;
+use armill_core::spatial::Wrench;
+
+use crate::arms;
+use crate::check::{Check, Gap, worst_difference};
+use crate::tx200_compliance::{OLDER_SPRINGS, posture, workpiece};
+
+const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
+const WITNESS: &str = "independent computation";
+
+/// Length of the mean force of the averaged model, N, as published.
+const LENGTH_PUBLISHED_N: f64 = 155.6;
+/// The same from the averaged equations, N.
+const LENGTH_N: f64 = 155.6207;
+const UP_N: [f64; 3] = [-150.7929, 35.6771, 14.3684];
+const DOWN_N: [f64; 3] = [39.3263, 149.8826, 14.3684];
+/// Deflection of the arm under the force of up-milling, um.
+const LENGTH_UM: f64 = 169.19;
+
+const RADIAL_DEPTH: f64 = 5e-3;
+const STEPS_OF_A_TURN: u32 = 7200;
+
+fn process(immersion: Immersion) -> Process {
+    let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
+    let law = Mechanistic::new(shear, Vector3::zeros()).expect("published numbers are finite");
+    let cutter = Cutter::flat(16e-3, 4)
+        .and_then(|flat| flat.with_helix(45_f64.to_radians(), Hand::Left))
+        .expect("a published tool exists");
+    Process {
+        cutter,
+        law: CuttingLaw::Mechanistic(law),
+        depth: 1e-3,
+        immersion,
+        feed: 40e-3,
+        spindle: 3333.0 * TAU / 60.0,
+    }
+}
+
+fn mean(immersion: Immersion) -> Vector3<f64> {
+    let mean = process(immersion).mean(Advance::Level);
+    mean.expect("a published cut can be made").force
+}
+
+pub fn checks() -> Vec<Check> {
+    let up = mean(Immersion::Up(RADIAL_DEPTH));
+    let down = mean(Immersion::Down(RADIAL_DEPTH));
+    let gap = |worst: f64, tolerance: f64| Gap {
+        worst,
+        tolerance,
+        unit: "N",
+    };
+    let mut checks = vec![
+        Check::printed(
+            "length of the mean force, published cut: 155.6 N",
+            PUBLISHED,
+            gap((up.norm() - LENGTH_PUBLISHED_N).abs(), 0.05),
+            3,
+        ),
+        Check::printed(
+            "the same to four decimals: 155.6207 N",
+            WITNESS,
+            gap(
+                (up.norm() - LENGTH_N).abs().max((down.norm() - LENGTH_N).abs()),
+                5e-5,
+            ),
+            6,
+        ),
+        Check::printed(
+            "components, up-milling",
+            WITNESS,
+            gap(worst_difference(up.as_slice(), &UP_N), 5e-5),
+            6,
+        ),
+        Check::printed(
+            "components, down-milling",
+            WITNESS,
+            gap(worst_difference(down.as_slice(), &DOWN_N), 5e-5),
+            6,
+        ),
+    ];
+    checks.push(mean_of_a_turn(up));
+    checks.push(deflection(up));
+    checks
+}
+
+fn mean_of_a_turn(closed: Vector3<f64>) -> Check {
+    let milling = process(Immersion::Up(RADIAL_DEPTH)).milling(Advance::Level);
+    let milling = milling.expect("a published cut can be made");
+    let sum: Vector3<f64> = milling.revolution(STEPS_OF_A_TURN).iter().sum();
+    let error = (sum / f64::from(STEPS_OF_A_TURN) - closed).norm();
+    Check::computed(
+        "mean force of up-milling, relative, over 7200 angles of the spindle",
+        "force summed over a revolution",
+        Gap {
+            worst: error / closed.norm(),
+            tolerance: 1e-6,
+            unit: "",
+        },
+    )
+}
+
+fn deflection(force: Vector3<f64>) -> Check {
+    let robot = arms::tx200(OLDER_SPRINGS);
+    let joints = robot.compliance().expect("the arm was made with springs");
+    let load = Wrench::from_force(workpiece() * force);
+    let deviation = predict(&posture(&robot), joints, &load).twist.linear;
+    Check::printed(
+        "deflection of a TX200 under the computed force: 169.19 um",
+        WITNESS,
+        Gap {
+            worst: (deviation.norm() * 1e6 - LENGTH_UM).abs(),
+            tolerance: 0.01,
+            unit: "um",
+        },
+        4,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn milling_mean_force_holds() {
+        crate::check::assert_all_hold(&super::checks());
+    }
+}
