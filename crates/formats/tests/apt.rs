@@ -31,6 +31,7 @@ fn files_below(folder: &Path, files: &mut Vec<PathBuf>) {
 struct Part {
     name: String,
     text: String,
+    lines: Vec<String>,
     summary: Summary,
     steps: Vec<Step>,
 }
@@ -54,6 +55,7 @@ fn parts() -> Vec<Part> {
         let text = String::from_utf8(bytes).expect("they are ASCII");
         Part {
             name,
+            lines: text.lines().map(str::to_owned).collect(),
             text,
             summary,
             steps,
@@ -77,11 +79,7 @@ impl Part {
 
     /// The numbers behind the slash of a line, from 1.
     fn numbers(&self, line: u32) -> Vec<f64> {
-        let line = self
-            .text
-            .lines()
-            .nth(line as usize - 1)
-            .expect("the line is there");
+        let line = &self.lines[line as usize - 1];
         let (_, numbers) = line.split_once('/').expect("it has a slash");
         numbers
             .split(',')

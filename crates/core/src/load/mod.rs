@@ -7,6 +7,8 @@
 //! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either), [`milling`] (force at an angle of the spindle
 //! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
 //! its way).
+//!
+//! [`record`]: a force as it was measured over time.
 
 pub mod along;
 pub mod arc;
@@ -22,6 +24,7 @@ pub mod mean;
 pub mod mechanistic;
 pub mod milling;
 pub mod process;
+pub mod record;
 
 mod quadrature;
 
@@ -37,3 +40,4 @@ pub use mean::MeanForce;
 pub use mechanistic::Mechanistic;
 pub use milling::{Cut, Milling, Peak};
 pub use process::{Advance, CuttingForce, FeedFrame, Process};
+pub use record::{ActsOn, Record, RecordError};

@@ -1,1 +1,11 @@
-//! What was measured? Force records in.
+//! Which force was measured? Records over time in.
+//!
+//! - [`dynoware`]: text exports of Kistler's DynoWare.
+//! - [`csv`]: any other table with a column for each channel.
+//!
+//! Both give a [`Record`](armill_core::load::Record) in the axes of the sensor. Whether it acts on the tool or on the part,
+//! and how the sensor stands, no file tells: the caller says it.
+
+mod columns;
+pub mod csv;
+pub mod dynoware;

@@ -1,0 +1,293 @@
+//! A force that was measured over time.
+//!
+//! [`drift`]: what the amplifier adds while nothing is cut. [`low_pass`]: only what is slower than a frequency.
+//! [`revolutions`]: mean and extremes of each turn of the spindle. [`lag`]: by how much it runs behind a prediction.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `time` | instants, ever later | s |
+//! | `force` | at each instant, axes of the sensor until they are turned | N |
+//! | `moment` | likewise, about the origin of the sensor | N m |
+
+pub mod drift;
+pub mod lag;
+pub mod low_pass;
+pub mod revolutions;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// What the measured force acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActsOn {
+    /// The tool: the sign that armill's loads have.
+    Tool,
+    /// The workpiece, as a dynamometer under it feels it.
+    Part,
+}
+
+/// A force over time: at least two instants, all lists of one length, numbers that are finite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    time: Vec<f64>,
+    force: Vec<Vector3<f64>>,
+    moment: Option<Vec<Vector3<f64>>>,
+    acts_on: ActsOn,
+}
+
+/// Why a record is none, or cannot be treated as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RecordError {
+    /// Less than two instants.
+    #[error("a record of {0} instants is shorter than the 2 it needs")]
+    TooShort(usize),
+    /// Lists of different lengths.
+    #[error("{time} instants but {force} forces or moments")]
+    Lengths {
+        /// Instants.
+        time: usize,
+        /// Forces, or moments if these differ.
+        force: usize,
+    },
+    /// A number that is not finite.
+    #[error("sample {0} holds a number that is not finite")]
+    NotFinite(usize),
+    /// Time that does not go on.
+    #[error("time does not go on at sample {0}")]
+    TimeStands(usize),
+    /// Steps of different length where equal ones are needed.
+    #[error(
+        "the step before sample {sample} is {step_s} s, but the mean step is {mean_s} s: equal steps are needed"
+    )]
+    UnequalSteps {
+        /// The sample.
+        sample: usize,
+        /// The step before it, s.
+        step_s: f64,
+        /// The mean step, s.
+        mean_s: f64,
+    },
+    /// Two records whose steps differ.
+    #[error(
+        "the measured steps are {measured_s} s, the predicted ones {predicted_s} s: equal ones are needed"
+    )]
+    OtherSteps {
+        /// s
+        measured_s: f64,
+        /// s
+        predicted_s: f64,
+    },
+    /// Air cut whose times the record does not have enough samples in.
+    #[error("the told air cuts hold {0} samples: a line needs at least 2 at different times")]
+    NoSamplesOfAirCut(usize),
+    /// No stretch that is quiet enough to be air cut.
+    #[error(
+        "no stretch is quiet enough to be air cut: the quietest scatters by {quietest_n} N, half of all by {median_n} N"
+    )]
+    NoQuietStretch {
+        /// Scatter of the quietest stretch, N.
+        quietest_n: f64,
+        /// Median scatter, N.
+        median_n: f64,
+    },
+    /// A cutoff that the sampling cannot hold.
+    #[error("a cutoff of {cutoff_hz} Hz is not above 0 and below half the sampling rate, {half_rate_hz} Hz")]
+    Cutoff {
+        /// Hz
+        cutoff_hz: f64,
+        /// Hz
+        half_rate_hz: f64,
+    },
+    /// A spindle speed that the record cannot show.
+    #[error(
+        "{samples:.1} samples a revolution are fewer than the {least} it needs, or the record holds no whole revolution"
+    )]
+    Revolution {
+        /// Samples in one revolution.
+        samples: f64,
+        /// How many it needs.
+        least: usize,
+    },
+    /// No lag can be told: no force crosses the threshold, or one of both does not change.
+    #[error("no lag can be told: {0}")]
+    NoLag(&'static str),
+    /// Too much work.
+    #[error(
+        "{products:.1e} products are more than {most:.0e}: shorten the records, or look for a smaller lag"
+    )]
+    TooLong {
+        /// Products that the search needs.
+        products: f64,
+        /// How many it may take.
+        most: f64,
+    },
+}
+
+/// A step may differ by this part of the mean step: time columns are rounded to a few digits.
+const STEP_SLACK: f64 = 0.1;
+
+impl Record {
+    /// The record of these instants (s), forces (N) and moments (N m).
+    ///
+    /// # Errors
+    /// Less than two instants, lists of other lengths, numbers that are not finite, time that does not go on.
+    pub fn new(
+        time: Vec<f64>,
+        force: Vec<Vector3<f64>>,
+        moment: Option<Vec<Vector3<f64>>>,
+        acts_on: ActsOn,
+    ) -> Result<Record, RecordError> {
+        let count = time.len();
+        if count < 2 {
+            return Err(RecordError::TooShort(count));
+        }
+        let other = std::iter::once(&force)
+            .chain(&moment)
+            .map(Vec::len)
+            .find(|length| *length != count);
+        if let Some(other) = other {
+            return Err(RecordError::Lengths {
+                time: count,
+                force: other,
+            });
+        }
+        let finite = |vectors: &Vec<Vector3<f64>>, k: usize| vectors[k].iter().all(|value| value.is_finite());
+        let broken =
+            |k: &usize| !time[*k].is_finite() || !finite(&force, *k) || !moment.iter().all(|m| finite(m, *k));
+        if let Some(sample) = (0..count).find(broken) {
+            return Err(RecordError::NotFinite(sample));
+        }
+        if let Some(before) = time.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(RecordError::TimeStands(before + 1));
+        }
+        Ok(Record {
+            time,
+            force,
+            moment,
+            acts_on,
+        })
+    }
+
+    /// Instants, s.
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Force at each instant, N.
+    pub fn force(&self) -> &[Vector3<f64>] {
+        &self.force
+    }
+
+    /// Moment at each instant, N m.
+    pub fn moment(&self) -> Option<&[Vector3<f64>]> {
+        self.moment.as_deref()
+    }
+
+    /// What the force acts on.
+    pub fn acts_on(&self) -> ActsOn {
+        self.acts_on
+    }
+
+    /// The record as the tool feels it: against that of the part.
+    #[must_use]
+    pub fn on_tool(self) -> Record {
+        let acts_on = self.acts_on;
+        let turned = match acts_on {
+            ActsOn::Tool => self,
+            ActsOn::Part => self.mapped(|vector| -vector),
+        };
+        Record {
+            acts_on: ActsOn::Tool,
+            ..turned
+        }
+    }
+
+    /// The record in other axes: `turn` takes the sensor's into them.
+    #[must_use]
+    pub fn turned(self, turn: &UnitQuaternion<f64>) -> Record {
+        self.mapped(|vector| turn * vector)
+    }
+
+    /// Mean step, s, where all are equal but for rounding.
+    ///
+    /// # Errors
+    /// A step that differs from the mean by more than a tenth.
+    pub fn step(&self) -> Result<f64, RecordError> {
+        let (first, last) = (self.time[0], self.time[self.time.len() - 1]);
+        let mean = (last - first) / (self.time.len() - 1) as f64;
+        let uneven = self
+            .time
+            .windows(2)
+            .position(|pair| (pair[1] - pair[0] - mean).abs() > STEP_SLACK * mean);
+        match uneven {
+            None => Ok(mean),
+            Some(before) => Err(RecordError::UnequalSteps {
+                sample: before + 1,
+                step_s: self.time[before + 1] - self.time[before],
+                mean_s: mean,
+            }),
+        }
+    }
+
+    /// All forces and moments through `change`, which keeps them finite.
+    fn mapped(mut self, change: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Record {
+        for vector in self.force.iter_mut().chain(self.moment.iter_mut().flatten()) {
+            *vector = change(*vector);
+        }
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plain(time: &[f64]) -> Result<Record, RecordError> {
+        let force = vec![Vector3::new(1.0, 2.0, 3.0); time.len()];
+        Record::new(time.to_vec(), force, None, ActsOn::Part)
+    }
+
+    #[test]
+    fn what_is_no_record_is_refused() {
+        assert_eq!(plain(&[0.0]), Err(RecordError::TooShort(1)));
+        assert_eq!(plain(&[0.0, 1.0, 1.0]), Err(RecordError::TimeStands(2)));
+        assert_eq!(plain(&[0.0, f64::NAN]), Err(RecordError::NotFinite(1)));
+        let two = vec![Vector3::zeros(); 2];
+        let short = Record::new(
+            vec![0.0, 1.0],
+            two.clone(),
+            Some(vec![Vector3::zeros()]),
+            ActsOn::Tool,
+        );
+        assert_eq!(short, Err(RecordError::Lengths { time: 2, force: 1 }));
+        let endless = vec![Vector3::zeros(), Vector3::new(0.0, f64::INFINITY, 0.0)];
+        assert_eq!(
+            Record::new(vec![0.0, 1.0], two, Some(endless), ActsOn::Tool),
+            Err(RecordError::NotFinite(1))
+        );
+    }
+
+    #[test]
+    fn what_the_part_feels_is_against_what_the_tool_feels() {
+        let on_tool = plain(&[0.0, 1.0]).unwrap().on_tool();
+        assert_eq!(on_tool.force()[1], Vector3::new(-1.0, -2.0, -3.0));
+        assert_eq!(on_tool.acts_on(), ActsOn::Tool);
+        assert_eq!(on_tool.clone().on_tool(), on_tool, "once is enough");
+    }
+
+    #[test]
+    fn other_axes_keep_the_size() {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
+        let turned = plain(&[0.0, 1.0]).unwrap().turned(&turn);
+        assert!((turned.force()[0] - Vector3::new(-2.0, 1.0, 3.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn steps_are_equal_but_for_rounding() {
+        assert_eq!(plain(&[0.0, 0.33, 0.67, 1.0]).unwrap().step(), Ok(1.0 / 3.0));
+        let uneven = plain(&[0.0, 0.1, 0.2, 0.5]).unwrap().step();
+        assert!(
+            matches!(uneven, Err(RecordError::UnequalSteps { sample: 1, .. })),
+            "{uneven:?}"
+        );
+    }
+}

@@ -1,0 +1,226 @@
+//! Which column holds which channel, in which unit; and the samples of its rows.
+
+use armill_core::load::{ActsOn, Record, RecordError};
+use armill_core::nalgebra::Vector3;
+
+/// No measured number is larger, in its own unit.
+const LARGEST: f64 = 1e12;
+/// No record has more samples: some minutes of all channels at 100 kHz.
+const MOST_SAMPLES: usize = 50_000_000;
+
+/// What a channel measures; numbers are axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    Time,
+    Force(usize),
+    Moment(usize),
+}
+
+/// A channel and the factor from its unit to SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Column {
+    pub quantity: Quantity,
+    pub factor: f64,
+}
+
+impl Quantity {
+    /// Units that are understood, for people.
+    pub fn units(self) -> &'static str {
+        match self {
+            Quantity::Time => "s, ms or us",
+            Quantity::Force(_) => "N, kN or mN",
+            Quantity::Moment(_) => "N m, kN m, N cm or N mm",
+        }
+    }
+
+    /// The factor to SI of a unit as it is written, in brackets or not; `None` if it is none of this quantity.
+    pub fn factor(self, unit: &str) -> Option<f64> {
+        let plain: String = unit
+            .chars()
+            .filter(|c| !matches!(c, '[' | ']' | '(' | ')' | '.' | '*' | '\u{b7}' | ' ' | '_'))
+            .collect();
+        match (self, plain.as_str()) {
+            (Quantity::Time, "s" | "sec")
+            | (Quantity::Force(_), "N" | "n")
+            | (Quantity::Moment(_), "Nm" | "nm") => Some(1.0),
+            (Quantity::Time, "ms") | (Quantity::Force(_), "mN") | (Quantity::Moment(_), "Nmm" | "nmm") => {
+                Some(1e-3)
+            }
+            (Quantity::Time, "us" | "\u{b5}s" | "\u{3bc}s") => Some(1e-6),
+            (Quantity::Force(_), "kN" | "kn") | (Quantity::Moment(_), "kNm" | "knm") => Some(1e3),
+            (Quantity::Moment(_), "Ncm" | "ncm") => Some(1e-2),
+            _ => None,
+        }
+    }
+
+    /// The quantity of a plain name such as `Fx`, in any case.
+    pub fn of_name(name: &str) -> Option<Quantity> {
+        let name = name.to_lowercase();
+        if ["time", "zeit", "t"].contains(&name.as_str()) {
+            return Some(Quantity::Time);
+        }
+        let mut letters = name.chars();
+        let axis = |letter: Option<char>| "xyz".find(letter?);
+        match (letters.next(), axis(letters.next()), letters.next()) {
+            (Some('f'), Some(axis), None) => Some(Quantity::Force(axis)),
+            (Some('m'), Some(axis), None) => Some(Quantity::Moment(axis)),
+            _ => None,
+        }
+    }
+}
+
+/// What is missing among the columns, and what to do; nothing if a record can be made of them.
+pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static str)> {
+    let has = |quantity: Quantity| columns.iter().flatten().any(|column| column.quantity == quantity);
+    let absent = |of: fn(usize) -> Quantity, letter: char| -> Vec<String> {
+        let absent = (0..3).filter(|axis| !has(of(*axis)));
+        absent
+            .map(|axis| format!("`{letter}{}`", ["x", "y", "z"][axis]))
+            .collect()
+    };
+    let forces = absent(Quantity::Force, 'F');
+    if !forces.is_empty() {
+        return Some((
+            forces.join(", "),
+            "a record has all three forces; one that was not measured may be a column of zeros",
+        ));
+    }
+    let moments = absent(Quantity::Moment, 'M');
+    (!moments.is_empty() && moments.len() < 3)
+        .then(|| (moments.join(", "), "a record has all three moments, or none"))
+}
+
+/// The number in a cell, if it is one; with a decimal comma where that is said.
+pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
+    let number = match decimal_comma && text.contains(',') {
+        // 1.234,5 could be a thousand or a slip.
+        true if text.contains('.') => return None,
+        true => text.replace(',', ".").parse::<f64>(),
+        false => text.parse::<f64>(),
+    };
+    number.ok().filter(|number| number.abs() <= LARGEST)
+}
+
+/// Rows, as far as they were read, in SI.
+#[derive(Clone, Debug)]
+pub(super) struct Samples {
+    columns: Vec<Option<Column>>,
+    /// Time between rows, s, where no column tells it.
+    step: Option<f64>,
+    time: Vec<f64>,
+    force: Vec<Vector3<f64>>,
+    moment: Option<Vec<Vector3<f64>>>,
+}
+
+impl Samples {
+    /// No row yet; `step` (s) where there is no column of time.
+    pub fn new(columns: Vec<Option<Column>>, step: Option<f64>) -> Samples {
+        let moments = columns
+            .iter()
+            .flatten()
+            .any(|column| matches!(column.quantity, Quantity::Moment(_)));
+        Samples {
+            columns,
+            step,
+            time: Vec::new(),
+            force: Vec::new(),
+            moment: moments.then(Vec::new),
+        }
+    }
+
+    /// How many columns a row has, those without meaning included.
+    pub fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// How many rows there are.
+    pub fn count(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Which columns mean something.
+    pub fn columns(&self) -> &[Option<Column>] {
+        &self.columns
+    }
+
+    /// Takes a row: the number of each column that means something, in order.
+    ///
+    /// # Errors
+    /// What is wrong with it, and what to do.
+    pub fn push(&mut self, numbers: &[f64]) -> Result<(), (String, &'static str)> {
+        let mut time = self.step.map(|step| step * self.time.len() as f64);
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (column, number) in self.columns.iter().flatten().zip(numbers) {
+            let value = number * column.factor;
+            match column.quantity {
+                Quantity::Time => time = Some(value),
+                Quantity::Force(axis) => force[axis] = value,
+                Quantity::Moment(axis) => moment[axis] = value,
+            }
+        }
+        // The readers see to it that there is a column of time or a step.
+        let time = time.unwrap_or(0.0);
+        if let Some(before) = self.time.last().filter(|before| **before >= time) {
+            let message = format!("time does not go on: {time} s after {before} s");
+            return Err((
+                message,
+                "each row is later than the one before; are digits of the time missing?",
+            ));
+        }
+        if self.time.len() == MOST_SAMPLES {
+            return Err((
+                format!("more than {MOST_SAMPLES} samples"),
+                "cut the record into pieces",
+            ));
+        }
+        self.time.push(time);
+        self.force.push(force);
+        if let Some(moments) = &mut self.moment {
+            moments.push(moment);
+        }
+        Ok(())
+    }
+
+    /// The record of these rows.
+    pub fn record(self, acts_on: ActsOn) -> Result<Record, RecordError> {
+        Record::new(self.time, self.force, self.moment, acts_on)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_are_read_in_brackets_and_by_their_case() {
+        let force = Quantity::Force(0);
+        assert_eq!(force.factor("[kN]"), Some(1e3));
+        assert_eq!(force.factor("mN"), Some(1e-3));
+        assert_eq!(force.factor("MN"), None, "mega or milli?");
+        assert_eq!(force.factor("mn"), None, "likewise");
+        assert_eq!(force.factor("V"), None);
+        assert_eq!(Quantity::Moment(1).factor("N.m"), Some(1.0));
+        assert_eq!(Quantity::Moment(1).factor("N"), None);
+        assert_eq!(Quantity::Time.factor("ms"), Some(1e-3));
+    }
+
+    #[test]
+    fn names_are_those_of_channels_and_nothing_longer() {
+        assert_eq!(Quantity::of_name("FY"), Some(Quantity::Force(1)));
+        assert_eq!(Quantity::of_name("mz"), Some(Quantity::Moment(2)));
+        assert_eq!(Quantity::of_name("Zeit"), Some(Quantity::Time));
+        for name in ["Fx1", "F", "fw", "", "Force x"] {
+            assert_eq!(Quantity::of_name(name), None, "{name}");
+        }
+    }
+
+    #[test]
+    fn numbers_with_both_marks_are_none() {
+        assert_eq!(number("-0,5", true), Some(-0.5));
+        assert_eq!(number("-0.5", true), Some(-0.5));
+        for text in ["1.234,5", "nan", "inf", "1e300", "", "1 N"] {
+            assert_eq!(number(text, true), None, "{text}");
+        }
+        assert_eq!(number("0,5", false), None);
+    }
+}

@@ -1,0 +1,214 @@
+//! Exports of our own after the described form, and those that must be refused.
+
+use armill_core::nalgebra::Vector3;
+
+use super::*;
+
+/// Eighteen lines, in either language, with this separator.
+fn header(separator: &str, samples: usize) -> String {
+    [
+        "Program and version:|Ours 1.0",
+        "Path:|C:\\data",
+        "File:|a.dwd",
+        "Config ID:|1",
+        "Setup ID:|2",
+        "Manipulated:|no",
+        "Date:|1.1.2020",
+        "Time:|12:00:00",
+        "Sampling rate [Hz]:|100000",
+        "Measuring time [s]:|1",
+        "Delay time [s]:|0",
+        "Cycle time [s]:|1",
+        "Cycles:|1",
+        "Samples per channel:|#",
+        "Cycle interval:|0",
+        "Remark:|none",
+        "Operator:|me",
+        "Cycle No:|1",
+    ]
+    .map(|line| line.replace('|', separator).replace('#', &samples.to_string()) + "\r\n")
+    .concat()
+}
+
+fn export(text: &str) -> Result<Export, Problems> {
+    read("a.txt", text.as_bytes(), ActsOn::Part, &Channels::default())
+}
+
+fn problems(text: &str) -> String {
+    export(text).unwrap_err().to_string()
+}
+
+const COMMAS: &str =
+    "Time,Fx,Fy,Fz\r\ns,N,N,N\r\n0,000000,-0,0435965,1,5,0,25\r\n0,000010,-0,05,12,0,-3,125E-02\r\n";
+
+#[test]
+fn commas_that_are_decimal_marks_too_are_joined_where_every_row_has_the_count() {
+    let found = export(&(header(",", 2) + COMMAS)).unwrap();
+    let [cycle] = &found.cycles[..] else {
+        panic!("{found:?}")
+    };
+    assert_eq!(cycle.time(), [0.0, 1e-5]);
+    assert_eq!(cycle.force()[0], Vector3::new(-0.0435965, 1.5, 0.25));
+    assert_eq!(cycle.force()[1], Vector3::new(-0.05, 12.0, -0.03125));
+    assert_eq!(cycle.acts_on(), ActsOn::Part);
+    assert_eq!(found.header.len(), 18);
+    assert_eq!(found.header[8], ["Sampling rate [Hz]", "100000"]);
+}
+
+#[test]
+fn the_same_samples_with_every_separator_and_mark_are_the_same() {
+    let first = export(&(header(",", 2) + COMMAS)).unwrap();
+    for (separator, table) in [
+        (
+            ",",
+            "Time,Fx,Fy,Fz\ns,N,N,N\n0.000000,-0.0435965,1.5,0.25\n0.000010,-0.05,12,-3.125E-02\n",
+        ),
+        (
+            "\t",
+            "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0,000000\t-0,0435965\t1,5\t0,25\n0,000010\t-0,05\t12\t-0,03125\n",
+        ),
+        (
+            ";",
+            "Zeit;Fx;Fy;Fz\n[ms];[kN];[N];[mN]\n0;-0,0000435965;1,5;250\n0,01;-0,00005;12;-31,25\n",
+        ),
+        (
+            ";",
+            "\"Time\";\"Fx\";\"Fy\";\"Fz\";\ns;N;N;N;\n0;-0.0435965;1.5;0.25;\n0.00001;-0.05;12;-0.03125;\n",
+        ),
+    ] {
+        let found = export(&(header(separator, 2) + table)).unwrap_or_else(|told| panic!("{told}"));
+        for (a, b) in found.cycles[0].force().iter().zip(first.cycles[0].force()) {
+            assert!((a - b).norm() < 1e-15, "{table}");
+        }
+        assert!((found.cycles[0].time()[1] - 1e-5).abs() < 1e-18, "{table}");
+    }
+}
+
+#[test]
+fn a_value_without_fraction_makes_commas_ambiguous() {
+    let head = header(",", 2);
+    for rows in [
+        // The first row, a later one, and one that could be read in two ways with the same count as another.
+        "0,000000,-1,1,5,0,25\n0,000010,-0,05,12,0,-3,1\n",
+        "0,000000,-0,5,1,5,0,25\n0,000010,-1,12,0,-3,1\n",
+        "0,000000,-0,5,1,5,0,25\n1,2,3,4\n",
+        "0,1,2,3\n0,000010,-0,5,1,5,0,25\n",
+        "0,000000,-0,5,1,5,0,-25\n0,000010,-0,5,1,5,0,25\n",
+        "0,000000,-0.5,5,1,5,0,25\n0,000010,-0,5,1,5,0,25\n",
+        "0,000000,-0,5,1,5,0,25\n0,000010,-0,5,,5,0,25\n",
+    ] {
+        let told = problems(&format!("{head}Time,Fx,Fy,Fz\ns,N,N,N\n{rows}"));
+        assert!(told.contains("export with tab or semicolon"), "{rows}: {told}");
+    }
+}
+
+#[test]
+fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_others() {
+    // Every pattern of which of three channels have a fraction, in two rows.
+    for pattern in 0..64_u32 {
+        let value = |row: u32, axis: u32| f64::from(10 * row + axis) + 0.5;
+        let written = |row: u32, axis: u32| match pattern >> (3 * row + axis) & 1 {
+            1 => format!("{}", value(row, axis)).replace('.', ","),
+            _ => format!("{}", value(row, axis).floor()),
+        };
+        let row = |k: u32| format!("0,{k},{},{},{}\n", written(k, 0), written(k, 1), written(k, 2));
+        let found = export(&format!(
+            "{}Time,Fx,Fy,Fz\ns,N,N,N\n{}{}",
+            header(",", 2),
+            row(0),
+            row(1)
+        ));
+        match found {
+            Ok(found) => {
+                assert_eq!(pattern, 63, "only where every number has its fraction");
+                assert_eq!(found.cycles[0].force()[1], Vector3::new(10.5, 11.5, 12.5));
+            }
+            Err(told) => assert!(pattern != 63, "{told}"),
+        }
+    }
+}
+
+#[test]
+fn further_cycles_are_records_of_their_own() {
+    let rows = "0\t1\t2\t3\n0,1\t4\t5\t6\n";
+    let text = header("\t", 2) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n" + rows;
+    let again = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tN\tN\tN\n0\t7\t8\t9\n0,1\t4\t5\t6\n";
+    let bare = format!("\r\nCycle No:\t3\n{rows}");
+    let found = export(&format!("{text}{again}{bare}")).unwrap();
+    assert_eq!(found.cycles.len(), 3);
+    assert_eq!(found.cycles[1].force()[0], Vector3::new(7.0, 8.0, 9.0));
+    assert_eq!(found.cycles[2], found.cycles[0]);
+    assert_eq!(found.header.len(), 18);
+    let other = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tkN\tN\tN\n0\t7\t8\t9\n";
+    assert!(problems(&format!("{text}{other}")).contains("other channels than those of the cycle before"));
+}
+
+#[test]
+fn channels_may_have_other_names_and_more_of_them_are_listed() {
+    let text = header(";", 2)
+        + "Time;Kraft1;Kraft2;Kraft3;AE;Mx;My;Mz\ns;N;N;N;V;Nm;Nm;N.m\n0;1;2;3;9;4;5;6\n1;1;2;3;9;4;5;6\n";
+    let told = problems(&text);
+    assert!(
+        told.contains("missing channels: `Fx`, `Fy`, `Fz`") && told.contains("Kraft1, Kraft2"),
+        "{told}"
+    );
+    let channels = Channels {
+        force: ["kraft1", "kraft2", "kraft3"].map(str::to_owned),
+        ..Channels::default()
+    };
+    let found = read("a.txt", text.as_bytes(), ActsOn::Tool, &channels).unwrap();
+    assert_eq!(found.unused, ["AE"]);
+    assert_eq!(found.cycles[0].moment().unwrap()[1], Vector3::new(4.0, 5.0, 6.0));
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    let head = header("\t", 2);
+    for (table, part) in [
+        ("", "no samples in this file"),
+        ("Time\tFx\tFy\tFz\n", "19:1: the file ends behind its channels"),
+        (
+            "Time\tFx\tFy\tFz\n0\t1\t2\t3\n1\t1\t2\t3\n",
+            "20:1: a line of 4 units is wanted",
+        ),
+        ("Time\tFx\tFy\tFz\ns\tN\tN\n", "a line of 4 units is wanted"),
+        ("Time\tFx\tFy\tFz\ns\tV\tN\tN\n", "`V` is no unit of `Fx`"),
+        ("Time\tFx\tFx\tFz\ns\tN\tN\tN\n", "two channels are called `Fx`"),
+        ("Time\tFx\tFz\ns\tN\tN\n", "missing channels: `Fy`"),
+        (
+            "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\n",
+            "21:1: 3 cells below 4 channels",
+        ),
+        (
+            "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\tx\t3\n",
+            "`x` is not a number",
+        ),
+        (
+            "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n0\t1\t2\t3\n",
+            "time does not go on",
+        ),
+        (
+            "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n",
+            "ends after 1 samples, but its header tells 2",
+        ),
+    ] {
+        let told = problems(&format!("{head}{table}"));
+        assert!(told.contains(part), "{table}: {told}");
+        assert!(told.contains("help: "), "{told}");
+    }
+    let three = header("\t", 3) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n0\t1\t2\t3\n1\t1\t2\t3\n5\t1\t2\t3\n";
+    assert!(problems(&three).contains("equal steps are needed"));
+    assert!(problems(&"key:,value\n".repeat(500)).contains("no line of channels in 200 lines"));
+    assert!(problems("").contains("no samples"));
+}
+
+#[test]
+fn no_text_makes_it_panic() {
+    let text = header(",", 2) + COMMAS;
+    for cut in (0..text.len()).rev().take(120) {
+        let _ = export(&text[..cut]);
+        for with in [",", "\t", ";", "\n", "x", "-", "\u{e4}"] {
+            let _ = export(&format!("{}{with}{}", &text[..cut], &text[cut + 1..]));
+        }
+    }
+}
