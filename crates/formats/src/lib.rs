@@ -4,6 +4,7 @@
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in: our robot file, URDF.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
+//! - [`toolpath`]: tool path programs in: G-code.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints. Same input, same bytes.
@@ -12,3 +13,4 @@ pub mod document;
 pub mod file;
 pub mod robot;
 pub mod table;
+pub mod toolpath;
