@@ -130,7 +130,9 @@ impl Block {
 
     fn word(&mut self, reader: &mut Reader<'_>) -> Result<(), Refusal> {
         let start = reader.at;
-        let Some(letter) = reader.peek() else { return Ok(()) };
+        let Some(letter) = reader.peek() else {
+            return Ok(());
+        };
         if letter == b'#' {
             let name = reader.parameter()?;
             if !reader.take(b'=') {
@@ -198,7 +200,9 @@ impl Block {
         };
         match codes[group] {
             // Mist and flood may run together, and the same code twice says nothing new.
-            Some((other, _)) if other != code && !(letter == b'm' && matches!((other, code), (7, 8) | (8, 7))) => {
+            Some((other, _))
+                if other != code && !(letter == b'm' && matches!((other, code), (7, 8) | (8, 7))) =>
+            {
                 Err(Refusal::SameGroup(name(other), name(code)))
             }
             _ => {
@@ -224,7 +228,8 @@ impl Block {
     }
 
     pub fn peek(&self, letter: u8) -> Option<f64> {
-        self.has(letter).then(|| self.values[usize::from(letter.wrapping_sub(b'a') % 26)])
+        self.has(letter)
+            .then(|| self.values[usize::from(letter.wrapping_sub(b'a') % 26)])
     }
 
     /// Values of X, Y, Z, A, B, C.
@@ -263,7 +268,9 @@ impl Block {
             | Refusal::RotaryCut { axis: word, .. } => Some(word.to_ascii_lowercase()),
             Refusal::ClearBelowBottom { .. } => Some('r'),
             Refusal::DiameterUnknown(_) | Refusal::TurningTool(..) if self.has(b'd') => Some('d'),
-            Refusal::ToolUnknown(_) => ['t', 'h', 'd', 'p', 'q'].into_iter().find(|letter| self.has(*letter as u8)),
+            Refusal::ToolUnknown(_) => ['t', 'h', 'd', 'p', 'q']
+                .into_iter()
+                .find(|letter| self.has(*letter as u8)),
             _ => None,
         };
         if let Some(letter) = letter.filter(|letter| letter.is_ascii_lowercase() && self.has(*letter as u8)) {
@@ -283,7 +290,11 @@ impl Block {
                 .map(|(_, place)| *place)
         };
         let found = named((b'g', &self.g)).or_else(|| named((b'm', &self.m)));
-        let place = found.or_else(|| self.g[groups::CUTTER].filter(|_| code.is_none()).map(|(_, place)| place));
+        let place = found.or_else(|| {
+            self.g[groups::CUTTER]
+                .filter(|_| code.is_none())
+                .map(|(_, place)| place)
+        });
         let place = place.or_else(|| self.g[groups::MOTION].map(|(_, place)| place));
         place.map(|(start, end)| usize::from(start)..usize::from(end))
     }

@@ -171,8 +171,12 @@ impl fmt::Display for Canonical {
                 arc.across,
                 Listed(&arc.rotary, ", ")
             ),
-            Canonical::UseLengthUnits(LengthUnit::Millimetre) => f.write_str("USE_LENGTH_UNITS(CANON_UNITS_MM)"),
-            Canonical::UseLengthUnits(LengthUnit::Inch) => f.write_str("USE_LENGTH_UNITS(CANON_UNITS_INCHES)"),
+            Canonical::UseLengthUnits(LengthUnit::Millimetre) => {
+                f.write_str("USE_LENGTH_UNITS(CANON_UNITS_MM)")
+            }
+            Canonical::UseLengthUnits(LengthUnit::Inch) => {
+                f.write_str("USE_LENGTH_UNITS(CANON_UNITS_INCHES)")
+            }
             Canonical::SetG5xOffset(system, zero) => {
                 write!(f, "SET_G5X_OFFSET({system}, {})", Listed(zero, ", "))
             }
@@ -203,7 +207,11 @@ impl fmt::Display for Canonical {
                 f,
                 "USE_TOOL_LENGTH_OFFSET({x:.4} {y:.4} {z:.4}, {a:.4} {b:.4} {c:.4}, 0.0000 0.0000 0.0000)"
             ),
-            Canonical::SetToolTableEntry { tool, offset, diameter } => write!(
+            Canonical::SetToolTableEntry {
+                tool,
+                offset,
+                diameter,
+            } => write!(
                 f,
                 "SET_TOOL_TABLE_ENTRY({tool}, {} 0.0000 0.0000 0.0000, {diameter:.4})",
                 Listed(offset, " ")

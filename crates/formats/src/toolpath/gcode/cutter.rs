@@ -52,7 +52,10 @@ struct Piece {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Contour {
     Line,
-    Arc { centre: Point2<f64>, counterclockwise: bool },
+    Arc {
+        centre: Point2<f64>,
+        counterclockwise: bool,
+    },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -170,7 +173,9 @@ impl Cutter {
             } else if cross * active.side > 0.0 && (onward || cross.abs() >= TANGENT) {
                 let corner = crossing(&last.shape, last.end, &next.shape, next.start, last.corner);
                 let corner = corner.filter(|at| reached(last, *at, &active));
-                let at = corner.ok_or(Refusal::Gouging { radius: active.radius })?;
+                let at = corner.ok_or(Refusal::Gouging {
+                    radius: active.radius,
+                })?;
                 last.end = at;
                 end_at(&mut last.call, active.plane, at);
                 for (call, _) in &mut self.waiting {
@@ -207,9 +212,16 @@ impl Cutter {
 fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2<f64>)) -> Vector2<f64> {
     match contour {
         Contour::Line => (to - from).normalize(),
-        Contour::Arc { centre, counterclockwise } => {
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
             let outward = (at - centre).normalize();
-            if counterclockwise { left_of(outward) } else { -left_of(outward) }
+            if counterclockwise {
+                left_of(outward)
+            } else {
+                -left_of(outward)
+            }
         }
     }
 }
@@ -221,16 +233,26 @@ fn moved(
     (from, to): (Point2<f64>, Point2<f64>),
     mut call: Canonical,
 ) -> Result<Piece, Refusal> {
-    let (arrives, leaves) = (direction(contour, from, (from, to)), direction(contour, to, (from, to)));
+    let (arrives, leaves) = (
+        direction(contour, from, (from, to)),
+        direction(contour, to, (from, to)),
+    );
     let offset = active.side * active.radius;
     let start = from + left_of(arrives) * offset;
     let end = to + left_of(leaves) * offset;
     let shape = match contour {
         Contour::Line => Shape::Line { towards: arrives },
-        Contour::Arc { centre, counterclockwise } => {
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
             let arc = (to - centre).norm();
             let inside = (active.side > 0.0) == counterclockwise;
-            let radius = if inside { arc - active.radius } else { arc + active.radius };
+            let radius = if inside {
+                arc - active.radius
+            } else {
+                arc + active.radius
+            };
             if radius <= 0.0 {
                 return Err(Refusal::ArcInsideCutter {
                     arc,
@@ -255,7 +277,9 @@ fn moved(
 /// Lets the first piece begin on the bare contour.
 fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
     piece.start = from;
-    let Contour::Arc { centre, .. } = contour else { return };
+    let Contour::Arc { centre, .. } = contour else {
+        return;
+    };
     // The centre stays on the radius to the end, at u from it: |from - end - u w| = u with w towards the old centre.
     let w = (centre - piece.end).normalize();
     let chord = from - piece.end;
@@ -264,7 +288,10 @@ fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
         return;
     }
     let centre = piece.end + w * u;
-    piece.shape = Shape::Circle { centre, radius: u.abs() };
+    piece.shape = Shape::Circle {
+        centre,
+        radius: u.abs(),
+    };
     if let Canonical::ArcFeed(arc) = &mut piece.call {
         arc.centre = centre.into();
     }
@@ -302,7 +329,16 @@ fn crossing(
         (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
             line_and_circle(and, *towards, *centre, *radius).map(nearest)
         }
-        (Shape::Circle { centre: c1, radius: r1 }, Shape::Circle { centre: c2, radius: r2 }) => {
+        (
+            Shape::Circle {
+                centre: c1,
+                radius: r1,
+            },
+            Shape::Circle {
+                centre: c2,
+                radius: r2,
+            },
+        ) => {
             let between = c2 - c1;
             let d = between.norm();
             let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
@@ -331,7 +367,9 @@ fn line_and_circle(
 fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
     let [first, second, _] = plane.axes();
     match call {
-        Canonical::StraightFeed(end) | Canonical::StraightTraverse(end) => Point2::new(end[first], end[second]),
+        Canonical::StraightFeed(end) | Canonical::StraightTraverse(end) => {
+            Point2::new(end[first], end[second])
+        }
         Canonical::ArcFeed(arc) => arc.end.into(),
         _ => Point2::origin(),
     }

@@ -80,10 +80,18 @@ impl Machine {
             Some(repeats) if repeats >= 0.0 && repeats.fract() == 0.0 && repeats <= MOST_REPEATS => repeats,
             Some(value) => {
                 let wanted = "a whole number of holes, at most 100000";
-                return Err(Refusal::WordValue { word: 'L', value, wanted });
+                return Err(Refusal::WordValue {
+                    word: 'L',
+                    value,
+                    wanted,
+                });
             }
         };
-        let Cycle { mut clear, mut bottom, .. } = self.cycle;
+        let Cycle {
+            mut clear,
+            mut bottom,
+            ..
+        } = self.cycle;
         if !self.absolute {
             clear += self.at[across];
             bottom += clear;
@@ -103,7 +111,16 @@ impl Machine {
         for _ in 0..repeats as u32 {
             let target = self.target(words);
             let at = [target[first], target[second]];
-            self.hole(code, Hole { at, clear, bottom, back }, out)?;
+            self.hole(
+                code,
+                Hole {
+                    at,
+                    clear,
+                    bottom,
+                    back,
+                },
+                out,
+            )?;
         }
         if continuous {
             self.call(Canonical::SetMotionControlMode(self.path), out)?;
@@ -113,7 +130,12 @@ impl Machine {
     }
 
     /// Takes the words of the cycle, or those of its block before.
-    fn keep(&mut self, name: &str, again: bool, (bottom, block): (Option<f64>, &mut Block)) -> Result<(), Refusal> {
+    fn keep(
+        &mut self,
+        name: &str,
+        again: bool,
+        (bottom, block): (Option<f64>, &mut Block),
+    ) -> Result<(), Refusal> {
         let missing = |word| Refusal::WordMissing(name.to_owned(), word);
         let mut kept = if again { self.cycle } else { Cycle::default() };
         match (block.take(b'r'), again) {
@@ -134,7 +156,13 @@ impl Machine {
             match kept.step {
                 None => return Err(missing("Q")),
                 Some(step) if step > 0.0 => {}
-                Some(value) => return Err(Refusal::WordValue { word: 'Q', value, wanted: "above 0" }),
+                Some(value) => {
+                    return Err(Refusal::WordValue {
+                        word: 'Q',
+                        value,
+                        wanted: "above 0",
+                    });
+                }
             }
         }
         if matches!(name, "G82" | "G86" | "G88" | "G89" | "G84") {
@@ -156,7 +184,14 @@ impl Machine {
 
     fn to(&mut self, end: Axes, fast: bool, out: Out<'_>) -> Result<(), Refusal> {
         self.at = end;
-        self.call(if fast { Canonical::StraightTraverse(end) } else { Canonical::StraightFeed(end) }, out)
+        self.call(
+            if fast {
+                Canonical::StraightTraverse(end)
+            } else {
+                Canonical::StraightFeed(end)
+            },
+            out,
+        )
     }
 
     fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
@@ -200,7 +235,10 @@ impl Machine {
         let pecks = ((hole.clear - hole.bottom) / step).ceil() - 1.0;
         if pecks > MOST_PECKS {
             let limit = MOST_PECKS as usize;
-            return Err(Refusal::TooMuch { what: "steps in one hole", limit });
+            return Err(Refusal::TooMuch {
+                what: "steps in one hole",
+                limit,
+            });
         }
         let gap = PECK_GAP[usize::from(self.unit == LengthUnit::Inch)];
         // At most MOST_PECKS.

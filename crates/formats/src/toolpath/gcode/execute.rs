@@ -30,7 +30,8 @@ const MOST_CALLS: f64 = 9999.0;
 impl Machine {
     /// Does what a block says.
     pub(super) fn execute(&mut self, block: &mut Block, out: Out<'_>) -> Result<Outcome, Refusal> {
-        if block.has_g(640) && block.m[groups::SPINDLE].is_some_and(|(code, _)| code == 19) && block.has(b'r') {
+        if block.has_g(640) && block.m[groups::SPINDLE].is_some_and(|(code, _)| code == 19) && block.has(b'r')
+        {
             return Err(Refusal::WordAmbiguous('R'));
         }
         self.feed_and_spindle(block, out)?;
@@ -60,7 +61,11 @@ impl Machine {
         }
         if let Some(feed) = block.take(b'f') {
             if feed < 0.0 {
-                return Err(Refusal::WordValue { word: 'F', value: feed, wanted: "at least 0" });
+                return Err(Refusal::WordValue {
+                    word: 'F',
+                    value: feed,
+                    wanted: "at least 0",
+                });
             }
             if self.feed_mode != FeedMode::InverseTime {
                 self.feed = feed;
@@ -69,7 +74,11 @@ impl Machine {
         }
         if let Some(speed) = block.take(b's') {
             if speed < 0.0 {
-                return Err(Refusal::WordValue { word: 'S', value: speed, wanted: "at least 0" });
+                return Err(Refusal::WordValue {
+                    word: 'S',
+                    value: speed,
+                    wanted: "at least 0",
+                });
             }
             self.speed = speed;
             self.call(Canonical::SetSpindleSpeed(speed), out)?;
@@ -88,7 +97,9 @@ impl Machine {
                 return Err(Refusal::NotUnderCompensation(groups::name(b'm', code)));
             }
             if code == 61 {
-                let number = block.take(b'q').ok_or(Refusal::WordMissing("M61".to_owned(), "Q"))?;
+                let number = block
+                    .take(b'q')
+                    .ok_or(Refusal::WordMissing("M61".to_owned(), "Q"))?;
                 self.selected = tool_number('Q', number)?;
                 self.tool(self.selected)?;
             } else {
@@ -130,7 +141,9 @@ impl Machine {
 
     fn modes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if block.has_g(40) {
-            let seconds = block.take(b'p').ok_or(Refusal::WordMissing("G4".to_owned(), "P"))?;
+            let seconds = block
+                .take(b'p')
+                .ok_or(Refusal::WordMissing("G4".to_owned(), "P"))?;
             self.call(Canonical::Dwell(seconds), out)?;
         }
         let off = |code: u16, machine: &Machine| match machine.cutter.is_on() {
@@ -146,7 +159,11 @@ impl Machine {
             self.call(Canonical::SelectPlane(plane), out)?;
         }
         if let Some((code, _)) = block.g[groups::UNITS] {
-            let unit = if code == 200 { LengthUnit::Inch } else { LengthUnit::Millimetre };
+            let unit = if code == 200 {
+                LengthUnit::Inch
+            } else {
+                LengthUnit::Millimetre
+            };
             if unit != self.unit {
                 off(code, self)?;
             }
@@ -195,7 +212,9 @@ impl Machine {
         }
         let diameter = if matches!(code, 411 | 421) {
             block.take(b'l');
-            block.take(b'd').ok_or(Refusal::WordMissing(groups::name(b'g', code), "D"))?
+            block
+                .take(b'd')
+                .ok_or(Refusal::WordMissing(groups::name(b'g', code), "D"))?
         } else {
             let number = match block.take(b'd') {
                 Some(number) => tool_number('D', number)?,
@@ -212,14 +231,19 @@ impl Machine {
     }
 
     fn moves(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
-        let once = block.g[groups::ONCE].map(|(code, _)| code).filter(|code| *code != 40);
+        let once = block.g[groups::ONCE]
+            .map(|(code, _)| code)
+            .filter(|code| *code != 40);
         let told = block.g[groups::MOTION].map(|(code, _)| code);
         // G43.1 has taken the axis words of its block.
         let takes_axes = once.filter(|code| matches!(code, 100 | 280 | 300 | 520 | 920));
         if let (Some(once), Some(told)) = (takes_axes, told.filter(|code| *code != 800))
             && block.has_axes()
         {
-            return Err(Refusal::AxesTwice(groups::name(b'g', once), groups::name(b'g', told)));
+            return Err(Refusal::AxesTwice(
+                groups::name(b'g', once),
+                groups::name(b'g', told),
+            ));
         }
         match once {
             Some(100) => self.set_data(block, out)?,
@@ -228,7 +252,8 @@ impl Machine {
             Some(code) => self.shift(code, block, out)?,
             None => {}
         }
-        let moving = takes_axes.is_none() && !block.has_g(431) && (block.has_axes() || self.vector && block.has(b'i'));
+        let moving =
+            takes_axes.is_none() && !block.has_g(431) && (block.has_axes() || self.vector && block.has(b'i'));
         let code = match (told, moving) {
             (Some(code), _) => code,
             (None, true) => self.motion,
@@ -263,11 +288,17 @@ impl Machine {
                 block.take(b'p');
                 return Ok(Outcome::Return);
             }
-            let number = block.take(b'p').ok_or(Refusal::WordMissing("M98".to_owned(), "P"))?;
+            let number = block
+                .take(b'p')
+                .ok_or(Refusal::WordMissing("M98".to_owned(), "P"))?;
             let times = block.take(b'l').unwrap_or(1.0);
             if !(0.0..=MOST_CALLS).contains(&times) || times.fract() != 0.0 {
                 let wanted = "a whole number, at most 9999";
-                return Err(Refusal::WordValue { word: 'L', value: times, wanted });
+                return Err(Refusal::WordValue {
+                    word: 'L',
+                    value: times,
+                    wanted,
+                });
             }
             return Ok(Outcome::Call {
                 number: tool_number('P', number)?,
@@ -298,7 +329,12 @@ impl Machine {
             self.plane = Plane::Xy;
             self.call(Canonical::SelectPlane(Plane::Xy), out)?;
         }
-        self.call(Canonical::SetFeedMode { per_revolution: false }, out)?;
+        self.call(
+            Canonical::SetFeedMode {
+                per_revolution: false,
+            },
+            out,
+        )?;
         self.call(Canonical::SetFeedRate(0.0), out)?;
         self.call(Canonical::StopSpindleTurning, out)?;
         self.call(Canonical::SetSpindleMode, out)?;

@@ -146,7 +146,9 @@ impl Body {
         // Open branches and loops, with the lines of their branches so far.
         let mut open: Vec<(String, Keyword, Vec<usize>)> = Vec::new();
         for index in 0..self.lines.len() {
-            let Some(word) = self.lines[index].word.clone() else { continue };
+            let Some(word) = self.lines[index].word.clone() else {
+                continue;
+            };
             let matches = |open: &[(String, Keyword, Vec<usize>)], of: &[Keyword]| {
                 open.last()
                     .is_some_and(|(label, keyword, _)| *label == word.label && of.contains(keyword))
@@ -187,7 +189,9 @@ impl Body {
                 }
                 continue;
             }
-            let Some((.., branches)) = open.pop() else { continue };
+            let Some((.., branches)) = open.pop() else {
+                continue;
+            };
             let next = branches.iter().skip(1).copied().chain([index]);
             for (branch, next) in branches.iter().zip(next) {
                 self.lines[*branch].partner = next;
@@ -198,7 +202,10 @@ impl Body {
             }
         }
         match open.pop() {
-            Some((label, _, lines)) => Err((lines.first().copied().unwrap_or_default(), Refusal::FlowUnclosed(label))),
+            Some((label, _, lines)) => Err((
+                lines.first().copied().unwrap_or_default(),
+                Refusal::FlowUnclosed(label),
+            )),
             None => Ok(()),
         }
     }

@@ -24,8 +24,8 @@ pub const MOST_FAULTS: usize = 100;
 pub const MOST_KEPT_BYTES: usize = 256 << 20;
 /// Subroutines that call each other.
 pub const MOST_CALLS_DEEP: usize = 100;
-/// Lines of subroutines and loops that are done, repetitions counted: minutes of computing.
-pub const MOST_REPEATED_LINES: usize = 50_000_000;
+/// Lines of subroutines and loops that are done, repetitions counted.
+pub const MOST_REPEATED_LINES: usize = 20_000_000;
 /// Canonical calls of one line: what cycles may expand to.
 pub const MOST_CALLS_OF_A_LINE: usize = 5_000_000;
 
@@ -159,7 +159,9 @@ impl Interpreter<'_> {
             Keyword::Sub | Keyword::If | Keyword::While | Keyword::Do | Keyword::Repeat => {
                 let label = word.label.clone();
                 let sub = word.keyword == Keyword::Sub;
-                let Some(body) = self.collect(word, line, lines) else { return Left::AtEnd };
+                let Some(body) = self.collect(word, line, lines) else {
+                    return Left::AtEnd;
+                };
                 if sub {
                     self.subroutines.insert(label, body);
                     return Left::AtEnd;
@@ -197,7 +199,10 @@ impl Interpreter<'_> {
             self.kept_bytes += line.text.len() + size_of::<Line>();
             if self.kept_bytes > MOST_KEPT_BYTES {
                 let limit = MOST_KEPT_BYTES;
-                let refusal = Refusal::TooMuch { what: "bytes of subroutines and loops", limit };
+                let refusal = Refusal::TooMuch {
+                    what: "bytes of subroutines and loops",
+                    limit,
+                };
                 self.fault(&start, refusal, 0..start.text.len());
                 self.stopped = true;
                 return None;
@@ -234,7 +239,11 @@ impl Interpreter<'_> {
 
     fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
         if let Err((index, refusal)) = body.link() {
-            let line = body.lines.get(index).map(|kept| kept.line.clone()).unwrap_or_default();
+            let line = body
+                .lines
+                .get(index)
+                .map(|kept| kept.line.clone())
+                .unwrap_or_default();
             let end = line.text.len();
             self.fault(&line, refusal, 0..end);
             return None;
@@ -251,7 +260,10 @@ impl Interpreter<'_> {
             self.repeated += 1;
             if self.repeated > MOST_REPEATED_LINES {
                 let limit = MOST_REPEATED_LINES;
-                let refusal = Refusal::TooMuch { what: "lines of loops and subroutines to be done", limit };
+                let refusal = Refusal::TooMuch {
+                    what: "lines of loops and subroutines to be done",
+                    limit,
+                };
                 self.fault(&kept.line, refusal, 0..kept.line.text.len());
                 self.stopped = true;
             }
@@ -308,9 +320,11 @@ impl Interpreter<'_> {
                 }
                 Keyword::Continue => {
                     repeats.retain(|(first, _)| *first <= skip_to);
-                    body.lines.get(skip_to).map_or(at, |first| match first.word.as_ref().map(|word| word.keyword) {
-                        Some(Keyword::While) => skip_to,
-                        _ => first.end,
+                    body.lines.get(skip_to).map_or(at, |first| {
+                        match first.word.as_ref().map(|word| word.keyword) {
+                            Some(Keyword::While) => skip_to,
+                            _ => first.end,
+                        }
                     })
                 }
                 Keyword::Return | Keyword::EndSub => {
@@ -331,7 +345,9 @@ impl Interpreter<'_> {
     fn branch(&mut self, body: &Rc<Body>, mut at: usize) -> usize {
         while let Some(kept) = body.lines.get(at) {
             match &kept.word {
-                Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => at = kept.partner,
+                Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => {
+                    at = kept.partner
+                }
                 _ => break,
             }
         }
@@ -361,7 +377,9 @@ impl Interpreter<'_> {
         let mut refusal = None;
         while reader.at < self.clean.text.len() {
             if values.len() >= parameters::LOCALS {
-                refusal = Some(Refusal::TooManyArguments { limit: parameters::LOCALS });
+                refusal = Some(Refusal::TooManyArguments {
+                    limit: parameters::LOCALS,
+                });
                 break;
             }
             match reader.bracketed() {
@@ -385,7 +403,9 @@ impl Interpreter<'_> {
     }
 
     fn returns(&mut self, line: &Line, word: &OWord) {
-        let value = self.values_behind(line, word).and_then(|values| values.first().copied());
+        let value = self
+            .values_behind(line, word)
+            .and_then(|values| values.first().copied());
         let given = f64::from(u8::from(value.is_some()));
         let set = self
             .machine
@@ -398,9 +418,15 @@ impl Interpreter<'_> {
     }
 
     fn call(&mut self, word: &OWord, line: &Line) -> Left {
-        let Some(arguments) = self.values_behind(line, word) else { return Left::AtEnd };
+        let Some(arguments) = self.values_behind(line, word) else {
+            return Left::AtEnd;
+        };
         let Some(body) = self.subroutine(&word.label) else {
-            self.fault(line, Refusal::SubroutineUnknown(word.label.clone()), 0..line.text.len());
+            self.fault(
+                line,
+                Refusal::SubroutineUnknown(word.label.clone()),
+                0..line.text.len(),
+            );
             return Left::AtEnd;
         };
         self.machine.parameters.enter(&arguments);
@@ -411,7 +437,13 @@ impl Interpreter<'_> {
 
     fn called(&mut self, body: &Rc<Body>, line: &Line) -> Left {
         if self.depth >= MOST_CALLS_DEEP {
-            self.fault(line, Refusal::CallsTooDeep { limit: MOST_CALLS_DEEP }, 0..line.text.len());
+            self.fault(
+                line,
+                Refusal::CallsTooDeep {
+                    limit: MOST_CALLS_DEEP,
+                },
+                0..line.text.len(),
+            );
             self.stopped = true;
             return Left::Finished;
         }
@@ -506,7 +538,10 @@ impl Interpreter<'_> {
             calls += 1;
             if calls > MOST_CALLS_OF_A_LINE {
                 let limit = MOST_CALLS_OF_A_LINE;
-                return Err(Refusal::TooMuch { what: "moves of one line", limit });
+                return Err(Refusal::TooMuch {
+                    what: "moves of one line",
+                    limit,
+                });
             }
             out(call, line)
         };
@@ -543,7 +578,12 @@ impl Interpreter<'_> {
         }
     }
 
-    fn call_numbered(&mut self, number: u32, times: u32, (line, lines): (&Line, Option<&mut Lines<'_>>)) -> Left {
+    fn call_numbered(
+        &mut self,
+        number: u32,
+        times: u32,
+        (line, lines): (&Line, Option<&mut Lines<'_>>),
+    ) -> Left {
         let name = number.to_string();
         let body = match (self.subroutine(&name), lines) {
             (None, Some(lines)) => self.ahead(&name, lines),

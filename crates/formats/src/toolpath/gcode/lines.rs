@@ -60,7 +60,8 @@ impl<'r> Lines<'r> {
             let content = part.get(..end.unwrap_or(part.len())).unwrap_or_default();
             // One byte more than allowed tells that the line is too long.
             let room = (LONGEST_LINE + 1).saturating_sub(line.text.len());
-            line.text.extend_from_slice(content.get(..room).unwrap_or(content));
+            line.text
+                .extend_from_slice(content.get(..room).unwrap_or(content));
             let used = content.len() + usize::from(end.is_some());
             length += used;
             self.reader.consume(used);

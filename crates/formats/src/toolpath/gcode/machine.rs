@@ -129,7 +129,11 @@ impl Machine {
             unit_told: false,
         };
         let system = machine.parameters.numbered(parameters::SYSTEM);
-        machine.system = if (1.0..=9.0).contains(&system) { system as u8 } else { 1 };
+        machine.system = if (1.0..=9.0).contains(&system) {
+            system as u8
+        } else {
+            1
+        };
         (machine.g5x, machine.turn) = machine.stored_system(machine.system);
         if machine.parameters.numbered(parameters::G92_FLAG) != 0.0 {
             machine.g92 = machine.stored(parameters::G92_FLAG + 1);
@@ -174,7 +178,10 @@ impl Machine {
     /// Six parameters from this one on, in the unit of the program.
     pub fn stored(&self, first: usize) -> Axes {
         let unit = self.tools.unit.in_units_of(self.unit);
-        scaled(std::array::from_fn(|axis| self.parameters.numbered(first + axis)), unit)
+        scaled(
+            std::array::from_fn(|axis| self.parameters.numbered(first + axis)),
+            unit,
+        )
     }
 
     pub fn store(&mut self, first: usize, values: Axes) {

@@ -43,7 +43,16 @@ pub(super) fn message(comment: &[u8], values: &dyn Values) -> Option<String> {
 /// How long the parameter at the start is: `#5420`, `#<name>`.
 fn name_length(text: &[u8]) -> usize {
     match text.get(1) {
-        Some(b'<') => text.iter().position(|byte| *byte == b'>').map_or(text.len(), |end| end + 1),
-        _ => 1 + text.iter().skip(1).take_while(|byte| byte.is_ascii_digit()).count(),
+        Some(b'<') => text
+            .iter()
+            .position(|byte| *byte == b'>')
+            .map_or(text.len(), |end| end + 1),
+        _ => {
+            1 + text
+                .iter()
+                .skip(1)
+                .take_while(|byte| byte.is_ascii_digit())
+                .count()
+        }
     }
 }

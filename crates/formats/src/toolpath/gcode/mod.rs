@@ -110,9 +110,10 @@ pub fn read(
 fn problem(path: &str, fault: &Fault) -> Problem {
     let source = Source::new(fault.file.as_deref().unwrap_or(path), &fault.text);
     source
-        .problem(fault.place.clone(), fault.refusal.to_string(), fault.refusal.hint())
+        .problem(
+            fault.place.clone(),
+            fault.refusal.to_string(),
+            fault.refusal.hint(),
+        )
         .in_file(fault.line as usize, fault.offset)
 }
-
-#[cfg(test)]
-mod tests;

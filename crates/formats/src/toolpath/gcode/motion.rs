@@ -69,7 +69,11 @@ impl Machine {
             let length = length(&self.at, &end);
             self.feed_for(code, block, length, out)?;
         }
-        let call = if code == 0 { Canonical::StraightTraverse(end) } else { Canonical::StraightFeed(end) };
+        let call = if code == 0 {
+            Canonical::StraightTraverse(end)
+        } else {
+            Canonical::StraightFeed(end)
+        };
         self.follow(Contour::Line, call, out)?;
         self.at = end;
         Ok(())
@@ -123,7 +127,11 @@ impl Machine {
             (Some(radius), _) => centre_by_radius(start, stop, radius, counterclockwise)?,
             (None, [None, None]) => return Err(Refusal::ArcWithoutCentre),
             (None, words) => {
-                let base = if self.arc_absolute { Point2::origin() } else { start };
+                let base = if self.arc_absolute {
+                    Point2::origin()
+                } else {
+                    start
+                };
                 let word = |index: usize| match words[index] {
                     Some(value) => base[index] + value,
                     None => start[index],
@@ -153,11 +161,22 @@ impl Machine {
             end: stop.into(),
             centre: centre.into(),
             // At most MOST_TURNS.
-            turns: if counterclockwise { turns as i32 } else { -(turns as i32) },
+            turns: if counterclockwise {
+                turns as i32
+            } else {
+                -(turns as i32)
+            },
             across: end[across],
             rotary: [end[3], end[4], end[5]],
         });
-        self.follow(Contour::Arc { centre, counterclockwise }, call, out)?;
+        self.follow(
+            Contour::Arc {
+                centre,
+                counterclockwise,
+            },
+            call,
+            out,
+        )?;
         self.at = end;
         Ok(())
     }
@@ -184,7 +203,11 @@ impl Machine {
         if self.cutter.is_on() {
             return Err(Refusal::NotUnderCompensation(groups::name(b'g', code)));
         }
-        let first = if code == 280 { parameters::HOME } else { parameters::HOME + 20 };
+        let first = if code == 280 {
+            parameters::HOME
+        } else {
+            parameters::HOME + 20
+        };
         let stored = self.stored(first);
         if stored == [0.0; 6] {
             self.warn(Warning::HomeAssumed);
@@ -224,7 +247,11 @@ fn finite(end: &Axes) -> Result<(), Refusal> {
 
 /// What the feed is counted along: the way of the tip, or degrees where it stands.
 fn length(from: &Axes, to: &Axes) -> f64 {
-    let apart = |axes: std::ops::Range<usize>| axes.map(|axis| (to[axis] - from[axis]).powi(2)).sum::<f64>().sqrt();
+    let apart = |axes: std::ops::Range<usize>| {
+        axes.map(|axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
     match apart(0..3) {
         0.0 => apart(3..6),
         length => length,
@@ -282,9 +309,12 @@ mod tests {
     #[test]
     fn a_radius_above_zero_makes_the_shorter_arc() {
         let (start, stop) = (Point2::new(0.0, 0.0), Point2::new(2.0, 0.0));
-        for (radius, counterclockwise, shorter) in
-            [(2.0, true, true), (2.0, false, true), (-2.0, true, false), (-2.0, false, false)]
-        {
+        for (radius, counterclockwise, shorter) in [
+            (2.0, true, true),
+            (2.0, false, true),
+            (-2.0, true, false),
+            (-2.0, false, false),
+        ] {
             let centre = centre_by_radius(start, stop, radius, counterclockwise).unwrap();
             assert!(((start - centre).norm() - 2.0).abs() < 1e-15, "one rounding");
             let sweep = sweep(start - centre, stop - centre, counterclockwise);

@@ -19,7 +19,12 @@ fn over(words: [Option<f64>; 6], base: Axes) -> Axes {
 }
 
 /// A word as a whole number of a range.
-fn whole(word: char, value: f64, range: std::ops::RangeInclusive<f64>, wanted: &'static str) -> Result<u32, Refusal> {
+fn whole(
+    word: char,
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    wanted: &'static str,
+) -> Result<u32, Refusal> {
     // Words may be computed.
     let whole = value.round();
     if (value - whole).abs() > 1e-6 || !range.contains(&whole) {
@@ -173,7 +178,8 @@ impl Machine {
             return Ok(());
         }
         self.not_compensating(&groups::name(b'g', code))?;
-        self.parameters.set_numbered(parameters::SYSTEM, f64::from(system));
+        self.parameters
+            .set_numbered(parameters::SYSTEM, f64::from(system));
         self.recount(|machine| (machine.system, machine.g5x, machine.turn) = (system, zero, turn));
         self.call(Canonical::SetG5xOffset(system, self.g5x), out)?;
         self.call(Canonical::SetG92Offset(self.g92), out)?;
@@ -212,7 +218,11 @@ impl Machine {
 
     /// G28.1 and G30.1.
     pub(super) fn store_home(&mut self, code: u16) {
-        let first = if code == 281 { parameters::HOME } else { parameters::HOME + 20 };
+        let first = if code == 281 {
+            parameters::HOME
+        } else {
+            parameters::HOME + 20
+        };
         let machine = self.in_machine(self.at);
         self.store(first, machine);
     }

@@ -57,7 +57,9 @@ impl Warning {
         match self {
             Warning::UnitAssumed => "no G20 or G21: the unit is assumed",
             Warning::HomeAssumed => "G28 or G30 without stored position: machine zero is assumed",
-            Warning::MachineZeroAssumed => "machine coordinates without work offset: program zero is assumed there",
+            Warning::MachineZeroAssumed => {
+                "machine coordinates without work offset: program zero is assumed there"
+            }
             Warning::StartAssumed => "the program begins with an arc: from program zero",
             Warning::UserCode => "codes of the machine builder are passed over",
             Warning::Output => "inputs and outputs are passed over",
@@ -87,7 +89,9 @@ impl Warnings {
 
     /// Each warning with its count and the line of its first time.
     pub fn iter(&self) -> impl Iterator<Item = (Warning, u64, u32)> + '_ {
-        self.0.iter().map(|(warning, (count, line))| (*warning, *count, *line))
+        self.0
+            .iter()
+            .map(|(warning, (count, line))| (*warning, *count, *line))
     }
 
     /// How often a warning came.

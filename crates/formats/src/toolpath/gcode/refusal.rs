@@ -44,7 +44,11 @@ pub enum Refusal {
     #[error("word {0} could belong to two codes of this block")]
     WordAmbiguous(char),
     #[error("word {word} is {value}: must be {wanted}")]
-    WordValue { word: char, value: f64, wanted: &'static str },
+    WordValue {
+        word: char,
+        value: f64,
+        wanted: &'static str,
+    },
     #[error("{0} and {1} in one block, where only one of their group may stand")]
     SameGroup(String, String),
     #[error("unknown code {0}")]
@@ -72,7 +76,11 @@ pub enum Refusal {
     #[error("arc with both R and a centre")]
     ArcWithBoth,
     #[error("arc of radius {radius} at its start and {end_radius} at its end: they may differ by {limit}")]
-    ArcRadii { radius: f64, end_radius: f64, limit: f64 },
+    ArcRadii {
+        radius: f64,
+        end_radius: f64,
+        limit: f64,
+    },
     #[error("arc of radius {radius} whose ends are {chord} apart")]
     ArcTooSmall { radius: f64, chord: f64 },
     #[error("arc with R that ends where it starts: it could be any circle")]
@@ -147,16 +155,22 @@ impl Refusal {
         let hint = match self {
             Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in blocks of their own",
             Refusal::WordAmbiguous(_) | Refusal::AxesTwice(..) => "write the codes on separate lines",
-            Refusal::UnknownCode(_) => "see the table of codes in the guide; take the block out if it moves nothing",
+            Refusal::UnknownCode(_) => {
+                "see the table of codes in the guide; take the block out if it moves nothing"
+            }
             Refusal::NoFeed(_) => "give F before the first cut",
-            Refusal::NoInverseTime(_) => "under G93 every cut has its own F, the inverse of its time in minutes",
+            Refusal::NoInverseTime(_) => {
+                "under G93 every cut has its own F, the inverse of its time in minutes"
+            }
             Refusal::AxesWithoutMotion => "give G0, G1, G2 or G3",
             Refusal::ArcRadii { .. } => {
                 "I, J, K lead from the start to the centre; with G90.1 they are the centre itself"
             }
             Refusal::ArcAnywhere => "write full circles with I, J, K",
             Refusal::ArcAfterCompensation => "leave cutter compensation with a straight move",
-            Refusal::Gouging { .. } | Refusal::ArcInsideCutter { .. } => "use a smaller cutter, or a path it can follow",
+            Refusal::Gouging { .. } | Refusal::ArcInsideCutter { .. } => {
+                "use a smaller cutter, or a path it can follow"
+            }
             Refusal::DiameterUnknown(_) => "give a tool table, or G41.1 D with the diameter",
             Refusal::ToolUnknown(_) => "add it to the tool table",
             Refusal::SubroutineUnknown(_) => "define it before its call, or give its file",
@@ -164,7 +178,9 @@ impl Refusal {
                 "post-process with tool-centre control (G43.4, M428, TRAORI, M128), so that X Y Z are the tip in the \
                  frame of the part"
             }
-            Refusal::RotariesUnknown { .. } => "say which rotary axes turn the table and which the head, such as xyzac",
+            Refusal::RotariesUnknown { .. } => {
+                "say which rotary axes turn the table and which the head, such as xyzac"
+            }
             Refusal::SystemUnknown(..) => {
                 "give the offsets with G10 L2 or as parameters #5221 and on, or split the program"
             }

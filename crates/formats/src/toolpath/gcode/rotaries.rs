@@ -116,7 +116,11 @@ mod tests {
 
     #[test]
     fn tables_turn_the_tool_as_their_closed_forms_say() {
-        for (a, b, c) in [(20.0_f64, -50.0_f64, 130.0_f64), (-72.0, 5.0, -36.0), (0.0, 0.0, 45.0)] {
+        for (a, b, c) in [
+            (20.0_f64, -50.0_f64, 130.0_f64),
+            (-72.0, 5.0, -36.0),
+            (0.0, 0.0, 45.0),
+        ] {
             let [ra, rb, rc] = [a, b, c].map(f64::to_radians);
             let ac = Vector3::new(rc.sin() * ra.sin(), rc.cos() * ra.sin(), ra.cos());
             let bc = Vector3::new(-rc.cos() * rb.sin(), rc.sin() * rb.sin(), rb.cos());
@@ -128,7 +132,10 @@ mod tests {
     #[test]
     fn heads_turn_the_tool_by_the_right_hand() {
         let axis = Rotaries::head_cb().tool_axis([0.0, 90.0, 90.0]).into_inner();
-        assert!((axis - Vector3::y()).norm() < EXACT, "B lays it along X, C turns that to Y");
+        assert!(
+            (axis - Vector3::y()).norm() < EXACT,
+            "B lays it along X, C turns that to Y"
+        );
         let axis = Rotaries::head_ca().tool_axis([90.0, 0.0, 0.0]).into_inner();
         assert!((axis + Vector3::y()).norm() < EXACT, "A lays it against Y");
     }

@@ -13,8 +13,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 
-use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector2, Vector3};
+use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 
 use super::canonical::{ArcFeed, Axes, Canonical, LengthUnit};
 use super::motion::sweep;
@@ -27,8 +27,9 @@ use super::summary::Summary;
 /// Rotary axes nearer to zero than this, deg, stand there.
 const AT_ZERO: f64 = 1e-9;
 /// Work coordinate systems by number.
-const SYSTEMS: [&str; 10] =
-    ["G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"];
+const SYSTEMS: [&str; 10] = [
+    "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
+];
 
 /// Where the coordinates of the program lie, m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +94,10 @@ impl<'a> Tracer<'a> {
         }
         let diameters = options.tools.iter().flat_map(|table| {
             let unit = table.unit.metres();
-            table.tools.iter().map(move |(number, tool)| (*number, tool.diameter * unit))
+            table
+                .tools
+                .iter()
+                .map(move |(number, tool)| (*number, tool.diameter * unit))
         });
         Tracer {
             out,
@@ -184,7 +188,11 @@ impl<'a> Tracer<'a> {
         } else {
             self.feed
         };
-        if per_minute > 0.0 { Pace::Feed(per_minute / MINUTE) } else { Pace::Untold }
+        if per_minute > 0.0 {
+            Pace::Feed(per_minute / MINUTE)
+        } else {
+            Pace::Untold
+        }
     }
 
     /// The tip in coordinates of the path.
@@ -215,14 +223,20 @@ impl<'a> Tracer<'a> {
             self.warnings.count(Warning::MachineZeroAssumed, line);
         }
         if pace.cuts() {
-            if let Some(path) = self.path.filter(|path| self.cut && path.system != self.frame.system) {
+            if let Some(path) = self
+                .path
+                .filter(|path| self.cut && path.system != self.frame.system)
+            {
                 let (first, now) = (path.system, self.frame.system);
                 if !told(first) || !told(now) {
                     let name = |system: u8| SYSTEMS.get(usize::from(system)).copied().unwrap_or_default();
                     return Err(Refusal::SystemUnknown(name(now), name(first)));
                 }
             }
-            let turned = rotary.iter().zip(['A', 'B', 'C']).find(|(angle, _)| angle.abs() > AT_ZERO);
+            let turned = rotary
+                .iter()
+                .zip(['A', 'B', 'C'])
+                .find(|(angle, _)| angle.abs() > AT_ZERO);
             if let (false, Some((angle, axis))) = (self.centre, turned) {
                 return Err(Refusal::RotaryCut { axis, angle: *angle });
             }
@@ -246,15 +260,18 @@ impl<'a> Tracer<'a> {
         let axis = match (self.vector, self.rotaries) {
             (Some(vector), _) => Unit::new_normalize(vector),
             (None, rotaries) => {
-                for (axis, (angle, letter)) in
-                    [Rotary::A, Rotary::B, Rotary::C].into_iter().zip(rotary.into_iter().zip(['A', 'B', 'C']))
+                for (axis, (angle, letter)) in [Rotary::A, Rotary::B, Rotary::C]
+                    .into_iter()
+                    .zip(rotary.into_iter().zip(['A', 'B', 'C']))
                 {
                     if angle.abs() <= AT_ZERO {
                         continue;
                     }
                     match rotaries {
                         None => return Err(Refusal::RotariesUnknown { axis: letter }),
-                        Some(rotaries) if !rotaries.has(axis) => return Err(Refusal::RotaryAbsent { axis: letter }),
+                        Some(rotaries) if !rotaries.has(axis) => {
+                            return Err(Refusal::RotaryAbsent { axis: letter });
+                        }
                         Some(_) => {}
                     }
                 }
@@ -287,7 +304,11 @@ impl<'a> Tracer<'a> {
         if self.at.is_none() {
             self.warnings.count(Warning::StartAssumed, line);
             let origin = Point3::origin();
-            self.step(Pace::Rapid, (origin, self.in_path(origin), axis), (Course::Line, line));
+            self.step(
+                Pace::Rapid,
+                (origin, self.in_path(origin), axis),
+                (Course::Line, line),
+            );
         }
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {

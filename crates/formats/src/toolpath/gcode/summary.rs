@@ -1,7 +1,7 @@
 //! What a program holds, counted while it is read.
 
-use armill_core::path::{Course, Move, Pace};
 use armill_core::nalgebra::{Point3, Rotation3};
+use armill_core::path::{Course, Move, Pace};
 
 use super::options::Warnings;
 
@@ -31,7 +31,9 @@ pub struct Summary {
 impl Summary {
     pub(super) fn count(&mut self, from: Option<Point3<f64>>, next: &Move) {
         self.moves += 1;
-        let Some(from) = from.filter(|_| next.pace.cuts()) else { return };
+        let Some(from) = from.filter(|_| next.pace.cuts()) else {
+            return;
+        };
         self.cuts += 1;
         self.feeds_untold += u64::from(next.pace == Pace::Untold);
         self.reach(from);
@@ -43,7 +45,9 @@ impl Summary {
         let aside = arc.axis.cross(&arm);
         for coordinate in 0..3 {
             // The arc c + arm cos + aside sin is farthest where its derivative is zero, and half a turn on.
-            let first = aside[coordinate].atan2(arm[coordinate]).rem_euclid(std::f64::consts::PI);
+            let first = aside[coordinate]
+                .atan2(arm[coordinate])
+                .rem_euclid(std::f64::consts::PI);
             for angle in [first, first + std::f64::consts::PI] {
                 if angle < arc.sweep {
                     let part = (next.end - from).dot(&arc.axis) * angle / arc.sweep;

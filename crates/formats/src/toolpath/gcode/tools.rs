@@ -45,7 +45,10 @@ impl ToolTable {
     /// A line without `T`, a word that no table has, what is no number, more than 10000 tools.
     pub fn read(path: &str, text: &str, unit: LengthUnit) -> Result<ToolTable, Problems> {
         let source = Source::new(path, text);
-        let mut table = ToolTable { unit, ..ToolTable::default() };
+        let mut table = ToolTable {
+            unit,
+            ..ToolTable::default()
+        };
         let mut problems = Vec::new();
         let mut at = 0;
         for line in source.text().split_inclusive('\n') {
@@ -83,7 +86,9 @@ fn tool(line: &str) -> Result<(u32, Tool), Misread> {
     for word in line.split_whitespace() {
         let start = word.as_ptr() as usize - line.as_ptr() as usize;
         let place = start..start + word.len();
-        let Some(letter) = word.chars().next() else { continue };
+        let Some(letter) = word.chars().next() else {
+            continue;
+        };
         let value = word
             .get(letter.len_utf8()..)
             .and_then(|digits| digits.parse::<f64>().ok())
@@ -119,7 +124,12 @@ mod tests {
 
     #[test]
     fn a_line_is_a_tool() {
-        let table = ToolTable::read("t.tbl", "T1 P1 Z0.5 D0.25;first\n\nt32 x-1 Q2\n", LengthUnit::Inch).unwrap();
+        let table = ToolTable::read(
+            "t.tbl",
+            "T1 P1 Z0.5 D0.25;first\n\nt32 x-1 Q2\n",
+            LengthUnit::Inch,
+        )
+        .unwrap();
         assert_eq!(table.tools[&1].offset[2], 0.5);
         assert_eq!(table.tools[&1].diameter, 0.25);
         assert_eq!(table.tools[&32].offset[0], -1.0);
