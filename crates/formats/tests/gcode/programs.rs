@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
-use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::path::{Arc, Course, Move, Pace, Program, Step};
+use armill_core::nalgebra::{Point3, Rotation3, Vector3};
+use armill_core::path::{Arc, Course, Move, Pace, Program};
 use armill_formats::document::Problems;
 use armill_formats::toolpath::gcode::{
     self, LengthUnit, Options, Rotaries, Rotary, Summary, Tool, ToolTable, Warning, interpret,
@@ -141,8 +141,7 @@ fn arcs_turn_by_the_right_hand_about_the_axis_of_their_plane() {
         };
         let arc = arc_of(next);
         assert_eq!(arc.axis.into_inner(), axis, "{plane}");
-        let turned =
-            armill_core::nalgebra::Rotation3::from_axis_angle(&arc.axis, arc.sweep) * (from.end - arc.centre);
+        let turned = Rotation3::from_axis_angle(&arc.axis, arc.sweep) * (from.end - arc.centre);
         assert!(
             (arc.centre + turned - next.end).norm() < 1e-16,
             "{plane}: a rounding of 10 mm"
@@ -470,7 +469,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("#<_x>=1", "1:1: parameter #<_x> cannot be set"),
     ("G0 X[1/0]", "1:4: an operation has no real value here"),
     ("G0 Xfoo[1]", "1:4: `foo` is no function or operator"),
-    ("G0 X1e10", "1:7: word E is used by no code of this block"),
+    ("G0 X1e10", "1:6: word E is used by no code of this block"),
     ("G0 X[10**12]", "1:4: word X is 1000000000000: must be within 1e9"),
     ("X1", "1:1: axis words without a code that moves"),
     ("G53 G2 X1 I1 F1", "1:5: G53 needs G0 or G1"),
@@ -573,7 +572,7 @@ const REFUSED: &[(&str, &str)] = &[
     ("G43.5 H0 G0 I0", "1:10: tool axis I, J, K of no length"),
     (
         "F1 G1 X1\nX2\nG55 X3",
-        "3:5: cut in G55 after cuts in G54, and where one lies to the other is not told",
+        "3:1: cut in G55 after cuts in G54, and where one lies to the other is not told",
     ),
     (
         "F1 G53 G1 X1",

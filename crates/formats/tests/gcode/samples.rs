@@ -2,9 +2,10 @@
 //! larger programs are read. The folder is named by ARMILL_SAMPLES; without it nothing here is checked.
 
 use std::collections::BTreeSet;
+use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 
-use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Move, Step};
 use armill_formats::toolpath::gcode::{self, LengthUnit, Options, Refusal, Rotaries, ToolTable, interpret};
 
@@ -341,7 +342,90 @@ fn five_axes(file: &str) -> Option<Rotaries> {
 }
 
 /// Programs of the folders `nc_files`, `configs` and `tests/trajectory-planner` that are refused: the first problem.
-const REFUSED: &[(&str, &str)] = &[];
+const REFUSED: &[(&str, &str)] = &[
+    ("nc_files/comp-g1.ngc", "p:27:1: diameter of tool 4 is not told"),
+    ("nc_files/comp.ngc", "p:12:5: diameter of tool 1 is not told"),
+    (
+        "nc_files/daisy.ngc",
+        "p:63:19: cut with A at 7.341617023617251 deg and no tool-centre control",
+    ),
+    (
+        "nc_files/hole-circle.ngc",
+        "p:10:18: ^ is not read: polar words and spindle numbers are not understood",
+    ),
+    ("nc_files/mmount.ngc", "p:42:1: diameter of tool 4 is not told"),
+    (
+        "nc_files/nurbs/G5/butterfly-xy.ngc",
+        "p:12:1: G5.2 is not read: splines and NURBS are not expanded",
+    ),
+    (
+        "nc_files/plasmac/imperial_circles.ngc",
+        "p:13:1: parameter #<_hal[plasmac.cut-feed-rate]> was never set",
+    ),
+    (
+        "nc_files/plasmac/metric_circles.ngc",
+        "p:13:1: parameter #<_hal[plasmac.cut-feed-rate]> was never set",
+    ),
+    (
+        "nc_files/polar.ngc",
+        "p:10:1: ^ is not read: polar words and spindle numbers are not understood",
+    ),
+    (
+        "nc_files/spiral.ngc",
+        "p:9:8: @ is not read: polar words and spindle numbers are not understood",
+    ),
+    (
+        "nc_files/systems.ngc",
+        "p:15:1: G5.1 is not read: splines and NURBS are not expanded",
+    ),
+    (
+        "bridgemill/5axisgui.ngc",
+        "p:18:27: word W is used by no code of this block",
+    ),
+    (
+        "demos/xyzab-tdr-demo.ngc",
+        "p:10:12: parameter #<_hal[xyzab_tdr_kins.x-rot-point]> was never set",
+    ),
+    (
+        "demos/xyzac_switchkins.ngc",
+        "p:2:1: subroutine xyzac_switchkins_sub is not known",
+    ),
+    (
+        "demos/xyzac_switchkins_test_1.ngc",
+        "p:7:1: cut with C at 90 deg and no tool-centre control",
+    ),
+    (
+        "demos/xyzac_switchkins_test_3.ngc",
+        "p:5:1: cut with C at 90 deg and no tool-centre control",
+    ),
+    (
+        "demos/xyzbc_switchkins.ngc",
+        "p:2:1: subroutine xyzbc_switchkins_sub is not known",
+    ),
+    (
+        "demos/incremental_repetition.ngc",
+        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+    ),
+    (
+        "demos/incremental_repetition_back_and_forth.ngc",
+        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+    ),
+    (
+        "demos/incremental_repetition_g533.ngc",
+        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+    ),
+    (
+        "demos/simple_example.ngc",
+        "p:1:1: G69 is not read: tilted planes need the machine's kinematics",
+    ),
+];
+
+/// Programs that only hold a subroutine.
+const WITHOUT_CUTS: &[&str] = &[
+    "ngcgui_lib/helix.ngc",
+    "demos/circular_pocket.ngc",
+    "demos/square.ngc",
+];
 
 #[test]
 fn every_larger_program_is_read_or_refused_for_the_reason_named() {
@@ -363,8 +447,9 @@ fn every_larger_program_is_read_or_refused_for_the_reason_named() {
             match (outcome, known) {
                 (Ok(summary), None) => {
                     read += 1;
-                    if summary.cuts == 0 {
-                        wrong.push(format!("{name}: no cuts"));
+                    let none = WITHOUT_CUTS.iter().any(|file| name.ends_with(file));
+                    if (summary.cuts == 0) != none {
+                        wrong.push(format!("{name}: {} cuts", summary.cuts));
                     }
                 }
                 (Ok(_), Some((_, said))) => wrong.push(format!("{name}: read, not refused with `{said}`")),
@@ -425,7 +510,7 @@ fn plunges_run_along_the_tool_axis_of_the_part() {
 }
 
 #[test]
-fn full_circles_sweep_a_turn_in_every_plane() {
+fn arcs_sweep_three_quarters_in_every_plane() {
     let Some(folder) = linuxcnc() else { return };
     let folder = folder.join("tests/trajectory-planner/circular-arcs/nc_files/arc-feed");
     for (file, axis) in [
@@ -433,21 +518,20 @@ fn full_circles_sweep_a_turn_in_every_plane() {
         ("full_xz.ngc", Vector3::y()),
         ("full_yz.ngc", Vector3::x()),
     ] {
-        let mut at = Point3::origin();
-        let mut circles = 0;
+        let mut arcs = 0;
         for next in moves(&folder.join(file), &Options::default()) {
             if let Course::Arc(arc) = next.course {
-                let apart = (next.end - at).dot(&arc.axis);
-                let across = (next.end - at - arc.axis.into_inner() * apart).norm();
-                // The angle of a full turn is that of ends that are the same number.
-                if across == 0.0 {
-                    circles += 1;
-                    assert_eq!(arc.sweep, std::f64::consts::TAU, "{file}:{}", next.line);
-                }
+                arcs += 1;
+                // Ends are written with few digits: the angle of exact ends, but for rounding.
+                assert!(
+                    (arc.sweep - 1.5 * PI).abs() < 1e-14,
+                    "{file}:{}: {}",
+                    next.line,
+                    arc.sweep
+                );
                 assert_eq!(arc.axis.dot(&axis).abs(), 1.0, "{file}:{}", next.line);
             }
-            at = next.end;
         }
-        assert!(circles > 0, "{file}: {circles} full circles");
+        assert_eq!(arcs, 1, "{file}");
     }
 }

@@ -44,6 +44,8 @@ struct Piece {
     corner: Point2<f64>,
     /// Of the contour, at its end.
     leaves: Vector2<f64>,
+    /// Curvature of the contour, to the left.
+    bend: f64,
     call: Canonical,
     line: u32,
 }
@@ -168,14 +170,16 @@ impl Cutter {
             let arrives = direction(contour, from, (from, to));
             let cross = last.leaves.perp(&arrives);
             let onward = last.leaves.dot(&arrives) > 0.0;
+            // Where the contour turns back on itself, what bends tells on which side it goes on.
+            let bends = match cross.abs() < TANGENT {
+                true => -last.bend - bend(contour, from),
+                false => cross,
+            };
             if cross.abs() < TANGENT && onward {
                 next.start = last.end;
-            } else if cross * active.side > 0.0 && (onward || cross.abs() >= TANGENT) {
-                let corner = crossing(&last.shape, last.end, &next.shape, next.start, last.corner);
-                let corner = corner.filter(|at| reached(last, *at, &active));
-                let at = corner.ok_or(Refusal::Gouging {
-                    radius: active.radius,
-                })?;
+            } else if bends * active.side > 0.0 {
+                let crossing = crossing(last, &next, arrives).filter(|at| reached(last, *at, &active));
+                let at = crossing.ok_or(Refusal::Gouging { radius: active.radius })?;
                 last.end = at;
                 end_at(&mut last.call, active.plane, at);
                 for (call, _) in &mut self.waiting {
@@ -226,6 +230,17 @@ fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2
     }
 }
 
+/// Curvature of the contour, above zero to the left.
+fn bend(contour: Contour, at: Point2<f64>) -> f64 {
+    match contour {
+        Contour::Line => 0.0,
+        Contour::Arc { centre, counterclockwise } => {
+            let curvature = 1.0 / (at - centre).norm();
+            if counterclockwise { curvature } else { -curvature }
+        }
+    }
+}
+
 /// The piece beside the contour, as if nothing were before it.
 fn moved(
     active: &Active,
@@ -269,6 +284,7 @@ fn moved(
         end,
         corner: to,
         leaves,
+        bend: bend(contour, to),
         call,
         line: 0,
     })
@@ -305,40 +321,28 @@ fn reached(piece: &Piece, at: Point2<f64>, active: &Active) -> bool {
     }
 }
 
-/// Where two shapes through these points cross, next to the corner.
-fn crossing(
-    first: &Shape,
-    through: Point2<f64>,
-    second: &Shape,
-    and: Point2<f64>,
-    corner: Point2<f64>,
-) -> Option<Point2<f64>> {
-    let nearest = |points: [Point2<f64>; 2]| {
-        let [one, other] = points;
-        let nearer = (one - corner).norm_squared() <= (other - corner).norm_squared();
-        if nearer { one } else { other }
+/// Where two pieces cross: next to their corner, on the side where both become shorter.
+fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<f64>> {
+    let inwards = arrives - last.leaves;
+    let best = |[one, other]: [Point2<f64>; 2]| {
+        let key = |at: Point2<f64>| {
+            let from_corner = at - last.corner;
+            (from_corner.dot(&inwards) < 0.0, from_corner.norm_squared())
+        };
+        if key(one) <= key(other) { one } else { other }
     };
-    match (first, second) {
+    match (last.shape, next.shape) {
         (Shape::Line { towards: t1 }, Shape::Line { towards: t2 }) => {
-            let along = (and - through).perp(t2) / t1.perp(t2);
-            along.is_finite().then(|| through + t1 * along)
+            let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
+            along.is_finite().then(|| last.end + t1 * along)
         }
         (Shape::Line { towards }, Shape::Circle { centre, radius }) => {
-            line_and_circle(through, *towards, *centre, *radius).map(nearest)
+            line_and_circle(last.end, towards, centre, radius).map(best)
         }
         (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
-            line_and_circle(and, *towards, *centre, *radius).map(nearest)
+            line_and_circle(next.start, towards, centre, radius).map(best)
         }
-        (
-            Shape::Circle {
-                centre: c1,
-                radius: r1,
-            },
-            Shape::Circle {
-                centre: c2,
-                radius: r2,
-            },
-        ) => {
+        (Shape::Circle { centre: c1, radius: r1 }, Shape::Circle { centre: c2, radius: r2 }) => {
             let between = c2 - c1;
             let d = between.norm();
             let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
@@ -348,7 +352,7 @@ fn crossing(
             }
             let foot = c1 + between * (along / d);
             let aside = left_of(between) * (height.sqrt() / d);
-            Some(nearest([foot + aside, foot - aside]))
+            Some(best([foot + aside, foot - aside]))
         }
     }
 }

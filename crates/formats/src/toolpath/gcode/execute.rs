@@ -133,7 +133,7 @@ impl Machine {
         }
         if let Some((code, _)) = block.m[groups::CENTRE] {
             let on = matches!(code, 128 | 428 | groups::TRAORI);
-            (self.centre, self.vector) = (on, false);
+            (self.centre, self.centre_by_length, self.vector) = (on, false, false);
             self.call(Canonical::ToolCentreControl { on }, out)?;
         }
         Ok(())

@@ -9,7 +9,7 @@ use std::rc::Rc;
 use super::block::{Block, Clean};
 use super::canonical::Canonical;
 use super::execute::Outcome;
-use super::expression::{Name, Reader, Values};
+use super::expression::{Name, Values};
 use super::flow::{Body, Keyword, OWord, o_word};
 use super::lines::{Line, Lines};
 use super::machine::Machine;
@@ -50,8 +50,8 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
         options,
         out,
         block: Block::new(),
-        clean: Clean::default(),
-        subroutines: BTreeMap::new(),
+        pub clean: Clean::default(),
+        pub subroutines: BTreeMap::new(),
         kept_bytes: 0,
         repeated: 0,
         depth: 0,
@@ -59,7 +59,7 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
         refused: BTreeSet::new(),
         stopped: false,
     };
-    let lines = interpreter.program(&mut Lines::new(reader));
+    let lines = interpreter.program(&mut Lines::new(reader, None));
     Told {
         faults: interpreter.faults,
         warnings: interpreter.machine.warnings,
@@ -67,26 +67,26 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
     }
 }
 
-struct Interpreter<'a> {
-    machine: Machine,
-    options: &'a Options<'a>,
+pub(super) struct Interpreter<'a> {
+    pub machine: Machine,
+    pub options: &'a Options<'a>,
     out: Receiver<'a>,
     block: Block,
     clean: Clean,
     subroutines: BTreeMap<String, Rc<Body>>,
     kept_bytes: usize,
-    repeated: usize,
+    pub repeated: usize,
     /// Subroutines being called.
-    depth: usize,
+    pub depth: usize,
     faults: Vec<Fault>,
     /// Lines refused once are not told again in the next round of their loop.
     refused: BTreeSet<(Option<Rc<str>>, u32)>,
-    stopped: bool,
+    pub stopped: bool,
 }
 
 /// How lines were left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Left {
+pub(super) enum Left {
     AtEnd,
     Returning,
     Finished,
@@ -136,7 +136,7 @@ impl Interpreter<'_> {
     }
 
     /// Cleans a line; its o-word, if it is one.
-    fn o_word_of(&mut self, line: &Line) -> Result<Option<OWord>, ()> {
+    pub fn o_word_of(&mut self, line: &Line) -> Result<Option<OWord>, ()> {
         if let Err(refused) = self.clean.read(&line.text) {
             self.fault(line, refused.refusal, refused.place);
             return Err(());
@@ -178,7 +178,7 @@ impl Interpreter<'_> {
     }
 
     /// Keeps lines from one that begins a subroutine, branch or loop to the one that ends it.
-    fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
+    pub fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
         let begins = first.keyword;
         let label = first.label.clone();
         let start = line.clone();
@@ -237,7 +237,7 @@ impl Interpreter<'_> {
         self.linked(body).filter(|_| sound)
     }
 
-    fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
+    pub fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
         if let Err((index, refusal)) = body.link() {
             let line = body
                 .lines
@@ -251,267 +251,8 @@ impl Interpreter<'_> {
         Some(Rc::new(body))
     }
 
-    /// Goes through kept lines.
-    fn run(&mut self, body: &Rc<Body>) -> Left {
-        let mut at = 0;
-        // Repeats that are open, with the rounds still to go.
-        let mut repeats: Vec<(usize, u64)> = Vec::new();
-        while let Some(kept) = body.lines.get(at) {
-            self.repeated += 1;
-            if self.repeated > MOST_REPEATED_LINES {
-                let limit = MOST_REPEATED_LINES;
-                let refusal = Refusal::TooMuch {
-                    what: "lines of loops and subroutines to be done",
-                    limit,
-                };
-                self.fault(&kept.line, refusal, 0..kept.line.text.len());
-                self.stopped = true;
-            }
-            if self.stopped {
-                return Left::Finished;
-            }
-            let line = &kept.line;
-            let Some(word) = &kept.word else {
-                match self.again(line) {
-                    Left::AtEnd => at += 1,
-                    left => return left,
-                }
-                continue;
-            };
-            let skip_to = kept.partner;
-            at = match word.keyword {
-                Keyword::If => match self.holds(line, word) {
-                    true => at + 1,
-                    false => self.branch(body, skip_to),
-                },
-                Keyword::ElseIf | Keyword::Else => kept.end + 1,
-                Keyword::While => match self.holds(line, word) {
-                    true => at + 1,
-                    false => skip_to + 1,
-                },
-                Keyword::EndWhile => skip_to,
-                Keyword::DoWhile => match self.holds(line, word) {
-                    true => skip_to + 1,
-                    false => at + 1,
-                },
-                Keyword::Repeat => {
-                    // Counts below one give no round at all.
-                    let rounds = self.value(line, word).unwrap_or_default().round().max(0.0) as u64;
-                    if rounds == 0 {
-                        skip_to + 1
-                    } else {
-                        repeats.push((at, rounds));
-                        at + 1
-                    }
-                }
-                Keyword::EndRepeat => match repeats.last_mut() {
-                    Some((first, left)) if *left > 1 => {
-                        *left -= 1;
-                        *first + 1
-                    }
-                    _ => {
-                        repeats.pop();
-                        at + 1
-                    }
-                },
-                Keyword::Break => {
-                    repeats.retain(|(first, _)| *first < skip_to);
-                    body.lines.get(skip_to).map_or(at, |first| first.end) + 1
-                }
-                Keyword::Continue => {
-                    repeats.retain(|(first, _)| *first <= skip_to);
-                    body.lines.get(skip_to).map_or(at, |first| {
-                        match first.word.as_ref().map(|word| word.keyword) {
-                            Some(Keyword::While) => skip_to,
-                            _ => first.end,
-                        }
-                    })
-                }
-                Keyword::Return | Keyword::EndSub => {
-                    self.returns(line, word);
-                    return Left::Returning;
-                }
-                Keyword::Call => match self.call(word, line) {
-                    Left::AtEnd => at + 1,
-                    left => return left,
-                },
-                _ => at + 1,
-            };
-        }
-        Left::AtEnd
-    }
-
-    /// The branch that holds after a condition that does not.
-    fn branch(&mut self, body: &Rc<Body>, mut at: usize) -> usize {
-        while let Some(kept) = body.lines.get(at) {
-            match &kept.word {
-                Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => {
-                    at = kept.partner
-                }
-                _ => break,
-            }
-        }
-        at + 1
-    }
-
-    fn holds(&mut self, line: &Line, word: &OWord) -> bool {
-        self.value(line, word).is_some_and(|value| value != 0.0)
-    }
-
-    /// The bracketed value behind an o-word.
-    fn value(&mut self, line: &Line, word: &OWord) -> Option<f64> {
-        let mut values = self.values_behind(line, word)?;
-        if values.len() != 1 {
-            self.fault(line, Refusal::Expected('['), 0..line.text.len());
-        }
-        values.pop()
-    }
-
-    /// All bracketed values behind an o-word.
-    fn values_behind(&mut self, line: &Line, word: &OWord) -> Option<Vec<f64>> {
-        // Lines kept were cleaned without fault when they came.
-        self.clean.read(&line.text).ok()?;
-        self.machine.line = line.number;
-        let mut reader = Reader::new(&self.clean.text, word.rest, &self.machine);
-        let mut values = Vec::new();
-        let mut refusal = None;
-        while reader.at < self.clean.text.len() {
-            if values.len() >= parameters::LOCALS {
-                refusal = Some(Refusal::TooManyArguments {
-                    limit: parameters::LOCALS,
-                });
-                break;
-            }
-            match reader.bracketed() {
-                Ok(value) => values.push(value),
-                Err(Refusal::Expected('[')) => {
-                    refusal = Some(Refusal::FlowTrailing);
-                    break;
-                }
-                Err(found) => {
-                    refusal = Some(found);
-                    break;
-                }
-            }
-        }
-        if let Some(refusal) = refusal {
-            let place = self.clean.place(word.rest..self.clean.text.len());
-            self.fault(line, refusal, place);
-            return None;
-        }
-        Some(values)
-    }
-
-    fn returns(&mut self, line: &Line, word: &OWord) {
-        let value = self
-            .values_behind(line, word)
-            .and_then(|values| values.first().copied());
-        let given = f64::from(u8::from(value.is_some()));
-        let set = self
-            .machine
-            .parameters
-            .set_named(b"_value", value.unwrap_or_default())
-            .and_then(|()| self.machine.parameters.set_named(b"_value_returned", given));
-        if let Err(refusal) = set {
-            self.fault(line, refusal, 0..line.text.len());
-        }
-    }
-
-    fn call(&mut self, word: &OWord, line: &Line) -> Left {
-        let Some(arguments) = self.values_behind(line, word) else {
-            return Left::AtEnd;
-        };
-        let Some(body) = self.subroutine(&word.label) else {
-            self.fault(
-                line,
-                Refusal::SubroutineUnknown(word.label.clone()),
-                0..line.text.len(),
-            );
-            return Left::AtEnd;
-        };
-        self.machine.parameters.enter(&arguments);
-        let left = self.called(&body, line);
-        self.machine.parameters.leave();
-        left
-    }
-
-    fn called(&mut self, body: &Rc<Body>, line: &Line) -> Left {
-        if self.depth >= MOST_CALLS_DEEP {
-            self.fault(
-                line,
-                Refusal::CallsTooDeep {
-                    limit: MOST_CALLS_DEEP,
-                },
-                0..line.text.len(),
-            );
-            self.stopped = true;
-            return Left::Finished;
-        }
-        self.depth += 1;
-        let left = self.run(body);
-        self.depth -= 1;
-        match left {
-            Left::Finished => Left::Finished,
-            _ => Left::AtEnd,
-        }
-    }
-
-    /// A subroutine of the program or of another file.
-    fn subroutine(&mut self, name: &str) -> Option<Rc<Body>> {
-        if let Some(body) = self.subroutines.get(name) {
-            return Some(body.clone());
-        }
-        let text = self.options.subroutines.and_then(|lookup| lookup(name))?;
-        let file: Rc<str> = Rc::from(name);
-        let mut reader = text.as_bytes();
-        let mut lines = Lines::new(&mut reader);
-        let mut line = Line::default();
-        let mut whole = Body::default();
-        while let Ok(true) = lines.next(&mut line) {
-            line.file = Some(file.clone());
-            let word = self.o_word_of(&line).ok().flatten();
-            match word {
-                Some(word) if word.keyword == Keyword::Sub => {
-                    let label = word.label.clone();
-                    let body = self.collect(word, &mut line, &mut lines)?;
-                    self.subroutines.insert(label, body);
-                }
-                word => whole.push(line.clone(), word),
-            }
-        }
-        if !self.subroutines.contains_key(name) {
-            let body = self.linked(whole)?;
-            self.subroutines.insert(name.to_owned(), body);
-        }
-        self.subroutines.get(name).cloned()
-    }
-
-    /// A subroutine of M98 that stands farther on, behind the end of the program.
-    fn ahead(&mut self, name: &str, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
-        let coming: Vec<Line> = lines.look_ahead(MOST_KEPT_BYTES).ok()?.iter().cloned().collect();
-        let mut body: Option<Body> = None;
-        for line in coming {
-            let word = self.o_word_of(&line).ok().flatten();
-            let begins = word
-                .as_ref()
-                .is_some_and(|word| word.keyword == Keyword::Label && word.label == name);
-            let ends = self.clean.text.windows(3).any(|three| three == b"m99");
-            if let Some(body) = &mut body {
-                body.push(line, word);
-                if ends {
-                    break;
-                }
-            } else if begins {
-                body = Some(Body::default());
-            }
-        }
-        let body = self.linked(body?)?;
-        self.subroutines.insert(name.to_owned(), body.clone());
-        Some(body)
-    }
-
     /// A line kept, cleaned anew.
-    fn again(&mut self, line: &Line) -> Left {
+    pub fn again(&mut self, line: &Line) -> Left {
         if self.clean.read(&line.text).is_err() {
             // Told when it was kept.
             return Left::AtEnd;
@@ -578,31 +319,7 @@ impl Interpreter<'_> {
         }
     }
 
-    fn call_numbered(
-        &mut self,
-        number: u32,
-        times: u32,
-        (line, lines): (&Line, Option<&mut Lines<'_>>),
-    ) -> Left {
-        let name = number.to_string();
-        let body = match (self.subroutine(&name), lines) {
-            (None, Some(lines)) => self.ahead(&name, lines),
-            (body, _) => body,
-        };
-        let Some(body) = body else {
-            self.fault(line, Refusal::SubroutineUnknown(name), 0..line.text.len());
-            return Left::AtEnd;
-        };
-        for _ in 0..times {
-            match self.called(&body, line) {
-                Left::AtEnd => {}
-                left => return left,
-            }
-        }
-        Left::AtEnd
-    }
-
-    fn fault(&mut self, line: &Line, refusal: Refusal, place: std::ops::Range<usize>) {
+    pub fn fault(&mut self, line: &Line, refusal: Refusal, place: std::ops::Range<usize>) {
         let never_ends = matches!(refusal, Refusal::TooMuch { .. });
         self.stopped |= never_ends;
         if !self.refused.insert((line.file.clone(), line.number)) && !never_ends {

@@ -26,15 +26,18 @@ pub(super) struct Lines<'r> {
     ahead: VecDeque<Line>,
     number: u32,
     offset: usize,
+    file: Option<Rc<str>>,
 }
 
 impl<'r> Lines<'r> {
-    pub fn new(reader: &'r mut dyn BufRead) -> Lines<'r> {
+    /// Of the program itself, or of another file.
+    pub fn new(reader: &'r mut dyn BufRead, file: Option<Rc<str>>) -> Lines<'r> {
         Lines {
             reader,
             ahead: VecDeque::new(),
             number: 0,
             offset: 0,
+            file,
         }
     }
 
@@ -49,7 +52,7 @@ impl<'r> Lines<'r> {
 
     fn read(&mut self, line: &mut Line) -> io::Result<bool> {
         line.text.clear();
-        line.file = None;
+        line.file.clone_from(&self.file);
         let mut length = 0;
         loop {
             let part = self.reader.fill_buf()?;

@@ -59,6 +59,8 @@ pub(super) struct Machine {
     pub cutter: Cutter,
     /// Tool-centre control is on.
     pub centre: bool,
+    /// By G43.4 or G43.5.
+    pub centre_by_length: bool,
     /// G43.5: I, J, K are the tool axis.
     pub vector: bool,
     pub warnings: Warnings,
@@ -123,6 +125,7 @@ impl Machine {
             cycle: Cycle::default(),
             cutter: Cutter::default(),
             centre: false,
+            centre_by_length: false,
             vector: false,
             warnings: Warnings::default(),
             line: 1,

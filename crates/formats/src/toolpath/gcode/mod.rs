@@ -25,7 +25,8 @@
 //! Under tool-centre control X, Y, Z are the tip in the frame of the part; a table carries that frame with it.
 //!
 //! Taken for granted, each with a warning: the unit before G20 or G21; stored places of G28 and G30 at machine zero;
-//! program zero at machine zero for moves in machine coordinates, which may not cut. A program begins at X0 Y0 Z0.
+//! program zero at machine zero for moves in machine coordinates, which may not cut. A program begins at X0 Y0 Z0. F in
+//! the block of G20 or G21 is in the new unit.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
@@ -44,6 +45,8 @@ mod motion;
 mod offsets;
 mod parameters;
 mod steps;
+mod subroutines;
+mod walk;
 
 pub mod canonical;
 pub mod interpreter;

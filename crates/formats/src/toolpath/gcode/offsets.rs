@@ -173,10 +173,10 @@ impl Machine {
             592 => 8,
             _ => 9,
         };
-        let (zero, turn) = self.stored_system(system);
-        if system == self.system && (zero, turn) == (self.g5x, self.turn) {
+        if system == self.system {
             return Ok(());
         }
+        let (zero, turn) = self.stored_system(system);
         self.not_compensating(&groups::name(b'g', code))?;
         self.parameters
             .set_numbered(parameters::SYSTEM, f64::from(system));
@@ -251,10 +251,15 @@ impl Machine {
         };
         self.recount(|machine| machine.length = offset);
         self.call(Canonical::UseToolLengthOffset(offset), out)?;
-        let was_on = self.vector || self.centre;
-        (self.centre, self.vector) = (code == 434, code == 435);
-        if was_on || self.centre || self.vector {
-            let on = self.centre || self.vector;
+        // G43 replaces G43.4 and G43.5, which are of its group, not M128; G49 ends them all.
+        let told = match code {
+            434 | 435 => Some(true),
+            490 if self.centre => Some(false),
+            _ if self.centre_by_length => Some(false),
+            _ => None,
+        };
+        if let Some(on) = told {
+            (self.centre, self.centre_by_length, self.vector) = (on, on, code == 435);
             self.call(Canonical::ToolCentreControl { on }, out)?;
         }
         Ok(())

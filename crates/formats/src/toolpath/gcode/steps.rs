@@ -73,6 +73,7 @@ pub(super) struct Tracer<'a> {
     in_machine: bool,
     /// m/min, or m per revolution.
     feed: f64,
+    feed_line: u32,
     per_revolution: bool,
     /// Revolutions per minute.
     speed: f64,
@@ -119,6 +120,7 @@ impl<'a> Tracer<'a> {
             vector: None,
             in_machine: false,
             feed: 0.0,
+            feed_line: 0,
             per_revolution: false,
             speed: 0.0,
             sense: None,
@@ -140,7 +142,13 @@ impl<'a> Tracer<'a> {
                 self.straight(end, pace, line)?;
             }
             Canonical::ArcFeed(arc) => self.arc(&arc, line)?,
-            Canonical::UseLengthUnits(unit) => self.unit = unit,
+            Canonical::UseLengthUnits(unit) => {
+                // The order of the standard sets the feed before the unit; nobody means F of that block in the old.
+                if self.feed_line == line {
+                    self.feed *= unit.metres() / self.unit.metres();
+                }
+                self.unit = unit;
+            }
             Canonical::SetG5xOffset(system, zero) => {
                 // Said of the system in force, or away from zero: somebody has measured it.
                 let again = system == self.frame.system && self.path.is_some();
@@ -153,7 +161,10 @@ impl<'a> Tracer<'a> {
             Canonical::SetG92Offset(shift) => self.frame.shift = self.lengths(&shift),
             Canonical::SetXyRotation(degrees) => self.frame.turn = degrees.to_radians(),
             Canonical::SetFeedMode { per_revolution } => self.per_revolution = per_revolution,
-            Canonical::SetFeedRate(rate) => self.feed = rate * self.unit.metres(),
+            Canonical::SetFeedRate(rate) => {
+                self.feed = rate * self.unit.metres();
+                self.feed_line = line;
+            }
             Canonical::SetToolTableEntry { tool, diameter, .. } => {
                 self.diameters.insert(tool, diameter * self.unit.metres());
             }
