@@ -179,7 +179,9 @@ impl Cutter {
                 next.start = last.end;
             } else if bends * active.side > 0.0 {
                 let crossing = crossing(last, &next, arrives).filter(|at| reached(last, *at, &active));
-                let at = crossing.ok_or(Refusal::Gouging { radius: active.radius })?;
+                let at = crossing.ok_or(Refusal::Gouging {
+                    radius: active.radius,
+                })?;
                 last.end = at;
                 end_at(&mut last.call, active.plane, at);
                 for (call, _) in &mut self.waiting {
@@ -234,7 +236,10 @@ fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2
 fn bend(contour: Contour, at: Point2<f64>) -> f64 {
     match contour {
         Contour::Line => 0.0,
-        Contour::Arc { centre, counterclockwise } => {
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
             let curvature = 1.0 / (at - centre).norm();
             if counterclockwise { curvature } else { -curvature }
         }
@@ -342,7 +347,16 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
         (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
             line_and_circle(next.start, towards, centre, radius).map(best)
         }
-        (Shape::Circle { centre: c1, radius: r1 }, Shape::Circle { centre: c2, radius: r2 }) => {
+        (
+            Shape::Circle {
+                centre: c1,
+                radius: r1,
+            },
+            Shape::Circle {
+                centre: c2,
+                radius: r2,
+            },
+        ) => {
             let between = c2 - c1;
             let d = between.norm();
             let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
