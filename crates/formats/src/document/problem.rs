@@ -37,6 +37,13 @@ pub(super) struct Excerpt {
 }
 
 impl Problem {
+    /// A problem told of one line alone, as it stands in its file: on that line, so many bytes on.
+    pub(crate) fn in_file(mut self, line: usize, bytes_before: usize) -> Self {
+        self.line = line;
+        self.span = self.span.start + bytes_before..self.span.end + bytes_before;
+        self
+    }
+
     /// The path of the file, as it was given.
     pub fn file(&self) -> &str {
         &self.file

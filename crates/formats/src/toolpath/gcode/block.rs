@@ -1,0 +1,321 @@
+//! A line as the words it has: letters with their values, codes by group, settings of parameters.
+//!
+//! Blanks and capitals mean nothing outside comments. Values are computed while the line is read; parameters set in a
+//! line get their values after it, as the standard wants it.
+//!
+//! Source: NISTIR 6556, sections 3.3 and 3.4.
+
+use super::expression::{Name, Reader, Values};
+use super::groups::{self, GROUPS};
+use super::refusal::{Refusal, Refused};
+
+/// Longest line, bytes: the controls known take 256.
+pub(super) const LONGEST_LINE: usize = 4096;
+
+/// A line without comments, blanks and capitals, and what it was.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Clean {
+    /// Lower case, no blanks.
+    pub text: Vec<u8>,
+    /// Where each byte of `text` stood in the line.
+    at: Vec<u16>,
+    /// Comments in parentheses, bytes of the line.
+    pub comments: Vec<(usize, usize)>,
+    /// Whether a `/` begins it.
+    pub deleted: bool,
+}
+
+impl Clean {
+    /// Reads a line anew.
+    pub fn read(&mut self, line: &[u8]) -> Result<(), Refused> {
+        self.text.clear();
+        self.at.clear();
+        self.comments.clear();
+        self.deleted = false;
+        if line.len() > LONGEST_LINE {
+            return Err(Refused {
+                refusal: Refusal::LineTooLong { limit: LONGEST_LINE },
+                place: 0..1,
+            });
+        }
+        let mut index = 0;
+        while let Some(byte) = line.get(index).copied() {
+            match byte {
+                b' ' | b'\t' | b'\r' | b'\n' => {}
+                b';' => break,
+                b'(' => {
+                    let rest = line.get(index + 1..).unwrap_or_default();
+                    let Some(length) = rest.iter().position(|byte| *byte == b')') else {
+                        return Err(Refused {
+                            refusal: Refusal::CommentOpen,
+                            place: index..line.len(),
+                        });
+                    };
+                    self.comments.push((index + 1, index + 1 + length));
+                    index += length + 1;
+                }
+                b'/' if self.text.is_empty() && !self.deleted => self.deleted = true,
+                _ => {
+                    self.text.push(byte.to_ascii_lowercase());
+                    // The line is shorter than 2^16: checked above.
+                    self.at.push(index as u16);
+                }
+            }
+            index += 1;
+        }
+        Ok(())
+    }
+
+    /// The bytes of the line that a range of the text came from.
+    pub fn place(&self, range: std::ops::Range<usize>) -> std::ops::Range<usize> {
+        let last = self.at.last().map_or(0, |at| usize::from(*at) + 1);
+        let of = |index: usize| self.at.get(index).map(|at| usize::from(*at));
+        let start = of(range.start).unwrap_or(last);
+        let end = range.end.checked_sub(1).and_then(of).map_or(last, |at| at + 1);
+        start..end.max(start)
+    }
+}
+
+/// The words of a line.
+#[derive(Clone, Debug)]
+pub(super) struct Block {
+    values: [f64; 26],
+    places: [(u16, u16); 26],
+    present: u32,
+    used: u32,
+    /// Codes G by group, in tenths: 921 is G92.1; and where they stand.
+    pub g: [Option<(u16, (u16, u16))>; GROUPS],
+    /// Codes M by group.
+    pub m: [Option<(u16, (u16, u16))>; GROUPS],
+    /// Mist and flood may stand together.
+    pub settings: Vec<(Name, f64)>,
+}
+
+/// Words that are no letters.
+const WHOLE_WORDS: [(&[u8], u16); 2] = [(b"traori", groups::TRAORI), (b"trafoof", groups::TRAFOOF)];
+
+impl Block {
+    pub fn new() -> Block {
+        Block {
+            values: [0.0; 26],
+            places: [(0, 0); 26],
+            present: 0,
+            used: 0,
+            g: [None; GROUPS],
+            m: [None; GROUPS],
+            settings: Vec::new(),
+        }
+    }
+
+    /// Reads the words of a clean line from this byte on.
+    pub fn read(&mut self, clean: &Clean, from: usize, values: &dyn Values) -> Result<(), Refused> {
+        self.present = 0;
+        self.used = 0;
+        self.g = [None; GROUPS];
+        self.m = [None; GROUPS];
+        self.settings.clear();
+        let mut reader = Reader::new(&clean.text, from, values);
+        while reader.at < clean.text.len() {
+            let start = reader.at;
+            self.word(&mut reader).map_err(|refusal| {
+                let end = reader.at.max(start + 1);
+                Refused {
+                    refusal,
+                    place: clean.place(start..end),
+                }
+            })?;
+        }
+        Ok(())
+    }
+
+    fn word(&mut self, reader: &mut Reader<'_>) -> Result<(), Refusal> {
+        let start = reader.at;
+        let Some(letter) = reader.peek() else {
+            return Ok(());
+        };
+        if letter == b'#' {
+            let name = reader.parameter()?;
+            if !reader.take(b'=') {
+                return Err(Refusal::Expected('='));
+            }
+            let value = reader.value()?;
+            self.settings.push((name, value));
+            return Ok(());
+        }
+        let rest = reader.text.get(start..).unwrap_or_default();
+        if let Some((word, code)) = WHOLE_WORDS.iter().find(|(word, _)| rest.starts_with(word)) {
+            reader.at += word.len();
+            return self.code(b'm', *code, (start as u16, reader.at as u16));
+        }
+        if matches!(letter, b'@' | b'^' | b'$') {
+            return Err(Refusal::Unsupported {
+                code: char::from(letter).to_string(),
+                reason: "polar words and spindle numbers are not understood",
+            });
+        }
+        if !letter.is_ascii_lowercase() {
+            return Err(Refusal::NotAWord(char::from(letter)));
+        }
+        reader.at += 1;
+        let value = reader.value()?;
+        let place = (start as u16, reader.at as u16);
+        match letter {
+            b'n' => Ok(()),
+            b'g' => {
+                let code = tenths(value).ok_or_else(|| unknown('G', value))?;
+                self.code(b'g', code, place)
+            }
+            b'm' => {
+                let code = tenths(value).filter(|code| code % 10 == 0).map(|code| code / 10);
+                let code = code.ok_or_else(|| unknown('M', value))?;
+                self.code(b'm', code, place)
+            }
+            _ => {
+                let index = usize::from(letter - b'a');
+                if self.present & (1 << index) != 0 {
+                    return Err(Refusal::WordTwice(shown(letter)));
+                }
+                self.present |= 1 << index;
+                self.values[index] = value;
+                self.places[index] = place;
+                Ok(())
+            }
+        }
+    }
+
+    fn code(&mut self, letter: u8, code: u16, place: (u16, u16)) -> Result<(), Refusal> {
+        let (group, codes) = match letter {
+            b'g' => (groups::of_g(code), &mut self.g),
+            _ => (groups::of_m(code), &mut self.m),
+        };
+        let name = |code| groups::name(letter, code);
+        let Some(group) = group else {
+            return Err(match groups::unsupported(letter, code) {
+                Some(reason) => Refusal::Unsupported {
+                    code: name(code),
+                    reason,
+                },
+                None => Refusal::UnknownCode(name(code)),
+            });
+        };
+        match codes[group] {
+            // Mist and flood may run together, and the same code twice says nothing new.
+            Some((other, _))
+                if other != code && !(letter == b'm' && matches!((other, code), (7, 8) | (8, 7))) =>
+            {
+                Err(Refusal::SameGroup(name(other), name(code)))
+            }
+            _ => {
+                codes[group] = Some((code, place));
+                Ok(())
+            }
+        }
+    }
+
+    fn bit(letter: u8) -> u32 {
+        1 << u32::from(letter.wrapping_sub(b'a') % 26)
+    }
+
+    pub fn has(&self, letter: u8) -> bool {
+        self.present & Block::bit(letter) != 0
+    }
+
+    /// The value of a word, which is used with that.
+    pub fn take(&mut self, letter: u8) -> Option<f64> {
+        let value = self.peek(letter)?;
+        self.used |= Block::bit(letter);
+        Some(value)
+    }
+
+    pub fn peek(&self, letter: u8) -> Option<f64> {
+        self.has(letter)
+            .then(|| self.values[usize::from(letter.wrapping_sub(b'a') % 26)])
+    }
+
+    /// Values of X, Y, Z, A, B, C.
+    pub fn axes(&mut self) -> [Option<f64>; 6] {
+        b"xyzabc".map(|letter| self.take(letter))
+    }
+
+    /// Whether one of X, Y, Z, A, B, C is here.
+    pub fn has_axes(&self) -> bool {
+        b"xyzabc".iter().any(|letter| self.has(*letter))
+    }
+
+    /// A word that nothing asked for.
+    pub fn unused(&self) -> Option<u8> {
+        let left = self.present & !self.used;
+        // At most bit 25 is set.
+        (left != 0).then(|| b'a' + left.trailing_zeros() as u8)
+    }
+
+    /// Where a word stands in the clean text.
+    pub fn place(&self, letter: u8) -> std::ops::Range<usize> {
+        let (start, end) = self.places[usize::from(letter.wrapping_sub(b'a') % 26)];
+        usize::from(start)..usize::from(end)
+    }
+
+    /// Where in the clean text what a refusal names stands.
+    pub fn place_of(&self, refusal: &Refusal) -> Option<std::ops::Range<usize>> {
+        let letter = match refusal {
+            Refusal::WordTwice(word)
+            | Refusal::WordUnused(word)
+            | Refusal::WordAmbiguous(word)
+            | Refusal::WordValue { word, .. }
+            | Refusal::RotaryInCycle { word }
+            | Refusal::RotariesUnknown { axis: word }
+            | Refusal::RotaryAbsent { axis: word }
+            | Refusal::RotaryCut { axis: word, .. } => Some(word.to_ascii_lowercase()),
+            Refusal::ClearBelowBottom { .. } => Some('r'),
+            Refusal::DiameterUnknown(_) | Refusal::TurningTool(..) if self.has(b'd') => Some('d'),
+            Refusal::ToolUnknown(_) => ['t', 'h', 'd', 'p', 'q']
+                .into_iter()
+                .find(|letter| self.has(*letter as u8)),
+            _ => None,
+        };
+        if let Some(letter) = letter.filter(|letter| letter.is_ascii_lowercase() && self.has(*letter as u8)) {
+            return Some(self.place(letter as u8));
+        }
+        let code = match refusal {
+            Refusal::Unsupported { code, .. } => Some(code),
+            Refusal::AxesMissing(code) | Refusal::NoFeed(code) | Refusal::NoInverseTime(code) => Some(code),
+            Refusal::WordMissing(code, _) | Refusal::NotUnderCompensation(code) => Some(code),
+            _ => None,
+        };
+        let named = |(letter, codes): (u8, &[Option<(u16, (u16, u16))>])| {
+            codes
+                .iter()
+                .flatten()
+                .find(|(found, _)| code.is_some_and(|code| *code == groups::name(letter, *found)))
+                .map(|(_, place)| *place)
+        };
+        let found = named((b'g', &self.g)).or_else(|| named((b'm', &self.m)));
+        let place = found.or_else(|| {
+            self.g[groups::CUTTER]
+                .filter(|_| code.is_none())
+                .map(|(_, place)| place)
+        });
+        let place = place.or_else(|| self.g[groups::MOTION].map(|(_, place)| place));
+        place.map(|(start, end)| usize::from(start)..usize::from(end))
+    }
+
+    pub fn has_g(&self, code: u16) -> bool {
+        groups::of_g(code).is_some_and(|group| self.g[group].is_some_and(|(found, _)| found == code))
+    }
+}
+
+pub(super) fn shown(letter: u8) -> char {
+    char::from(letter.to_ascii_uppercase())
+}
+
+fn unknown(letter: char, value: f64) -> Refusal {
+    Refusal::UnknownCode(format!("{letter}{value}"))
+}
+
+/// A code in tenths: 92.1 as 921.
+fn tenths(value: f64) -> Option<u16> {
+    let code = (value * 10.0).round();
+    // Codes may be computed: as far as rounding goes.
+    let whole = (value * 10.0 - code).abs() < 1e-6 && (0.0..f64::from(u16::MAX)).contains(&code);
+    whole.then_some(code as u16)
+}

@@ -1,0 +1,235 @@
+//! The canonical calls that a program comes down to: one motion, offset or setting each.
+//!
+//! Lengths are in the unit of the last `USE_LENGTH_UNITS`, angles in degrees, places in the work coordinate system in
+//! force. Their text is that of the interpreter tests of LinuxCNC, so that both can be compared line by line.
+//!
+//! Source: Kramer, Proctor, Messina, The NIST RS274NGC Interpreter, NISTIR 6556 (2000), section 4; the meaning of
+//! the arguments: formats of the LinuxCNC interpreter tests.
+
+use std::fmt;
+
+/// X, Y, Z, A, B, C.
+pub type Axes = [f64; 6];
+
+/// Units of length that a program may count in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// Millimetres, G21.
+    #[default]
+    Millimetre,
+    /// Inches, G20.
+    Inch,
+}
+
+impl LengthUnit {
+    /// Its length, m.
+    pub fn metres(self) -> f64 {
+        match self {
+            LengthUnit::Millimetre => 1e-3,
+            LengthUnit::Inch => 25.4e-3,
+        }
+    }
+
+    /// How many of `other` make one of it.
+    pub(super) fn in_units_of(self, other: LengthUnit) -> f64 {
+        match (self, other) {
+            (LengthUnit::Inch, LengthUnit::Millimetre) => 25.4,
+            (LengthUnit::Millimetre, LengthUnit::Inch) => 1.0 / 25.4,
+            _ => 1.0,
+        }
+    }
+}
+
+/// The plane of arcs, cycles and cutter compensation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Plane {
+    /// G17.
+    #[default]
+    Xy,
+    /// G18: first axis Z, second X.
+    Zx,
+    /// G19.
+    Yz,
+}
+
+impl Plane {
+    /// Indices of its first and second axis and of the axis across; right-handed in this order.
+    pub fn axes(self) -> [usize; 3] {
+        match self {
+            Plane::Xy => [0, 1, 2],
+            Plane::Zx => [2, 0, 1],
+            Plane::Yz => [1, 2, 0],
+        }
+    }
+}
+
+/// How exactly corners are followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum PathControl {
+    /// G61.
+    ExactPath,
+    /// G61.1.
+    ExactStop,
+    /// G64, with its tolerance.
+    Continuous(f64),
+}
+
+/// An arc or helix in a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArcFeed {
+    /// The plane it lies in.
+    pub plane: Plane,
+    /// End along the first and second axis of the plane.
+    pub end: [f64; 2],
+    /// Centre along the first and second axis of the plane.
+    pub centre: [f64; 2],
+    /// Turns, begun ones counted; negative is clockwise.
+    pub turns: i32,
+    /// End along the axis across.
+    pub across: f64,
+    /// Ends of A, B, C.
+    pub rotary: [f64; 3],
+}
+
+/// What a block asks of the machine.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub enum Canonical {
+    StraightTraverse(Axes),
+    StraightFeed(Axes),
+    ArcFeed(ArcFeed),
+    UseLengthUnits(LengthUnit),
+    /// Number of the coordinate system, 1 for G54, and its zero in machine coordinates.
+    SetG5xOffset(u8, Axes),
+    SetG92Offset(Axes),
+    /// Turn of the coordinate system about Z, deg.
+    SetXyRotation(f64),
+    SelectPlane(Plane),
+    /// Whether feeds are per revolution of the spindle.
+    SetFeedMode {
+        per_revolution: bool,
+    },
+    /// Units per minute, or per revolution.
+    SetFeedRate(f64),
+    SetMotionControlMode(PathControl),
+    SetNaivecamTolerance(f64),
+    UseToolLengthOffset(Axes),
+    SetToolTableEntry {
+        tool: u32,
+        offset: Axes,
+        diameter: f64,
+    },
+    SelectTool(u32),
+    /// Number of the tool that is in the spindle from here on.
+    ChangeTool(u32),
+    /// Revolutions per minute.
+    SetSpindleSpeed(f64),
+    StartSpindleClockwise,
+    StartSpindleCounterclockwise,
+    StopSpindleTurning,
+    SetSpindleMode,
+    /// Seconds.
+    Dwell(f64),
+    Message(String),
+    ProgramStop,
+    ProgramEnd,
+    /// Tool-centre control: from here on X, Y, Z tell the tip in the frame of the part.
+    ToolCentreControl {
+        on: bool,
+    },
+    /// The tool from its tip to the spindle, told as a vector of the next move.
+    ToolAxis([f64; 3]),
+    /// The next move is counted in machine coordinates.
+    MachineCoordinates,
+}
+
+struct Listed<'a>(&'a [f64], &'a str);
+
+impl fmt::Display for Listed<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (index, value) in self.0.iter().enumerate() {
+            if index > 0 {
+                f.write_str(self.1)?;
+            }
+            write!(f, "{value:.4}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Canonical {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Canonical::StraightTraverse(end) => write!(f, "STRAIGHT_TRAVERSE({})", Listed(end, ", ")),
+            Canonical::StraightFeed(end) => write!(f, "STRAIGHT_FEED({})", Listed(end, ", ")),
+            Canonical::ArcFeed(arc) => write!(
+                f,
+                "ARC_FEED({}, {}, {}, {:.4}, {})",
+                Listed(&arc.end, ", "),
+                Listed(&arc.centre, ", "),
+                arc.turns,
+                arc.across,
+                Listed(&arc.rotary, ", ")
+            ),
+            Canonical::UseLengthUnits(LengthUnit::Millimetre) => {
+                f.write_str("USE_LENGTH_UNITS(CANON_UNITS_MM)")
+            }
+            Canonical::UseLengthUnits(LengthUnit::Inch) => {
+                f.write_str("USE_LENGTH_UNITS(CANON_UNITS_INCHES)")
+            }
+            Canonical::SetG5xOffset(system, zero) => {
+                write!(f, "SET_G5X_OFFSET({system}, {})", Listed(zero, ", "))
+            }
+            Canonical::SetG92Offset(zero) => write!(f, "SET_G92_OFFSET({})", Listed(zero, ", ")),
+            Canonical::SetXyRotation(angle) => write!(f, "SET_XY_ROTATION({angle:.4})"),
+            Canonical::SelectPlane(plane) => write!(
+                f,
+                "SELECT_PLANE(CANON_PLANE_{})",
+                match plane {
+                    Plane::Xy => "XY",
+                    Plane::Zx => "XZ",
+                    Plane::Yz => "YZ",
+                }
+            ),
+            Canonical::SetFeedMode { per_revolution } => {
+                write!(f, "SET_FEED_MODE(0, {})", i32::from(*per_revolution))
+            }
+            Canonical::SetFeedRate(rate) => write!(f, "SET_FEED_RATE({rate:.4})"),
+            Canonical::SetMotionControlMode(mode) => match mode {
+                PathControl::ExactPath => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
+                PathControl::ExactStop => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"),
+                PathControl::Continuous(tolerance) => {
+                    write!(f, "SET_MOTION_CONTROL_MODE(CANON_CONTINUOUS, {tolerance:.6})")
+                }
+            },
+            Canonical::SetNaivecamTolerance(tolerance) => write!(f, "SET_NAIVECAM_TOLERANCE({tolerance:.4})"),
+            Canonical::UseToolLengthOffset([x, y, z, a, b, c]) => write!(
+                f,
+                "USE_TOOL_LENGTH_OFFSET({x:.4} {y:.4} {z:.4}, {a:.4} {b:.4} {c:.4}, 0.0000 0.0000 0.0000)"
+            ),
+            Canonical::SetToolTableEntry {
+                tool,
+                offset,
+                diameter,
+            } => write!(
+                f,
+                "SET_TOOL_TABLE_ENTRY({tool}, {} 0.0000 0.0000 0.0000, {diameter:.4})",
+                Listed(offset, " ")
+            ),
+            Canonical::SelectTool(tool) => write!(f, "SELECT_TOOL({tool})"),
+            Canonical::ChangeTool(_) => f.write_str("CHANGE_TOOL()"),
+            Canonical::SetSpindleSpeed(speed) => write!(f, "SET_SPINDLE_SPEED(0, {speed:.4})"),
+            Canonical::StartSpindleClockwise => f.write_str("START_SPINDLE_CLOCKWISE(0)"),
+            Canonical::StartSpindleCounterclockwise => f.write_str("START_SPINDLE_COUNTERCLOCKWISE(0)"),
+            Canonical::StopSpindleTurning => f.write_str("STOP_SPINDLE_TURNING(0)"),
+            Canonical::SetSpindleMode => f.write_str("SET_SPINDLE_MODE(0 0.0000)"),
+            Canonical::Dwell(seconds) => write!(f, "DWELL({seconds:.4})"),
+            Canonical::Message(text) => write!(f, "MESSAGE(\"{text}\")"),
+            Canonical::ProgramStop => f.write_str("PROGRAM_STOP()"),
+            Canonical::ProgramEnd => f.write_str("PROGRAM_END()"),
+            Canonical::ToolCentreControl { on } => write!(f, "TOOL_CENTRE_CONTROL({on})"),
+            Canonical::ToolAxis(axis) => write!(f, "TOOL_AXIS({})", Listed(axis, ", ")),
+            Canonical::MachineCoordinates => f.write_str("MACHINE_COORDINATES()"),
+        }
+    }
+}

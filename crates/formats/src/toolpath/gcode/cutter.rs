@@ -1,0 +1,414 @@
+//! Cutter compensation: the path of the cutter's centre beside the contour that the program tells.
+//!
+//! Each piece of the contour is moved by the radius `r` to the side of the cutter: a line along its normal, an arc to
+//! the radius `R - r` inside and `R + r` outside. Where two pieces leave a gap (convex corner) an arc of radius `r`
+//! about the corner joins them; where they cross (concave corner) both end at the crossing. The first piece leads
+//! from the bare contour to the end of the moved one: a line straight there, an arc on the circle that keeps its
+//! direction at the end. So each piece waits for the next.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `P` | corner of the contour |
+//! | `t`, `n` | direction along the contour, and to its left |
+//! | `side` | 1 where the cutter is left of the contour, -1 right |
+//!
+//! Source: the geometry of offset curves; entry moves: NISTIR 6556, appendix B, "cutter radius compensation".
+
+use armill_core::nalgebra::{Point2, Vector2};
+
+use super::canonical::{ArcFeed, Canonical, Plane};
+use super::refusal::Refusal;
+
+/// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
+const TANGENT: f64 = 1e-3;
+/// Calls that may wait for the next piece.
+const MOST_WAITING: usize = 10_000;
+/// A crossing this part of the radius before the start of its line is rounding, not gouging.
+const BEFORE_START: f64 = 1e-6;
+
+/// What receives canonical calls, each with its line of the program.
+pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
+
+#[derive(Clone, Copy, Debug)]
+enum Shape {
+    Line { towards: Vector2<f64> },
+    Circle { centre: Point2<f64>, radius: f64 },
+}
+
+/// A moved piece that has come, and may still end elsewhere.
+#[derive(Clone, Debug)]
+struct Piece {
+    shape: Shape,
+    start: Point2<f64>,
+    end: Point2<f64>,
+    corner: Point2<f64>,
+    /// Of the contour, at its end.
+    leaves: Vector2<f64>,
+    /// Curvature of the contour, to the left.
+    bend: f64,
+    call: Canonical,
+    line: u32,
+}
+
+/// A piece of the contour.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Contour {
+    Line,
+    Arc {
+        centre: Point2<f64>,
+        counterclockwise: bool,
+    },
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Active {
+    side: f64,
+    radius: f64,
+    plane: Plane,
+    entering: bool,
+    /// Where the centre of the cutter stands.
+    at: Point2<f64>,
+}
+
+/// Cutter compensation and the calls that wait for it.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cutter {
+    active: Option<Active>,
+    piece: Option<Piece>,
+    waiting: Vec<(Canonical, u32)>,
+    leaving: bool,
+    /// Line of the program being read.
+    pub line: u32,
+}
+
+fn left_of(t: Vector2<f64>) -> Vector2<f64> {
+    Vector2::new(-t.y, t.x)
+}
+
+impl Cutter {
+    pub fn is_on(&self) -> bool {
+        self.active.is_some()
+    }
+
+    /// Begins with a cutter of this radius on the left; a negative radius is on the right.
+    pub fn begin(&mut self, plane: Plane, left_radius: f64) -> Result<(), Refusal> {
+        if self.is_on() {
+            return Err(Refusal::CompensationOn);
+        }
+        if plane == Plane::Yz {
+            return Err(Refusal::CompensationPlane);
+        }
+        self.leaving = false;
+        // A cutter without radius follows the contour itself.
+        self.active = (left_radius != 0.0).then_some(Active {
+            side: left_radius.signum(),
+            radius: left_radius.abs(),
+            plane,
+            entering: true,
+            at: Point2::origin(),
+        });
+        Ok(())
+    }
+
+    /// Ends it: the last piece ends beside the end of its contour.
+    pub fn end(&mut self, out: Out<'_>) -> Result<(), Refusal> {
+        self.leaving |= self.active.take().is_some();
+        self.flush(out)
+    }
+
+    /// Gives a call on, or keeps it behind the piece that waits.
+    pub fn pass(&mut self, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
+        if self.piece.is_none() {
+            return out(call, self.line);
+        }
+        if self.waiting.len() >= MOST_WAITING {
+            return Err(Refusal::CompensationWaits { limit: MOST_WAITING });
+        }
+        self.waiting.push((call, self.line));
+        Ok(())
+    }
+
+    /// Gives out all that waits.
+    pub fn flush(&mut self, out: Out<'_>) -> Result<(), Refusal> {
+        if let Some(Piece { call, line, .. }) = self.piece.take() {
+            out(call, line)?;
+        }
+        for (call, line) in self.waiting.drain(..) {
+            out(call, line)?;
+        }
+        Ok(())
+    }
+
+    /// A move of the contour `from` a point of the plane; its call ends where the contour does.
+    pub fn follow(
+        &mut self,
+        contour: Contour,
+        (from, across): (Point2<f64>, f64),
+        mut call: Canonical,
+        out: Out<'_>,
+    ) -> Result<(), Refusal> {
+        let arc = matches!(contour, Contour::Arc { .. });
+        let Some(mut active) = self.active else {
+            if std::mem::take(&mut self.leaving) && arc {
+                return Err(Refusal::ArcAfterCompensation);
+            }
+            return out(call, self.line);
+        };
+        let to = end_in(&call, active.plane);
+        if !arc && (to - from).norm() == 0.0 {
+            // Across the plane alone: beside the contour as before.
+            let beside = if active.entering { to } else { active.at };
+            end_at(&mut call, active.plane, beside);
+            return self.pass(call, out);
+        }
+        let mut next = moved(&active, contour, (from, to), call)?;
+        next.line = self.line;
+        if active.entering {
+            enter(&mut next, contour, from);
+            active.entering = false;
+        } else if let Some(last) = self.piece.as_mut() {
+            let arrives = direction(contour, from, (from, to));
+            let cross = last.leaves.perp(&arrives);
+            let onward = last.leaves.dot(&arrives) > 0.0;
+            // Where the contour turns back on itself, what bends tells on which side it goes on.
+            let bends = match cross.abs() < TANGENT {
+                true => -last.bend - bend(contour, from),
+                false => cross,
+            };
+            if cross.abs() < TANGENT && onward {
+                next.start = last.end;
+            } else if bends * active.side > 0.0 {
+                let crossing = crossing(last, &next, arrives).filter(|at| reached(last, *at, &active));
+                let at = crossing.ok_or(Refusal::Gouging {
+                    radius: active.radius,
+                })?;
+                last.end = at;
+                end_at(&mut last.call, active.plane, at);
+                for (call, _) in &mut self.waiting {
+                    if let Canonical::StraightFeed(_) | Canonical::StraightTraverse(_) = call {
+                        end_at(call, active.plane, at);
+                    }
+                }
+                next.start = at;
+            } else {
+                let corner = last.corner;
+                let start = next.start;
+                let rotary = rotary_of(&last.call);
+                self.flush(out)?;
+                let arc = ArcFeed {
+                    plane: active.plane,
+                    end: start.into(),
+                    centre: corner.into(),
+                    turns: if active.side > 0.0 { -1 } else { 1 },
+                    across,
+                    rotary,
+                };
+                out(Canonical::ArcFeed(arc), self.line)?;
+            }
+        }
+        self.flush(out)?;
+        active.at = next.end;
+        self.active = Some(active);
+        self.piece = Some(next);
+        Ok(())
+    }
+}
+
+/// Direction of the contour at a point of it.
+fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2<f64>)) -> Vector2<f64> {
+    match contour {
+        Contour::Line => (to - from).normalize(),
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
+            let outward = (at - centre).normalize();
+            if counterclockwise {
+                left_of(outward)
+            } else {
+                -left_of(outward)
+            }
+        }
+    }
+}
+
+/// Curvature of the contour, above zero to the left.
+fn bend(contour: Contour, at: Point2<f64>) -> f64 {
+    match contour {
+        Contour::Line => 0.0,
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
+            let curvature = 1.0 / (at - centre).norm();
+            if counterclockwise { curvature } else { -curvature }
+        }
+    }
+}
+
+/// The piece beside the contour, as if nothing were before it.
+fn moved(
+    active: &Active,
+    contour: Contour,
+    (from, to): (Point2<f64>, Point2<f64>),
+    mut call: Canonical,
+) -> Result<Piece, Refusal> {
+    let (arrives, leaves) = (
+        direction(contour, from, (from, to)),
+        direction(contour, to, (from, to)),
+    );
+    let offset = active.side * active.radius;
+    let start = from + left_of(arrives) * offset;
+    let end = to + left_of(leaves) * offset;
+    let shape = match contour {
+        Contour::Line => Shape::Line { towards: arrives },
+        Contour::Arc {
+            centre,
+            counterclockwise,
+        } => {
+            let arc = (to - centre).norm();
+            let inside = (active.side > 0.0) == counterclockwise;
+            let radius = if inside {
+                arc - active.radius
+            } else {
+                arc + active.radius
+            };
+            if radius <= 0.0 {
+                return Err(Refusal::ArcInsideCutter {
+                    arc,
+                    radius: active.radius,
+                });
+            }
+            Shape::Circle { centre, radius }
+        }
+    };
+    end_at(&mut call, active.plane, end);
+    Ok(Piece {
+        shape,
+        start,
+        end,
+        corner: to,
+        leaves,
+        bend: bend(contour, to),
+        call,
+        line: 0,
+    })
+}
+
+/// Lets the first piece begin on the bare contour.
+fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
+    piece.start = from;
+    let Contour::Arc { centre, .. } = contour else {
+        return;
+    };
+    // The centre stays on the radius to the end, at u from it: |from - end - u w| = u with w towards the old centre.
+    let w = (centre - piece.end).normalize();
+    let chord = from - piece.end;
+    let u = chord.norm_squared() / (2.0 * chord.dot(&w));
+    if !u.is_finite() {
+        return;
+    }
+    let centre = piece.end + w * u;
+    piece.shape = Shape::Circle {
+        centre,
+        radius: u.abs(),
+    };
+    if let Canonical::ArcFeed(arc) = &mut piece.call {
+        arc.centre = centre.into();
+    }
+}
+
+/// Whether the cutter comes as far as `at` before it would turn back.
+fn reached(piece: &Piece, at: Point2<f64>, active: &Active) -> bool {
+    match piece.shape {
+        Shape::Line { towards } => (at - piece.start).dot(&towards) >= -BEFORE_START * active.radius,
+        Shape::Circle { .. } => true,
+    }
+}
+
+/// Where two pieces cross: next to their corner, on the side where both become shorter.
+fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<f64>> {
+    let inwards = arrives - last.leaves;
+    let best = |[one, other]: [Point2<f64>; 2]| {
+        let key = |at: Point2<f64>| {
+            let from_corner = at - last.corner;
+            (from_corner.dot(&inwards) < 0.0, from_corner.norm_squared())
+        };
+        if key(one) <= key(other) { one } else { other }
+    };
+    match (last.shape, next.shape) {
+        (Shape::Line { towards: t1 }, Shape::Line { towards: t2 }) => {
+            let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
+            along.is_finite().then(|| last.end + t1 * along)
+        }
+        (Shape::Line { towards }, Shape::Circle { centre, radius }) => {
+            line_and_circle(last.end, towards, centre, radius).map(best)
+        }
+        (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
+            line_and_circle(next.start, towards, centre, radius).map(best)
+        }
+        (
+            Shape::Circle {
+                centre: c1,
+                radius: r1,
+            },
+            Shape::Circle {
+                centre: c2,
+                radius: r2,
+            },
+        ) => {
+            let between = c2 - c1;
+            let d = between.norm();
+            let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
+            let height = r1 * r1 - along * along;
+            if d == 0.0 || height < 0.0 {
+                return None;
+            }
+            let foot = c1 + between * (along / d);
+            let aside = left_of(between) * (height.sqrt() / d);
+            Some(best([foot + aside, foot - aside]))
+        }
+    }
+}
+
+fn line_and_circle(
+    through: Point2<f64>,
+    towards: Vector2<f64>,
+    centre: Point2<f64>,
+    radius: f64,
+) -> Option<[Point2<f64>; 2]> {
+    let foot = through + towards * (centre - through).dot(&towards);
+    let height = radius * radius - (foot - centre).norm_squared();
+    (height >= 0.0).then(|| [foot + towards * height.sqrt(), foot - towards * height.sqrt()])
+}
+
+fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
+    let [first, second, _] = plane.axes();
+    match call {
+        Canonical::StraightFeed(end) | Canonical::StraightTraverse(end) => {
+            Point2::new(end[first], end[second])
+        }
+        Canonical::ArcFeed(arc) => arc.end.into(),
+        _ => Point2::origin(),
+    }
+}
+
+fn end_at(call: &mut Canonical, plane: Plane, at: Point2<f64>) {
+    let [first, second, _] = plane.axes();
+    match call {
+        Canonical::StraightFeed(end) | Canonical::StraightTraverse(end) => {
+            end[first] = at.x;
+            end[second] = at.y;
+        }
+        Canonical::ArcFeed(arc) => arc.end = at.into(),
+        _ => {}
+    }
+}
+
+fn rotary_of(call: &Canonical) -> [f64; 3] {
+    match call {
+        Canonical::StraightFeed([.., a, b, c]) | Canonical::StraightTraverse([.., a, b, c]) => [*a, *b, *c],
+        Canonical::ArcFeed(arc) => arc.rotary,
+        _ => [0.0; 3],
+    }
+}

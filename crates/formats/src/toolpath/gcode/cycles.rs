@@ -1,0 +1,255 @@
+//! Canned cycles G73 and G81 to G89: a hole as the moves it takes.
+//!
+//! | cycle | at the bottom | back |
+//! |---|---|---|
+//! | G81, G82 | G82 waits P | fast |
+//! | G83, G73 | by steps of Q; G83 clears the hole, G73 breaks the chip | fast |
+//! | G84 | the spindle turns back | at feed |
+//! | G85, G89 | G89 waits P | at feed |
+//! | G86, G88 | waits P, the spindle stops; G88 waits for the operator | fast |
+//!
+//! G98 goes back to where the axis stood before the cycle, G99 to R.
+//!
+//! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
+
+use super::block::{Block, shown};
+use super::canonical::{Axes, Canonical, LengthUnit, PathControl};
+use super::cutter::Out;
+use super::groups;
+use super::machine::{FeedMode, Machine};
+use super::options::Warning;
+use super::refusal::Refusal;
+
+/// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
+const PECK_GAP: [f64; 2] = [0.254, 0.010];
+/// Holes of one block.
+const MOST_REPEATS: f64 = 100_000.0;
+/// Steps of one hole.
+const MOST_PECKS: f64 = 100_000.0;
+
+/// Words that later blocks of a cycle need not repeat, as they were written.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Cycle {
+    clear: f64,
+    bottom: f64,
+    step: Option<f64>,
+    dwell: Option<f64>,
+}
+
+impl Cycle {
+    pub fn scale(&mut self, by: f64) {
+        self.clear *= by;
+        self.bottom *= by;
+        self.step = self.step.map(|step| step * by);
+    }
+}
+
+/// A hole.
+#[derive(Clone, Copy)]
+struct Hole {
+    at: [f64; 2],
+    clear: f64,
+    bottom: f64,
+    back: f64,
+}
+
+impl Machine {
+    pub(super) fn cycle(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        let name = groups::name(b'g', code);
+        if let Some(letter) = b"abc".iter().find(|letter| block.has(**letter)) {
+            return Err(Refusal::RotaryInCycle { word: shown(*letter) });
+        }
+        if self.cutter.is_on() {
+            return Err(Refusal::NotUnderCompensation(name));
+        }
+        if !block.has_axes() {
+            return Err(Refusal::AxesMissing(name));
+        }
+        if self.feed_mode == FeedMode::InverseTime {
+            return Err(Refusal::NoInverseTime(name));
+        }
+        if self.feed == 0.0 {
+            return Err(Refusal::NoFeed(name));
+        }
+        let [first, second, across] = self.plane.axes();
+        let words = block.axes();
+        let again = self.motion == code;
+        self.keep(&name, again, (words[across], block))?;
+        let repeats = match block.take(b'l') {
+            None => 1.0,
+            Some(repeats) if repeats >= 0.0 && repeats.fract() == 0.0 && repeats <= MOST_REPEATS => repeats,
+            Some(value) => {
+                let wanted = "a whole number of holes, at most 100000";
+                return Err(Refusal::WordValue {
+                    word: 'L',
+                    value,
+                    wanted,
+                });
+            }
+        };
+        let Cycle {
+            mut clear,
+            mut bottom,
+            ..
+        } = self.cycle;
+        if !self.absolute {
+            clear += self.at[across];
+            bottom += clear;
+        }
+        if clear < bottom {
+            return Err(Refusal::ClearBelowBottom { clear, bottom });
+        }
+        if self.at[across] < clear {
+            self.across_to(clear, true, out)?;
+        }
+        let back = if self.retract_to_r { clear } else { self.at[across] };
+        let continuous = matches!(self.path, PathControl::Continuous(_));
+        if continuous {
+            self.call(Canonical::SetMotionControlMode(PathControl::ExactPath), out)?;
+        }
+        // Proven whole and at most MOST_REPEATS.
+        for _ in 0..repeats as u32 {
+            let target = self.target(words);
+            let at = [target[first], target[second]];
+            self.hole(
+                code,
+                Hole {
+                    at,
+                    clear,
+                    bottom,
+                    back,
+                },
+                out,
+            )?;
+        }
+        if continuous {
+            self.call(Canonical::SetMotionControlMode(self.path), out)?;
+            self.call(Canonical::SetNaivecamTolerance(self.naive), out)?;
+        }
+        Ok(())
+    }
+
+    /// Takes the words of the cycle, or those of its block before.
+    fn keep(
+        &mut self,
+        name: &str,
+        again: bool,
+        (bottom, block): (Option<f64>, &mut Block),
+    ) -> Result<(), Refusal> {
+        let missing = |word| Refusal::WordMissing(name.to_owned(), word);
+        let mut kept = if again { self.cycle } else { Cycle::default() };
+        match (block.take(b'r'), again) {
+            (Some(clear), _) => kept.clear = clear,
+            (None, true) => {}
+            (None, false) => return Err(missing("R")),
+        }
+        match (bottom, again) {
+            (Some(bottom), _) => kept.bottom = bottom,
+            (None, true) => {}
+            (None, false) => {
+                let [.., across] = self.plane.axes();
+                return Err(missing(["X", "Y", "Z"][across]));
+            }
+        }
+        if matches!(name, "G73" | "G83") {
+            kept.step = block.take(b'q').or(kept.step);
+            match kept.step {
+                None => return Err(missing("Q")),
+                Some(step) if step > 0.0 => {}
+                Some(value) => {
+                    return Err(Refusal::WordValue {
+                        word: 'Q',
+                        value,
+                        wanted: "above 0",
+                    });
+                }
+            }
+        }
+        if matches!(name, "G82" | "G86" | "G88" | "G89" | "G84") {
+            kept.dwell = block.take(b'p').or(kept.dwell);
+            if kept.dwell.is_none() && matches!(name, "G82" | "G86" | "G88" | "G89") {
+                return Err(missing("P"));
+            }
+        }
+        self.cycle = kept;
+        Ok(())
+    }
+
+    fn across_to(&mut self, to: f64, fast: bool, out: Out<'_>) -> Result<(), Refusal> {
+        let [.., across] = self.plane.axes();
+        let mut end = self.at;
+        end[across] = to;
+        self.to(end, fast, out)
+    }
+
+    fn to(&mut self, end: Axes, fast: bool, out: Out<'_>) -> Result<(), Refusal> {
+        self.at = end;
+        self.call(
+            if fast {
+                Canonical::StraightTraverse(end)
+            } else {
+                Canonical::StraightFeed(end)
+            },
+            out,
+        )
+    }
+
+    fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
+        let [first, second, across] = self.plane.axes();
+        let mut above = self.at;
+        (above[first], above[second]) = (hole.at[0], hole.at[1]);
+        self.to(above, true, out)?;
+        if self.at[across] != hole.clear {
+            self.across_to(hole.clear, true, out)?;
+        }
+        if let (730 | 830, Some(step)) = (code, self.cycle.step) {
+            self.pecks(code == 830, step, hole, out)?;
+        }
+        self.across_to(hole.bottom, false, out)?;
+        if let Some(seconds) = self.cycle.dwell {
+            self.call(Canonical::Dwell(seconds), out)?;
+        }
+        match code {
+            840 => {
+                self.warn(Warning::Tapping);
+                self.across_to(hole.clear, false, out)?;
+            }
+            850 | 890 => self.across_to(hole.clear, false, out)?,
+            860 | 880 => {
+                self.call(Canonical::StopSpindleTurning, out)?;
+                if code == 880 {
+                    self.call(Canonical::ProgramStop, out)?;
+                }
+                self.across_to(hole.back, true, out)?;
+                return self.call(Canonical::StartSpindleClockwise, out);
+            }
+            _ => {}
+        }
+        if self.at[across] != hole.back {
+            self.across_to(hole.back, true, out)?;
+        }
+        Ok(())
+    }
+
+    fn pecks(&mut self, clears: bool, step: f64, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
+        let pecks = ((hole.clear - hole.bottom) / step).ceil() - 1.0;
+        if pecks > MOST_PECKS {
+            let limit = MOST_PECKS as usize;
+            return Err(Refusal::TooMuch {
+                what: "steps in one hole",
+                limit,
+            });
+        }
+        let gap = PECK_GAP[usize::from(self.unit == LengthUnit::Inch)];
+        // At most MOST_PECKS.
+        for peck in 1..=pecks.max(0.0) as u32 {
+            let depth = hole.clear - step * f64::from(peck);
+            self.across_to(depth, false, out)?;
+            if clears {
+                self.across_to(hole.clear, true, out)?;
+            }
+            self.across_to((depth + gap).min(hole.clear), true, out)?;
+        }
+        Ok(())
+    }
+}

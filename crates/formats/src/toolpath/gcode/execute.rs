@@ -1,0 +1,343 @@
+//! What a block does, in the order of the standard: modes first, then offsets, then motion, then stopping.
+//!
+//! Source: NISTIR 6556, section 3.8, order of execution.
+
+use super::block::{Block, shown};
+use super::canonical::{Canonical, LengthUnit, PathControl, Plane};
+use super::cutter::Out;
+use super::groups;
+use super::machine::{FeedMode, Machine};
+use super::offsets::tool_number;
+use super::options::Warning;
+use super::refusal::Refusal;
+
+/// What follows a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outcome {
+    /// The next block.
+    Next,
+    /// M2 or M30.
+    End,
+    /// M98: a subroutine, so many times.
+    Call { number: u32, times: u32 },
+    /// M99.
+    Return,
+}
+
+/// Calls of one M98.
+const MOST_CALLS: f64 = 9999.0;
+
+impl Machine {
+    /// Does what a block says.
+    pub(super) fn execute(&mut self, block: &mut Block, out: Out<'_>) -> Result<Outcome, Refusal> {
+        if block.has_g(640) && block.m[groups::SPINDLE].is_some_and(|(code, _)| code == 19) && block.has(b'r')
+        {
+            return Err(Refusal::WordAmbiguous('R'));
+        }
+        self.feed_and_spindle(block, out)?;
+        self.machine_codes(block, out)?;
+        self.modes(block, out)?;
+        self.moves(block, out)?;
+        let outcome = self.stopping(block, out)?;
+        match block.unused() {
+            Some(letter) => Err(Refusal::WordUnused(shown(letter))),
+            None => Ok(outcome),
+        }
+    }
+
+    fn feed_and_spindle(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        if let Some((code, _)) = block.g[groups::FEED_MODE] {
+            self.feed_mode = match code {
+                930 => FeedMode::InverseTime,
+                940 => FeedMode::PerMinute,
+                _ => FeedMode::PerRevolution,
+            };
+            let per_revolution = self.feed_mode == FeedMode::PerRevolution;
+            self.call(Canonical::SetFeedMode { per_revolution }, out)?;
+            if self.feed_mode != FeedMode::InverseTime {
+                self.feed = 0.0;
+                self.call(Canonical::SetFeedRate(0.0), out)?;
+            }
+        }
+        if let Some(feed) = block.take(b'f') {
+            if feed < 0.0 {
+                return Err(Refusal::WordValue {
+                    word: 'F',
+                    value: feed,
+                    wanted: "at least 0",
+                });
+            }
+            if self.feed_mode != FeedMode::InverseTime {
+                self.feed = feed;
+                self.call(Canonical::SetFeedRate(feed), out)?;
+            }
+        }
+        if let Some(speed) = block.take(b's') {
+            if speed < 0.0 {
+                return Err(Refusal::WordValue {
+                    word: 'S',
+                    value: speed,
+                    wanted: "at least 0",
+                });
+            }
+            self.speed = speed;
+            self.call(Canonical::SetSpindleSpeed(speed), out)?;
+        }
+        if let Some(tool) = block.take(b't') {
+            self.selected = tool_number('T', tool)?;
+            self.tool(self.selected)?;
+            self.call(Canonical::SelectTool(self.selected), out)?;
+        }
+        Ok(())
+    }
+
+    fn machine_codes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        if let Some((code, _)) = block.m[groups::TOOL] {
+            if self.cutter.is_on() {
+                return Err(Refusal::NotUnderCompensation(groups::name(b'm', code)));
+            }
+            if code == 61 {
+                let number = block
+                    .take(b'q')
+                    .ok_or(Refusal::WordMissing("M61".to_owned(), "Q"))?;
+                self.selected = tool_number('Q', number)?;
+                self.tool(self.selected)?;
+            } else {
+                self.call(Canonical::StopSpindleTurning, out)?;
+            }
+            self.tool = self.selected;
+            self.call(Canonical::ChangeTool(self.tool), out)?;
+        }
+        match block.m[groups::SPINDLE] {
+            Some((3, _)) => self.call(Canonical::StartSpindleClockwise, out)?,
+            Some((4, _)) => self.call(Canonical::StartSpindleCounterclockwise, out)?,
+            Some((5, _)) => self.call(Canonical::StopSpindleTurning, out)?,
+            Some(_) => [b'r', b'p', b'q'].iter().for_each(|letter| {
+                block.take(*letter);
+            }),
+            None => {}
+        }
+        if block.m[groups::OVERRIDE].is_some() {
+            block.take(b'p');
+        }
+        for (group, letters, warning) in [
+            (groups::OUTPUTS, &b"pqel"[..], Warning::Output),
+            (groups::USER, &b"pq"[..], Warning::UserCode),
+        ] {
+            if block.m[group].is_some() {
+                self.warn(warning);
+                for letter in letters {
+                    block.take(*letter);
+                }
+            }
+        }
+        if let Some((code, _)) = block.m[groups::CENTRE] {
+            let on = matches!(code, 128 | 428 | groups::TRAORI);
+            (self.centre, self.centre_by_length, self.vector) = (on, false, false);
+            self.call(Canonical::ToolCentreControl { on }, out)?;
+        }
+        Ok(())
+    }
+
+    fn modes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        if block.has_g(40) {
+            let seconds = block
+                .take(b'p')
+                .ok_or(Refusal::WordMissing("G4".to_owned(), "P"))?;
+            self.call(Canonical::Dwell(seconds), out)?;
+        }
+        let off = |code: u16, machine: &Machine| match machine.cutter.is_on() {
+            true => Err(Refusal::NotUnderCompensation(groups::name(b'g', code))),
+            false => Ok(()),
+        };
+        if let Some((code, _)) = block.g[groups::PLANE] {
+            let plane = [Plane::Xy, Plane::Zx, Plane::Yz][usize::from(code / 10 - 17)];
+            if plane != self.plane {
+                off(code, self)?;
+            }
+            self.plane = plane;
+            self.call(Canonical::SelectPlane(plane), out)?;
+        }
+        if let Some((code, _)) = block.g[groups::UNITS] {
+            let unit = if code == 200 {
+                LengthUnit::Inch
+            } else {
+                LengthUnit::Millimetre
+            };
+            if unit != self.unit {
+                off(code, self)?;
+            }
+            self.use_unit(unit);
+            self.call(Canonical::UseLengthUnits(unit), out)?;
+        }
+        if let Some((code, _)) = block.g[groups::CUTTER] {
+            self.compensate(code, block, out)?;
+        }
+        if let Some((code, _)) = block.g[groups::LENGTH] {
+            self.tool_length(code, block, out)?;
+        }
+        if let Some((code, _)) = block.g[groups::SYSTEM] {
+            self.use_system(code, out)?;
+        }
+        if let Some((code, _)) = block.g[groups::PATH] {
+            self.path = match code {
+                610 => PathControl::ExactPath,
+                611 => PathControl::ExactStop,
+                _ => PathControl::Continuous(block.take(b'p').unwrap_or_default()),
+            };
+            self.call(Canonical::SetMotionControlMode(self.path), out)?;
+            if let PathControl::Continuous(tolerance) = self.path {
+                self.naive = block.take(b'q').unwrap_or(tolerance);
+                self.call(Canonical::SetNaivecamTolerance(self.naive), out)?;
+            }
+        }
+        if let Some((code, _)) = block.g[groups::DISTANCE] {
+            self.absolute = code == 900;
+        }
+        if let Some((code, _)) = block.g[groups::ARC_DISTANCE] {
+            self.arc_absolute = code == 901;
+        }
+        if let Some((code, _)) = block.g[groups::RETRACT] {
+            self.retract_to_r = code == 990;
+        }
+        if block.g[groups::SPINDLE_MODE].is_some() {
+            self.call(Canonical::SetSpindleMode, out)?;
+        }
+        Ok(())
+    }
+
+    fn compensate(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        if code == 400 {
+            return self.cutter.end(out);
+        }
+        let diameter = if matches!(code, 411 | 421) {
+            block.take(b'l');
+            block
+                .take(b'd')
+                .ok_or(Refusal::WordMissing(groups::name(b'g', code), "D"))?
+        } else {
+            let number = match block.take(b'd') {
+                Some(number) => tool_number('D', number)?,
+                None => self.tool,
+            };
+            let tool = self.tool(number)?.ok_or(Refusal::DiameterUnknown(number))?;
+            if tool.orientation != 0 {
+                return Err(Refusal::TurningTool(number, tool.orientation));
+            }
+            tool.diameter * self.tools.unit.in_units_of(self.unit)
+        };
+        let left = if matches!(code, 410 | 411) { 0.5 } else { -0.5 };
+        self.cutter.begin(self.plane, left * diameter)
+    }
+
+    fn moves(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        let once = block.g[groups::ONCE]
+            .map(|(code, _)| code)
+            .filter(|code| *code != 40);
+        let told = block.g[groups::MOTION].map(|(code, _)| code);
+        // G43.1 has taken the axis words of its block.
+        let takes_axes = once.filter(|code| matches!(code, 100 | 280 | 300 | 520 | 920));
+        if let (Some(once), Some(told)) = (takes_axes, told.filter(|code| *code != 800))
+            && block.has_axes()
+        {
+            return Err(Refusal::AxesTwice(
+                groups::name(b'g', once),
+                groups::name(b'g', told),
+            ));
+        }
+        match once {
+            Some(100) => self.set_data(block, out)?,
+            Some(code @ (280 | 300)) => self.home(code, block, out)?,
+            Some(code @ (281 | 301)) => self.store_home(code),
+            Some(code) => self.shift(code, block, out)?,
+            None => {}
+        }
+        let moving =
+            takes_axes.is_none() && !block.has_g(431) && (block.has_axes() || self.vector && block.has(b'i'));
+        let code = match (told, moving) {
+            (Some(code), _) => code,
+            (None, true) => self.motion,
+            (None, false) => return Ok(()),
+        };
+        if moving && !self.unit_told {
+            self.unit_told = true;
+            self.warn(Warning::UnitAssumed);
+        }
+        if block.g[groups::MACHINE].is_some() && !matches!(code, 0 | 10) {
+            return Err(Refusal::MachineCoordinates);
+        }
+        let result = match code {
+            0 | 10 => self.straight(code, block, out),
+            20 | 30 => self.arc(code, block, out),
+            382..=385 if !block.has_axes() => Err(Refusal::AxesMissing(groups::name(b'g', code))),
+            382..=385 => Err(Refusal::Unsupported {
+                code: groups::name(b'g', code),
+                reason: "where a probe stops is not in the program",
+            }),
+            800 if block.has_axes() => Err(Refusal::AxesWithoutMotion),
+            800 => Ok(()),
+            _ => self.cycle(code, block, out),
+        };
+        self.motion = code;
+        result
+    }
+
+    fn stopping(&mut self, block: &mut Block, out: Out<'_>) -> Result<Outcome, Refusal> {
+        if let Some((code, _)) = block.m[groups::CALL] {
+            if code == 99 {
+                block.take(b'p');
+                return Ok(Outcome::Return);
+            }
+            let number = block
+                .take(b'p')
+                .ok_or(Refusal::WordMissing("M98".to_owned(), "P"))?;
+            let times = block.take(b'l').unwrap_or(1.0);
+            if !(0.0..=MOST_CALLS).contains(&times) || times.fract() != 0.0 {
+                let wanted = "a whole number, at most 9999";
+                return Err(Refusal::WordValue {
+                    word: 'L',
+                    value: times,
+                    wanted,
+                });
+            }
+            return Ok(Outcome::Call {
+                number: tool_number('P', number)?,
+                times: times as u32,
+            });
+        }
+        match block.m[groups::STOPPING] {
+            Some((2 | 30, _)) => {
+                self.finish(out)?;
+                Ok(Outcome::End)
+            }
+            Some(_) => {
+                self.call(Canonical::ProgramStop, out)?;
+                Ok(Outcome::Next)
+            }
+            None => Ok(Outcome::Next),
+        }
+    }
+
+    /// M2 and M30: back to the modes that a program begins with.
+    fn finish(&mut self, out: Out<'_>) -> Result<(), Refusal> {
+        self.cutter.end(out)?;
+        let (zero, turn) = self.stored_system(1);
+        self.recount(|machine| (machine.system, machine.g5x, machine.turn) = (1, zero, turn));
+        self.call(Canonical::SetG5xOffset(1, zero), out)?;
+        self.call(Canonical::SetXyRotation(turn), out)?;
+        if self.plane != Plane::Xy {
+            self.plane = Plane::Xy;
+            self.call(Canonical::SelectPlane(Plane::Xy), out)?;
+        }
+        self.call(
+            Canonical::SetFeedMode {
+                per_revolution: false,
+            },
+            out,
+        )?;
+        self.call(Canonical::SetFeedRate(0.0), out)?;
+        self.call(Canonical::StopSpindleTurning, out)?;
+        self.call(Canonical::SetSpindleMode, out)?;
+        self.call(Canonical::ProgramEnd, out)
+    }
+}

@@ -1,0 +1,364 @@
+//! The modal interpreter: lines in, canonical calls out, with all that is refused.
+//!
+//! Lines are done as they come. Only subroutines and loops are kept, within [`MOST_KEPT_BYTES`].
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::BufRead;
+use std::rc::Rc;
+
+use super::block::{Block, Clean};
+use super::canonical::Canonical;
+use super::execute::Outcome;
+use super::expression::{Name, Values};
+use super::flow::{Body, Keyword, OWord, o_word};
+use super::lines::{Line, Lines};
+use super::machine::Machine;
+use super::messages;
+use super::options::{Options, Warnings};
+use super::parameters::{self, Parameters};
+use super::refusal::{Fault, Refusal};
+
+/// Problems told of one program.
+pub const MOST_FAULTS: usize = 100;
+/// Text of subroutines and loops.
+pub const MOST_KEPT_BYTES: usize = 256 << 20;
+/// Subroutines that call each other.
+pub const MOST_CALLS_DEEP: usize = 100;
+/// Lines of subroutines and loops that are done, repetitions counted.
+pub const MOST_REPEATED_LINES: usize = 20_000_000;
+/// Canonical calls of one line: what cycles may expand to.
+pub const MOST_CALLS_OF_A_LINE: usize = 5_000_000;
+
+/// What is left to say after a program.
+#[derive(Clone, Debug, Default)]
+pub struct Told {
+    /// What was refused, in the order it was met.
+    pub faults: Vec<Fault>,
+    /// What has no part in the path, or was taken for granted.
+    pub warnings: Warnings,
+    /// Lines of the program that were read.
+    pub lines: u32,
+}
+
+/// What receives the canonical calls, each with its line; what it refuses is told at the line.
+pub type Receiver<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
+
+/// Interprets a program; the calls go to `out` while it is read.
+pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<'_>) -> Told {
+    let mut interpreter = Interpreter {
+        machine: Machine::new(options),
+        options,
+        out,
+        block: Block::new(),
+        clean: Clean::default(),
+        subroutines: BTreeMap::new(),
+        kept_bytes: 0,
+        repeated: 0,
+        depth: 0,
+        faults: Vec::new(),
+        refused: BTreeSet::new(),
+        stopped: false,
+    };
+    let lines = interpreter.program(&mut Lines::new(reader, None));
+    Told {
+        faults: interpreter.faults,
+        warnings: interpreter.machine.warnings,
+        lines,
+    }
+}
+
+pub(super) struct Interpreter<'a> {
+    pub machine: Machine,
+    pub options: &'a Options<'a>,
+    out: Receiver<'a>,
+    block: Block,
+    pub clean: Clean,
+    pub subroutines: BTreeMap<String, Rc<Body>>,
+    kept_bytes: usize,
+    pub repeated: usize,
+    /// Subroutines being called.
+    pub depth: usize,
+    faults: Vec<Fault>,
+    /// Lines refused once are not told again in the next round of their loop.
+    refused: BTreeSet<(Option<Rc<str>>, u32)>,
+    pub stopped: bool,
+}
+
+/// How lines were left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Left {
+    AtEnd,
+    Returning,
+    Finished,
+}
+
+impl Interpreter<'_> {
+    fn program(&mut self, lines: &mut Lines<'_>) -> u32 {
+        let mut line = Line::default();
+        let mut begun = false;
+        let mut count = 0;
+        if let Err(refusal) = self.machine.begin(self.out) {
+            self.fault(&line, refusal, 0..0);
+        }
+        while !self.stopped {
+            match lines.next(&mut line) {
+                Ok(true) => count = line.number,
+                Ok(false) => break,
+                Err(error) => {
+                    let end = line.text.len();
+                    self.fault(&line, Refusal::Unreadable(error.to_string()), end..end);
+                    break;
+                }
+            }
+            if line.text.trim_ascii() == b"%" {
+                // The first begins the program, the second ends it.
+                if begun {
+                    break;
+                }
+                begun = true;
+                continue;
+            }
+            begun |= !line.text.trim_ascii().is_empty();
+            let left = match self.o_word_of(&line) {
+                Ok(Some(word)) => self.begins(word, &mut line, lines),
+                Ok(None) => self.one(&line, Some(lines)),
+                Err(()) => Left::AtEnd,
+            };
+            if left != Left::AtEnd {
+                break;
+            }
+        }
+        let Interpreter { machine, out, .. } = self;
+        if let Err(refusal) = machine.cutter.end(*out) {
+            self.fault(&line, refusal, 0..0);
+        }
+        count
+    }
+
+    /// Cleans a line; its o-word, if it is one.
+    pub fn o_word_of(&mut self, line: &Line) -> Result<Option<OWord>, ()> {
+        if let Err(refused) = self.clean.read(&line.text) {
+            self.fault(line, refused.refusal, refused.place);
+            return Err(());
+        }
+        if self.clean.deleted && self.options.block_delete {
+            self.clean.text.clear();
+        }
+        match o_word(&self.clean, &self.machine) {
+            Ok(word) => Ok(word),
+            Err(refusal) => {
+                self.fault(line, refusal, 0..line.text.len());
+                Err(())
+            }
+        }
+    }
+
+    /// An o-word outside of what is kept.
+    fn begins(&mut self, word: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Left {
+        match word.keyword {
+            Keyword::Sub | Keyword::If | Keyword::While | Keyword::Do | Keyword::Repeat => {
+                let label = word.label.clone();
+                let sub = word.keyword == Keyword::Sub;
+                let Some(body) = self.collect(word, line, lines) else {
+                    return Left::AtEnd;
+                };
+                if sub {
+                    self.subroutines.insert(label, body);
+                    return Left::AtEnd;
+                }
+                self.run(&body)
+            }
+            Keyword::Call => self.call(&word, line),
+            Keyword::Label => Left::AtEnd,
+            _ => {
+                self.fault(line, Refusal::FlowUnopened(word.label), 0..line.text.len());
+                Left::AtEnd
+            }
+        }
+    }
+
+    /// Keeps lines from one that begins a subroutine, branch or loop to the one that ends it.
+    pub fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
+        let begins = first.keyword;
+        let label = first.label.clone();
+        let start = line.clone();
+        let mut body = Body::default();
+        let sub = begins == Keyword::Sub;
+        if !sub {
+            body.push(line.clone(), Some(first));
+        }
+        let mut sound = true;
+        loop {
+            match lines.next(line) {
+                Ok(true) => {}
+                Ok(false) | Err(_) => {
+                    self.fault(&start, Refusal::FlowUnclosed(label), 0..start.text.len());
+                    return None;
+                }
+            }
+            self.kept_bytes += line.text.len() + size_of::<Line>();
+            if self.kept_bytes > MOST_KEPT_BYTES {
+                let limit = MOST_KEPT_BYTES;
+                let refusal = Refusal::TooMuch {
+                    what: "bytes of subroutines and loops",
+                    limit,
+                };
+                self.fault(&start, refusal, 0..start.text.len());
+                self.stopped = true;
+                return None;
+            }
+            let word = match self.o_word_of(line) {
+                Ok(word) => word,
+                Err(()) => {
+                    sound = false;
+                    None
+                }
+            };
+            let keyword = word.as_ref().map(|word| word.keyword);
+            let same = word.as_ref().is_some_and(|word| word.label == label);
+            if keyword == Some(Keyword::Sub) {
+                self.fault(line, Refusal::NestedSubroutine, 0..line.text.len());
+                sound = false;
+            }
+            let ends = same
+                && matches!(
+                    (begins, keyword),
+                    (Keyword::Sub, Some(Keyword::EndSub))
+                        | (Keyword::If, Some(Keyword::EndIf))
+                        | (Keyword::While, Some(Keyword::EndWhile))
+                        | (Keyword::Do, Some(Keyword::While))
+                        | (Keyword::Repeat, Some(Keyword::EndRepeat))
+                );
+            body.push(line.clone(), word);
+            if ends {
+                break;
+            }
+        }
+        self.linked(body).filter(|_| sound)
+    }
+
+    pub fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
+        if let Err((index, refusal)) = body.link() {
+            let line = body
+                .lines
+                .get(index)
+                .map(|kept| kept.line.clone())
+                .unwrap_or_default();
+            let end = line.text.len();
+            self.fault(&line, refusal, 0..end);
+            return None;
+        }
+        Some(Rc::new(body))
+    }
+
+    /// A line kept, cleaned anew.
+    pub fn again(&mut self, line: &Line) -> Left {
+        if self.clean.read(&line.text).is_err() {
+            // Told when it was kept.
+            return Left::AtEnd;
+        }
+        if self.clean.deleted && self.options.block_delete {
+            return Left::AtEnd;
+        }
+        self.one(line, None)
+    }
+
+    /// Does the line that was cleaned last.
+    fn one(&mut self, line: &Line, lines: Option<&mut Lines<'_>>) -> Left {
+        self.machine.line = line.number;
+        self.machine.cutter.line = line.number;
+        let mut calls = 0;
+        let Interpreter {
+            machine,
+            block,
+            clean,
+            out,
+            ..
+        } = self;
+        let mut counted = |call: Canonical, line: u32| {
+            calls += 1;
+            if calls > MOST_CALLS_OF_A_LINE {
+                let limit = MOST_CALLS_OF_A_LINE;
+                return Err(Refusal::TooMuch {
+                    what: "moves of one line",
+                    limit,
+                });
+            }
+            out(call, line)
+        };
+        let mut result = Ok(());
+        for (start, end) in &clean.comments {
+            let comment = line.text.get(*start..*end).unwrap_or_default();
+            if let Some(text) = messages::message(comment, machine) {
+                result = result.and_then(|()| machine.call(Canonical::Message(text), &mut counted));
+            }
+        }
+        if let Err(refusal) = result {
+            self.fault(line, refusal, 0..line.text.len());
+            return Left::AtEnd;
+        }
+        if clean.text.is_empty() {
+            return Left::AtEnd;
+        }
+        if let Err(refused) = block.read(clean, 0, machine) {
+            self.fault(line, refused.refusal, refused.place);
+            return Left::AtEnd;
+        }
+        let done = settings(machine, block).and_then(|()| machine.execute(block, &mut counted));
+        match done {
+            Ok(Outcome::Next) => Left::AtEnd,
+            Ok(Outcome::End) => Left::Finished,
+            Ok(Outcome::Return) => Left::Returning,
+            Ok(Outcome::Call { number, times }) => self.call_numbered(number, times, (line, lines)),
+            Err(refusal) => {
+                let place = self.block.place_of(&refusal).unwrap_or(0..self.clean.text.len());
+                let place = self.clean.place(place);
+                self.fault(line, refusal, place);
+                Left::AtEnd
+            }
+        }
+    }
+
+    pub fn fault(&mut self, line: &Line, refusal: Refusal, place: std::ops::Range<usize>) {
+        let never_ends = matches!(refusal, Refusal::TooMuch { .. });
+        self.stopped |= never_ends;
+        if !self.refused.insert((line.file.clone(), line.number)) && !never_ends {
+            return;
+        }
+        // Bytes that are no UTF-8 take more of them in the text that is shown.
+        let shown = |end: usize| String::from_utf8_lossy(line.text.get(..end).unwrap_or(&line.text)).len();
+        self.faults.push(Fault {
+            refusal,
+            line: line.number.max(1),
+            place: shown(place.start)..shown(place.end),
+            text: String::from_utf8_lossy(&line.text).into_owned(),
+            file: line.file.as_deref().map(str::to_owned),
+            offset: line.offset,
+        });
+        self.stopped |= self.faults.len() >= MOST_FAULTS;
+    }
+}
+
+/// Sets the parameters of a block.
+fn settings(machine: &mut Machine, block: &Block) -> Result<(), Refusal> {
+    for (name, value) in &block.settings {
+        match name {
+            Name::Numbered(number) => {
+                let index = Parameters::index(*number)?;
+                if parameters::READ_ONLY.contains(&index) {
+                    return Err(Refusal::ParameterReadOnly(format!("#{index}")));
+                }
+                machine.parameters.set_numbered(index, *value);
+            }
+            Name::Named(name) => {
+                let own = machine.parameters.named(name).is_some();
+                if !own && machine.named(name).is_some() {
+                    let shown = String::from_utf8_lossy(name).into_owned();
+                    return Err(Refusal::ParameterReadOnly(format!("#<{shown}>")));
+                }
+                machine.parameters.set_named(name, *value)?;
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,103 @@
+//! Lines of a program, one at a time: a file of any length is never held.
+
+use std::collections::VecDeque;
+use std::io::{self, BufRead};
+use std::rc::Rc;
+
+use super::block::LONGEST_LINE;
+
+/// A line and where it stands.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Line {
+    /// Without its end; cut where it is longer than any line may be.
+    pub text: Vec<u8>,
+    /// From 1.
+    pub number: u32,
+    /// Bytes of the file before it.
+    pub offset: usize,
+    /// The file, where it is not the program.
+    pub file: Option<Rc<str>>,
+}
+
+/// The lines of a program still to come.
+pub(super) struct Lines<'r> {
+    reader: &'r mut dyn BufRead,
+    /// Read already while something was looked for.
+    ahead: VecDeque<Line>,
+    number: u32,
+    offset: usize,
+    file: Option<Rc<str>>,
+}
+
+impl<'r> Lines<'r> {
+    /// Of the program itself, or of another file.
+    pub fn new(reader: &'r mut dyn BufRead, file: Option<Rc<str>>) -> Lines<'r> {
+        Lines {
+            reader,
+            ahead: VecDeque::new(),
+            number: 0,
+            offset: 0,
+            file,
+        }
+    }
+
+    /// The next line; false at the end.
+    pub fn next(&mut self, line: &mut Line) -> io::Result<bool> {
+        if let Some(next) = self.ahead.pop_front() {
+            *line = next;
+            return Ok(true);
+        }
+        self.read(line)
+    }
+
+    fn read(&mut self, line: &mut Line) -> io::Result<bool> {
+        line.text.clear();
+        line.file.clone_from(&self.file);
+        let mut length = 0;
+        loop {
+            let part = self.reader.fill_buf()?;
+            if part.is_empty() {
+                break;
+            }
+            let end = part.iter().position(|byte| *byte == b'\n');
+            let content = part.get(..end.unwrap_or(part.len())).unwrap_or_default();
+            // One byte more than allowed tells that the line is too long.
+            let room = (LONGEST_LINE + 1).saturating_sub(line.text.len());
+            line.text
+                .extend_from_slice(content.get(..room).unwrap_or(content));
+            let used = content.len() + usize::from(end.is_some());
+            length += used;
+            self.reader.consume(used);
+            if end.is_some() {
+                break;
+            }
+        }
+        if length == 0 {
+            return Ok(false);
+        }
+        if self.number == 0 && line.text.starts_with(b"\xef\xbb\xbf") {
+            line.text.drain(..3);
+            // Places count without the byte order mark.
+            length -= 3;
+        }
+        if line.text.last() == Some(&b'\r') {
+            line.text.pop();
+        }
+        self.number = self.number.saturating_add(1);
+        line.number = self.number;
+        line.offset = self.offset;
+        self.offset += length;
+        Ok(true)
+    }
+
+    /// All lines still to come, at most so many bytes; they still come.
+    pub fn look_ahead(&mut self, most_bytes: usize) -> io::Result<&VecDeque<Line>> {
+        let mut bytes: usize = self.ahead.iter().map(|line| line.text.len()).sum();
+        let mut line = Line::default();
+        while bytes < most_bytes && self.read(&mut line)? {
+            bytes += line.text.len() + size_of::<Line>();
+            self.ahead.push_back(std::mem::take(&mut line));
+        }
+        Ok(&self.ahead)
+    }
+}

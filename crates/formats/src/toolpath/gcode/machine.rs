@@ -1,0 +1,285 @@
+//! The state that blocks change: modes, offsets, position; and how program and machine coordinates belong together.
+//!
+//! `m = g5x + length + Rz(turn) (p + g92)`, where `Rz` turns X and Y alone.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `m` | machine coordinates |
+//! | `p` | coordinates of the program |
+//! | `g5x`, `turn` | zero and turn of the coordinate system, G54 to G59.3; deg |
+//! | `g92` | offset of G92 or G52 |
+//! | `length` | offset of the tool, G43 |
+//!
+//! All in the unit of the program in force and in degrees. Witness: the interpreter tests of LinuxCNC, folders g10, g52
+//! and rotation.
+
+use super::canonical::{Axes, Canonical, LengthUnit, PathControl, Plane};
+use super::cutter::{Cutter, Out};
+use super::cycles::Cycle;
+use super::expression::Values;
+use super::options::{Options, Warning, Warnings};
+use super::parameters::{self, Parameters};
+use super::refusal::Refusal;
+use super::tools::{Tool, ToolTable};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum FeedMode {
+    InverseTime,
+    PerMinute,
+    PerRevolution,
+}
+
+/// The state of the interpreter.
+pub(super) struct Machine {
+    pub parameters: Parameters,
+    pub tools: ToolTable,
+    /// Whether there is a tool table at all.
+    pub tools_told: bool,
+    pub unit: LengthUnit,
+    pub plane: Plane,
+    pub absolute: bool,
+    pub arc_absolute: bool,
+    pub feed_mode: FeedMode,
+    pub feed: f64,
+    pub speed: f64,
+    pub motion: u16,
+    pub retract_to_r: bool,
+    pub path: PathControl,
+    pub naive: f64,
+    pub system: u8,
+    pub g5x: Axes,
+    /// Deg.
+    pub turn: f64,
+    pub g92: Axes,
+    pub length: Axes,
+    pub at: Axes,
+    pub selected: u32,
+    pub tool: u32,
+    pub cycle: Cycle,
+    pub cutter: Cutter,
+    /// Tool-centre control is on.
+    pub centre: bool,
+    /// By G43.4 or G43.5.
+    pub centre_by_length: bool,
+    /// G43.5: I, J, K are the tool axis.
+    pub vector: bool,
+    pub warnings: Warnings,
+    /// Number of the line being read.
+    pub line: u32,
+    pub unit_told: bool,
+}
+
+/// Adds `by` times `second`.
+fn plus(first: Axes, by: f64, second: Axes) -> Axes {
+    std::array::from_fn(|axis| first[axis] + by * second[axis])
+}
+
+fn turned(mut of: Axes, degrees: f64) -> Axes {
+    if degrees != 0.0 {
+        let (sine, cosine) = degrees.to_radians().sin_cos();
+        (of[0], of[1]) = (of[0] * cosine - of[1] * sine, of[0] * sine + of[1] * cosine);
+    }
+    of
+}
+
+/// Scales lengths, not angles.
+pub(super) fn scaled(mut of: Axes, by: f64) -> Axes {
+    of.iter_mut().take(3).for_each(|value| *value *= by);
+    of
+}
+
+impl Machine {
+    pub fn new(options: &Options<'_>) -> Machine {
+        let mut parameters = Parameters::new();
+        for (number, value) in &options.parameters {
+            if let Ok(index) = Parameters::index(f64::from(*number)) {
+                parameters.set_numbered(index, *value);
+            }
+        }
+        let mut machine = Machine {
+            parameters,
+            tools: options.tools.clone().unwrap_or(ToolTable {
+                unit: options.machine_unit,
+                ..ToolTable::default()
+            }),
+            tools_told: options.tools.is_some(),
+            unit: options.unit,
+            plane: Plane::Xy,
+            absolute: true,
+            arc_absolute: false,
+            feed_mode: FeedMode::PerMinute,
+            feed: 0.0,
+            speed: 0.0,
+            motion: 800,
+            retract_to_r: false,
+            path: PathControl::Continuous(0.0),
+            naive: 0.0,
+            system: 1,
+            g5x: [0.0; 6],
+            turn: 0.0,
+            g92: [0.0; 6],
+            length: [0.0; 6],
+            at: [0.0; 6],
+            selected: 0,
+            tool: 0,
+            cycle: Cycle::default(),
+            cutter: Cutter::default(),
+            centre: false,
+            centre_by_length: false,
+            vector: false,
+            warnings: Warnings::default(),
+            line: 1,
+            unit_told: false,
+        };
+        let system = machine.parameters.numbered(parameters::SYSTEM);
+        machine.system = if (1.0..=9.0).contains(&system) {
+            system as u8
+        } else {
+            1
+        };
+        (machine.g5x, machine.turn) = machine.stored_system(machine.system);
+        if machine.parameters.numbered(parameters::G92_FLAG) != 0.0 {
+            machine.g92 = machine.stored(parameters::G92_FLAG + 1);
+        }
+        machine
+    }
+
+    /// What a program begins with.
+    pub fn begin(&mut self, out: Out<'_>) -> Result<(), Refusal> {
+        out(Canonical::UseLengthUnits(self.unit), self.line)?;
+        out(Canonical::SetG5xOffset(self.system, self.g5x), self.line)?;
+        out(Canonical::SetG92Offset(self.g92), self.line)?;
+        out(Canonical::SetXyRotation(self.turn), self.line)
+    }
+
+    /// Gives a call on, behind what waits for cutter compensation.
+    pub fn call(&mut self, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
+        self.cutter.pass(call, out)
+    }
+
+    pub fn warn(&mut self, warning: Warning) {
+        self.warnings.count(warning, self.line);
+    }
+
+    pub fn in_machine(&self, program: Axes) -> Axes {
+        let offset = turned(plus(program, 1.0, self.g92), self.turn);
+        plus(plus(offset, 1.0, self.g5x), 1.0, self.length)
+    }
+
+    pub fn in_program(&self, machine: Axes) -> Axes {
+        let offset = plus(plus(machine, -1.0, self.g5x), -1.0, self.length);
+        plus(turned(offset, -self.turn), -1.0, self.g92)
+    }
+
+    /// Changes offsets: the machine stands still, the position counts anew.
+    pub fn recount(&mut self, change: impl FnOnce(&mut Machine)) {
+        let machine = self.in_machine(self.at);
+        change(self);
+        self.at = self.in_program(machine);
+    }
+
+    /// Six parameters from this one on, in the unit of the program.
+    pub fn stored(&self, first: usize) -> Axes {
+        let unit = self.tools.unit.in_units_of(self.unit);
+        scaled(
+            std::array::from_fn(|axis| self.parameters.numbered(first + axis)),
+            unit,
+        )
+    }
+
+    pub fn store(&mut self, first: usize, values: Axes) {
+        let values = scaled(values, self.unit.in_units_of(self.tools.unit));
+        for (axis, value) in values.into_iter().enumerate() {
+            self.parameters.set_numbered(first + axis, value);
+        }
+    }
+
+    /// Zero and turn of a coordinate system.
+    pub fn stored_system(&self, system: u8) -> (Axes, f64) {
+        let zero = self.stored(parameters::zero_of(system));
+        (zero, self.parameters.numbered(parameters::turn_of(system)))
+    }
+
+    /// A tool of the table; without a table any tool, with nothing told of it.
+    pub fn tool(&self, number: u32) -> Result<Option<Tool>, Refusal> {
+        match self.tools.tools.get(&number) {
+            Some(tool) => Ok(Some(*tool)),
+            None if number == 0 => Ok(Some(Tool::default())),
+            None if self.tools_told => Err(Refusal::ToolUnknown(number)),
+            None => Ok(None),
+        }
+    }
+
+    /// Its offset in the unit of the program; zero where the table says nothing.
+    pub fn tool_offset(&self, number: u32) -> Result<Axes, Refusal> {
+        let offset = self.tool(number)?.unwrap_or_default().offset;
+        Ok(scaled(offset, self.tools.unit.in_units_of(self.unit)))
+    }
+
+    pub fn use_unit(&mut self, unit: LengthUnit) {
+        let by = self.unit.in_units_of(unit);
+        for of in [&mut self.at, &mut self.g5x, &mut self.g92, &mut self.length] {
+            *of = scaled(*of, by);
+        }
+        self.cycle.scale(by);
+        self.unit = unit;
+        self.unit_told = true;
+    }
+
+    /// Parameters that tell the state.
+    fn told(&self, index: usize) -> f64 {
+        let tool = self.tools.tools.get(&self.tool);
+        match index {
+            5400 => f64::from(self.tool),
+            5401..=5406 => tool.map_or(0.0, |tool| tool.offset[index - 5401]),
+            5410 => tool.map_or(0.0, |tool| tool.diameter),
+            5420..=5425 => self.at[index - 5420],
+            _ => 0.0,
+        }
+    }
+
+    fn named_state(&self, name: &[u8]) -> Option<f64> {
+        let flag = |flag: bool| Some(f64::from(u8::from(flag)));
+        let axis = |of: Axes, letter: u8| {
+            let index = b"xyzabc".iter().position(|axis| *axis == letter)?;
+            Some(of[index])
+        };
+        match name {
+            [b'_', letter] => axis(self.at, *letter),
+            [b'_', b'a', b'b', b's', b'_', letter] => axis(self.in_machine(self.at), *letter),
+            b"_metric" => flag(self.unit == LengthUnit::Millimetre),
+            b"_imperial" => flag(self.unit == LengthUnit::Inch),
+            b"_absolute" => flag(self.absolute),
+            b"_incremental" => flag(!self.absolute),
+            b"_feed" => Some(self.feed),
+            b"_rpm" => Some(self.speed),
+            b"_current_tool" => Some(f64::from(self.tool)),
+            b"_selected_tool" => Some(f64::from(self.selected)),
+            b"_line" => Some(f64::from(self.line)),
+            b"_coord_system" => Some(match self.system {
+                system @ 1..=6 => 530.0 + 10.0 * f64::from(system),
+                system => 584.0 + f64::from(system),
+            }),
+            b"_plane" => Some(match self.plane {
+                Plane::Xy => 170.0,
+                Plane::Zx => 180.0,
+                Plane::Yz => 190.0,
+            }),
+            _ => None,
+        }
+    }
+}
+
+impl Values for Machine {
+    fn numbered(&self, number: f64) -> Result<f64, Refusal> {
+        let index = Parameters::index(number)?;
+        if parameters::READ_ONLY.contains(&index) {
+            return Ok(self.told(index));
+        }
+        Ok(self.parameters.numbered(index))
+    }
+
+    fn named(&self, name: &[u8]) -> Option<f64> {
+        self.named_state(name).or_else(|| self.parameters.named(name))
+    }
+}

@@ -1,0 +1,58 @@
+//! Comments that speak: `(MSG,text)` and `(DEBUG,text #5420)`, in which parameters become their values.
+
+use super::expression::{Reader, Values};
+
+/// What a comment says to the operator, if it does.
+pub(super) fn message(comment: &[u8], values: &dyn Values) -> Option<String> {
+    let comment = comment.trim_ascii_start();
+    let (word, text) = comment.split_at_checked(comment.iter().position(|byte| *byte == b',')?)?;
+    let text = text.get(1..).unwrap_or_default();
+    let word = word.trim_ascii();
+    if word.eq_ignore_ascii_case(b"msg") {
+        return Some(String::from_utf8_lossy(text).into_owned());
+    }
+    if !word.eq_ignore_ascii_case(b"debug") {
+        return None;
+    }
+    let mut said = Vec::new();
+    let mut at = 0;
+    while let Some(byte) = text.get(at).copied() {
+        if byte == b'#' {
+            let rest = text.get(at..).unwrap_or_default();
+            let length = name_length(rest);
+            let name: Vec<u8> = rest
+                .get(..length)
+                .unwrap_or_default()
+                .iter()
+                .filter(|byte| !byte.is_ascii_whitespace())
+                .map(u8::to_ascii_lowercase)
+                .collect();
+            match Reader::new(&name, 0, values).value() {
+                Ok(value) => said.extend_from_slice(format!("{value:.6}").as_bytes()),
+                Err(_) => said.extend_from_slice(b"######"),
+            }
+            at += length;
+        } else {
+            said.push(byte);
+            at += 1;
+        }
+    }
+    Some(String::from_utf8_lossy(&said).into_owned())
+}
+
+/// How long the parameter at the start is: `#5420`, `#<name>`.
+fn name_length(text: &[u8]) -> usize {
+    match text.get(1) {
+        Some(b'<') => text
+            .iter()
+            .position(|byte| *byte == b'>')
+            .map_or(text.len(), |end| end + 1),
+        _ => {
+            1 + text
+                .iter()
+                .skip(1)
+                .take_while(|byte| byte.is_ascii_digit())
+                .count()
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! Lines and arcs: where a block says that the tip goes, as canonical calls.
+//!
+//! The centre of an arc given by its radius `R`: `M + h n`, `h = sqrt(R^2 - d^2 / 4)`, on the side that makes the arc
+//! shorter than half a turn where `R > 0`.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `d`, `M`, `n` | length, middle and normal of the chord |
+//!
+//! Source: NISTIR 6556, section 3.5.3; how far start and end radius may differ: the interpreter tests of LinuxCNC,
+//! `tests/interp/bad/README.arc-radius-tolerance`.
+
+use std::f64::consts::{SQRT_2, TAU};
+
+use armill_core::nalgebra::{Point2, Vector2};
+
+use super::block::{Block, shown};
+use super::canonical::{ArcFeed, Axes, Canonical, LengthUnit};
+use super::cutter::{Contour, Out};
+use super::groups;
+use super::machine::{FeedMode, Machine};
+use super::options::Warning;
+use super::parameters;
+use super::refusal::Refusal;
+
+/// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
+const RADII_APART: [f64; 2] = [0.01, 0.001];
+/// Differences so many times larger are refused on any arc.
+const RADII_FAR_APART: f64 = 100.0;
+/// Part of the radius that lesser differences may be.
+const RADII_RELATIVE: f64 = 1e-3;
+/// Turns of one helix: a spring, not a cut.
+const MOST_TURNS: f64 = 10_000.0;
+/// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
+const SAME_END: f64 = 1e-9;
+
+impl Machine {
+    /// Where the axis words of a block lead.
+    pub(super) fn target(&self, words: [Option<f64>; 6]) -> Axes {
+        std::array::from_fn(|axis| match words[axis] {
+            Some(value) if self.absolute => value,
+            Some(value) => self.at[axis] + value,
+            None => self.at[axis],
+        })
+    }
+
+    /// G0 and G1.
+    pub(super) fn straight(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        let vector = self.vector_words(block, out)?;
+        if !block.has_axes() && !vector {
+            // G1 alone is modal: it says how later blocks move.
+            return Ok(());
+        }
+        let words = block.axes();
+        let mut end = self.target(words);
+        if block.g[groups::MACHINE].is_some() {
+            if self.cutter.is_on() {
+                return Err(Refusal::NotUnderCompensation("G53".to_owned()));
+            }
+            let mut machine = self.in_machine(self.at);
+            for (place, word) in machine.iter_mut().zip(words) {
+                *place = word.unwrap_or(*place);
+            }
+            end = self.in_program(machine);
+            self.call(Canonical::MachineCoordinates, out)?;
+        }
+        finite(&end)?;
+        if code == 10 {
+            let length = length(&self.at, &end);
+            self.feed_for(code, block, length, out)?;
+        }
+        let call = if code == 0 {
+            Canonical::StraightTraverse(end)
+        } else {
+            Canonical::StraightFeed(end)
+        };
+        self.follow(Contour::Line, call, out)?;
+        self.at = end;
+        Ok(())
+    }
+
+    fn follow(&mut self, contour: Contour, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
+        let [first, second, across] = self.plane.axes();
+        let from = Point2::new(self.at[first], self.at[second]);
+        self.cutter.follow(contour, (from, self.at[across]), call, out)
+    }
+
+    /// I, J, K under G43.5.
+    fn vector_words(&mut self, block: &mut Block, out: Out<'_>) -> Result<bool, Refusal> {
+        if !self.vector || !b"ijk".iter().any(|letter| block.has(*letter)) {
+            return Ok(false);
+        }
+        let axis = b"ijk".map(|letter| block.take(letter).unwrap_or_default());
+        if Vector2::new(axis[0], axis[1]).norm() + axis[2].abs() == 0.0 {
+            return Err(Refusal::NoDirection);
+        }
+        self.call(Canonical::ToolAxis(axis), out)?;
+        Ok(true)
+    }
+
+    /// Whether a cut of this length has a feed, and under inverse time which.
+    fn feed_for(&mut self, code: u16, block: &Block, length: f64, out: Out<'_>) -> Result<(), Refusal> {
+        if self.feed_mode == FeedMode::InverseTime {
+            return match block.peek(b'f') {
+                Some(feed) => self.call(Canonical::SetFeedRate(feed * length), out),
+                None => Err(Refusal::NoInverseTime(groups::name(b'g', code))),
+            };
+        }
+        if self.feed == 0.0 {
+            return Err(Refusal::NoFeed(groups::name(b'g', code)));
+        }
+        Ok(())
+    }
+
+    /// G2 and G3.
+    pub(super) fn arc(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        let [first, second, across] = self.plane.axes();
+        let end = self.target(block.axes());
+        finite(&end)?;
+        let counterclockwise = code == 30;
+        let start = Point2::new(self.at[first], self.at[second]);
+        let stop = Point2::new(end[first], end[second]);
+        let letters = [b"ijk"[first], b"ijk"[second]];
+        let words = letters.map(|letter| block.take(letter));
+        let centre = match (block.take(b'r'), words) {
+            (Some(_), [Some(_), _] | [_, Some(_)]) => return Err(Refusal::ArcWithBoth),
+            (Some(radius), _) => centre_by_radius(start, stop, radius, counterclockwise)?,
+            (None, [None, None]) => return Err(Refusal::ArcWithoutCentre),
+            (None, words) => {
+                let base = if self.arc_absolute {
+                    Point2::origin()
+                } else {
+                    start
+                };
+                let word = |index: usize| match words[index] {
+                    Some(value) => base[index] + value,
+                    None => start[index],
+                };
+                let centre = Point2::new(word(0), word(1));
+                self.check_radii((start - centre).norm(), (stop - centre).norm())?;
+                centre
+            }
+        };
+        let turns = match block.take(b'p') {
+            None => 1.0,
+            Some(turns) if turns >= 1.0 && turns.fract() == 0.0 && turns <= MOST_TURNS => turns,
+            Some(value) => {
+                return Err(Refusal::WordValue {
+                    word: 'P',
+                    value,
+                    wanted: "a whole number of turns, 1 to 10000",
+                });
+            }
+        };
+        let radius = (start - centre).norm();
+        let swept = sweep(start - centre, stop - centre, counterclockwise) + TAU * (turns - 1.0);
+        let length = (radius * swept).hypot(end[across] - self.at[across]);
+        self.feed_for(code, block, length, out)?;
+        let call = Canonical::ArcFeed(ArcFeed {
+            plane: self.plane,
+            end: stop.into(),
+            centre: centre.into(),
+            // At most MOST_TURNS.
+            turns: if counterclockwise {
+                turns as i32
+            } else {
+                -(turns as i32)
+            },
+            across: end[across],
+            rotary: [end[3], end[4], end[5]],
+        });
+        self.follow(
+            Contour::Arc {
+                centre,
+                counterclockwise,
+            },
+            call,
+            out,
+        )?;
+        self.at = end;
+        Ok(())
+    }
+
+    fn check_radii(&self, radius: f64, end_radius: f64) -> Result<(), Refusal> {
+        if radius == 0.0 {
+            return Err(Refusal::ArcPoint);
+        }
+        let least = RADII_APART[usize::from(self.unit == LengthUnit::Inch)] * 2.0 * SQRT_2;
+        let apart = (radius - end_radius).abs();
+        let limit = (RADII_RELATIVE * radius.max(end_radius)).clamp(least, RADII_FAR_APART * least);
+        if apart > limit {
+            return Err(Refusal::ArcRadii {
+                radius,
+                end_radius,
+                limit,
+            });
+        }
+        Ok(())
+    }
+
+    /// G28 and G30: by a point of the program to the stored place of the machine.
+    pub(super) fn home(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+        if self.cutter.is_on() {
+            return Err(Refusal::NotUnderCompensation(groups::name(b'g', code)));
+        }
+        let first = if code == 280 {
+            parameters::HOME
+        } else {
+            parameters::HOME + 20
+        };
+        let stored = self.stored(first);
+        if stored == [0.0; 6] {
+            self.warn(Warning::HomeAssumed);
+        }
+        let words = block.axes();
+        self.at = self.target(words);
+        finite(&self.at)?;
+        self.call(Canonical::StraightTraverse(self.at), out)?;
+        let mut machine = self.in_machine(self.at);
+        let all = words.iter().all(Option::is_none);
+        for axis in 0..6 {
+            if all || words[axis].is_some() {
+                machine[axis] = stored[axis];
+            }
+        }
+        self.at = self.in_program(machine);
+        self.call(Canonical::MachineCoordinates, out)?;
+        self.call(Canonical::StraightTraverse(self.at), out)
+    }
+}
+
+/// Places beyond this have lost the micrometre in their last digits.
+const FARTHEST: f64 = 1e9;
+
+fn finite(end: &Axes) -> Result<(), Refusal> {
+    for (value, letter) in end.iter().zip(b"xyzabc") {
+        if value.is_nan() || value.abs() > FARTHEST {
+            return Err(Refusal::WordValue {
+                word: shown(*letter),
+                value: *value,
+                wanted: "within 1e9",
+            });
+        }
+    }
+    Ok(())
+}
+
+/// What the feed is counted along: the way of the tip, or degrees where it stands.
+fn length(from: &Axes, to: &Axes) -> f64 {
+    let apart = |axes: std::ops::Range<usize>| {
+        axes.map(|axis| (to[axis] - from[axis]).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
+    match apart(0..3) {
+        0.0 => apart(3..6),
+        length => length,
+    }
+}
+
+/// The angle from one radius to another in this sense, above zero, at most a turn.
+pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, counterclockwise: bool) -> f64 {
+    let angle = from.perp(&to).atan2(from.dot(&to));
+    let angle = if counterclockwise { angle } else { -angle };
+    match angle {
+        angle if angle.abs() < SAME_END => TAU,
+        angle if angle < 0.0 => angle + TAU,
+        angle => angle,
+    }
+}
+
+fn centre_by_radius(
+    start: Point2<f64>,
+    stop: Point2<f64>,
+    radius: f64,
+    counterclockwise: bool,
+) -> Result<Point2<f64>, Refusal> {
+    let chord = stop - start;
+    let d = chord.norm();
+    if d == 0.0 {
+        return Err(Refusal::ArcAnywhere);
+    }
+    let square = radius * radius - d * d / 4.0;
+    // A half circle, rounded: the radius may lack what its last digit holds.
+    if d / 2.0 > radius.abs() * (1.0 + RADII_RELATIVE) {
+        return Err(Refusal::ArcTooSmall { radius, chord: d });
+    }
+    let n = Vector2::new(-chord.y, chord.x) / d;
+    let h = square.max(0.0).sqrt();
+    let left = (radius > 0.0) == counterclockwise;
+    Ok(armill_core::nalgebra::center(&start, &stop) + if left { n * h } else { -n * h })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn a_sweep_goes_the_way_it_is_told() {
+        let (x, y) = (Vector2::x(), Vector2::y());
+        assert_eq!(sweep(x, y, true), PI / 2.0);
+        assert_eq!(sweep(x, y, false), 1.5 * PI);
+        assert_eq!(sweep(x, x, true), TAU);
+        assert_eq!(sweep(x, x, false), TAU);
+    }
+
+    #[test]
+    fn a_radius_above_zero_makes_the_shorter_arc() {
+        let (start, stop) = (Point2::new(0.0, 0.0), Point2::new(2.0, 0.0));
+        for (radius, counterclockwise, shorter) in [
+            (2.0, true, true),
+            (2.0, false, true),
+            (-2.0, true, false),
+            (-2.0, false, false),
+        ] {
+            let centre = centre_by_radius(start, stop, radius, counterclockwise).unwrap();
+            assert!(((start - centre).norm() - 2.0).abs() < 1e-15, "one rounding");
+            let sweep = sweep(start - centre, stop - centre, counterclockwise);
+            assert_eq!(sweep < PI, shorter, "R {radius} {counterclockwise}");
+        }
+    }
+}

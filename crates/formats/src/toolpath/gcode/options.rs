@@ -1,0 +1,101 @@
+//! What a program cannot tell itself: the machine it was written for; and what it was read with.
+
+use std::collections::BTreeMap;
+
+use super::canonical::LengthUnit;
+use super::rotaries::Rotaries;
+use super::tools::ToolTable;
+
+/// Gives the text of a subroutine by its name: the reader opens no files itself.
+pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;
+
+/// What a program does not tell.
+#[derive(Clone, Default)]
+pub struct Options<'a> {
+    /// The unit before the first G20 or G21.
+    pub unit: LengthUnit,
+    /// The unit of the parameters 5161 to 5386; that of the tool table is in the table.
+    pub machine_unit: LengthUnit,
+    /// Parameters as the machine holds them before the program, such as work offsets from 5221 on.
+    pub parameters: BTreeMap<u16, f64>,
+    /// The tools; without them every tool number is accepted, without length and diameter.
+    pub tools: Option<ToolTable>,
+    /// How rotary axes turn tool and part.
+    pub rotaries: Option<Rotaries>,
+    /// Whether blocks that begin with `/` are left out.
+    pub block_delete: bool,
+    /// Subroutines that are not in the program.
+    pub subroutines: Option<Lookup<'a>>,
+}
+
+/// What was read and has no part in the path, or was taken for granted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Warning {
+    /// No G20 or G21 before the first axis word.
+    UnitAssumed,
+    /// G28 or G30 without a stored position: machine zero.
+    HomeAssumed,
+    /// A move in machine coordinates without a work offset: program zero is taken as machine zero.
+    MachineZeroAssumed,
+    /// A program that begins with an arc: from program zero.
+    StartAssumed,
+    /// An M code of the machine builder.
+    UserCode,
+    /// Waiting for or setting an input or output.
+    Output,
+    /// A tool whose length the tool table does not tell.
+    LengthUnknown,
+    /// A cut in feed per revolution with a spindle that does not turn.
+    SpindleStands,
+    /// A tapping cycle: the spindle turns back at its bottom.
+    Tapping,
+}
+
+impl Warning {
+    /// What it means for the path.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Warning::UnitAssumed => "no G20 or G21: the unit is assumed",
+            Warning::HomeAssumed => "G28 or G30 without stored position: machine zero is assumed",
+            Warning::MachineZeroAssumed => {
+                "machine coordinates without work offset: program zero is assumed there"
+            }
+            Warning::StartAssumed => "the program begins with an arc: from program zero",
+            Warning::UserCode => "codes of the machine builder are passed over",
+            Warning::Output => "inputs and outputs are passed over",
+            Warning::LengthUnknown => "length of the tool is not told: X Y Z are taken as its tip",
+            Warning::SpindleStands => "feed per revolution with the spindle standing: the feed is not told",
+            Warning::Tapping => "tapping: the feed is taken as told",
+        }
+    }
+}
+
+/// How often each warning came, and the line of its first time.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Warnings(BTreeMap<Warning, (u64, u32)>);
+
+impl Warnings {
+    pub(super) fn count(&mut self, warning: Warning, line: u32) {
+        let entry = self.0.entry(warning).or_insert((0, line));
+        entry.0 += 1;
+    }
+
+    pub(super) fn join(&mut self, other: &Warnings) {
+        for (warning, count, line) in other.iter() {
+            let entry = self.0.entry(warning).or_insert((0, line));
+            entry.0 += count;
+        }
+    }
+
+    /// Each warning with its count and the line of its first time.
+    pub fn iter(&self) -> impl Iterator<Item = (Warning, u64, u32)> + '_ {
+        self.0
+            .iter()
+            .map(|(warning, (count, line))| (*warning, *count, *line))
+    }
+
+    /// How often a warning came.
+    pub fn of(&self, warning: Warning) -> u64 {
+        self.0.get(&warning).map_or(0, |(count, _)| *count)
+    }
+}

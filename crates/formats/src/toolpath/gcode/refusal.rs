@@ -1,0 +1,220 @@
+//! Why a block is refused: one variant for each situation, so that tests can tell one reason from another.
+
+use thiserror::Error;
+
+/// Why a block is refused.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[allow(missing_docs)]
+pub enum Refusal {
+    #[error("cannot be read further: {0}")]
+    Unreadable(String),
+    // What no block may look like.
+    #[error("line of more than {limit} bytes")]
+    LineTooLong { limit: usize },
+    #[error("`{0}` begins no word")]
+    NotAWord(char),
+    #[error("comment without `)` at its end")]
+    CommentOpen,
+    #[error("expected a number, found `{0}`")]
+    NotANumber(String),
+    #[error("expected `{0}`")]
+    Expected(char),
+    #[error("`{0}` is no function or operator")]
+    UnknownFunction(String),
+    #[error("expected `#` of a parameter inside EXISTS")]
+    ExpectedParameter,
+    #[error("name of a parameter without `>` at its end")]
+    NameOpen,
+    #[error("expression nested more than {limit} deep")]
+    TooDeep { limit: usize },
+    #[error("parameter #{0} does not exist: they run from 1 to {1}")]
+    ParameterOutOfRange(f64, usize),
+    #[error("parameter #<{0}> was never set")]
+    ParameterUnset(String),
+    #[error("parameter {0} cannot be set")]
+    ParameterReadOnly(String),
+    #[error("more than {limit} named parameters")]
+    TooManyNames { limit: usize },
+    #[error("{0} has no real value here")]
+    NoValue(&'static str),
+    #[error("word {0} twice in a block")]
+    WordTwice(char),
+    #[error("word {0} is used by no code of this block")]
+    WordUnused(char),
+    #[error("word {0} could belong to two codes of this block")]
+    WordAmbiguous(char),
+    #[error("word {word} is {value}: must be {wanted}")]
+    WordValue {
+        word: char,
+        value: f64,
+        wanted: &'static str,
+    },
+    #[error("{0} and {1} in one block, where only one of their group may stand")]
+    SameGroup(String, String),
+    #[error("unknown code {0}")]
+    UnknownCode(String),
+    // What is understood and not read.
+    #[error("{code} is not read: {reason}")]
+    Unsupported { code: String, reason: &'static str },
+    // Motion.
+    #[error("axis words without a code that moves")]
+    AxesWithoutMotion,
+    #[error("{0} without any axis word")]
+    AxesMissing(String),
+    #[error("{0} and {1} both want the axis words of this block")]
+    AxesTwice(String, String),
+    #[error("{0} without {1} word")]
+    WordMissing(String, &'static str),
+    #[error("{0} with a feed of zero")]
+    NoFeed(String),
+    #[error("{0} without its own F word in inverse time, G93")]
+    NoInverseTime(String),
+    #[error("G53 needs G0 or G1")]
+    MachineCoordinates,
+    #[error("arc without I, J, K or R")]
+    ArcWithoutCentre,
+    #[error("arc with both R and a centre")]
+    ArcWithBoth,
+    #[error("arc of radius {radius} at its start and {end_radius} at its end: they may differ by {limit}")]
+    ArcRadii {
+        radius: f64,
+        end_radius: f64,
+        limit: f64,
+    },
+    #[error("arc of radius {radius} whose ends are {chord} apart")]
+    ArcTooSmall { radius: f64, chord: f64 },
+    #[error("arc with R that ends where it starts: it could be any circle")]
+    ArcAnywhere,
+    #[error("arc of no radius")]
+    ArcPoint,
+    // Canned cycles.
+    #[error("{word} in a canned cycle")]
+    RotaryInCycle { word: char },
+    #[error("canned cycle whose R at {clear} is below its bottom at {bottom}")]
+    ClearBelowBottom { clear: f64, bottom: f64 },
+    // Cutter compensation.
+    #[error("cutter compensation is on already")]
+    CompensationOn,
+    #[error("{0} while cutter compensation is on")]
+    NotUnderCompensation(String),
+    #[error("cutter compensation in the YZ plane")]
+    CompensationPlane,
+    #[error("move after cutter compensation that is no straight line")]
+    ArcAfterCompensation,
+    #[error("corner that a cutter of radius {radius} cannot reach without gouging")]
+    Gouging { radius: f64 },
+    #[error("arc of radius {arc} that a cutter of radius {radius} cannot follow inside")]
+    ArcInsideCutter { arc: f64, radius: f64 },
+    #[error("more than {limit} calls between two moves of cutter compensation")]
+    CompensationWaits { limit: usize },
+    #[error("diameter of tool {0} is not told")]
+    DiameterUnknown(u32),
+    #[error("tool {0} is not in the tool table")]
+    ToolUnknown(u32),
+    #[error("tool {0} is a turning tool, with orientation {1}")]
+    TurningTool(u32, u8),
+    // Flow.
+    #[error("subroutine inside a subroutine")]
+    NestedSubroutine,
+    #[error("o-word `{0}` that nothing begins")]
+    FlowUnopened(String),
+    #[error("o-word `{0}` that nothing ends")]
+    FlowUnclosed(String),
+    #[error("`{0}` is no o-word")]
+    FlowUnknown(String),
+    #[error("words behind an o-word")]
+    FlowTrailing,
+    #[error("subroutine {0} is not known")]
+    SubroutineUnknown(String),
+    #[error("call with more than {limit} arguments")]
+    TooManyArguments { limit: usize },
+    #[error("subroutines called more than {limit} deep")]
+    CallsTooDeep { limit: usize },
+    #[error("more than {limit} {what}")]
+    TooMuch { what: &'static str, limit: usize },
+    // The tip and its axis.
+    #[error("cut with {axis} at {angle} deg and no tool-centre control")]
+    RotaryCut { axis: char, angle: f64 },
+    #[error("{axis} turns under tool-centre control, and how the machine's rotary axes stand is not told")]
+    RotariesUnknown { axis: char },
+    #[error("{axis} turns, and the machine described has no such axis")]
+    RotaryAbsent { axis: char },
+    #[error("tool axis I, J, K of no length")]
+    NoDirection,
+    #[error("cut in {0} after cuts in {1}, and where one lies to the other is not told")]
+    SystemUnknown(&'static str, &'static str),
+    #[error("cut in machine coordinates, and where the workpiece lies in them is not told")]
+    MachineCut,
+    #[error("{what} {value} is beyond what a program may tell")]
+    NotFinite { what: &'static str, value: f64 },
+}
+
+impl Refusal {
+    /// What to do about it, where that is known.
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in blocks of their own",
+            Refusal::WordAmbiguous(_) | Refusal::AxesTwice(..) => "write the codes on separate lines",
+            Refusal::UnknownCode(_) => {
+                "see the table of codes in the guide; take the block out if it moves nothing"
+            }
+            Refusal::NoFeed(_) => "give F before the first cut",
+            Refusal::NoInverseTime(_) => {
+                "under G93 every cut has its own F, the inverse of its time in minutes"
+            }
+            Refusal::AxesWithoutMotion => "give G0, G1, G2 or G3",
+            Refusal::ArcRadii { .. } => {
+                "I, J, K lead from the start to the centre; with G90.1 they are the centre itself"
+            }
+            Refusal::ArcAnywhere => "write full circles with I, J, K",
+            Refusal::ArcAfterCompensation => "leave cutter compensation with a straight move",
+            Refusal::Gouging { .. } | Refusal::ArcInsideCutter { .. } => {
+                "use a smaller cutter, or a path it can follow"
+            }
+            Refusal::DiameterUnknown(_) => "give a tool table, or G41.1 D with the diameter",
+            Refusal::ToolUnknown(_) => "add it to the tool table",
+            Refusal::SubroutineUnknown(_) => "define it before its call, or give its file",
+            Refusal::RotaryCut { .. } => {
+                "post-process with tool-centre control (G43.4, M428, TRAORI, M128), so that X Y Z are the tip in the \
+                 frame of the part"
+            }
+            Refusal::RotariesUnknown { .. } => {
+                "say which rotary axes turn the table and which the head, such as xyzac"
+            }
+            Refusal::SystemUnknown(..) => {
+                "give the offsets with G10 L2 or as parameters #5221 and on, or split the program"
+            }
+            Refusal::MachineCut => "give the work offset as parameters #5221 and on",
+            Refusal::ParameterUnset(_) => "names are local to their subroutine unless they begin with `_`",
+            Refusal::TooMuch { .. } => "the program may never end: check the conditions of its loops",
+            _ => return None,
+        };
+        Some(hint.to_owned())
+    }
+}
+
+/// A refusal and the bytes of its line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Refused {
+    /// Why.
+    pub refusal: Refusal,
+    /// Bytes of the line.
+    pub place: std::ops::Range<usize>,
+}
+
+/// A refusal and where it stands in its file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fault {
+    /// Why.
+    pub refusal: Refusal,
+    /// Line, from 1.
+    pub line: u32,
+    /// Bytes of the line.
+    pub place: std::ops::Range<usize>,
+    /// The line itself.
+    pub text: String,
+    /// The file, where it is not the program itself.
+    pub file: Option<String>,
+    /// Where the line begins in its file, bytes.
+    pub offset: usize,
+}

@@ -1,0 +1,396 @@
+//! Canonical calls as steps of a path: one frame, m, m/s, rad/s.
+//!
+//! `q = Rz(-turn0) (m - g5x0) - g92_0`, `m = g5x + Rz(turn) (p + g92)`: the frame of the path is the work coordinate
+//! system of the first cut, and later systems are brought into it. The length of the tool has no part in it: `p` is
+//! the tip.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `p`, `q` | tip in the coordinates of the program and of the path, m |
+//! | `m` | the same in machine coordinates, but for the length of the tool, m |
+//! | `g5x0`, `turn0`, `g92_0` | offsets in force at the first cut |
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector2, Vector3};
+use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
+
+use super::canonical::{ArcFeed, Axes, Canonical, LengthUnit};
+use super::motion::sweep;
+use super::options::{Options, Warning, Warnings};
+use super::parameters;
+use super::refusal::Refusal;
+use super::rotaries::{Rotaries, Rotary};
+use super::summary::Summary;
+
+/// Rotary axes nearer to zero than this, deg, stand there.
+const AT_ZERO: f64 = 1e-9;
+/// Work coordinate systems by number.
+const SYSTEMS: [&str; 10] = [
+    "G53", "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3",
+];
+
+/// Where the coordinates of the program lie, m and rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Frame {
+    system: u8,
+    zero: Vector3<f64>,
+    turn: f64,
+    shift: Vector3<f64>,
+}
+
+impl Frame {
+    fn rotation(&self) -> Rotation3<f64> {
+        Rotation3::from_axis_angle(&Vector3::z_axis(), self.turn)
+    }
+
+    fn in_machine(&self, p: Point3<f64>) -> Point3<f64> {
+        self.rotation() * (p + self.shift) + self.zero
+    }
+
+    fn in_program(&self, m: Point3<f64>) -> Point3<f64> {
+        self.rotation().inverse() * (m - self.zero) - self.shift
+    }
+}
+
+/// Turns canonical calls into steps.
+pub(super) struct Tracer<'a> {
+    out: &'a mut dyn FnMut(Step),
+    rotaries: Option<&'a Rotaries>,
+    told: [bool; 10],
+    diameters: BTreeMap<u32, f64>,
+    unit: LengthUnit,
+    frame: Frame,
+    /// That of the first cut, or of the last move before.
+    path: Option<Frame>,
+    cut: bool,
+    /// The tip in coordinates of the program and of the path.
+    at: Option<(Point3<f64>, Point3<f64>)>,
+    axis: Option<Unit<Vector3<f64>>>,
+    centre: bool,
+    vector: Option<Vector3<f64>>,
+    in_machine: bool,
+    /// m/min, or m per revolution.
+    feed: f64,
+    feed_line: u32,
+    per_revolution: bool,
+    /// Revolutions per minute.
+    speed: f64,
+    /// 1 clockwise, -1 counterclockwise, 0 standing; none before it was told.
+    sense: Option<f64>,
+    tool: Option<u32>,
+    operation: Option<(Option<u32>, Option<f64>)>,
+    pub warnings: Warnings,
+    pub summary: Summary,
+}
+
+impl<'a> Tracer<'a> {
+    pub fn new(options: &'a Options<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
+        let mut told = [false; 10];
+        for (system, told) in (0_u8..).zip(&mut told).skip(1) {
+            let first = parameters::zero_of(system);
+            *told = (first..first + 10)
+                .any(|index| u16::try_from(index).is_ok_and(|index| options.parameters.contains_key(&index)));
+        }
+        let diameters = options.tools.iter().flat_map(|table| {
+            let unit = table.unit.metres();
+            table
+                .tools
+                .iter()
+                .map(move |(number, tool)| (*number, tool.diameter * unit))
+        });
+        Tracer {
+            out,
+            rotaries: options.rotaries.as_ref(),
+            told,
+            diameters: diameters.collect(),
+            unit: options.unit,
+            frame: Frame {
+                system: 1,
+                zero: Vector3::zeros(),
+                turn: 0.0,
+                shift: Vector3::zeros(),
+            },
+            path: None,
+            cut: false,
+            at: None,
+            axis: None,
+            centre: false,
+            vector: None,
+            in_machine: false,
+            feed: 0.0,
+            feed_line: 0,
+            per_revolution: false,
+            speed: 0.0,
+            sense: None,
+            tool: None,
+            operation: None,
+            warnings: Warnings::default(),
+            summary: Summary::default(),
+        }
+    }
+
+    /// The next call and its line.
+    pub fn take(&mut self, call: Canonical, line: u32) -> Result<(), Refusal> {
+        match call {
+            Canonical::StraightTraverse(end) => {
+                self.straight(end, Pace::Rapid, line)?;
+            }
+            Canonical::StraightFeed(end) => {
+                let pace = self.pace(line);
+                self.straight(end, pace, line)?;
+            }
+            Canonical::ArcFeed(arc) => self.arc(&arc, line)?,
+            Canonical::UseLengthUnits(unit) => {
+                // The order of the standard sets the feed before the unit; nobody means F of that block in the old.
+                if self.feed_line == line {
+                    self.feed *= unit.metres() / self.unit.metres();
+                }
+                self.unit = unit;
+            }
+            Canonical::SetG5xOffset(system, zero) => {
+                // Said of the system in force, or away from zero: somebody has measured it.
+                let again = system == self.frame.system && self.path.is_some();
+                self.frame.zero = self.lengths(&zero);
+                self.frame.system = system;
+                if let Some(told) = self.told.get_mut(usize::from(system)) {
+                    *told |= again || self.frame.zero != Vector3::zeros();
+                }
+            }
+            Canonical::SetG92Offset(shift) => self.frame.shift = self.lengths(&shift),
+            Canonical::SetXyRotation(degrees) => self.frame.turn = degrees.to_radians(),
+            Canonical::SetFeedMode { per_revolution } => self.per_revolution = per_revolution,
+            Canonical::SetFeedRate(rate) => {
+                self.feed = rate * self.unit.metres();
+                self.feed_line = line;
+            }
+            Canonical::SetToolTableEntry { tool, diameter, .. } => {
+                self.diameters.insert(tool, diameter * self.unit.metres());
+            }
+            Canonical::ChangeTool(tool) => self.tool = Some(tool),
+            Canonical::SetSpindleSpeed(speed) => self.speed = speed,
+            Canonical::StartSpindleClockwise => self.sense = Some(1.0),
+            Canonical::StartSpindleCounterclockwise => self.sense = Some(-1.0),
+            Canonical::StopSpindleTurning => self.sense = self.sense.map(|_| 0.0),
+            Canonical::ToolCentreControl { on } => {
+                self.centre = on;
+                self.vector = None;
+            }
+            Canonical::ToolAxis(axis) => self.vector = Some(Vector3::from(axis)),
+            Canonical::MachineCoordinates => self.in_machine = true,
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn lengths(&self, of: &Axes) -> Vector3<f64> {
+        Vector3::new(of[0], of[1], of[2]) * self.unit.metres()
+    }
+
+    fn pace(&mut self, line: u32) -> Pace {
+        const MINUTE: f64 = 60.0;
+        let per_minute = if self.per_revolution {
+            let turning = self.sense.unwrap_or_default().abs() * self.speed;
+            if turning == 0.0 {
+                self.warnings.count(Warning::SpindleStands, line);
+            }
+            self.feed * turning
+        } else {
+            self.feed
+        };
+        if per_minute > 0.0 {
+            Pace::Feed(per_minute / MINUTE)
+        } else {
+            Pace::Untold
+        }
+    }
+
+    /// The tip in coordinates of the path.
+    fn in_path(&self, p: Point3<f64>) -> Point3<f64> {
+        match self.path {
+            Some(path) if path != self.frame => path.in_program(self.frame.in_machine(p)),
+            _ => p,
+        }
+    }
+
+    fn direction_in_path(&self, of: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
+        match self.path {
+            Some(path) if path.turn != self.frame.turn => {
+                let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), self.frame.turn - path.turn);
+                turn * of
+            }
+            _ => of,
+        }
+    }
+
+    /// Before every move: in which frame it is, and whether that is told.
+    fn settle(&mut self, pace: Pace, rotary: [f64; 3], line: u32) -> Result<(), Refusal> {
+        let told = |system: u8| self.told.get(usize::from(system)).copied().unwrap_or_default();
+        if std::mem::take(&mut self.in_machine) && !told(self.frame.system) {
+            if pace.cuts() {
+                return Err(Refusal::MachineCut);
+            }
+            self.warnings.count(Warning::MachineZeroAssumed, line);
+        }
+        if pace.cuts() {
+            if let Some(path) = self
+                .path
+                .filter(|path| self.cut && path.system != self.frame.system)
+            {
+                let (first, now) = (path.system, self.frame.system);
+                if !told(first) || !told(now) {
+                    let name = |system: u8| SYSTEMS.get(usize::from(system)).copied().unwrap_or_default();
+                    return Err(Refusal::SystemUnknown(name(now), name(first)));
+                }
+            }
+            let turned = rotary
+                .iter()
+                .zip(['A', 'B', 'C'])
+                .find(|(angle, _)| angle.abs() > AT_ZERO);
+            if let (false, Some((angle, axis))) = (self.centre, turned) {
+                return Err(Refusal::RotaryCut { axis, angle: *angle });
+            }
+        }
+        if !self.cut {
+            self.path = Some(self.frame);
+            if let Some((p, q)) = &mut self.at {
+                // What came before counts from here on as if it had been in this frame.
+                *p = *q;
+            }
+        }
+        self.cut |= pace.cuts();
+        Ok(())
+    }
+
+    /// The tool in the frame of the path.
+    fn tool_axis(&mut self, rotary: [f64; 3]) -> Result<Option<Unit<Vector3<f64>>>, Refusal> {
+        if !self.centre {
+            return Ok(None);
+        }
+        let axis = match (self.vector, self.rotaries) {
+            (Some(vector), _) => Unit::new_normalize(vector),
+            (None, rotaries) => {
+                for (axis, (angle, letter)) in [Rotary::A, Rotary::B, Rotary::C]
+                    .into_iter()
+                    .zip(rotary.into_iter().zip(['A', 'B', 'C']))
+                {
+                    if angle.abs() <= AT_ZERO {
+                        continue;
+                    }
+                    match rotaries {
+                        None => return Err(Refusal::RotariesUnknown { axis: letter }),
+                        Some(rotaries) if !rotaries.has(axis) => {
+                            return Err(Refusal::RotaryAbsent { axis: letter });
+                        }
+                        Some(_) => {}
+                    }
+                }
+                rotaries.map_or(Vector3::z_axis(), |rotaries| rotaries.tool_axis(rotary))
+            }
+        };
+        self.summary.tool_axis_told = true;
+        Ok(Some(self.direction_in_path(axis)))
+    }
+
+    fn straight(&mut self, end: Axes, pace: Pace, line: u32) -> Result<(), Refusal> {
+        let rotary = [end[3], end[4], end[5]];
+        self.settle(pace, rotary, line)?;
+        let axis = self.tool_axis(rotary)?;
+        let p = Point3::from(self.lengths(&end));
+        let q = self.in_path(p);
+        if self.at.is_some_and(|(_, before)| before == q) && axis == self.axis {
+            self.at = Some((p, q));
+            return Ok(());
+        }
+        self.step(pace, (p, q, axis), (Course::Line, line));
+        Ok(())
+    }
+
+    fn arc(&mut self, arc: &ArcFeed, line: u32) -> Result<(), Refusal> {
+        let pace = self.pace(line);
+        self.settle(pace, arc.rotary, line)?;
+        let axis = self.tool_axis(arc.rotary)?;
+        let [first, second, across] = arc.plane.axes();
+        if self.at.is_none() {
+            self.warnings.count(Warning::StartAssumed, line);
+            let origin = Point3::origin();
+            self.step(
+                Pace::Rapid,
+                (origin, self.in_path(origin), axis),
+                (Course::Line, line),
+            );
+        }
+        let from = match (self.at, self.path) {
+            (Some((p, q)), Some(path)) if path != self.frame => {
+                let again = self.frame.in_program(path.in_machine(q));
+                if self.in_path(p) == q { p } else { again }
+            }
+            (at, _) => at.map_or(Point3::origin(), |(p, _)| p),
+        };
+        let unit = self.unit.metres();
+        let mut end = Vector3::zeros();
+        (end[first], end[second], end[across]) = (arc.end[0] * unit, arc.end[1] * unit, arc.across * unit);
+        let mut centre = Point3::origin();
+        (centre[first], centre[second], centre[across]) =
+            (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);
+        let arm = |of: &Point3<f64>| Vector2::new(of[first] - centre[first], of[second] - centre[second]);
+        let p = Point3::from(end);
+        let counterclockwise = arc.turns > 0;
+        let turns = f64::from(arc.turns.abs() - 1);
+        let swept = sweep(arm(&from), arm(&p), counterclockwise) + TAU * turns;
+        let mut normal = Vector3::zeros();
+        normal[across] = if counterclockwise { 1.0 } else { -1.0 };
+        let course = Course::Arc(Arc {
+            centre: self.in_path(centre),
+            axis: self.direction_in_path(Unit::new_unchecked(normal)),
+            sweep: swept,
+        });
+        self.step(pace, (p, self.in_path(p), axis), (course, line));
+        Ok(())
+    }
+
+    fn step(
+        &mut self,
+        pace: Pace,
+        (p, q, axis): (Point3<f64>, Point3<f64>, Option<Unit<Vector3<f64>>>),
+        (course, line): (Course, u32),
+    ) {
+        self.operate(pace, line);
+        let from = self.at.map(|(_, q)| q);
+        self.at = Some((p, q));
+        self.axis = axis;
+        let next = Move {
+            end: q,
+            axis,
+            course,
+            pace,
+            line,
+        };
+        self.summary.count(from, &next);
+        (self.out)(Step::Move(next));
+    }
+
+    /// A new operation where the tool is another, or the spindle turns otherwise in a cut.
+    fn operate(&mut self, pace: Pace, line: u32) {
+        let spindle = self.sense.map(|sense| sense * self.speed * TAU / 60.0);
+        let now = (self.tool, spindle);
+        let same = self
+            .operation
+            .is_some_and(|(tool, spindle)| tool == now.0 && (spindle == now.1 || !pace.cuts()));
+        if same {
+            return;
+        }
+        self.operation = Some(now);
+        self.summary.operations += 1;
+        let diameter = self.tool.and_then(|tool| self.diameters.get(&tool)).copied();
+        (self.out)(Step::Operation(Operation {
+            name: self.tool.map(|tool| format!("T{tool}")),
+            tool: self.tool,
+            diameter: diameter.filter(|diameter| *diameter > 0.0),
+            spindle,
+            line,
+            ..Operation::default()
+        }));
+    }
+}

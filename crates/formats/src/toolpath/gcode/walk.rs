@@ -1,0 +1,217 @@
+//! Going through kept lines: loops, branches and calls.
+
+use std::rc::Rc;
+
+use super::expression::Reader;
+use super::flow::{Body, Keyword, OWord};
+use super::interpreter::{Interpreter, Left, MOST_CALLS_DEEP, MOST_REPEATED_LINES};
+use super::lines::Line;
+use super::parameters;
+use super::refusal::Refusal;
+
+impl Interpreter<'_> {
+    /// Goes through kept lines.
+    pub(super) fn run(&mut self, body: &Rc<Body>) -> Left {
+        let mut at = 0;
+        // Repeats that are open, with the rounds still to go.
+        let mut repeats: Vec<(usize, u64)> = Vec::new();
+        while let Some(kept) = body.lines.get(at) {
+            self.repeated += 1;
+            if self.repeated > MOST_REPEATED_LINES {
+                let limit = MOST_REPEATED_LINES;
+                let refusal = Refusal::TooMuch {
+                    what: "lines of loops and subroutines to be done",
+                    limit,
+                };
+                self.fault(&kept.line, refusal, 0..kept.line.text.len());
+                self.stopped = true;
+            }
+            if self.stopped {
+                return Left::Finished;
+            }
+            let line = &kept.line;
+            let Some(word) = &kept.word else {
+                match self.again(line) {
+                    Left::AtEnd => at += 1,
+                    left => return left,
+                }
+                continue;
+            };
+            let skip_to = kept.partner;
+            at = match word.keyword {
+                Keyword::If => match self.holds(line, word) {
+                    true => at + 1,
+                    false => self.branch(body, skip_to),
+                },
+                Keyword::ElseIf | Keyword::Else => kept.end + 1,
+                Keyword::While => match self.holds(line, word) {
+                    true => at + 1,
+                    false => skip_to + 1,
+                },
+                Keyword::EndWhile => skip_to,
+                Keyword::DoWhile => match self.holds(line, word) {
+                    true => skip_to + 1,
+                    false => at + 1,
+                },
+                Keyword::Repeat => {
+                    // Counts below one give no round at all.
+                    let rounds = self.value(line, word).unwrap_or_default().round().max(0.0) as u64;
+                    if rounds == 0 {
+                        skip_to + 1
+                    } else {
+                        repeats.push((at, rounds));
+                        at + 1
+                    }
+                }
+                Keyword::EndRepeat => match repeats.last_mut() {
+                    Some((first, left)) if *left > 1 => {
+                        *left -= 1;
+                        *first + 1
+                    }
+                    _ => {
+                        repeats.pop();
+                        at + 1
+                    }
+                },
+                Keyword::Break => {
+                    repeats.retain(|(first, _)| *first < skip_to);
+                    body.lines.get(skip_to).map_or(at, |first| first.end) + 1
+                }
+                Keyword::Continue => {
+                    repeats.retain(|(first, _)| *first <= skip_to);
+                    body.lines.get(skip_to).map_or(at, |first| {
+                        match first.word.as_ref().map(|word| word.keyword) {
+                            Some(Keyword::While) => skip_to,
+                            _ => first.end,
+                        }
+                    })
+                }
+                Keyword::Return | Keyword::EndSub => {
+                    self.returns(line, word);
+                    return Left::Returning;
+                }
+                Keyword::Call => match self.call(word, line) {
+                    Left::AtEnd => at + 1,
+                    left => return left,
+                },
+                _ => at + 1,
+            };
+        }
+        Left::AtEnd
+    }
+
+    /// The branch that holds after a condition that does not.
+    fn branch(&mut self, body: &Rc<Body>, mut at: usize) -> usize {
+        while let Some(kept) = body.lines.get(at) {
+            match &kept.word {
+                Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => {
+                    at = kept.partner
+                }
+                _ => break,
+            }
+        }
+        at + 1
+    }
+
+    fn holds(&mut self, line: &Line, word: &OWord) -> bool {
+        self.value(line, word).is_some_and(|value| value != 0.0)
+    }
+
+    /// The bracketed value behind an o-word.
+    fn value(&mut self, line: &Line, word: &OWord) -> Option<f64> {
+        let mut values = self.values_behind(line, word)?;
+        if values.len() != 1 {
+            self.fault(line, Refusal::Expected('['), 0..line.text.len());
+        }
+        values.pop()
+    }
+
+    /// All bracketed values behind an o-word.
+    fn values_behind(&mut self, line: &Line, word: &OWord) -> Option<Vec<f64>> {
+        // Lines kept were cleaned without fault when they came.
+        self.clean.read(&line.text).ok()?;
+        self.machine.line = line.number;
+        let mut reader = Reader::new(&self.clean.text, word.rest, &self.machine);
+        let mut values = Vec::new();
+        let mut refusal = None;
+        while reader.at < self.clean.text.len() {
+            if values.len() >= parameters::LOCALS {
+                refusal = Some(Refusal::TooManyArguments {
+                    limit: parameters::LOCALS,
+                });
+                break;
+            }
+            match reader.bracketed() {
+                Ok(value) => values.push(value),
+                Err(Refusal::Expected('[')) => {
+                    refusal = Some(Refusal::FlowTrailing);
+                    break;
+                }
+                Err(found) => {
+                    refusal = Some(found);
+                    break;
+                }
+            }
+        }
+        if let Some(refusal) = refusal {
+            let place = self.clean.place(word.rest..self.clean.text.len());
+            self.fault(line, refusal, place);
+            return None;
+        }
+        Some(values)
+    }
+
+    fn returns(&mut self, line: &Line, word: &OWord) {
+        let value = self
+            .values_behind(line, word)
+            .and_then(|values| values.first().copied());
+        let given = f64::from(u8::from(value.is_some()));
+        let set = self
+            .machine
+            .parameters
+            .set_named(b"_value", value.unwrap_or_default())
+            .and_then(|()| self.machine.parameters.set_named(b"_value_returned", given));
+        if let Err(refusal) = set {
+            self.fault(line, refusal, 0..line.text.len());
+        }
+    }
+
+    pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Left {
+        let Some(arguments) = self.values_behind(line, word) else {
+            return Left::AtEnd;
+        };
+        let Some(body) = self.subroutine(&word.label) else {
+            self.fault(
+                line,
+                Refusal::SubroutineUnknown(word.label.clone()),
+                0..line.text.len(),
+            );
+            return Left::AtEnd;
+        };
+        self.machine.parameters.enter(&arguments);
+        let left = self.called(&body, line);
+        self.machine.parameters.leave();
+        left
+    }
+
+    pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Left {
+        if self.depth >= MOST_CALLS_DEEP {
+            self.fault(
+                line,
+                Refusal::CallsTooDeep {
+                    limit: MOST_CALLS_DEEP,
+                },
+                0..line.text.len(),
+            );
+            self.stopped = true;
+            return Left::Finished;
+        }
+        self.depth += 1;
+        let left = self.run(body);
+        self.depth -= 1;
+        match left {
+            Left::Finished => Left::Finished,
+            _ => Left::AtEnd,
+        }
+    }
+}
