@@ -172,12 +172,12 @@ pub fn oblique() -> Robot {
     of_rows("made-up/oblique", &rows, &[180.0; 6])
 }
 
-/// Unimation Puma 560: its shoulder stands beside axis 1 and its forearm beside the upper arm; B. Armstrong, O. Khatib,
-/// J. Burdick 1986, rows after P. Corke.
-pub const PUMA560: [DhRow; 6] = [
+/// Unimation Puma 560, whose wrist stands beside axis 1, with axis 3 turned by 0.05 rad: without it the arm is
+/// ortho-parallel. B. Armstrong, O. Khatib, J. Burdick 1986, rows after P. Corke.
+pub const PUMA_LIKE: [DhRow; 6] = [
     [0.0, 0.0, QUARTER],
-    [0.0, 0.4318, 0.0],
-    [0.15005, 0.0203, -QUARTER],
+    [0.0, 0.4318, 0.05],
+    [0.150_05, 0.0203, -QUARTER],
     [0.4318, 0.0, QUARTER],
     [0.0, 0.0, -QUARTER],
     [0.0, 0.0, 0.0],

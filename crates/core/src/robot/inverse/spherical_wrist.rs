@@ -21,6 +21,8 @@
 //! Lengths m, angles rad. Source: Pieper 1968; J. J. Craig, "Introduction to Robotics", 4.6; the wrist by spherical
 //! trigonometry.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 
 use super::super::chain::Chain;
@@ -159,7 +161,11 @@ impl SphericalWrist {
         if near < -beyond || far < -beyond {
             return Vec::new();
         }
-        let psi = 2.0 * near.max(0.0).sqrt().atan2(far.max(0.0).sqrt());
+        let mut psi = 2.0 * near.max(0.0).sqrt().atan2(far.max(0.0).sqrt());
+        if !self.is_exact() {
+            // Nearly straight, so that both signs start apart.
+            psi = psi.clamp(WRIST_SLACK, PI - WRIST_SLACK);
+        }
         let side = across(z5, &z6);
         let with = |psi: f64| {
             let theta5 = psi - self.psi_at_zero;

@@ -39,6 +39,10 @@ const MOST_STEPS: usize = 24;
 /// Miss (of the arm's length) that is rounding, and that which is no solution.
 const ROUNDING: f64 = 1e-15;
 const MISSED: f64 = 1e-10;
+/// Determinant of the scaled Jacobian below which a position of an arm with slack stands near the end of a branch: there
+/// 10 mm may move a joint by a tenth of a radian. And how far (rad) to both sides the other postures are looked for.
+const END_OF_BRANCH: f64 = 0.02;
+const ASIDE: f64 = 0.15;
 /// Positions nearer than this (rad) are one.
 const SAME: f64 = 1e-7;
 
@@ -74,8 +78,10 @@ impl ThreeTurns {
         self.length > 0.0 && (1..8).map(spans).fold(0.0, f64::max) > 1e-6
     }
 
-    /// Positions that bring the point to `goal`; where the goal is out of reach by less than `slack` (m), the
-    /// positions nearest to it. Where joint 1 is left free it stands at `kept`.
+    /// Positions that bring the point to `goal`. Where joint 1 is left free it stands at `kept`.
+    ///
+    /// With `slack` (m) they are starting values for an arm that differs by as much: also of goals that are out of reach
+    /// by less, and near the end of a branch to both sides of it, since two postures may be there or none.
     pub fn bring_to(&self, goal: &Point3<f64>, slack: f64, kept: f64) -> Vec<[f64; 3]> {
         let pair = Circles::of(self, goal);
         let touching = TOUCHING + 4.0 * slack / self.length;
@@ -90,12 +96,27 @@ impl ThreeTurns {
                         (turns - turns.round()).abs() * TAU < SAME
                     })
                 });
-                if missed < slack.max(MISSED * self.length) && !known {
-                    found.push(theta);
+                if known || missed >= slack.max(MISSED * self.length) {
+                    continue;
+                }
+                found.push(theta);
+                if slack > 0.0 {
+                    found.extend(self.beside_end_of_branch(&theta).into_iter().flatten());
                 }
             }
         }
         found
+    }
+
+    /// Positions to both sides of `theta`, along what hardly moves the point, if it stands near the end of a branch.
+    fn beside_end_of_branch(&self, theta: &[f64; 3]) -> [Option<[f64; 3]>; 2] {
+        let columns = self.place(theta).1 / self.length;
+        if columns.determinant().abs() > END_OF_BRANCH {
+            return [None, None];
+        }
+        let squares = (columns.transpose() * columns).symmetric_eigen();
+        let still = squares.eigenvectors.column(squares.eigenvalues.imin());
+        [ASIDE, -ASIDE].map(|aside| Some(std::array::from_fn(|i| theta[i] + aside * still[i])))
     }
 
     /// Joint 2, where joints 1 and 3 stand.
