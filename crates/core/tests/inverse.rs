@@ -13,6 +13,7 @@ use armill_core::load::Doubt;
 use armill_core::nalgebra::{Matrix4, Unit, UnitQuaternion, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{Finder, Inverse, SphericalWrist, ToolAt, Wanted, posture_at, postures};
+use armill_core::robot::joint::Sign;
 use armill_core::robot::{Posture, Robot, Singularity, Unreachable};
 use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
@@ -341,39 +342,57 @@ fn joint_3_leaves_home_only_as_far_as_the_limits_ask_for() {
 }
 
 #[test]
-fn a_calibrated_iiwa_holds_its_poses_with_joint_3_at_home() {
-    let (robot, tool) = (other::calibrated(&other::iiwa14(), 5e-4), Isometry::identity());
-    assert_eq!(robot.inverse().kind(), "polished");
-    let mut stream = Stream(13);
-    for _ in 0..1000 {
-        let q = stream.joints(&robot);
-        let made = posture_at(&robot, &q, &tool);
-        if made.singularity.is_some() {
-            continue;
+fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_at_home() {
+    let (iiwa, tool) = (other::iiwa14(), Isometry::identity());
+    let mut joints = iiwa.joints().to_vec();
+    for joint in &mut joints {
+        (joint.sign, joint.zero_offset) = (Sign::Negative, 0.3);
+    }
+    let counted = Robot::new("counted", iiwa.chain().motions().to_vec(), joints).unwrap();
+    for (robot, kind, standing) in [
+        (other::calibrated(&iiwa, 5e-4), "polished", 2),
+        (other::on_rail(&iiwa), "closed_form", 3),
+        (counted, "closed_form", 2),
+    ] {
+        assert_eq!(robot.inverse().kind(), kind);
+        let mut stream = Stream(13);
+        for _ in 0..1000 {
+            let q = stream.joints(&robot);
+            let made = posture_at(&robot, &q, &tool);
+            if made.singularity.is_some() {
+                continue;
+            }
+            let home = ToolAt {
+                home: Some(&q),
+                ..at(&tool)
+            };
+            let found = postures(&robot, &made.base_from_tool, home).unwrap();
+            assert!(found.iter().all(|p| p.joints[standing] == q[standing]));
+            assert!(
+                apart(&robot, &found[0].joints, &q) < 1e-6,
+                "{}: {q:?}",
+                robot.name()
+            );
         }
-        let home = ToolAt {
-            home: Some(&q),
-            ..at(&tool)
-        };
-        let found = postures(&robot, &made.base_from_tool, home).unwrap();
-        assert!(found.iter().all(|p| p.joints[2] == q[2]));
-        assert!(apart(&robot, &found[0].joints, &q) < 1e-6, "{q:?}");
     }
 }
 
 #[test]
 fn a_map_of_an_iiwa_is_continuous() {
-    along(&other::iiwa14(), BranchChoice::Best, |question, poses| {
-        let answers = evaluate(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
-        assert_eq!(answers.held().count(), poses.len());
-        let held: Vec<_> = answers.held().collect();
-        for pair in held.windows(2) {
-            let [(i, a), (_, b)] = pair else { unreachable!() };
-            assert_eq!(answers.joints_at(*i)[2], 0.0);
-            // Half a millimetre to one apart, of a reach of 0.8 m: some parts in a thousand.
-            assert!((a.in_plane - b.in_plane).abs() < 0.01 * a.in_plane, "{i}");
-        }
-    });
+    for choice in choices() {
+        along(&other::iiwa14(), choice, |question, poses| {
+            let answers = evaluate(question, poses.len(), |i| poses[i], Watch::NONE).unwrap();
+            assert_eq!(answers.held().count(), poses.len());
+            assert!((0..poses.len()).all(|i| answers.joints_at(i)[2] == 0.0));
+            let held: Vec<_> = answers.held().collect();
+            for ((_, a), (i, b)) in held.iter().zip(&held[1..]) {
+                // Half a millimetre to one apart, of a reach of 0.8 m: some parts in a thousand. The best posture of
+                // all may come to a limit: the deviation then steps up.
+                let step = (a.in_plane - b.in_plane).abs() / a.in_plane;
+                assert!(step < 0.01 || choice == BranchChoice::Best, "{i}: {step}");
+            }
+        });
+    }
 }
 
 #[test]
@@ -436,16 +455,16 @@ fn a_hundred_thousand_poses_of_every_arm() {
         other::on_rail(&arms::mh12()),
         other::calibrated(&arms::mh12(), 5e-4),
         other::calibrated(&other::ur10e(), 5e-4),
-        other::oblique(),
+        other::free("made-up/puma-like", &other::PUMA_LIKE),
+        other::free("made-up/skewed", &other::SKEWED),
+        other::free("made-up/tilted-wrist", &other::TILTED_WRIST),
+        other::free("made-up/spherical-shoulder", &other::SPHERICAL_SHOULDER),
         other::iiwa14(),
+        other::oblique(),
     ] {
         let trips = round_trips(&robot, 100_000);
         assert!(trips.held as f64 > 0.999 * trips.poses as f64, "{trips:?}");
-        let to_spare = robot.joints().len() > 6 && !robot.slides(0);
-        assert!(
-            to_spare || trips.returned as f64 > 0.999 * trips.poses as f64,
-            "{trips:?}"
-        );
+        assert!(trips.returned as f64 > 0.999 * trips.poses as f64, "{trips:?}");
     }
 }
 

@@ -48,12 +48,13 @@ pub struct ToolAt<'a> {
     pub flange_from_tool: &'a Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
-    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges.
+    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
+    /// the middle of their ranges.
     pub home: Option<&'a [f64]>,
 }
 
-/// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found, nearest to `near`
-/// (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
+/// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found; without names the
+/// nearest to `near` (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
 /// and 6 of a spherical wrist share the turn evenly.
 ///
 /// Outside joint limits counts as a posture: ask [`Robot::limit_margin`].

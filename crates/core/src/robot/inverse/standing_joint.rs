@@ -8,7 +8,7 @@
 //!
 //! Which joint it is, is decided by trying: of those that leave a spherical wrist at every angle tried, the one with which
 //! most of some poses are reached that the arm has come to with all its joints. Of shoulder - elbow - wrist arms
-//! (KUKA iiwa, Franka-like with a straight elbow) that is joint 3: it turns the elbow about the line from shoulder to
+//! (KUKA iiwa) that is joint 3: it turns the elbow about the line from shoulder to
 //! wrist. Angles rad.
 
 use std::f64::consts::PI;

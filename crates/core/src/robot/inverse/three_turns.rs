@@ -19,7 +19,7 @@
 //! has two positions for each. What comes out is followed by Newton's iteration on all three joints.
 //!
 //! Lengths m, angles rad; axes are told at chain zero. Source: D. L. Pieper, "The Kinematics of Manipulators under
-//! Computer Control", Stanford 1968; as two circles: A. J. Elias, J. T. Wen 2025 (subproblem 6).
+//! Computer Control", Stanford 1968; as circles: A. J. Elias, J. T. Wen 2025 (subproblem 5).
 
 use std::f64::consts::TAU;
 

@@ -31,8 +31,8 @@ pub struct Wanted<'a> {
     pub base_from_flange: Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
-    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges,
-    /// or zero where they have none.
+    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
+    /// the middle of their ranges, or zero where they have none.
     pub home: Option<&'a [f64]>,
 }
 
@@ -58,6 +58,8 @@ pub struct Finder<'r> {
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
     home: Vec<f64>,
+    /// The joint that stands still, and where.
+    stands: Option<(usize, f64)>,
 }
 
 /// The chain that postures are found for: the robot's own, or what its rail carries.
@@ -101,6 +103,7 @@ impl<'r> Finder<'r> {
             found: Vec::with_capacity(8),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
+            stands: None,
         }
     }
 
@@ -293,6 +296,10 @@ impl<'r> Finder<'r> {
         let mut joints = self.home.clone();
         for (i, theta) in theta.iter().enumerate() {
             let joint = self.arm.first + i;
+            if let Some((_, place)) = self.stands.filter(|(stands, _)| *stands == joint) {
+                joints[joint] = place;
+                continue;
+            }
             let counted = self.robot.joint_position(joint, *theta, &joints);
             joints[joint] = if self.robot.slides(joint) {
                 counted

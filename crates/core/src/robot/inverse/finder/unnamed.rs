@@ -67,11 +67,15 @@ impl Finder<'_> {
         let joint = self.arm.first + standing.joint;
         let sense = self.robot.joints()[joint].sign.factor();
         let angle = self.robot.theta(joint, &self.home) + sense * away;
-        let Some(form) = standing.at(angle) else { return };
+        // A joint that counts earlier ones along stands where they leave it.
+        let alone = self.robot.joints()[joint].coupling.is_empty();
+        self.stands = alone.then(|| (joint, self.home[joint] + away));
         let near = wanted.near.map(|q| self.chain_positions(q));
         let kept = near.and_then(|theta| standing.without(&theta));
         let goal = Goal::new(arm_from_flange);
-        for six in form.chain_positions(arm_from_flange, kept.as_ref()) {
+        let form = standing.at(angle);
+        let found = form.map(|form| form.chain_positions(arm_from_flange, kept.as_ref()));
+        for six in found.unwrap_or_default() {
             let mut theta = standing.with(angle, &six);
             let reached = self
                 .descent
@@ -80,6 +84,7 @@ impl Finder<'_> {
                 self.take(wanted, &theta);
             }
         }
+        self.stands = None;
     }
 
     /// Moves the standing joint from home, to the side where it stood first, until a posture lies inside the limits;
