@@ -9,9 +9,6 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Robot, reach};
 use armill_study::library;
 
-/// Arms that have more joints than six: their postures are searched.
-const SEARCHED: [&str; 1] = ["kuka/lbr-iiwa-14-r820"];
-
 fn robot(name: &str) -> Robot {
     library::robot(name).unwrap().unwrap().robot
 }
@@ -35,7 +32,7 @@ fn every_arm_with_a_spherical_wrist_has_its_closed_form_inverse() {
         .map(|entry| entry.name)
         .filter(|name| robot(name).inverse().kind() != "closed_form")
         .collect();
-    assert_eq!(without, SEARCHED);
+    assert!(without.is_empty(), "{without:?}");
     assert!(library::ROBOTS.len() >= 28, "{}", library::ROBOTS.len());
 }
 

@@ -15,6 +15,10 @@ use crate::source::Standing;
 use crate::source::standing::Loaded;
 use crate::workpiece::Split;
 
+/// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
+/// rounding, which would take one here and the other beside it.
+const ALIKE: f64 = 1e-9;
+
 /// Room for one point, reused from point to point.
 pub(super) struct General<'q> {
     tool_from_flange: Isometry,
@@ -120,7 +124,7 @@ impl<'q> General<'q> {
                     by: -held.limit_margin,
                 }),
                 Ok(held) => {
-                    if best.is_none_or(|b| held.in_plane < b.in_plane) {
+                    if best.is_none_or(|b| held.in_plane < b.in_plane * (1.0 - ALIKE)) {
                         best = Some(held);
                         self.keep();
                     }

@@ -31,7 +31,8 @@ pub struct Question<'a> {
     pub model: &'a StiffnessModel,
     /// Flange to tool centre point.
     pub flange_from_tool: &'a Isometry,
-    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges.
+    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
+    /// the middle of their ranges.
     pub home: Option<&'a [f64]>,
     /// Load cases on the tool at the TCP, base basis; at least one.
     pub cases: &'a [Wrench],

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::answer::Held;
 use super::general::General;
 use super::lanes::{POINTS, Points};
-use super::question::Question;
+use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
@@ -77,7 +77,8 @@ impl<'q> Solver<'q> {
         if let Some(lanes) = &mut self.lanes {
             lanes.solve(&self.poses);
         }
-        if self.order == Order::Any {
+        // Along a path one posture is followed; the best of all must know all from time to time.
+        if self.order == Order::Any || self.question.choice == BranchChoice::Best {
             self.general.forget();
         }
         let rows = slots

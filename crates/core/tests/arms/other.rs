@@ -172,6 +172,52 @@ pub fn oblique() -> Robot {
     of_rows("made-up/oblique", &rows, &[180.0; 6])
 }
 
+/// Unimation Puma 560, whose wrist stands beside axis 1, with axis 3 turned by 0.05 rad: without it the arm is
+/// ortho-parallel. B. Armstrong, O. Khatib, J. Burdick 1986, rows after P. Corke.
+pub const PUMA_LIKE: [DhRow; 6] = [
+    [0.0, 0.0, QUARTER],
+    [0.0, 0.4318, 0.05],
+    [0.150_05, 0.0203, -QUARTER],
+    [0.4318, 0.0, QUARTER],
+    [0.0, 0.0, -QUARTER],
+    [0.0, 0.0, 0.0],
+];
+
+/// Made up: three general axes, and three through one point.
+pub const SKEWED: [DhRow; 6] = [
+    [0.4, 0.15, 1.2],
+    [0.1, 0.6, 0.4],
+    [-0.08, 0.12, -1.1],
+    [0.55, 0.0, 1.3],
+    [0.0, 0.0, -1.4],
+    [0.12, 0.0, 0.0],
+];
+
+/// [`SKEWED`] with a wrist of 60 degrees twice, as painting robots have.
+pub const TILTED_WRIST: [DhRow; 6] = [
+    SKEWED[0],
+    SKEWED[1],
+    SKEWED[2],
+    [0.55, 0.0, QUARTER * 2.0 / 3.0],
+    [0.0, 0.0, -QUARTER * 2.0 / 3.0],
+    [0.12, 0.0, 0.0],
+];
+
+/// Made up: the first three axes meet, the others are general.
+pub const SPHERICAL_SHOULDER: [DhRow; 6] = [
+    [0.4, 0.0, -1.3],
+    [0.0, 0.0, 1.5],
+    [0.5, 0.1, 0.4],
+    [0.08, 0.45, -0.3],
+    [-0.06, 0.07, 1.2],
+    [0.12, 0.0, 0.0],
+];
+
+/// The arm of these rows, whose joints turn all the way round.
+pub fn free(name: &str, rows: &[DhRow; 6]) -> Robot {
+    of_rows(name, rows, &[180.0; 6])
+}
+
 fn compliant(robot: Robot) -> Robot {
     let values = (0..robot.joints().len()).map(|i| armill_core::robot::JointCompliance {
         value: 1e-6 * (1.0 + i as f64),

@@ -18,7 +18,7 @@ pub enum ClosedForm {
 /// How far (m, rad) the axes of a calibrated arm may stray from a closed form that gives its branches their names.
 pub const CALIBRATED: f64 = 0.01;
 /// How far (m) beyond the ideal arm's reach the calibrated one may still get.
-const SLACK: f64 = 0.03;
+pub(super) const SLACK: f64 = 0.03;
 
 impl ClosedForm {
     /// The closed form of this chain, if it has one.

@@ -57,6 +57,8 @@ impl Goal {
 #[derive(Clone, Debug)]
 pub(super) struct Descent {
     length: f64,
+    /// Index of a joint that stands still.
+    still: Option<usize>,
     frames: Frames,
     screws: Vec<Twist>,
     columns: Vec<Vector6<f64>>,
@@ -68,6 +70,7 @@ impl Descent {
         let count = chain.links().len();
         Descent {
             length: chain.length(),
+            still: None,
             frames: Frames::for_joints(count),
             screws: vec![Twist::ZERO; count],
             columns: vec![Vector6::zeros(); count],
@@ -109,6 +112,23 @@ impl Descent {
         } else {
             Err(Unreachable::NotFound { by, turned })
         }
+    }
+
+    /// [`Descent::reach`] with joint `still` where it is.
+    ///
+    /// # Errors
+    /// Those of [`Descent::reach`].
+    pub fn reach_beside(
+        &mut self,
+        chain: &Chain,
+        goal: &Goal,
+        still: usize,
+        theta: &mut [f64],
+    ) -> Result<(), Unreachable> {
+        self.still = Some(still);
+        let reached = self.reach(chain, goal, theta);
+        self.still = None;
+        reached
     }
 
     /// [`Descent::reach`], then as near to `home` (chain positions) as the joints to spare allow.
@@ -188,6 +208,9 @@ impl Descent {
         for (column, screw) in self.columns.iter_mut().zip(&self.screws) {
             let (v, w) = (screw.linear / self.length, screw.angular);
             *column = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+        }
+        if let Some(still) = self.still {
+            self.columns[still] = Vector6::zeros();
         }
     }
 

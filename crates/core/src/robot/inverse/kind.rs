@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | [`Inverse::Closed`] | a [`ClosedForm`] holds exactly | up to eight, by name |
 //! | [`Inverse::Polished`] | within 10 mm and 10 mrad of a closed form: a calibrated arm | those of the ideal arm, by name, each brought to the true one by damped least squares |
+//! | [`Inverse::SphericalWrist`] | the axes of three joints at one end meet in a point, within 10 mm | up to eight, without names |
+//! | [`Inverse::OneStands`] | seven turning joints, one of which can stand still and leave a spherical wrist | those of the other six |
 //! | [`Inverse::Searched`] | any other chain | those that descents from many starts find |
 //! | [`Inverse::OnRail`] | more than six joints, sliding ones first | the sliding joints stand still, the rest has an inverse of its own |
 
@@ -12,6 +14,8 @@ use std::fmt;
 use super::super::chain::{Chain, Motion};
 use super::closed_form::ClosedForm;
 use super::ortho_parallel::OrthoParallel;
+use super::spherical_wrist::SphericalWrist;
+use super::standing_joint::StandingJoint;
 
 /// How the postures of a chain are found.
 #[derive(Clone, Debug)]
@@ -20,6 +24,10 @@ pub enum Inverse {
     Closed(ClosedForm),
     /// From the closed form of the ideal arm next to it.
     Polished(ClosedForm),
+    /// In closed form, or from the closed form of the arm whose wrist axes meet.
+    SphericalWrist(Box<SphericalWrist>),
+    /// One joint to spare stands still, the others have a spherical wrist.
+    OneStands(Box<StandingJoint>),
     /// From many starts.
     Searched,
     /// On sliding joints that stand still.
@@ -47,10 +55,18 @@ impl Inverse {
     pub fn recognise(chain: &Chain) -> Inverse {
         Inverse::on_rail(chain).unwrap_or_else(|| {
             let closed = ClosedForm::recognise(chain).map(Inverse::Closed);
+            // Names first: an arm that is nearly one with names keeps them, even where its wrist is exact.
             closed
                 .or_else(|| ClosedForm::next_to(chain).map(Inverse::Polished))
+                .or_else(|| Inverse::with_wrist(chain))
                 .unwrap_or(Inverse::Searched)
         })
+    }
+
+    fn with_wrist(chain: &Chain) -> Option<Inverse> {
+        let wrist = SphericalWrist::recognise(chain).or_else(|| SphericalWrist::next_to(chain));
+        let six = wrist.map(|wrist| Inverse::SphericalWrist(Box::new(wrist)));
+        six.or_else(|| Some(Inverse::OneStands(Box::new(StandingJoint::recognise(chain)?))))
     }
 
     fn on_rail(chain: &Chain) -> Option<Inverse> {
@@ -110,7 +126,9 @@ impl Inverse {
     pub fn kind(&self) -> &'static str {
         match self.of_arm() {
             Inverse::Closed(_) => "closed_form",
-            Inverse::Polished(_) => "polished",
+            Inverse::SphericalWrist(form) if form.is_exact() => "closed_form",
+            Inverse::OneStands(standing) if standing.is_exact() => "closed_form",
+            Inverse::Polished(_) | Inverse::SphericalWrist(_) | Inverse::OneStands(_) => "polished",
             _ => "searched",
         }
     }
@@ -128,6 +146,22 @@ impl fmt::Display for Inverse {
                 f,
                 "numeric from a closed form, up to 8 postures (nearly an {})",
                 of(form)
+            ),
+            Inverse::SphericalWrist(form) if form.is_exact() => {
+                f.write_str("closed form, up to 8 postures without names (spherical wrist)")
+            }
+            Inverse::SphericalWrist(_) => f.write_str(
+                "numeric from a closed form, up to 8 postures without names (nearly a spherical wrist)",
+            ),
+            Inverse::OneStands(standing) => write!(
+                f,
+                "{}, up to 8 postures without names (spherical wrist); joint {} stands still",
+                if standing.is_exact() {
+                    "closed form"
+                } else {
+                    "numeric from a closed form"
+                },
+                standing.joint + 1
             ),
             Inverse::Searched => f.write_str("numeric from many starts: the postures that are found"),
             Inverse::OnRail(rail) => write!(

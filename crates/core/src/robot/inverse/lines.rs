@@ -2,7 +2,7 @@
 //!
 //! An axis is a line: a point on it (m) and its unit direction, both told at chain zero in base.
 
-use nalgebra::{Matrix3, Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use super::super::chain::{Chain, Motion};
 
@@ -42,12 +42,30 @@ impl Line {
         let between = other.point - self.point;
         Some(self.point + self.axis * (between.cross(&other.axis).dot(&normal) / n2))
     }
+
+    /// A turn by `angle` (rad) about the direction of this line.
+    pub fn rotation(&self, angle: f64) -> Rotation3<f64> {
+        Rotation3::from_axis_angle(&Unit::new_unchecked(self.axis), angle)
+    }
+
+    /// A point after a turn by `angle` (rad) about this line.
+    pub fn turned(&self, angle: f64, point: &Point3<f64>) -> Point3<f64> {
+        self.point + self.rotation(angle) * (point - self.point)
+    }
+
+    /// Another line after a turn by `angle` (rad) about this one.
+    pub fn carried(&self, angle: f64, other: &Line) -> Line {
+        Line {
+            point: self.turned(angle, &other.point),
+            axis: self.rotation(angle) * other.axis,
+        }
+    }
 }
 
-/// The axes of a chain of six turning joints; `None` for any other.
-pub(super) fn lines_at_zero(chain: &Chain) -> Option<[Line; 6]> {
+/// The axes of a chain of `N` turning joints; `None` for any other.
+pub(super) fn lines_at_zero<const N: usize>(chain: &Chain) -> Option<[Line; N]> {
     let (mut axes, mut origin) = (Matrix3::identity(), Vector3::zeros());
-    let mut lines = Vec::with_capacity(6);
+    let mut lines = Vec::with_capacity(N);
     for link in chain.links() {
         link.before.advance(&mut axes, &mut origin);
         match link.motion {

@@ -1,7 +1,8 @@
 //! Which joint positions hold this tool pose?
 //!
-//! [`kind`] is the closed list of ways: [`closed_form`] ([`ortho_parallel`], [`three_parallel`]), the same followed by
-//! damped least squares for calibrated arms, a search for any other chain, and rails. A [`Finder`] takes one pose after
+//! [`kind`] is the closed list of ways: [`closed_form`] ([`ortho_parallel`], [`three_parallel`]) with names,
+//! [`spherical_wrist`] without, the same followed by damped least squares for calibrated arms, a
+//! [`standing_joint`] to spare, a search for any other chain, and rails. A [`Finder`] takes one pose after
 //! the other; [`postures`] gives everything about the postures of one. Each is checked by forward kinematics before
 //! it leaves.
 
@@ -11,14 +12,20 @@ mod finder;
 pub mod kind;
 mod lines;
 pub mod ortho_parallel;
+mod roots;
+pub mod spherical_wrist;
+pub mod standing_joint;
 mod starts;
 pub mod three_parallel;
+mod three_turns;
 mod two_links;
 
 pub use closed_form::ClosedForm;
 pub use finder::{Finder, Found, Wanted};
 pub use kind::Inverse;
 pub use ortho_parallel::OrthoParallel;
+pub use spherical_wrist::SphericalWrist;
+pub use standing_joint::StandingJoint;
 pub use three_parallel::ThreeParallel;
 
 use nalgebra::{UnitQuaternion, Vector3};
@@ -41,12 +48,13 @@ pub struct ToolAt<'a> {
     pub flange_from_tool: &'a Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
-    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges.
+    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
+    /// the middle of their ranges.
     pub home: Option<&'a [f64]>,
 }
 
-/// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found, nearest to `near`
-/// (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
+/// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found; without names the
+/// nearest to `near` (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
 /// and 6 of a spherical wrist share the turn evenly.
 ///
 /// Outside joint limits counts as a posture: ask [`Robot::limit_margin`].

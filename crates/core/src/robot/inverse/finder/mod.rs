@@ -1,10 +1,14 @@
 //! The postures of one robot at one pose after the other, with room that is reused.
 //!
-//! Closed forms give each branch at once; a calibrated arm takes them as starts; other chains are searched from
-//! starts spread over the ranges of their joints, or from the postures of the pose before. All work in chain
-//! positions; joints are counted, and every posture is verified by forward kinematics, in one place.
+//! Closed forms give each branch at once; a calibrated arm takes them as starts; those without names for their branches
+//! are in `unnamed`. Other chains are searched from starts spread over the ranges of their joints, or from the
+//! postures of the pose before, in `search`. All work in chain positions; joints are counted, and every posture is
+//! verified by forward kinematics, in one place.
 
-use std::f64::consts::{PI, TAU};
+mod search;
+mod unnamed;
+
+use std::f64::consts::TAU;
 
 use super::super::chain::{Amount, Chain, Motion};
 use super::super::forward::{Frames, forward_into};
@@ -13,23 +17,9 @@ use super::super::posture::{Branch, BranchPattern, PostureName, Sides, Singulari
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
 use super::holds;
-use super::kind::{ENOUGH, Inverse};
-use super::starts::spread;
+use super::kind::Inverse;
 use crate::frame::Isometry;
-
-/// Postures of one pose at most: a general arm of six turning joints has up to 16.
-const MOST: usize = 16;
-/// Postures after which a search ends, to take the nearest of them: joints to spare and singular poses have no end.
-const PLENTY: usize = 32;
-/// Starts without a new posture that end a search.
-const BARREN: usize = 48;
-/// Starts of a search at most.
-const MOST_STARTS: usize = 400;
-/// Two postures nearer than this (rad, m) are one; joints to spare settle less sharply.
-const SAME: f64 = 1e-4;
-const SAME_TO_SPARE: f64 = 1e-2;
-/// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
-const JUMP: f64 = 0.5;
+use search::{MOST, SAME, THOROUGH};
 
 /// Descents reached the pose, but all in other branches than those asked for.
 const OTHER_BRANCHES: Unreachable = Unreachable::NotFound { by: 0.0, turned: 0.0 };
@@ -41,8 +31,8 @@ pub struct Wanted<'a> {
     pub base_from_flange: Isometry,
     /// Joint positions of the point before, if there is one.
     pub near: Option<&'a [f64]>,
-    /// Joint positions where a rail stands and that joints to spare are drawn to; without, the middle of their ranges,
-    /// or zero where they have none.
+    /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
+    /// the middle of their ranges, or zero where they have none.
     pub home: Option<&'a [f64]>,
 }
 
@@ -68,6 +58,8 @@ pub struct Finder<'r> {
     /// Of each posture found: chain positions of the arm, kept for the pose that follows.
     before: Vec<Vec<f64>>,
     home: Vec<f64>,
+    /// The joint that stands still, and where.
+    stands: Option<(usize, f64)>,
 }
 
 /// The chain that postures are found for: the robot's own, or what its rail carries.
@@ -111,6 +103,7 @@ impl<'r> Finder<'r> {
             found: Vec::with_capacity(8),
             before: Vec::new(),
             home: vec![0.0; robot.joints().len()],
+            stands: None,
         }
     }
 
@@ -119,7 +112,8 @@ impl<'r> Finder<'r> {
         self.before.clear();
     }
 
-    /// Every posture; of a searched chain those that are found, nearest to `near` (or `home`) first.
+    /// Every posture; of a searched chain those that are found. Those without names come nearest to `near` first, or to
+    /// the posture before, or to `home`.
     ///
     /// # Errors
     /// The reason of the branch that misses by least, or how near a search came.
@@ -127,7 +121,8 @@ impl<'r> Finder<'r> {
         self.find(wanted, BranchPattern::default(), MOST)
     }
 
-    /// The postures whose branch matches; of a chain without named branches the one nearest to `near` (or `home`).
+    /// The postures whose branch matches; of a chain without named branches the one nearest to `near`, or to the posture
+    /// before, or to `home`.
     ///
     /// # Errors
     /// Those of [`Finder::all`].
@@ -147,7 +142,9 @@ impl<'r> Finder<'r> {
         let missed = match self.arm.inverse {
             Inverse::Closed(form) => self.branches(form, wanted, &arm_from_flange, pattern),
             Inverse::Polished(form) => self.polished(form, wanted, &arm_from_flange, pattern),
-            Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most),
+            Inverse::SphericalWrist(form) => self.with_wrist(form, wanted, &arm_from_flange, most),
+            Inverse::OneStands(standing) => self.with_one_standing(standing, wanted, &arm_from_flange, most),
+            Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most, THOROUGH),
         };
         if self.found.is_empty() {
             return Err(missed.unwrap_or(OTHER_BRANCHES));
@@ -246,124 +243,29 @@ impl<'r> Finder<'r> {
             }
         }
         if self.found.is_empty() && matches!(missed, Some(Unreachable::NotFound { .. })) {
-            missed = self.search(wanted, arm_from_flange, MOST);
+            missed = self.search(wanted, arm_from_flange, MOST, THOROUGH);
         }
         self.found
             .retain(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)));
         missed
     }
 
-    fn search(
-        &mut self,
-        wanted: &Wanted<'_>,
-        arm_from_flange: &Isometry,
-        most: usize,
-    ) -> Option<Unreachable> {
-        let goal = Goal::new(arm_from_flange);
-        let home = self.chain_positions(&self.home);
-        if self.follow(wanted, &goal, &home, most) {
-            return None;
-        }
-        let ranges = self.ranges();
-        let mut theta = home.clone();
-        let mut missed: Option<Unreachable> = None;
-        let mut barren = 0;
-        for start in 1..=MOST_STARTS {
-            if barren == BARREN || self.found.len() == PLENTY {
-                break;
-            }
-            barren += 1;
-            spread(start, &ranges, &mut theta);
-            match self.descend(&goal, &home, &mut theta) {
-                Ok(()) if self.is_known(&theta, self.same()) => {}
-                Ok(()) => match self.keep_searched(wanted, &theta) {
-                    Ok(()) => barren = 0,
-                    Err(miss) => missed = Some(nearer(missed, miss)),
-                },
-                Err(miss) => missed = Some(nearer(missed, miss)),
-            }
-        }
-        self.sort(wanted.near);
-        self.found.truncate(most);
-        self.before = self
-            .found
-            .iter()
-            .map(|found| self.chain_positions(&found.joints))
-            .collect();
-        missed
-    }
-
-    /// Takes up the postures of the pose before; false if one of them has no continuation here.
-    fn follow(&mut self, wanted: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
-        if self.before.is_empty() || self.before.len() > most {
-            return false;
-        }
-        let mut before = std::mem::take(&mut self.before);
-        let followed = before.iter_mut().all(|theta| {
-            let from = theta.clone();
-            let reached = self.descend(goal, home, theta).is_ok();
-            let away = theta.iter().zip(&from).map(|(a, b)| (a - b).abs());
-            reached
-                && away.fold(0.0, f64::max) < JUMP
-                && !self.is_known(theta, self.same())
-                && self.keep_searched(wanted, theta).is_ok()
-        });
-        if followed {
-            self.before = before;
-        } else {
-            self.found.clear();
-        }
-        followed
-    }
-
-    fn descend(&mut self, goal: &Goal, home: &[f64], theta: &mut [f64]) -> Result<(), Unreachable> {
-        if theta.len() > ENOUGH {
-            self.descent.reach_near(self.arm.chain, goal, home, theta)
-        } else {
-            self.descent.reach(self.arm.chain, goal, theta)
-        }
-    }
-
-    fn same(&self) -> f64 {
-        if self.arm.chain.links().len() > ENOUGH {
-            SAME_TO_SPARE
-        } else {
-            SAME
-        }
-    }
-
-    /// Chain positions that the joints of the arm may take; a turn for joints without limits.
-    fn ranges(&self) -> Vec<[f64; 2]> {
-        let middles = self.chain_positions(&self.robot.middles());
-        let range = |(i, middle): (usize, f64)| {
-            let joint = self.arm.first + i;
-            let half = self.robot.joints()[joint]
-                .limits
-                .map(|limits| 0.5 * (limits.upper - limits.lower));
-            let half = if self.robot.slides(joint) {
-                half.unwrap_or(self.arm.chain.length())
-            } else {
-                half.unwrap_or(PI).min(PI)
-            };
-            [middle - half, middle + half]
-        };
-        middles.into_iter().enumerate().map(range).collect()
-    }
-
     /// Whether these chain positions, whole turns apart, have been found already.
     fn is_known(&self, theta: &[f64], same: f64) -> bool {
-        self.found.iter().any(|found| {
-            theta.iter().enumerate().all(|(i, theta)| {
-                let joint = self.arm.first + i;
-                let away = theta - self.robot.theta(joint, &found.joints);
-                let away = if self.robot.slides(joint) {
-                    away
-                } else {
-                    away - TAU * (away / TAU).round()
-                };
-                away.abs() < same
-            })
-        })
+        let is =
+            |found: &Found| (0..theta.len()).all(|i| self.between(i, theta[i], &found.joints).abs() < same);
+        self.found.iter().any(is)
+    }
+
+    /// From the joint positions `q` to the chain position `theta` of joint `i` of the arm, the shorter way round.
+    fn between(&self, i: usize, theta: f64, q: &[f64]) -> f64 {
+        let joint = self.arm.first + i;
+        let away = theta - self.robot.theta(joint, q);
+        if self.robot.slides(joint) {
+            away
+        } else {
+            away - TAU * (away / TAU).round()
+        }
     }
 
     fn keep_searched(&mut self, wanted: &Wanted<'_>, theta: &[f64]) -> Result<(), Unreachable> {
@@ -394,6 +296,10 @@ impl<'r> Finder<'r> {
         let mut joints = self.home.clone();
         for (i, theta) in theta.iter().enumerate() {
             let joint = self.arm.first + i;
+            if let Some((_, place)) = self.stands.filter(|(stands, _)| *stands == joint) {
+                joints[joint] = place;
+                continue;
+            }
             let counted = self.robot.joint_position(joint, *theta, &joints);
             joints[joint] = if self.robot.slides(joint) {
                 counted
@@ -427,14 +333,6 @@ impl<'r> Finder<'r> {
             }
         }
         nearest_turn(counted, limits.map_or(0.0, |limits| limits.middle()))
-    }
-
-    /// Nearest to `near`, or home, first.
-    fn sort(&mut self, near: Option<&[f64]>) {
-        let from = near.unwrap_or(&self.home);
-        let away =
-            |found: &Found| -> f64 { found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum() };
-        self.found.sort_by(|a, b| away(a).total_cmp(&away(b)));
     }
 }
 

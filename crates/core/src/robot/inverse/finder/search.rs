@@ -1,0 +1,144 @@
+//! The search: descents from many starts, or from the postures of the pose before.
+
+use std::f64::consts::PI;
+
+use super::super::super::posture::Unreachable;
+use super::super::descent::Goal;
+use super::super::kind::ENOUGH;
+use super::super::starts::spread;
+use super::{Finder, Found, Wanted, nearer};
+use crate::frame::Isometry;
+
+/// Postures of one pose at most: a general arm of six turning joints has up to 16.
+pub(super) const MOST: usize = 16;
+/// Postures after which a search ends, to take the nearest of them: joints to spare and singular poses have no end.
+const PLENTY: usize = 32;
+/// Starts without a new posture that end a search; and one that a closed form went before.
+pub(super) const THOROUGH: usize = 48;
+pub(super) const SHORT: usize = 8;
+/// Starts of a search at most.
+const MOST_STARTS: usize = 400;
+/// Two postures nearer than this (rad, m) are one; joints to spare settle less sharply.
+pub(super) const SAME: f64 = 1e-4;
+const SAME_TO_SPARE: f64 = 1e-2;
+/// A posture that moved farther than this (rad, m) from the pose before is not its continuation.
+const JUMP: f64 = 0.5;
+
+impl Finder<'_> {
+    /// Postures by descents, until so many starts in a row (`barren`) have brought nothing new.
+    pub(super) fn search(
+        &mut self,
+        wanted: &Wanted<'_>,
+        arm_from_flange: &Isometry,
+        most: usize,
+        barren: usize,
+    ) -> Option<Unreachable> {
+        let goal = Goal::new(arm_from_flange);
+        let home = self.chain_positions(&self.home);
+        if self.follow(wanted, &goal, &home, most) {
+            return None;
+        }
+        let ranges = self.ranges();
+        let mut theta = home.clone();
+        let mut missed: Option<Unreachable> = None;
+        let mut idle = 0;
+        for start in 1..=MOST_STARTS {
+            if idle == barren || self.found.len() == PLENTY {
+                break;
+            }
+            idle += 1;
+            spread(start, &ranges, &mut theta);
+            match self.descend(&goal, &home, &mut theta) {
+                Ok(()) if self.is_known(&theta, self.same()) => {}
+                Ok(()) => match self.keep_searched(wanted, &theta) {
+                    Ok(()) => idle = 0,
+                    Err(miss) => missed = Some(nearer(missed, miss)),
+                },
+                Err(miss) => missed = Some(nearer(missed, miss)),
+            }
+        }
+        self.order(wanted.near, most);
+        missed
+    }
+
+    /// Takes up those postures of the pose before that have a continuation here; false if none has.
+    fn follow(&mut self, wanted: &Wanted<'_>, goal: &Goal, home: &[f64], most: usize) -> bool {
+        if self.before.len() > most {
+            return false;
+        }
+        let mut before = std::mem::take(&mut self.before);
+        before.retain_mut(|theta| {
+            let from = theta.clone();
+            let reached = self.descend(goal, home, theta).is_ok();
+            let away = theta.iter().zip(&from).map(|(a, b)| (a - b).abs());
+            reached
+                && away.fold(0.0, f64::max) < JUMP
+                && !self.is_known(theta, self.same())
+                && self.keep_searched(wanted, theta).is_ok()
+        });
+        self.before = before;
+        !self.before.is_empty()
+    }
+
+    fn descend(&mut self, goal: &Goal, home: &[f64], theta: &mut [f64]) -> Result<(), Unreachable> {
+        if theta.len() > ENOUGH {
+            self.descent.reach_near(self.arm.chain, goal, home, theta)
+        } else {
+            self.descent.reach(self.arm.chain, goal, theta)
+        }
+    }
+
+    fn same(&self) -> f64 {
+        if self.arm.chain.links().len() > ENOUGH {
+            SAME_TO_SPARE
+        } else {
+            SAME
+        }
+    }
+
+    /// Chain positions that the joints of the arm may take; a turn for joints without limits.
+    fn ranges(&self) -> Vec<[f64; 2]> {
+        let middles = self.chain_positions(&self.robot.middles());
+        let range = |(i, middle): (usize, f64)| {
+            let joint = self.arm.first + i;
+            let half = self.robot.joints()[joint]
+                .limits
+                .map(|limits| 0.5 * (limits.upper - limits.lower));
+            let half = if self.robot.slides(joint) {
+                half.unwrap_or(self.arm.chain.length())
+            } else {
+                half.unwrap_or(PI).min(PI)
+            };
+            [middle - half, middle + half]
+        };
+        middles.into_iter().enumerate().map(range).collect()
+    }
+
+    /// Nearest first, to `near`, to the posture before, or to home; `most` of them are left, to be followed.
+    pub(super) fn order(&mut self, near: Option<&[f64]>, most: usize) {
+        let before = near.is_none().then(|| self.before.first()).flatten();
+        let from = near.unwrap_or(&self.home);
+        let away = |found: &Found| -> f64 {
+            match before {
+                Some(theta) => {
+                    let away = (0..theta.len()).map(|i| self.between(i, theta[i], &found.joints).powi(2));
+                    away.sum()
+                }
+                None => found.joints.iter().zip(from).map(|(a, b)| (a - b).powi(2)).sum(),
+            }
+        };
+        let mut found: Vec<(f64, Found)> = self
+            .found
+            .iter()
+            .map(|found| (away(found), found.clone()))
+            .collect();
+        found.sort_by(|(a, _), (b, _)| a.total_cmp(b));
+        found.truncate(most);
+        self.found = found.into_iter().map(|(_, found)| found).collect();
+        self.before = self
+            .found
+            .iter()
+            .map(|found| self.chain_positions(&found.joints))
+            .collect();
+    }
+}
