@@ -9,12 +9,12 @@ use armill_core::identify::fit::Scatter;
 use armill_core::identify::outcome::{displacement_errors, measured_over_typical};
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{
-    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Seat,
-    Unknown, identify, plan,
+    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Unknown,
+    identify, plan,
 };
 use armill_core::nalgebra::{DMatrix, Vector3};
-use armill_core::robot::Robot;
 use armill_core::robot::chain::Axis;
+use armill_core::robot::{Robot, Seat};
 use armill_core::spatial::Wrench;
 
 const AXES: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];

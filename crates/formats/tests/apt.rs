@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Course, Move, Pace, Step};
-use armill_formats::toolpath::apt::{self, Dialect, LengthUnit, Summary, Wanted};
+use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::apt::{self, Dialect, Summary, Wanted};
 use armill_formats::toolpath::format::Format;
 
 /// The folder of the samples, if there is one.

@@ -35,29 +35,11 @@ use armill_core::path::Step;
 
 use self::modal::Interpreter;
 use self::statement::Statements;
+use super::LengthUnit;
 use crate::document::Problems;
 
 /// More problems than this are not looked for.
 const MOST_PROBLEMS: usize = 200;
-
-/// A unit of length of a program.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// mm
-    Millimetre,
-    /// 25.4 mm
-    Inch,
-}
-
-impl LengthUnit {
-    /// How many metres it has.
-    pub fn metres(self) -> f64 {
-        match self {
-            LengthUnit::Millimetre => 1e-3,
-            LengthUnit::Inch => 0.0254,
-        }
-    }
-}
 
 /// Whose cutter locations these are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

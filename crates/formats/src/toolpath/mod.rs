@@ -13,3 +13,7 @@ pub mod csv;
 pub mod format;
 pub mod gcode;
 pub mod program;
+
+mod length_unit;
+
+pub use length_unit::LengthUnit;

@@ -5,16 +5,23 @@ use std::path::Path;
 
 use armill_core::path::Step;
 
-use super::apt::{self, LengthUnit};
-use super::csv;
 use super::format::Format;
+use super::gcode::options::Lookup;
+use super::gcode::{self, Rotaries, ToolTable};
+use super::{LengthUnit, apt, csv};
 use crate::document::Problems;
 
 /// What a user may say of a program where it is silent.
-#[derive(Clone, Debug, Default)]
-pub struct Wanted {
+#[derive(Clone, Default)]
+pub struct Wanted<'a> {
     /// The unit of lengths.
     pub unit: Option<LengthUnit>,
+    /// G-code: how rotary axes turn tool and part.
+    pub rotaries: Option<Rotaries>,
+    /// G-code: the tools of the machine.
+    pub tools: Option<ToolTable>,
+    /// G-code: subroutines that are not in the program.
+    pub subroutines: Option<Lookup<'a>>,
 }
 
 /// What a program held beside its steps.
@@ -38,7 +45,7 @@ const HEAD: u64 = 256 * 1024;
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
-    wanted: &Wanted,
+    wanted: &Wanted<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut head = Vec::new();
@@ -52,7 +59,7 @@ pub fn read(
             csv::read(path, whole, out)?;
             Vec::new()
         }
-        Format::Gcode => Vec::new(),
+        Format::Gcode => of_gcode(path, whole, wanted, out)?,
     };
     Ok(Summary {
         format: format.name(),
@@ -63,7 +70,7 @@ pub fn read(
 fn of_apt(
     path: &str,
     reader: impl BufRead,
-    wanted: &Wanted,
+    wanted: &Wanted<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Vec<String>, Problems> {
     let wanted = apt::Wanted {
@@ -80,6 +87,27 @@ fn of_apt(
         format!("{sentence} ({}, first in line {line})", times(count))
     });
     Ok(warnings.chain(ignored).collect())
+}
+
+fn of_gcode(
+    path: &str,
+    mut reader: impl BufRead,
+    wanted: &Wanted<'_>,
+    out: &mut dyn FnMut(Step),
+) -> Result<Vec<String>, Problems> {
+    let options = gcode::Options {
+        unit: wanted.unit.unwrap_or_default(),
+        rotaries: wanted.rotaries.clone(),
+        tools: wanted.tools.clone(),
+        subroutines: wanted.subroutines,
+        ..gcode::Options::default()
+    };
+    let summary = gcode::read(path, &mut reader, &options, out)?;
+    let note = |(warning, count, line): (gcode::Warning, u64, u32)| {
+        let meaning = warning.meaning();
+        format!("{meaning} ({}, first in line {line})", times(count))
+    };
+    Ok(summary.warnings.iter().map(note).collect())
 }
 
 fn times(count: u64) -> String {

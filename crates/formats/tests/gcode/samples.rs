@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Move, Step};
-use armill_formats::toolpath::gcode::{self, LengthUnit, Options, Refusal, Rotaries, ToolTable, interpret};
+use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::gcode::{self, Options, Refusal, Rotaries, ToolTable, interpret};
 
 /// Interpreter tests: the program, the calls expected of it, its tool table.
 const EXPECTED: &[(&str, &str, Option<&str>)] = &[

@@ -10,7 +10,8 @@ use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
-use armill_formats::toolpath::apt::LengthUnit;
+use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
 use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -28,8 +29,10 @@ pub struct ProgramTable {
     pub file: String,
     /// Unit of lengths where the file does not tell.
     pub unit: Option<UnitName>,
-    /// What the rotary words of G-code turn; see the guide.
-    pub rotaries: Option<String>,
+    /// What the rotary words of G-code turn.
+    pub rotaries: Option<RotariesName>,
+    /// Tool table of the machine that the G-code is for, as LinuxCNC writes it, relative to the study.
+    pub tool_table: Option<String>,
     /// Where its zero lies in the part frame (z = outward normal of the plane, origin at its centre): x, y, z in mm,
     /// then turns about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
@@ -60,6 +63,31 @@ pub enum UnitName {
     Mm,
     /// Inch.
     Inch,
+}
+
+/// What rotary words turn, from the frame of the machine outwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RotariesName {
+    /// A tilting table A that carries a turntable C.
+    TableAc,
+    /// A tilting table B that carries a turntable C.
+    TableBc,
+    /// A fork C that carries a tilting head A.
+    HeadCa,
+    /// A fork C that carries a tilting head B.
+    HeadCb,
+}
+
+impl RotariesName {
+    fn rotaries(self) -> Rotaries {
+        match self {
+            RotariesName::TableAc => Rotaries::table_ac(),
+            RotariesName::TableBc => Rotaries::table_bc(),
+            RotariesName::HeadCa => Rotaries::head_ca(),
+            RotariesName::HeadCb => Rotaries::head_cb(),
+        }
+    }
 }
 
 /// Where the tool points.
@@ -166,6 +194,7 @@ impl ProgramAsk {
 
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
+const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
 /// Greatest distance of points where the study says nothing, mm.
@@ -196,12 +225,6 @@ pub(super) fn read(
             places.problem(&format!("program.feature[{index}].lines"), message, hint);
         }
     }
-    let wanted = Wanted {
-        unit: table.unit.map(|unit| match unit {
-            UnitName::Mm => LengthUnit::Millimetre,
-            UnitName::Inch => LengthUnit::Inch,
-        }),
-    };
     let (Some(chord_error), Some(step)) = (chord_error, step) else {
         return Ok(None);
     };
@@ -210,13 +233,40 @@ pub(super) fn read(
         Ok(file) => file,
         Err(error) => {
             let message = format!("cannot read {}: {error}", path.display());
-            places.problem(
-                "program.file",
-                message,
-                "the path counts from the folder of the study",
-            );
+            places.problem("program.file", message, BESIDE_STUDY);
             return Ok(None);
         }
+    };
+    let unit = table.unit.map(|unit| match unit {
+        UnitName::Mm => LengthUnit::Millimetre,
+        UnitName::Inch => LengthUnit::Inch,
+    });
+    let tools = match &table.tool_table {
+        None => None,
+        Some(name) => {
+            let path = folder.join(name);
+            let Some(text) = text_of(places, "program.tool_table", &path) else {
+                return Ok(None);
+            };
+            Some(ToolTable::read(
+                &path.display().to_string(),
+                &text,
+                unit.unwrap_or_default(),
+            )?)
+        }
+    };
+    // A subroutine that is not in the program lies beside it in a file of its own, as LinuxCNC has it.
+    let beside = path.parent().unwrap_or(folder).to_owned();
+    let subroutine = |name: &str| {
+        let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
+        let file = beside.join(format!("{name}.ngc"));
+        plain.then(|| std::fs::read_to_string(file).ok()).flatten()
+    };
+    let wanted = Wanted {
+        unit,
+        rotaries: table.rotaries.map(RotariesName::rotaries),
+        tools,
+        subroutines: Some(&subroutine),
     };
     let mut cut = Cut::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
@@ -266,6 +316,15 @@ pub(super) fn read(
         features: table.feature.clone(),
         setting,
     }))
+}
+
+/// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.
+fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
+    let tell = |error: std::io::Error| {
+        let message = format!("cannot read {}: {error}", path.display());
+        places.problem(key, message, BESIDE_STUDY);
+    };
+    std::fs::read_to_string(path).map_err(tell).ok()
 }
 
 /// A program while it is cut into points.

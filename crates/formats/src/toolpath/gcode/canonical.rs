@@ -6,39 +6,11 @@
 //! Source: Kramer, Proctor, Messina, The NIST RS274NGC Interpreter, NISTIR 6556 (2000), section 4; the meaning of
 //! the arguments: formats of the LinuxCNC interpreter tests.
 
+use crate::toolpath::LengthUnit;
 use std::fmt;
 
 /// X, Y, Z, A, B, C.
 pub type Axes = [f64; 6];
-
-/// Units of length that a program may count in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LengthUnit {
-    /// Millimetres, G21.
-    #[default]
-    Millimetre,
-    /// Inches, G20.
-    Inch,
-}
-
-impl LengthUnit {
-    /// Its length, m.
-    pub fn metres(self) -> f64 {
-        match self {
-            LengthUnit::Millimetre => 1e-3,
-            LengthUnit::Inch => 25.4e-3,
-        }
-    }
-
-    /// How many of `other` make one of it.
-    pub(super) fn in_units_of(self, other: LengthUnit) -> f64 {
-        match (self, other) {
-            (LengthUnit::Inch, LengthUnit::Millimetre) => 25.4,
-            (LengthUnit::Millimetre, LengthUnit::Inch) => 1.0 / 25.4,
-            _ => 1.0,
-        }
-    }
-}
 
 /// The plane of arcs, cycles and cutter compensation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -13,12 +13,13 @@
 //! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
 
 use super::block::{Block, shown};
-use super::canonical::{Axes, Canonical, LengthUnit, PathControl};
+use super::canonical::{Axes, Canonical, PathControl};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::options::Warning;
 use super::refusal::Refusal;
+use crate::toolpath::LengthUnit;
 
 /// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
 const PECK_GAP: [f64; 2] = [0.254, 0.010];

@@ -3,13 +3,14 @@
 //! Source: NISTIR 6556, section 3.8, order of execution.
 
 use super::block::{Block, shown};
-use super::canonical::{Canonical, LengthUnit, PathControl, Plane};
+use super::canonical::{Canonical, PathControl, Plane};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::offsets::tool_number;
 use super::options::Warning;
 use super::refusal::Refusal;
+use crate::toolpath::LengthUnit;
 
 /// What follows a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -13,7 +13,7 @@
 //! All in the unit of the program in force and in degrees. Witness: the interpreter tests of LinuxCNC, folders g10, g52
 //! and rotation.
 
-use super::canonical::{Axes, Canonical, LengthUnit, PathControl, Plane};
+use super::canonical::{Axes, Canonical, PathControl, Plane};
 use super::cutter::{Cutter, Out};
 use super::cycles::Cycle;
 use super::expression::Values;
@@ -21,6 +21,7 @@ use super::options::{Options, Warning, Warnings};
 use super::parameters::{self, Parameters};
 use super::refusal::Refusal;
 use super::tools::{Tool, ToolTable};
+use crate::toolpath::LengthUnit;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FeedMode {

@@ -60,7 +60,7 @@ use std::io::BufRead;
 
 use armill_core::path::Step;
 
-pub use self::canonical::{Canonical, LengthUnit};
+pub use self::canonical::Canonical;
 pub use self::interpreter::interpret;
 pub use self::options::{Options, Warning, Warnings};
 pub use self::refusal::{Fault, Refusal};

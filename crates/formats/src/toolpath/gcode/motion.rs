@@ -12,16 +12,17 @@
 
 use std::f64::consts::{SQRT_2, TAU};
 
-use armill_core::nalgebra::{Point2, Vector2};
+use armill_core::nalgebra::{Point2, Vector2, center};
 
 use super::block::{Block, shown};
-use super::canonical::{ArcFeed, Axes, Canonical, LengthUnit};
+use super::canonical::{ArcFeed, Axes, Canonical};
 use super::cutter::{Contour, Out};
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::options::Warning;
 use super::parameters;
 use super::refusal::Refusal;
+use crate::toolpath::LengthUnit;
 
 /// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
 const RADII_APART: [f64; 2] = [0.01, 0.001];
@@ -288,7 +289,7 @@ fn centre_by_radius(
     let n = Vector2::new(-chord.y, chord.x) / d;
     let h = square.max(0.0).sqrt();
     let left = (radius > 0.0) == counterclockwise;
-    Ok(armill_core::nalgebra::center(&start, &stop) + if left { n * h } else { -n * h })
+    Ok(center(&start, &stop) + if left { n * h } else { -n * h })
 }
 
 #[cfg(test)]

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::canonical::LengthUnit;
 use super::rotaries::Rotaries;
 use super::tools::ToolTable;
+use crate::toolpath::LengthUnit;
 
 /// Gives the text of a subroutine by its name: the reader opens no files itself.
 pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;

@@ -16,13 +16,14 @@ use std::f64::consts::TAU;
 use armill_core::nalgebra::{Point3, Rotation3, Unit, Vector2, Vector3};
 use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 
-use super::canonical::{ArcFeed, Axes, Canonical, LengthUnit};
+use super::canonical::{ArcFeed, Axes, Canonical};
 use super::motion::sweep;
 use super::options::{Options, Warning, Warnings};
 use super::parameters;
 use super::refusal::Refusal;
 use super::rotaries::{Rotaries, Rotary};
 use super::summary::Summary;
+use crate::toolpath::LengthUnit;
 
 /// Rotary axes nearer to zero than this, deg, stand there.
 const AT_ZERO: f64 = 1e-9;

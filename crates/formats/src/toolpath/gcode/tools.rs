@@ -12,8 +12,9 @@
 
 use std::collections::BTreeMap;
 
-use super::canonical::{Axes, LengthUnit};
+use super::canonical::Axes;
 use crate::document::{Problems, Source};
+use crate::toolpath::LengthUnit;
 
 /// A tool as its table tells it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
