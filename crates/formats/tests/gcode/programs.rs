@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Arc, Course, Move, Pace, Program};
-use armill_formats::document::Problems;
+use armill_formats::document::{Problem, Problems};
 use armill_formats::toolpath::gcode::{
     self, LengthUnit, Options, Rotaries, Rotary, Summary, Tool, ToolTable, Warning, interpret,
 };
@@ -13,7 +13,7 @@ use armill_formats::toolpath::gcode::{
 fn read(program: &str, options: &Options<'_>) -> Result<(Program, Summary), Problems> {
     let mut path = Program::default();
     let summary = gcode::read("p.ngc", &mut program.as_bytes(), options, &mut |step| {
-        path.push(step)
+        path.push(step);
     })?;
     Ok((path, summary))
 }
@@ -78,7 +78,11 @@ fn lengths_speeds_and_angles_are_si() {
     assert_eq!(program.moves[2].pace, Pace::Feed(2e-3));
     assert_eq!(program.operations[0].tool, Some(3));
     assert_eq!(program.operations[0].name.as_deref(), Some("T3"));
-    assert_eq!(program.operations[0].spindle, Some(-TAU));
+    let spindle = program.operations[0].spindle.unwrap();
+    assert!(
+        (spindle + TAU).abs() < 2e-15,
+        "60 turns a minute, counterclockwise: two roundings"
+    );
     assert_eq!(program.moves[2].line, 4);
 }
 
@@ -636,7 +640,7 @@ fn a_tool_table_knows_its_tools() {
 #[test]
 fn all_problems_of_a_program_are_told_at_once_up_to_a_limit() {
     let problems = read("G21\nG1 X1\nG0 X2\nG777\nF60 G1 X3 Q4\n", &Options::default()).unwrap_err();
-    let lines: Vec<usize> = problems.as_slice().iter().map(|problem| problem.line()).collect();
+    let lines: Vec<usize> = problems.as_slice().iter().map(Problem::line).collect();
     assert_eq!(lines, [2, 4, 5]);
     let many = "G777\n".repeat(1000);
     assert_eq!(

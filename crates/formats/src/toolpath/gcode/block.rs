@@ -76,6 +76,9 @@ impl Clean {
     }
 }
 
+/// Codes by group, each with where it stands in the clean text.
+pub(super) type Codes = [Option<(u16, (u16, u16))>; GROUPS];
+
 /// The words of a line.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
@@ -84,10 +87,10 @@ pub(super) struct Block {
     present: u32,
     used: u32,
     /// Codes G by group, in tenths: 921 is G92.1; and where they stand.
-    pub g: [Option<(u16, (u16, u16))>; GROUPS],
+    pub g: Codes,
     /// Codes M by group.
-    pub m: [Option<(u16, (u16, u16))>; GROUPS],
-    /// Mist and flood may stand together.
+    pub m: Codes,
+    /// Parameters that the line sets, with their values.
     pub settings: Vec<(Name, f64)>,
 }
 
@@ -166,7 +169,9 @@ impl Block {
                 self.code(b'g', code, place)
             }
             b'm' => {
-                let code = tenths(value).filter(|code| code % 10 == 0).map(|code| code / 10);
+                let code = tenths(value)
+                    .filter(|code| code.is_multiple_of(10))
+                    .map(|code| code / 10);
                 let code = code.ok_or_else(|| unknown('M', value))?;
                 self.code(b'm', code, place)
             }
@@ -282,7 +287,7 @@ impl Block {
             Refusal::WordMissing(code, _) | Refusal::NotUnderCompensation(code) => Some(code),
             _ => None,
         };
-        let named = |(letter, codes): (u8, &[Option<(u16, (u16, u16))>])| {
+        let named = |(letter, codes): (u8, &Codes)| {
             codes
                 .iter()
                 .flatten()

@@ -21,6 +21,8 @@ use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
 const TANGENT: f64 = 1e-3;
+/// Directions nearer to opposite than this, rad, turn back: there bends of the radius of the cutter outweigh the corner.
+const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
 /// A crossing this part of the radius before the start of its line is rounding, not gouging.
@@ -170,9 +172,9 @@ impl Cutter {
             let arrives = direction(contour, from, (from, to));
             let cross = last.leaves.perp(&arrives);
             let onward = last.leaves.dot(&arrives) > 0.0;
-            // Where the contour turns back on itself, what bends tells on which side it goes on.
-            let bends = match cross.abs() < TANGENT {
-                true => -last.bend - bend(contour, from),
+            // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
+            let bends = match !onward && cross.abs() < TURNING_BACK {
+                true => cross - (last.bend + bend(contour, from)) * active.radius / 2.0,
                 false => cross,
             };
             if cross.abs() < TANGENT && onward {

@@ -100,7 +100,7 @@ pub(super) fn name(letter: u8, code: u16) -> String {
     match (letter, code) {
         (_, TRAORI) => "TRAORI".to_owned(),
         (_, TRAFOOF) => "TRAFOOF".to_owned(),
-        (b'g', _) if code % 10 == 0 => format!("G{}", code / 10),
+        (b'g', _) if code.is_multiple_of(10) => format!("G{}", code / 10),
         (b'g', _) => format!("G{}.{}", code / 10, code % 10),
         _ => format!("M{code}"),
     }

@@ -105,7 +105,7 @@ impl Interpreter<'_> {
         while let Some(kept) = body.lines.get(at) {
             match &kept.word {
                 Some(word) if word.keyword == Keyword::ElseIf && !self.holds(&kept.line, word) => {
-                    at = kept.partner
+                    at = kept.partner;
                 }
                 _ => break,
             }
