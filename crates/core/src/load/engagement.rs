@@ -25,7 +25,7 @@
 //! | `v`, `omega`, `N` | feed speed, spindle speed, number of flutes | m/s, rad/s, - |
 //! | `h` | chip thickness | m |
 //!
-//! Teeth run on circles: the trochoid that they really run on changes the chip by about `c/(2 pi R)` of itself.
+//! Teeth run on circles: the trochoid that they really run on changes the chip by some `N c/(2 pi R)` of itself.
 //!
 //! Source: plane geometry; `docs/theory/cutting.md`.
 

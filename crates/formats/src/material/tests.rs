@@ -94,7 +94,10 @@ fn kienzle_values_of_several_sets_scatter() {
 #[test]
 fn a_field_that_is_not_known_is_told_with_its_unit() {
     let text = problems_of("kte_n_per_mm = 2\n", "kte = 2\n");
-    assert!(text.contains("cheese.toml:10:1: unknown field `kte`"), "{text}");
+    assert!(
+        text.contains("cheese.toml:10:1: unknown field `mechanistic[0].kte`"),
+        "{text}"
+    );
     assert!(text.contains("`kte_n_per_mm`"), "{text}");
 }
 
