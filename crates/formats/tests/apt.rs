@@ -1,5 +1,8 @@
 //! Cutter locations of real parts, read and compared with what a plain search of their lines finds.
 
+#![allow(clippy::panic, clippy::print_stdout)]
+
+use std::f64::consts::{PI, TAU};
 use std::path::{Path, PathBuf};
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
@@ -50,7 +53,7 @@ fn parts() -> Vec<Part> {
         let name = file.display().to_string();
         let mut steps = Vec::new();
         let summary = apt::read(&name, bytes.as_slice(), &Wanted::default(), &mut |step| {
-            steps.push(step)
+            steps.push(step);
         })
         .unwrap_or_else(|problems| panic!("{problems}"));
         let text = String::from_utf8(bytes).expect("they are ASCII");
@@ -184,8 +187,8 @@ fn every_arc_turns_its_start_into_its_end_about_its_centre() {
             );
             let turned = Rotation3::from_axis_angle(&arc.axis, arc.sweep) * a;
             assert!((turned - b).norm() < 2e-8, "{place}");
-            assert!(arc.sweep > 0.0 && arc.sweep <= std::f64::consts::TAU, "{place}");
-            large += u32::from(arc.sweep > std::f64::consts::PI + 1e-6 && arc.sweep < 6.28);
+            assert!(arc.sweep > 0.0 && arc.sweep <= TAU, "{place}");
+            large += u32::from(arc.sweep > PI + 1e-6 && arc.sweep < TAU - 1e-6);
         }
     }
     assert!(

@@ -6,7 +6,7 @@
 use std::io::{BufRead, ErrorKind};
 use std::ops::Range;
 
-use super::problem::{Excerpt, Problem};
+use super::problem::{Excerpt, Problem, Problems};
 
 /// No line of a tool path or of a record is longer, in bytes.
 pub(crate) const LONGEST_LINE: usize = 1 << 16;
@@ -79,7 +79,7 @@ impl<R: BufRead> Lines<R> {
     ///
     /// # Errors
     /// A reader that fails, a line longer than [`LONGEST_LINE`], bytes that no text has.
-    pub fn next(&mut self) -> Result<Option<Line>, Problem> {
+    pub fn next(&mut self) -> Result<Option<Line>, Problems> {
         let Some(length) = self.take_bytes()? else {
             return Ok(None);
         };
@@ -116,13 +116,13 @@ impl<R: BufRead> Lines<R> {
         if let Some((at, c)) = line.text.char_indices().find(|(_, c)| strange(*c)) {
             let message = format!("not a text: it holds the byte 0x{:02x}", u32::from(c));
             let hint = "a text is wanted here: this is a file of another kind";
-            return Err(line.problem(&self.name, at..at + 1, message, hint));
+            return Err(line.problem(&self.name, at..at + 1, message, hint).into());
         }
         Ok(Some(line))
     }
 
     /// Takes the bytes of a line, without its end; how many with it, `None` at the end of the file.
-    fn take_bytes(&mut self) -> Result<Option<usize>, Problem> {
+    fn take_bytes(&mut self) -> Result<Option<usize>, Problems> {
         self.bytes.clear();
         let mut taken = 0;
         loop {
@@ -164,8 +164,8 @@ impl<R: BufRead> Lines<R> {
     }
 
     /// A problem behind line `number`, of which no text can be shown.
-    fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problem {
-        Problem {
+    fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problems {
+        Problems::from(Problem {
             file: self.name.clone(),
             line: number + 1,
             column: 1,
@@ -173,7 +173,7 @@ impl<R: BufRead> Lines<R> {
             message: message.into(),
             hint: Some(hint.to_owned()),
             excerpt: None,
-        }
+        })
     }
 }
 
@@ -181,7 +181,7 @@ impl<R: BufRead> Lines<R> {
 mod tests {
     use super::*;
 
-    fn lines(bytes: &[u8]) -> Result<Vec<Line>, Problem> {
+    fn lines(bytes: &[u8]) -> Result<Vec<Line>, Problems> {
         let mut lines = Lines::new("a.txt", bytes);
         let mut all = Vec::new();
         while let Some(line) = lines.next()? {
@@ -218,23 +218,10 @@ mod tests {
 
     #[test]
     fn what_is_no_text_is_refused_with_its_place() {
-        assert_eq!(
-            lines(b"a\nb\x01\n").unwrap_err().to_string(),
-            "a.txt:2:2: not a text: it holds the byte 0x01"
-        );
-        assert!(
-            lines(b"\xff\xfea\0")
-                .unwrap_err()
-                .hint()
-                .unwrap()
-                .contains("UTF-16")
-        );
+        let refused = |bytes: &[u8]| lines(bytes).unwrap_err().to_string();
+        assert!(refused(b"a\nb\x01\n").contains("a.txt:2:2: not a text: it holds the byte 0x01"));
+        assert!(refused(b"\xff\xfea\0").contains("UTF-16"));
         let long = vec![b'x'; LONGEST_LINE + 1];
-        assert!(
-            lines(&long)
-                .unwrap_err()
-                .to_string()
-                .contains("longer than 65536 bytes")
-        );
+        assert!(refused(&long).contains("a.txt:1:1: line 1 is longer than 65536 bytes"));
     }
 }

@@ -55,15 +55,7 @@ pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measure
         separator: ',',
         problems: Vec::new(),
     };
-    let found = table.read();
-    match found {
-        Ok(found) if table.problems.is_empty() => Ok(found),
-        Ok(_) => Err(Problems::from(table.problems)),
-        Err(problem) => {
-            table.problems.push(problem);
-            Err(Problems::from(table.problems))
-        }
-    }
+    table.read()
 }
 
 struct Reader<'a, R> {
@@ -75,7 +67,7 @@ struct Reader<'a, R> {
 }
 
 impl<R: BufRead> Reader<'_, R> {
-    fn read(&mut self) -> Result<Measured, Problem> {
+    fn read(&mut self) -> Result<Measured, Problems> {
         let Some(first) = self.line()? else {
             return Err(self.whole("no record in this file", HEADER_HINT));
         };
@@ -127,8 +119,7 @@ impl<R: BufRead> Reader<'_, R> {
         let record = samples.record(self.wanted.acts_on);
         // Where rows are wrong, they are what is told.
         if !self.problems.is_empty() {
-            let last = self.problems.pop();
-            return Err(last.unwrap_or_else(|| self.whole("no record in this file", HEADER_HINT)));
+            return Err(Problems::from(std::mem::take(&mut self.problems)));
         }
         let record = record.map_err(|error| self.whole(&error.to_string(), HEADER_HINT))?;
         Ok(Measured { record, unused })
@@ -140,7 +131,7 @@ impl<R: BufRead> Reader<'_, R> {
         first: &Line,
         heads: &[Cell],
         columns: &mut [Option<Column>],
-    ) -> Result<Option<Line>, Problem> {
+    ) -> Result<Option<Line>, Problems> {
         let quantities: Vec<Option<Quantity>> =
             heads.iter().map(|cell| Quantity::of_name(&cell.text)).collect();
         if quantities.iter().all(Option::is_none) {
@@ -170,14 +161,14 @@ impl<R: BufRead> Reader<'_, R> {
                 let span = units
                     .get(index)
                     .map_or(0..below.text.len(), |cell| cell.span.clone());
-                return Err(below.problem(self.path, span, message, &hint));
+                return Err(below.problem(self.path, span, message, &hint).into());
             };
             columns[index] = Some(Column { quantity, factor });
         }
         Ok(None)
     }
 
-    fn complete(&self, first: &Line, names: &[String], columns: &[Option<Column>]) -> Result<(), Problem> {
+    fn complete(&self, first: &Line, names: &[String], columns: &[Option<Column>]) -> Result<(), Problems> {
         for (index, column) in columns.iter().enumerate() {
             let same = |other: &Option<Column>| other.map(|c| c.quantity) == column.map(|c| c.quantity);
             if column.is_some() && columns[..index].iter().any(same) {
@@ -246,7 +237,7 @@ impl<R: BufRead> Reader<'_, R> {
     }
 
     /// The next line that is neither empty nor a remark.
-    fn line(&mut self) -> Result<Option<Line>, Problem> {
+    fn line(&mut self) -> Result<Option<Line>, Problems> {
         loop {
             match self.lines.next()? {
                 Some(line) if line.text.trim().is_empty() || line.text.trim_start().starts_with('#') => {}
@@ -255,12 +246,14 @@ impl<R: BufRead> Reader<'_, R> {
         }
     }
 
-    fn at(&self, line: &Line, message: String, hint: &str) -> Problem {
-        line.problem(self.path, 0..line.text.len(), message, hint)
+    fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
+        line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 
-    fn whole(&self, message: &str, hint: &str) -> Problem {
-        Source::new(self.path, "").problem(0..0, message, Some(hint.to_owned()))
+    fn whole(&self, message: &str, hint: &str) -> Problems {
+        Source::new(self.path, "")
+            .problem(0..0, message, Some(hint.to_owned()))
+            .into()
     }
 }
 

@@ -16,7 +16,7 @@ use armill_core::load::{ActsOn, Record};
 
 use super::columns::{Column, Quantity, Samples, missing, number};
 use crate::document::lines::{Line, Lines};
-use crate::document::{Problem, Problems, Source};
+use crate::document::{Problems, Source};
 
 /// No header is longer, in lines.
 const MOST_HEADER_LINES: usize = 200;
@@ -73,7 +73,7 @@ pub fn read(
         lines: Lines::new(path, reader),
         wanted_samples: None,
     };
-    reader.read().map_err(Problems::from)
+    reader.read()
 }
 
 struct Reader<'a, R> {
@@ -113,7 +113,7 @@ struct Table {
 }
 
 impl<R: BufRead> Reader<'_, R> {
-    fn read(&mut self) -> Result<Export, Problem> {
+    fn read(&mut self) -> Result<Export, Problems> {
         let mut export = Export {
             header: Vec::new(),
             cycles: Vec::new(),
@@ -167,13 +167,15 @@ impl<R: BufRead> Reader<'_, R> {
             (Some(samples), Some(last)) => {
                 export
                     .cycles
-                    .push(self.cycle(samples, &last, export.cycles.len())?)
+                    .push(self.cycle(samples, &last, export.cycles.len())?);
             }
             _ if export.cycles.is_empty() => {
                 let hint = "a DynoWare export has a line of channels (`Time`, `Fx`, ...), one of units, and samples; other \
                             tables are read as CSV";
                 let source = Source::new(self.path, "");
-                return Err(source.problem(0..0, "no samples in this file", Some(hint.to_owned())));
+                return Err(source
+                    .problem(0..0, "no samples in this file", Some(hint.to_owned()))
+                    .into());
             }
             _ => {}
         }
@@ -195,7 +197,7 @@ impl<R: BufRead> Reader<'_, R> {
     }
 
     /// The line of channels, and the line of units below it.
-    fn table(&mut self, line: &Line) -> Result<Table, Problem> {
+    fn table(&mut self, line: &Line) -> Result<Table, Problems> {
         let separator = ['\t', ';']
             .into_iter()
             .find(|c| line.text.contains(*c))
@@ -283,7 +285,7 @@ impl<R: BufRead> Reader<'_, R> {
             .or_else(|| of(&self.channels.moment).map(Quantity::Moment))
     }
 
-    fn row(&self, line: &Line, table: &mut Table, samples: &mut Samples) -> Result<(), Problem> {
+    fn row(&self, line: &Line, table: &mut Table, samples: &mut Samples) -> Result<(), Problems> {
         let separator = match table.form {
             Form::Separated(separator) => separator,
             Form::Commas(_) => ',',
@@ -335,7 +337,7 @@ impl<R: BufRead> Reader<'_, R> {
             .map_err(|(message, hint)| self.at(line, &message, hint))
     }
 
-    fn cycle(&self, samples: Samples, last: &Line, before: usize) -> Result<Record, Problem> {
+    fn cycle(&self, samples: Samples, last: &Line, before: usize) -> Result<Record, Problems> {
         if before == MOST_CYCLES {
             return Err(self.at(last, "more than 10000 cycles", "cut the record into pieces"));
         }
@@ -357,7 +359,7 @@ impl<R: BufRead> Reader<'_, R> {
         Ok(record)
     }
 
-    fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problem {
+    fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problems {
         let message = format!(
             "{count} pieces between commas are neither {width} numbers with points nor {width} numbers with commas"
         );
@@ -366,7 +368,7 @@ impl<R: BufRead> Reader<'_, R> {
         self.at(line, &message, hint)
     }
 
-    fn no_channels(&self, line: &Line) -> Problem {
+    fn no_channels(&self, line: &Line) -> Problems {
         let message = format!("no line of channels in {MOST_HEADER_LINES} lines");
         self.at(
             line,
@@ -375,8 +377,8 @@ impl<R: BufRead> Reader<'_, R> {
         )
     }
 
-    fn at(&self, line: &Line, message: &str, hint: &str) -> Problem {
-        line.problem(self.path, 0..line.text.len(), message, hint)
+    fn at(&self, line: &Line, message: &str, hint: &str) -> Problems {
+        line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 }
 

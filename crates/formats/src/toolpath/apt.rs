@@ -116,8 +116,8 @@ pub fn read(
         match statements.next() {
             Ok(Some(statement)) => interpreter.take(&statement),
             Ok(None) => break,
-            Err(problem) => {
-                interpreter.problems.push(problem);
+            Err(wrong) => {
+                interpreter.problems.extend(wrong);
                 break;
             }
         }

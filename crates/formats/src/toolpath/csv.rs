@@ -119,8 +119,8 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
         let line = match lines.next() {
             Ok(Some(line)) => line,
             Ok(None) => break,
-            Err(problem) => {
-                problems.push(problem);
+            Err(wrong) => {
+                problems.extend(wrong);
                 break;
             }
         };
@@ -195,7 +195,7 @@ impl Table {
         for cell in heads.iter().take(MOST_COLUMNS) {
             let name = cell.text.to_lowercase();
             let mut tell = |message: String, hint: &str| {
-                problems.push(line.problem(path, cell.span.clone(), message, hint))
+                problems.push(line.problem(path, cell.span.clone(), message, hint));
             };
             let Some((_, column)) = known.iter().find(|(known, _)| *known == name) else {
                 let (message, hint) = unknown(&cell.text, &name, &names);

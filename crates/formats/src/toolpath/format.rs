@@ -49,7 +49,10 @@ const ROBOT_LANGUAGES: &[(&str, &[&str])] = &[
     ),
     ("FANUC TP", &["/PROG", "/ATTR", "/MN", "/POS"]),
     ("Yaskawa INFORM", &["/JOB", "//NAME", "//POS", "//INST", "///"]),
-    ("URScript", &["MOVEL(", "MOVEJ(", "MOVEP(", "MOVEC(", "SET_TCP("]),
+    (
+        "URScript or Staubli VAL3",
+        &["MOVEL(", "MOVEJ(", "MOVEP(", "MOVEC(", "SET_TCP("],
+    ),
     ("Staubli VAL3", &["<PROGRAM XMLNS", "<PROGRAMS XMLNS"]),
     ("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "]),
 ];
@@ -154,6 +157,10 @@ impl Format {
 
 fn robot_language(line: &str) -> Option<&'static str> {
     let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
+    // VAL3 keeps what a move returns: `nTraj=movel(...)`.
+    let begin = begin
+        .split_once("=MOVE")
+        .map_or(begin.clone(), |(_, rest)| format!("MOVE{rest}"));
     let known = ROBOT_LANGUAGES.iter();
     known
         .clone()

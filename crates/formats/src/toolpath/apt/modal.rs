@@ -10,13 +10,15 @@ use armill_core::path::{Move, Operation, Step};
 use super::cycle::Cycle;
 use super::motion::Circle;
 use super::statement::{Parameter, Statement};
-use super::{Dialect, LengthUnit, Noted, Summary, Wanted};
+use super::{Dialect, LengthUnit, MOST_PROBLEMS, Noted, Summary, Wanted};
 use crate::document::{Problem, Problems};
 
 /// No number of a program is larger, in its own units.
 const LARGEST: f64 = 1e9;
 /// So many different words are counted; a file with more is of another kind.
 const MOST_WORDS: usize = 1000;
+/// Longer words are cut where they are counted, in characters.
+const LONGEST_WORD: usize = 120;
 
 /// How feed is told.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,6 +111,7 @@ impl<'a> Interpreter<'a> {
         Ok(self.summary)
     }
 
+    /// Keeps a problem, unless there are enough already.
     pub fn tell(
         &mut self,
         statement: &Statement,
@@ -116,8 +119,10 @@ impl<'a> Interpreter<'a> {
         message: impl Into<String>,
         hint: &str,
     ) {
-        self.problems
-            .push(statement.problem(self.name, span, message, hint));
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems
+                .push(statement.problem(self.name, span, message, hint));
+        }
     }
 
     /// Counts a word that says nothing about the path.
@@ -249,6 +254,7 @@ impl<'a> Interpreter<'a> {
 }
 
 fn note(words: &mut BTreeMap<String, Noted>, word: String, line: u32) {
+    let word: String = word.chars().take(LONGEST_WORD).collect();
     let word = match words.len() < MOST_WORDS || words.contains_key(&word) {
         true => word,
         false => "other words".to_owned(),

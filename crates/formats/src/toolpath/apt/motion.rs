@@ -26,6 +26,9 @@ const TURN_SLACK: f64 = 1e-3;
 /// No helix has more turns.
 const MOST_TURNS: f64 = 10_000.0;
 
+/// A tool axis, where one is written.
+type ToldAxis = Option<Unit<Vector3<f64>>>;
+
 /// What a CIRCLE says, until the GOTO that ends it.
 #[derive(Clone, Debug)]
 pub(super) struct Circle {
@@ -179,7 +182,7 @@ impl Interpreter<'_> {
     }
 
     /// The point of a GOTO in the frame of the path, m, and the axis it writes.
-    fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, Option<Unit<Vector3<f64>>>)> {
+    fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, ToldAxis)> {
         let numbers = self.numbers(statement)?;
         let (point, axis) = match numbers.as_slice() {
             [x, y, z] => ([*x, *y, *z], None),
@@ -196,11 +199,7 @@ impl Interpreter<'_> {
     }
 
     /// The tool axis at a point that writes `told`, as the dialect has it.
-    fn axis_of(
-        &mut self,
-        statement: &Statement,
-        told: Option<Unit<Vector3<f64>>>,
-    ) -> Option<Unit<Vector3<f64>>> {
+    fn axis_of(&mut self, statement: &Statement, told: ToldAxis) -> Option<Unit<Vector3<f64>>> {
         match (told, self.dialect) {
             (Some(axis), _) => self.axis = Some(axis),
             (None, Some(Dialect::Nx)) => {}

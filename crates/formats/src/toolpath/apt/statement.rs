@@ -3,8 +3,8 @@
 use std::io::BufRead;
 use std::ops::Range;
 
-use crate::document::Problem;
 use crate::document::lines::{Line, Lines};
+use crate::document::{Problem, Problems};
 
 /// No statement goes over more lines.
 const MOST_LINES: usize = 200;
@@ -106,7 +106,7 @@ impl<R: BufRead> Statements<R> {
     ///
     /// # Errors
     /// What is no text, and a statement without end.
-    pub fn next(&mut self) -> Result<Option<Statement>, Problem> {
+    pub fn next(&mut self) -> Result<Option<Statement>, Problems> {
         let mut text = String::new();
         let mut pieces: Vec<(usize, Line)> = Vec::new();
         while let Some(line) = self.lines.next()? {
@@ -124,11 +124,11 @@ impl<R: BufRead> Statements<R> {
                 return Ok(Some(statement(text, pieces)));
             }
             if pieces.len() == MOST_LINES {
-                return Err(unended(self.lines.name(), &pieces));
+                return Err(unended(self.lines.name(), &pieces).into());
             }
         }
         if !pieces.is_empty() {
-            return Err(unended(self.lines.name(), &pieces));
+            return Err(unended(self.lines.name(), &pieces).into());
         }
         Ok(None)
     }

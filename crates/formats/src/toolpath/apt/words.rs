@@ -69,7 +69,7 @@ impl Interpreter<'_> {
                 self.cycle = None;
             }
             "PARTNO" => {
-                self.summary.part = Some(statement.free_text().to_owned()).filter(|text| !text.is_empty())
+                self.summary.part = Some(statement.free_text().to_owned()).filter(|text| !text.is_empty());
             }
             "INSERT" => {
                 self.inserted = Some(statement.free_text().to_owned());
