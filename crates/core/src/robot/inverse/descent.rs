@@ -85,6 +85,9 @@ impl Descent {
     pub fn reach(&mut self, chain: &Chain, goal: &Goal, theta: &mut [f64]) -> Result<(), Unreachable> {
         let mut error = self.error(chain, goal, theta);
         let mut size = error.norm_squared();
+        if size < DONE * DONE {
+            return Ok(());
+        }
         let (mut damping, mut idle) = (1e-2, 0);
         self.linearise(chain);
         for _ in 0..MOST_STEPS {

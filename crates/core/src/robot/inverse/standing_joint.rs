@@ -11,7 +11,10 @@
 //! (KUKA iiwa) that is joint 3: it turns the elbow about the line from shoulder to
 //! wrist. Angles rad.
 
+use std::cmp::Ordering;
 use std::f64::consts::PI;
+
+use nalgebra::{Point3, UnitQuaternion};
 
 use super::super::chain::Chain;
 use super::closed_form::CALIBRATED;
@@ -22,7 +25,7 @@ use crate::frame::Isometry;
 
 /// Angles at which a joint is tried: to both sides of zero, none of them special.
 const TRIED: [f64; 2] = [0.4, -0.7];
-/// Poses that are tried with each.
+/// Poses that are tried at each angle.
 const POSES: usize = 16;
 /// The order of joints where equally many poses are reached: those amidst the arm first.
 const AMIDST: [usize; 7] = [2, 3, 4, 1, 5, 0, 6];
@@ -98,8 +101,8 @@ impl StandingJoint {
             }
         });
         let turn = Isometry::from_parts(
-            (held.turned(angle, &nalgebra::Point3::origin()) - nalgebra::Point3::origin()).into(),
-            nalgebra::UnitQuaternion::from_rotation_matrix(&held.rotation(angle)),
+            held.turned(angle, &Point3::origin()).coords.into(),
+            UnitQuaternion::from_rotation_matrix(&held.rotation(angle)),
         );
         SphericalWrist::of(&six, &(turn * self.at_zero), self.within)
     }
@@ -107,9 +110,9 @@ impl StandingJoint {
     /// All seven chain positions.
     pub(super) fn with(&self, angle: f64, six: &[f64; 6]) -> [f64; 7] {
         std::array::from_fn(|i| match i.cmp(&self.joint) {
-            std::cmp::Ordering::Less => six[i],
-            std::cmp::Ordering::Equal => angle,
-            std::cmp::Ordering::Greater => six[i - 1],
+            Ordering::Less => six[i],
+            Ordering::Equal => angle,
+            Ordering::Greater => six[i - 1],
         })
     }
 

@@ -293,20 +293,7 @@ impl<'r> Finder<'r> {
         name: PostureName,
         singularity: Option<Singularity>,
     ) -> Result<(), Unreachable> {
-        let mut joints = self.home.clone();
-        for (i, theta) in theta.iter().enumerate() {
-            let joint = self.arm.first + i;
-            if let Some((_, place)) = self.stands.filter(|(stands, _)| *stands == joint) {
-                joints[joint] = place;
-                continue;
-            }
-            let counted = self.robot.joint_position(joint, *theta, &joints);
-            joints[joint] = if self.robot.slides(joint) {
-                counted
-            } else {
-                self.whole_turns(joint, counted, wanted.near)
-            };
-        }
+        let joints = self.counted(theta, wanted.near);
         forward_into(self.robot, &joints, &mut self.frames);
         holds(&self.frames, &wanted.base_from_flange)?;
         self.found.push(Found {
@@ -318,6 +305,25 @@ impl<'r> Finder<'r> {
             singularity,
         });
         Ok(())
+    }
+
+    /// Joint positions of the robot at chain positions of the arm, its rail at home.
+    fn counted(&self, theta: &[f64], near: Option<&[f64]>) -> Vec<f64> {
+        let mut joints = self.home.clone();
+        for (i, theta) in theta.iter().enumerate() {
+            let joint = self.arm.first + i;
+            if let Some((_, place)) = self.stands.filter(|(stands, _)| *stands == joint) {
+                joints[joint] = place;
+                continue;
+            }
+            let counted = self.robot.joint_position(joint, *theta, &joints);
+            joints[joint] = if self.robot.slides(joint) {
+                counted
+            } else {
+                self.whole_turns(joint, counted, near)
+            };
+        }
+        joints
     }
 
     /// The count of a turning joint as near as possible to where it stood, if its limits allow, otherwise to the

@@ -8,13 +8,20 @@ use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;
 use super::super::standing_joint::StandingJoint;
 use super::search::{SAME, SHORT};
-use super::{Finder, Found, Wanted};
+use super::{Finder, Wanted};
 use crate::frame::Isometry;
 
 /// Steps (rad) by which a joint leaves home where no posture lies inside the limits with it there: 5 deg.
 const STEP: f64 = PI / 36.0;
 /// Halvings of the last step: the joint then stands within 1e-5 rad of the first place that does.
 const HALVINGS: u32 = 13;
+
+/// What a standing joint is asked.
+struct Held<'a> {
+    standing: &'a StandingJoint,
+    wanted: &'a Wanted<'a>,
+    arm_from_flange: &'a Isometry,
+}
 
 impl Finder<'_> {
     /// The postures of an arm with a spherical wrist.
@@ -45,103 +52,114 @@ impl Finder<'_> {
         arm_from_flange: &Isometry,
         most: usize,
     ) -> Option<Unreachable> {
-        self.stand(standing, 0.0, wanted, arm_from_flange);
-        if !self.any_within_limits() {
-            let at_home = std::mem::take(&mut self.found);
-            if !self.leave_home(standing, wanted, arm_from_flange) {
-                self.found = at_home;
-            }
+        let held = Held {
+            standing,
+            wanted,
+            arm_from_flange,
+        };
+        let at_home = self.standing_at(&held, 0.0);
+        let (away, all) = if self.any_inside(&held, 0.0, &at_home) {
+            (0.0, at_home)
+        } else {
+            self.leave_home(&held).unwrap_or((0.0, at_home))
+        };
+        self.stands = self.place(&held, away);
+        for theta in all {
+            self.take(wanted, &theta);
         }
+        self.stands = None;
         self.ordered_or_searched(wanted, arm_from_flange, most)
     }
 
-    /// Finds the postures with the standing joint so far (rad) from home, in place of those found before.
-    fn stand(
-        &mut self,
-        standing: &StandingJoint,
-        away: f64,
-        wanted: &Wanted<'_>,
-        arm_from_flange: &Isometry,
-    ) {
-        self.found.clear();
-        let joint = self.arm.first + standing.joint;
+    /// Chain positions with the standing joint so far (rad) from home.
+    fn standing_at(&mut self, held: &Held<'_>, away: f64) -> Vec<[f64; 7]> {
+        let joint = self.arm.first + held.standing.joint;
         let sense = self.robot.joints()[joint].sign.factor();
         let angle = self.robot.theta(joint, &self.home) + sense * away;
-        // A joint that counts earlier ones along stands where they leave it.
-        let alone = self.robot.joints()[joint].coupling.is_empty();
-        self.stands = alone.then(|| (joint, self.home[joint] + away));
-        let near = wanted.near.map(|q| self.chain_positions(q));
-        let kept = near.and_then(|theta| standing.without(&theta));
-        let goal = Goal::new(arm_from_flange);
-        let form = standing.at(angle);
-        let found = form.map(|form| form.chain_positions(arm_from_flange, kept.as_ref()));
-        for six in found.unwrap_or_default() {
-            let mut theta = standing.with(angle, &six);
+        let Some(form) = held.standing.at(angle) else {
+            return Vec::new();
+        };
+        let near = held.wanted.near.map(|q| self.chain_positions(q));
+        let kept = near.and_then(|theta| held.standing.without(&theta));
+        let goal = Goal::new(held.arm_from_flange);
+        let six = form.chain_positions(held.arm_from_flange, kept.as_ref());
+        let mut all: Vec<[f64; 7]> = six.iter().map(|six| held.standing.with(angle, six)).collect();
+        all.retain_mut(|theta| {
             let reached = self
                 .descent
-                .reach_beside(self.arm.chain, &goal, standing.joint, &mut theta);
-            if reached.is_ok() {
-                self.take(wanted, &theta);
-            }
-        }
-        self.stands = None;
+                .reach_beside(self.arm.chain, &goal, held.standing.joint, theta);
+            reached.is_ok()
+        });
+        all
     }
 
-    /// Moves the standing joint from home, to the side where it stood first, until a posture lies inside the limits;
-    /// false if none does.
-    fn leave_home(
-        &mut self,
-        standing: &StandingJoint,
-        wanted: &Wanted<'_>,
-        arm_from_flange: &Isometry,
-    ) -> bool {
-        let joint = self.arm.first + standing.joint;
-        let home = self.home[joint];
-        let room = |side: f64| {
-            let limits = self.robot.joints()[joint].limits;
-            limits.map_or(PI, |limits| {
+    /// The count of the standing joint so far (rad) from home; one that counts earlier joints along stands where they
+    /// leave it.
+    fn place(&self, held: &Held<'_>, away: f64) -> Option<(usize, f64)> {
+        let joint = self.arm.first + held.standing.joint;
+        let alone = self.robot.joints()[joint].coupling.is_empty();
+        alone.then(|| (joint, self.home[joint] + away))
+    }
+
+    /// Moves the standing joint from home, to the side where it stood first, until a posture lies inside the limits:
+    /// how far (rad), and the chain positions there.
+    fn leave_home(&mut self, held: &Held<'_>) -> Option<(f64, Vec<[f64; 7]>)> {
+        let joint = self.arm.first + held.standing.joint;
+        let (home, limits) = (self.home[joint], self.robot.joints()[joint].limits);
+        let first = sense_of(held.wanted.near.map_or(0.0, |near| near[joint] - home));
+        let sides = [first, -first].map(|side| {
+            let room = limits.map_or(PI, |limits| {
                 if side > 0.0 {
                     limits.upper - home
                 } else {
                     home - limits.lower
                 }
-                .min(PI)
-            })
-        };
-        let first = sense_of(wanted.near.map_or(0.0, |near| near[joint] - home));
-        let sides = [first, -first].map(|side| (side, room(side)));
+            });
+            (side, room.min(PI))
+        });
         let mut from = 0.0;
         while from < PI {
             for (side, room) in sides.into_iter().filter(|(_, room)| from < *room) {
-                let mut to = (from + STEP).min(room);
-                self.stand(standing, side * to, wanted, arm_from_flange);
-                if self.any_within_limits() {
-                    let mut outside = from;
-                    for _ in 0..HALVINGS {
-                        let middle = 0.5 * (outside + to);
-                        let found = std::mem::take(&mut self.found);
-                        self.stand(standing, side * middle, wanted, arm_from_flange);
-                        if self.any_within_limits() {
-                            to = middle;
-                        } else {
-                            outside = middle;
-                            self.found = found;
-                        }
-                    }
-                    return true;
+                let to = (from + STEP).min(room);
+                let all = self.standing_at(held, side * to);
+                if self.any_inside(held, side * to, &all) {
+                    return Some(self.first_inside(held, [side * from, side * to], all));
                 }
             }
             from += STEP;
         }
-        false
+        None
     }
 
-    fn any_within_limits(&self) -> bool {
-        let within = |found: &Found| {
-            let margin = self.robot.limit_margin(&found.joints);
+    /// Between a place of the standing joint without and one with a posture inside the limits the first with one.
+    fn first_inside(
+        &mut self,
+        held: &Held<'_>,
+        [mut without, mut with]: [f64; 2],
+        mut all: Vec<[f64; 7]>,
+    ) -> (f64, Vec<[f64; 7]>) {
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (without + with);
+            let found = self.standing_at(held, middle);
+            if self.any_inside(held, middle, &found) {
+                (with, all) = (middle, found);
+            } else {
+                without = middle;
+            }
+        }
+        (with, all)
+    }
+
+    /// Whether one of these chain positions lies inside the joint limits, with the standing joint so far from home.
+    fn any_inside(&mut self, held: &Held<'_>, away: f64, all: &[[f64; 7]]) -> bool {
+        self.stands = self.place(held, away);
+        let inside = all.iter().any(|theta| {
+            let joints = self.counted(theta, held.wanted.near);
+            let margin = self.robot.limit_margin(&joints);
             margin.is_none_or(|(_, margin)| margin >= 0.0)
-        };
-        self.found.iter().any(within)
+        });
+        self.stands = None;
+        inside
     }
 
     /// Keeps a posture that is new.
