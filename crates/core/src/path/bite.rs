@@ -25,7 +25,9 @@
 //! Edges of the strip are right to half a pitch and the width of a strip, a quarter of a pitch; straight ahead that is an
 //! angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two pitches sees
 //! material up to two pitches early. Of a longer one the bite is that of its end; what it met on the way is in its
-//! volume alone. A radial depth below a pitch may pass unseen.
+//! volume alone. A radial depth below a pitch may pass unseen, and on a ramp down what two pitches of it fall by. The
+//! feed is the chord of a step of two pitches or more, else the direction of the point: round a bend of radius `r` short
+//! steps see up to `2 pitch^2/r` of a wall that is cut already.
 //!
 //! Not modelled: the bottom of the cutter on a dive (but in the volume), teeth behind the axis, runout, trochoids. For
 //! a spindle that turns counterclockwise `phi` becomes `180 deg - phi`: up-milling is down-milling.
@@ -95,10 +97,12 @@ pub(super) struct Heading {
     at: Point3<f64>,
     /// Of length one, seen from above; none where the tool goes straight down or up.
     feed: Option<Vector2<f64>>,
-    /// Length of the step seen from above, m.
+    /// From the point before, seen from above, m.
+    chord: Vector2<f64>,
+    /// Its length, m.
     step: f64,
-    /// Rise per distance seen from above; 0 where the tool goes down.
-    rise: f64,
+    /// Rise per distance seen from above, negative where the tool goes down.
+    slope: f64,
     dives: bool,
 }
 
@@ -137,11 +141,13 @@ const NO_FEED: f64 = 1e-6;
 impl Heading {
     pub(super) fn of(before: Point3<f64>, point: &PathPoint) -> Heading {
         let across = point.direction.xy();
+        let chord = (point.at - before).xy();
         Heading {
             at: point.at,
             feed: across.try_normalize(NO_FEED),
-            step: (point.at - before).xy().norm(),
-            rise: point.direction.z.max(0.0) / across.norm().max(NO_FEED),
+            chord,
+            step: chord.norm(),
+            slope: point.direction.z / across.norm().max(NO_FEED),
             dives: -point.direction.z > across.norm(),
         }
     }
@@ -234,8 +240,15 @@ struct Strip {
 impl Stock {
     /// The widest strip of material ahead; `None` if there is none.
     pub(super) fn front(&self, heading: &Heading, cutter: &CutterProfile) -> Option<Front> {
-        let feed = heading.feed?;
         let (radius, pitch) = (cutter.radius(), self.pitch());
+        let told = heading.feed?;
+        // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
+        let follows = heading.step >= WINDOW_PITCHES * pitch;
+        let feed = if follows {
+            heading.chord / heading.step
+        } else {
+            told
+        };
         let count = (2.0 * radius * STRIPS_A_PITCH / pitch)
             .ceil()
             .clamp(8.0, MOST_STRIPS);
@@ -275,21 +288,23 @@ impl Stock {
 
     /// The discs that stand for a cutter among material as high as it is here, from the tip upwards.
     fn discs(&self, heading: &Heading, cutter: &CutterProfile) -> Vec<Disc> {
-        // What is seen early of a climb is met by a tip that has risen until then.
-        let early = (WINDOW_PITCHES * self.pitch() - heading.step).max(0.0);
-        let tip = heading.at.z + heading.rise * early;
+        // Of a climb, what is seen early is met by a tip that has risen until then. Of a ramp down, what the first arc
+        // has left beside the second is no material.
+        let window = WINDOW_PITCHES * self.pitch();
+        let early = (window - heading.step).max(0.0);
+        let tip = heading.at.z + heading.slope.max(0.0) * early;
+        let left = (-heading.slope).max(0.0) * heading.step.min(window);
         let (radius, flat) = (cutter.radius(), cutter.flat_radius());
         if flat == radius {
             return vec![Disc {
                 radius,
                 outer_radius: radius,
-                bottom: tip,
+                bottom: tip + left,
                 begins: tip,
             }];
         }
-        let about = radius + WINDOW_PITCHES * self.pitch();
-        let up = self.highest_about(heading.at.xy(), about) - tip;
-        if up <= LEAST_HEIGHT {
+        let up = self.highest_about(heading.at.xy(), radius + window) - tip;
+        if up <= left + LEAST_HEIGHT {
             return Vec::new();
         }
         let widest = cutter.radius_at(up);
@@ -300,18 +315,18 @@ impl Stock {
                 Disc {
                     radius: inner + 0.5 * part,
                     outer_radius: inner + part,
-                    bottom: tip + cutter.height(inner + 0.5 * part),
+                    bottom: tip + left + cutter.height(inner + 0.5 * part),
                     begins: tip + cutter.height(inner),
                 }
             })
             .collect();
         if up > cutter.corner_radius() {
-            let bottom = tip + cutter.corner_radius();
+            let begins = tip + cutter.corner_radius();
             discs.push(Disc {
                 radius,
                 outer_radius: radius,
-                bottom,
-                begins: bottom,
+                bottom: begins + left,
+                begins,
             });
         }
         discs
@@ -332,7 +347,8 @@ impl Stock {
         for _ in 0..count as usize {
             for part in [0.25, 0.75] {
                 let at = first + feed * (radius * sin + part * window) + left * (radius * cos);
-                let (centre, height) = self.cell_at(at);
+                // Beside the box the place itself tells of air.
+                let (centre, height) = self.cell_at(at).unwrap_or((at, 0.0));
                 let off = centre - first;
                 let (x, y) = (off.dot(&feed), off.dot(&left));
                 let passed_before = x <= 0.0 || x * x + y * y <= radius * radius;
@@ -340,7 +356,7 @@ impl Stock {
                 if y.abs() >= inside || passed_before || too_far {
                     continue;
                 }
-                let height = height.map_or(0.0, f64::from);
+                let height = f64::from(height);
                 let top = self.bottom() + height;
                 let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
                 out(y, if stands { Sight::Material(top) } else { Sight::Air });

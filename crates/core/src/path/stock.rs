@@ -208,7 +208,7 @@ impl Stock {
 
     /// Path z (m) up to which material stands in the cell over `at` (m, path x and y); `None` beside the box.
     pub fn top_at(&self, at: Point2<f64>) -> Option<f64> {
-        self.cell_at(at).1.map(|height| self.low.z + f64::from(height))
+        self.cell_at(at).map(|(_, height)| self.low.z + f64::from(height))
     }
 
     /// The longer side of a cell, m: not above the pitch that was asked for.
@@ -221,18 +221,23 @@ impl Stock {
         self.low.z
     }
 
-    /// The centre of the cell over `at`, and the height in it, m; beside the box the grid goes on without material.
-    pub(super) fn cell_at(&self, at: Point2<f64>) -> (Point2<f64>, Option<f32>) {
-        let index = |k: usize| ((at[k] - self.low[k]) / self.sides[k]).floor();
-        let (column, row) = (index(0), index(1));
-        let centre = Point2::new(
-            self.low.x + (column + 0.5) * self.sides[0],
-            self.low.y + (row + 0.5) * self.sides[1],
-        );
+    /// The centre of the cell over `at`, and the height in it, m; `None` beside the box.
+    pub(super) fn cell_at(&self, at: Point2<f64>) -> Option<(Point2<f64>, f32)> {
+        let x = (at.x - self.low.x) / self.sides[0];
+        let y = (at.y - self.low.y) / self.sides[1];
+        if !(x >= 0.0 && y >= 0.0) {
+            return None;
+        }
+        let (column, row) = (x as usize, y as usize);
         let [columns, rows] = self.cells;
-        let inside = column >= 0.0 && row >= 0.0 && column < columns as f64 && row < rows as f64;
-        let height = inside.then(|| self.heights.get(row as usize * columns + column as usize));
-        (centre, height.flatten().copied())
+        if column >= columns || row >= rows {
+            return None;
+        }
+        let centre = Point2::new(
+            self.low.x + (column as f64 + 0.5) * self.sides[0],
+            self.low.y + (row as f64 + 0.5) * self.sides[1],
+        );
+        Some((centre, self.heights[row * columns + column]))
     }
 
     /// Path z of the highest material in the square about `at` that reaches `out` (m) to each side.
@@ -260,7 +265,8 @@ impl Stock {
     /// Lowers every cell that the cutter passes over on a straight step.
     fn remove(&mut self, from: Point3<f64>, to: Point3<f64>, cutter: &CutterProfile) -> Removal {
         let sweep = Sweep::of(from, to, cutter, STANDING * self.pitch());
-        let lowest = from.z.min(to.z) - self.low.z;
+        // Rounded as heights are: what is not above it cannot be lowered.
+        let lowest = (from.z.min(to.z) - self.low.z).max(0.0) as f32;
         let (mut volume, mut depth) = (0.0, 0.0_f64);
         let [lower, upper] = [from.y.min(to.y), from.y.max(to.y)];
         let radius = cutter.radius();
@@ -271,7 +277,7 @@ impl Stock {
             let first = row * self.cells[0];
             for column in columns {
                 let height = &mut self.heights[first + column];
-                if f64::from(*height) <= lowest || *height == 0.0 {
+                if *height <= lowest {
                     continue;
                 }
                 let x = self.low.x + (column as f64 + 0.5) * self.sides[0];
@@ -379,16 +385,17 @@ impl<'a> Sweep<'a> {
         if first > last {
             return None;
         }
-        let height = |t: f64| self.slope * t + self.cutter.height((a - t).hypot(b));
+        // Squares cannot overflow: no length is beyond 1e6 m by far. `hypot` would take most of the time.
+        let profile = |t: f64| self.cutter.height(((a - t) * (a - t) + b * b).sqrt());
         let lowest = if self.slope == 0.0 {
             a.clamp(first, last)
         } else if self.cutter.corner_radius() == 0.0 {
             if self.slope > 0.0 { first } else { last }
         } else if self.cutter.flat_radius() == 0.0 {
             // Where the sphere is as steep as the step.
-            (a - self.slope * half / self.slope.hypot(1.0)).clamp(first, last)
+            (a - self.slope * half / (self.slope * self.slope + 1.0).sqrt()).clamp(first, last)
         } else {
-            lowest_of_convex(height, first, last)
+            lowest_of_convex(|t| self.slope * t + profile(t), first, last)
         };
         // The end is taken from itself: a floor cut twice is then the same to the last bit.
         let tip = if lowest == self.length {
@@ -396,7 +403,7 @@ impl<'a> Sweep<'a> {
         } else {
             self.from.z + self.slope * lowest
         };
-        Some(tip + self.cutter.height((a - lowest).hypot(b)))
+        Some(tip + profile(lowest))
     }
 }
 

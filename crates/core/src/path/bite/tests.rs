@@ -189,7 +189,8 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
         let bites = round(&mut stock, ring, 150, &flat());
         // Where a point of the rim is as far from the centre as the wall: law of cosines.
         let half = ((wall * wall - ring * ring - RADIUS * RADIUS) / (2.0 * ring * RADIUS)).acos();
-        for bite in &bites[60..] {
+        // Not near the start, whose disc is cut already when the ring closes.
+        for bite in &bites[60..110] {
             assert_eq!(bite.kind, BiteKind::Side(Milling::Down));
             assert_eq!(bite.exit, PI);
             // The arc leaves its chord within the window by another part of a pitch.
@@ -400,32 +401,4 @@ fn the_immersion_converges_with_the_pitch() {
         assert!(*error <= EDGE * pitch * MM, "{errors:?}");
     }
     assert!(errors[3] < errors[0] / 3.0, "{errors:?}");
-}
-
-#[test]
-fn rate_of_points() {
-    for (name, cutter, rise) in [
-        ("flat", flat(), 0.0),
-        ("ball level", ball(), 0.0),
-        ("ball slopes", ball(), 1.0),
-        (
-            "bull slopes",
-            CutterProfile::new(2.0 * RADIUS, 1.5 * MM).unwrap(),
-            1.0,
-        ),
-    ] {
-        for step in [0.1 * MM, 0.5 * MM] {
-            let mut stock = stock(PITCH);
-            let begin = std::time::Instant::now();
-            let mut count = 0;
-            for k in 0..20 {
-                let at = |x: f64| Point3::new(x, -20.0 + 2.0 * k as f64, -3.0 - x * rise * 0.03) * MM;
-                count += line(&mut stock, at(-50.0), at(50.0), step, &cutter).len();
-            }
-            println!(
-                "{name} {step}: {count} points, {:?} each",
-                begin.elapsed() / count as u32
-            );
-        }
-    }
 }
