@@ -23,6 +23,9 @@
 //! the side walls cut times half a pitch, mostly far less. Heights are kept in single precision, to 6e-8 of themselves:
 //! 0.06 um in a metre.
 //!
+//! Only cells in reach of a step are visited: 1700 for a cutter of 10 mm in cells of 0.25 mm. Flat ones are the fastest;
+//! a ball takes some 7 times as long, a bull nose that climbs or dives some 40 times.
+//!
 //! Not modelled: undercuts (one height a cell), tilted tools, the arc between two points (a step is its chord), shank
 //! and holder, wear and deflection of the cutter.
 //!
