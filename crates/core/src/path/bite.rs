@@ -1,0 +1,443 @@
+//! What the cutter bites into: where round it the teeth meet material, how deep, how wide.
+//!
+//! Seen from the spindle, x along the feed and y to its left, the immersion angle `phi` counts clockwise from +y: 0 on
+//! the left, 90 deg straight ahead, 180 deg on the right. Teeth of a spindle that turns clockwise pass it in this order,
+//! and their chip is `c sin(phi)` thick. At the radius `rho` a place `y` to the left is passed at
+//!
+//! ```text
+//! cos(phi) = y / rho,    entry = acos(left / rho),    exit = acos(right / rho),    ae = left - right
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `phi` | immersion angle | rad |
+//! | `left`, `right` | edges of the strip of material ahead, to the left of the tool axis | m |
+//! | `rho` | radius of the cutter where its highest engaged point is; `R` of a flat one | m |
+//! | `ae`, `ap` | radial and axial depth | m |
+//! | `c` | feed per tooth | m |
+//!
+//! How the strip is found. The cutter is a stack of discs: one of a flat end mill, a few up to the height of the
+//! material of any other. The front of a disc at its last two pitches of the step passes over new cells between two
+//! arcs; each of them says whether material stands there above the disc, at its own distance `y` from the axis. A strip
+//! without a cell takes after its neighbours; the outermost reach to the edge of the disc. So a pass along a wall that
+//! is cut already finds nothing, and a slot is full from 0 to 180 deg.
+//!
+//! Edges of the strip are right to half a pitch and the width of a strip, a quarter of a pitch; straight ahead that is an
+//! angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two pitches sees
+//! material up to two pitches early. Of a longer one the bite is that of its end; what it met on the way is in its
+//! volume alone. A radial depth below a pitch may pass unseen, and on a ramp down what two pitches of it fall by. The
+//! feed is the chord of a step of two pitches or more, else the direction of the point: round a bend of radius `r` short
+//! steps see up to `2 pitch^2/r` of a wall that is cut already.
+//!
+//! Not modelled: the bottom of the cutter on a dive (but in the volume), teeth behind the axis, runout, trochoids. For
+//! a spindle that turns counterclockwise `phi` becomes `180 deg - phi`: up-milling is down-milling.
+//!
+//! Source: immersion angles as in Altintas, Manufacturing Automation, chapter 2 \[recalled\]; the strip from new cells
+//! is ours \[derived\].
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use nalgebra::{Point2, Point3, Vector2};
+
+use super::cutter_profile::CutterProfile;
+use super::sampler::PathPoint;
+use super::stock::Stock;
+
+/// How the cutter meets the material, for a spindle that turns clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BiteKind {
+    /// Nothing ahead.
+    Air,
+    /// Material on one side, or a strip narrower than the cutter.
+    Side(Milling),
+    /// Material over the whole width of the cutter, to a pitch.
+    Slot,
+    /// Down, steeper than along: the bottom cuts all round.
+    Plunge,
+}
+
+/// On which side the middle of the material is, and so how chips begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Milling {
+    /// Left of the feed, or evenly on both sides: chips begin thin.
+    Up,
+    /// Right of the feed: chips end thin.
+    Down,
+}
+
+/// What the cutter bites into at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bite {
+    /// How it meets the material.
+    pub kind: BiteKind,
+    /// Immersion angle where teeth enter, rad; 0 in the air and of a plunge.
+    pub entry: f64,
+    /// Immersion angle where they leave, rad; 0 in the air, a full turn of a plunge.
+    pub exit: f64,
+    /// Separate arcs of engagement: entry and exit are those of the longest, the depths too.
+    pub arcs: usize,
+    /// Depth along the tool axis where it is largest, m; of a plunge what the step takes off where it takes most.
+    pub axial_depth: f64,
+    /// Width of the strip of material across the feed, m.
+    pub radial_depth: f64,
+    /// Taken away by the step, m^3.
+    pub volume: f64,
+}
+
+/// What a step has taken away.
+pub(super) struct Removal {
+    /// m^3
+    pub(super) volume: f64,
+    /// Most that a cell was lowered, m.
+    pub(super) depth: f64,
+}
+
+/// Where the tool arrives and how it goes there.
+pub(super) struct Heading {
+    at: Point3<f64>,
+    /// Of length one, seen from above; none where the tool goes straight down or up.
+    feed: Option<Vector2<f64>>,
+    /// From the point before, seen from above, m.
+    chord: Vector2<f64>,
+    /// Its length, m.
+    step: f64,
+    /// Rise per distance seen from above, negative where the tool goes down.
+    slope: f64,
+    dives: bool,
+}
+
+/// The strip of material in front of the cutter.
+pub(super) struct Front {
+    left: f64,
+    right: f64,
+    radius: f64,
+    depth: f64,
+    arcs: usize,
+    pitch: f64,
+}
+
+/// Pitches between the two arcs: less, and cells straight ahead could be missed; more, and corners are seen early.
+const WINDOW_PITCHES: f64 = 2.0;
+
+/// Strips a pitch.
+const STRIPS_A_PITCH: f64 = 4.0;
+
+/// Most strips: a cutter that has more of them than this gets wider ones.
+const MOST_STRIPS: f64 = 4096.0;
+
+/// Discs of a cutter with a rounded bottom, up to the height of the material: the widest is then within a twelfth of the
+/// radius that is engaged.
+const DISCS: usize = 6;
+
+/// Least height that counts as material, m: a micrometre, far below any chip, far above the rounding of heights.
+const LEAST_HEIGHT: f64 = 1e-6;
+
+/// Part of a radius that keeps rounding away from cells on the rim itself.
+const RIM: f64 = 1e-9;
+
+/// Below this part of its length the feed has no direction seen from above.
+const NO_FEED: f64 = 1e-6;
+
+impl Heading {
+    pub(super) fn of(before: Point3<f64>, point: &PathPoint) -> Heading {
+        let across = point.direction.xy();
+        let chord = (point.at - before).xy();
+        Heading {
+            at: point.at,
+            feed: across.try_normalize(NO_FEED),
+            chord,
+            step: chord.norm(),
+            slope: point.direction.z / across.norm().max(NO_FEED),
+            dives: -point.direction.z > across.norm(),
+        }
+    }
+
+    /// Whether the front of the cutter is what meets the material.
+    pub(super) fn looks_ahead(&self) -> bool {
+        self.feed.is_some() && !self.dives
+    }
+}
+
+/// The bite of a step from what was ahead and what it took away.
+pub(super) fn bite(
+    heading: &Heading,
+    front: Option<Front>,
+    removal: Removal,
+    cutter: &CutterProfile,
+) -> Bite {
+    let volume = removal.volume;
+    if heading.dives && removal.depth > LEAST_HEIGHT {
+        return Bite {
+            kind: BiteKind::Plunge,
+            entry: 0.0,
+            exit: TAU,
+            arcs: 1,
+            axial_depth: removal.depth,
+            radial_depth: 2.0 * cutter.radius(),
+            volume,
+        };
+    }
+    let Some(front) = front else {
+        return Bite {
+            kind: BiteKind::Air,
+            entry: 0.0,
+            exit: 0.0,
+            arcs: 0,
+            axial_depth: 0.0,
+            radial_depth: 0.0,
+            volume,
+        };
+    };
+    let full = front.radius - front.pitch;
+    let kind = if front.left >= full && front.right <= -full {
+        BiteKind::Slot
+    } else if front.left + front.right >= 0.0 {
+        BiteKind::Side(Milling::Up)
+    } else {
+        BiteKind::Side(Milling::Down)
+    };
+    Bite {
+        kind,
+        entry: (front.left / front.radius).clamp(-1.0, 1.0).acos(),
+        exit: (front.right / front.radius).clamp(-1.0, 1.0).acos(),
+        arcs: front.arcs,
+        axial_depth: front.depth,
+        radial_depth: front.left - front.right,
+        volume,
+    }
+}
+
+/// One disc of the cutter.
+#[derive(Clone, Copy)]
+struct Disc {
+    radius: f64,
+    /// Of the part of the cutter that it stands for, m.
+    outer_radius: f64,
+    /// Path z of its bottom, m.
+    bottom: f64,
+    /// Path z where the part of the cutter that it stands for begins, m.
+    begins: f64,
+}
+
+/// What stands before a strip of the front.
+#[derive(Clone, Copy, PartialEq)]
+enum Sight {
+    /// No cell of the strip is passed over anew.
+    Unseen,
+    Air,
+    /// Up to this path z, m.
+    Material(f64),
+}
+
+/// A strip that is engaged.
+#[derive(Clone, Copy)]
+struct Strip {
+    top: f64,
+    begins: f64,
+    outer_radius: f64,
+}
+
+impl Stock {
+    /// The widest strip of material ahead; `None` if there is none.
+    pub(super) fn front(&self, heading: &Heading, cutter: &CutterProfile) -> Option<Front> {
+        let (radius, pitch) = (cutter.radius(), self.pitch());
+        let told = heading.feed?;
+        // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
+        let follows = heading.step >= WINDOW_PITCHES * pitch;
+        let feed = if follows {
+            heading.chord / heading.step
+        } else {
+            told
+        };
+        let count = (2.0 * radius * STRIPS_A_PITCH / pitch)
+            .ceil()
+            .clamp(8.0, MOST_STRIPS);
+        let width = 2.0 * radius / count;
+        let mut strips: Vec<Option<Strip>> = vec![None; count as usize];
+        let mut sights = vec![Sight::Unseen; strips.len()];
+        for disc in self.discs(heading, cutter) {
+            sights.fill(Sight::Unseen);
+            self.look(heading, feed, &disc, |y, sight| {
+                let index = ((y + radius) / width) as usize;
+                if let Some(seen) = sights.get_mut(index) {
+                    *seen = seen.with(sight);
+                }
+            });
+            // Beyond the disc its strips say nothing.
+            let beyond = ((radius - disc.outer_radius) / width).round() as usize;
+            let within = beyond..strips.len().saturating_sub(beyond);
+            let (Some(sights), Some(strips)) = (sights.get_mut(within.clone()), strips.get_mut(within))
+            else {
+                continue;
+            };
+            take_after_neighbours(sights);
+            for (strip, sight) in strips.iter_mut().zip(sights) {
+                if let Sight::Material(top) = *sight {
+                    let lower = strip.get_or_insert(Strip {
+                        top,
+                        begins: disc.begins,
+                        outer_radius: disc.outer_radius,
+                    });
+                    lower.top = lower.top.max(top);
+                    lower.outer_radius = disc.outer_radius;
+                }
+            }
+        }
+        self.longest_arc(&strips, radius, width)
+    }
+
+    /// The discs that stand for a cutter among material as high as it is here, from the tip upwards.
+    fn discs(&self, heading: &Heading, cutter: &CutterProfile) -> Vec<Disc> {
+        // Of a climb, what is seen early is met by a tip that has risen until then. Of a ramp down, what the first arc
+        // has left beside the second is no material.
+        let window = WINDOW_PITCHES * self.pitch();
+        let early = (window - heading.step).max(0.0);
+        let tip = heading.at.z + heading.slope.max(0.0) * early;
+        let left = (-heading.slope).max(0.0) * heading.step.min(window);
+        let (radius, flat) = (cutter.radius(), cutter.flat_radius());
+        if flat == radius {
+            return vec![Disc {
+                radius,
+                outer_radius: radius,
+                bottom: tip + left,
+                begins: tip,
+            }];
+        }
+        let up = self.highest_about(heading.at.xy(), radius + window) - tip;
+        if up <= left + LEAST_HEIGHT {
+            return Vec::new();
+        }
+        let widest = cutter.radius_at(up);
+        let part = (widest - flat) / DISCS as f64;
+        let mut discs: Vec<Disc> = (0..DISCS)
+            .map(|k| {
+                let inner = flat + part * k as f64;
+                Disc {
+                    radius: inner + 0.5 * part,
+                    outer_radius: inner + part,
+                    bottom: tip + left + cutter.height(inner + 0.5 * part),
+                    begins: tip + cutter.height(inner),
+                }
+            })
+            .collect();
+        if up > cutter.corner_radius() {
+            let begins = tip + cutter.corner_radius();
+            discs.push(Disc {
+                radius,
+                outer_radius: radius,
+                bottom: begins + left,
+                begins,
+            });
+        }
+        discs
+    }
+
+    /// Tells `out` of the cells that the front of a disc passes over anew: how far left of the axis (m), and what
+    /// stands there above the disc.
+    fn look(&self, heading: &Heading, feed: Vector2<f64>, disc: &Disc, mut out: impl FnMut(f64, Sight)) {
+        let left = Vector2::new(-feed.y, feed.x);
+        let pitch = self.pitch();
+        let window = WINDOW_PITCHES * pitch;
+        let first: Point2<f64> = heading.at.xy() - feed * heading.step.min(window);
+        let (radius, inside) = (disc.radius, disc.radius * (1.0 - RIM));
+        // Two places a pitch along the arc, on two arcs between the first and the last.
+        let count = (2.0 * PI * radius / pitch).ceil().clamp(8.0, MOST_STRIPS);
+        let (turn_sin, turn_cos) = (PI / count).sin_cos();
+        let (mut sin, mut cos) = (FRAC_PI_2 / count).sin_cos();
+        for _ in 0..count as usize {
+            for part in [0.25, 0.75] {
+                let at = first + feed * (radius * sin + part * window) + left * (radius * cos);
+                // Beside the box the place itself tells of air.
+                let (centre, height) = self.cell_at(at).unwrap_or((at, 0.0));
+                let off = centre - first;
+                let (x, y) = (off.dot(&feed), off.dot(&left));
+                let passed_before = x <= 0.0 || x * x + y * y <= radius * radius;
+                let too_far = x > window && (x - window).powi(2) + y * y >= inside * inside;
+                if y.abs() >= inside || passed_before || too_far {
+                    continue;
+                }
+                let height = f64::from(height);
+                let top = self.bottom() + height;
+                let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
+                out(y, if stands { Sight::Material(top) } else { Sight::Air });
+            }
+            (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
+        }
+    }
+
+    /// The run of engaged strips that is longest round the cutter.
+    fn longest_arc(&self, strips: &[Option<Strip>], radius: f64, width: f64) -> Option<Front> {
+        let mut longest: Option<(f64, Front)> = None;
+        let mut arcs = 0;
+        let mut first = 0;
+        for run in strips.chunk_by(|one, next| one.is_some() == next.is_some()) {
+            let (begin, end) = (first, first + run.len());
+            first = end;
+            let engaged = || run.iter().flatten();
+            let rho = engaged().fold(0.0, |most: f64, strip| most.max(strip.outer_radius));
+            if rho <= 0.0 {
+                continue;
+            }
+            arcs += 1;
+            // The outermost strip of a disc reaches to its edge.
+            let edge = |strip: usize| {
+                let y = strip as f64 * width - radius;
+                if rho - y.abs() < width { rho.copysign(y) } else { y }
+            };
+            let (right, left) = (edge(begin), edge(end));
+            let arc = (right / rho).acos() - (left / rho).acos();
+            let depth = engaged().map(|strip| strip.top - strip.begins.max(self.bottom()));
+            let front = Front {
+                left,
+                right,
+                radius: rho,
+                depth: depth.fold(0.0, f64::max),
+                arcs: 0,
+                pitch: self.pitch(),
+            };
+            if longest.as_ref().is_none_or(|(most, _)| arc > *most) {
+                longest = Some((arc, front));
+            }
+        }
+        longest.map(|(_, front)| Front { arcs, ..front })
+    }
+}
+
+impl Sight {
+    /// Both seen in one strip: material is what counts, the highest of it.
+    fn with(self, other: Sight) -> Sight {
+        match (self, other) {
+            (Sight::Material(one), Sight::Material(two)) => Sight::Material(one.max(two)),
+            (Sight::Material(_), _) => self,
+            (_, Sight::Material(_)) => other,
+            (Sight::Unseen, _) => other,
+            (Sight::Air, _) => self,
+        }
+    }
+}
+
+/// Strips without a cell see what the nearest strip sees that has one; the left one of two as near.
+fn take_after_neighbours(sights: &mut [Sight]) {
+    let mut known: Option<usize> = None;
+    for index in 0..=sights.len() {
+        if sights.get(index) == Some(&Sight::Unseen) {
+            continue;
+        }
+        let next = sights.get(index).copied();
+        let before = known.map(|known| sights[known]);
+        let first = known.map_or(0, |known| known + 1);
+        let gap = index - first;
+        for (k, sight) in sights[first..index].iter_mut().enumerate() {
+            let nearer = if 2 * k < gap {
+                before.or(next)
+            } else {
+                next.or(before)
+            };
+            *sight = nearer.unwrap_or(Sight::Unseen);
+        }
+        known = Some(index);
+    }
+}
+
+#[cfg(test)]
+mod tests;

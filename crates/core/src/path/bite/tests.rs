@@ -1,0 +1,404 @@
+use super::*;
+use crate::path::Pace;
+use nalgebra::{Unit, Vector3};
+
+const MM: f64 = 1e-3;
+const PITCH: f64 = 0.25 * MM;
+const RADIUS: f64 = 5.0 * MM;
+/// Depth of the floor below the top of the stock.
+const DEPTH: f64 = 3.0 * MM;
+
+/// What an edge of a strip may be off: half a pitch for its cells, a quarter for the strips.
+const EDGE: f64 = 0.75;
+
+fn stock(pitch: f64) -> Stock {
+    let corner = Point3::new(60.0, 60.0, 0.0) * MM;
+    Stock::new(
+        [Point3::from(-corner.coords) - Vector3::z() * 20.0 * MM, corner],
+        pitch,
+    )
+    .unwrap()
+}
+
+fn flat() -> CutterProfile {
+    CutterProfile::new(2.0 * RADIUS, 0.0).unwrap()
+}
+
+fn ball() -> CutterProfile {
+    CutterProfile::new(2.0 * RADIUS, RADIUS).unwrap()
+}
+
+fn arriving(at: Point3<f64>, direction: Vector3<f64>) -> PathPoint {
+    PathPoint {
+        at,
+        axis: Some(Vector3::z_axis()),
+        direction: Unit::new_normalize(direction),
+        along: 0.0,
+        pace: Pace::Feed(0.01),
+        line: 1,
+    }
+}
+
+/// Bites along a line in steps no longer than `step`, its start first.
+fn line(
+    stock: &mut Stock,
+    from: Point3<f64>,
+    to: Point3<f64>,
+    step: f64,
+    cutter: &CutterProfile,
+) -> Vec<Bite> {
+    let way = to - from;
+    let pieces = (way.norm() / step).ceil();
+    let mut before = from;
+    (0..=pieces as usize)
+        .map(|k| {
+            let at = from + way * (k as f64 / pieces);
+            let bite = stock.cut(before, &arriving(at, way), cutter).unwrap();
+            before = at;
+            bite
+        })
+        .collect()
+}
+
+/// A place told along a feed at `angle` from x through the origin, to its left and up.
+fn place(angle: f64, along: f64, left: f64, up: f64) -> Point3<f64> {
+    let (sin, cos) = angle.sin_cos();
+    Point3::new(along * cos - left * sin, along * sin + left * cos, up)
+}
+
+/// Whether `phi` is passed at the lateral place of `expected` to `pitches` pitches.
+fn is_at(phi: f64, expected: f64, pitches: f64) -> bool {
+    RADIUS * (phi.cos() - expected.cos()).abs() <= pitches * PITCH
+}
+
+const ANGLES: [f64; 6] = [0.0, FRAC_PI_2, 0.3, 0.785, 2.5, -1.9];
+
+#[test]
+fn a_first_pass_is_a_slot_from_0_to_180_deg_whatever_its_direction() {
+    for angle in ANGLES {
+        let mut stock = stock(PITCH);
+        let (from, to) = (
+            place(angle, -20.0 * MM, 0.0, -DEPTH),
+            place(angle, 20.0 * MM, 0.0, -DEPTH),
+        );
+        for bite in line(&mut stock, from, to, 0.7 * MM, &flat()) {
+            assert_eq!(bite.kind, BiteKind::Slot);
+            assert_eq!((bite.entry, bite.exit, bite.arcs), (0.0, PI, 1));
+            assert!((bite.axial_depth - DEPTH).abs() < 1e-9 && bite.radial_depth == 2.0 * RADIUS);
+        }
+    }
+}
+
+#[test]
+fn a_pass_beside_another_has_the_closed_immersion_of_its_radial_depth() {
+    for angle in ANGLES {
+        for ae in [0.8, 2.0, 5.0, 7.3].map(|ae| ae * MM) {
+            for step in [0.05, 0.3, 1.0].map(|step| step * MM) {
+                for side in [1.0, -1.0] {
+                    let mut stock = stock(PITCH);
+                    let end = |along: f64, left: f64| place(angle, along * MM, left, -DEPTH);
+                    line(&mut stock, end(-20.0, 0.0), end(20.0, 0.0), 40.0 * MM, &flat());
+                    let beside = end(-5.0, side * ae);
+                    // In the slot, still short of the start: it only clears the way.
+                    line(&mut stock, end(-8.0, side * ae), beside, MM, &flat());
+                    for bite in line(&mut stock, beside, end(-3.0, side * ae), step, &flat()) {
+                        let immersion = (1.0 - ae / RADIUS).acos();
+                        let (milling, entry, exit) = if side > 0.0 {
+                            (Milling::Up, 0.0, immersion)
+                        } else {
+                            (Milling::Down, PI - immersion, PI)
+                        };
+                        let told = format!("{angle} {ae} {step} {bite:?}");
+                        assert_eq!(bite.kind, BiteKind::Side(milling), "{told}");
+                        assert!(
+                            is_at(bite.entry, entry, EDGE) && is_at(bite.exit, exit, EDGE),
+                            "{told}"
+                        );
+                        assert!((bite.radial_depth - ae).abs() <= EDGE * PITCH, "{told}");
+                        let away = if side > 0.0 { bite.entry } else { PI - bite.exit };
+                        assert!(away == 0.0 && bite.arcs == 1, "{told}");
+                        assert!((bite.axial_depth - DEPTH).abs() < 1e-9, "{told}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_volume_of_a_step_is_its_section_times_its_length() {
+    let mut stock = stock(PITCH);
+    let at = |x: f64, y: f64| Point3::new(x, y, -3.0) * MM;
+    line(&mut stock, at(-50.0, 0.0), at(50.0, 0.0), 100.0 * MM, &flat());
+    let bites = line(&mut stock, at(-40.0, 2.0), at(40.0, 2.0), MM, &flat());
+    let sum: f64 = bites[20..].iter().map(|bite| bite.volume).sum();
+    let steps = (bites.len() - 20) as f64;
+    // The wall is on a row of cells: what is left is the start and the end of the stretch, a pitch each.
+    let section = 2.0 * MM * DEPTH;
+    assert!(
+        (sum - section * steps * MM).abs() < section * 2.0 * PITCH,
+        "{sum}"
+    );
+}
+
+#[test]
+fn a_pass_where_all_is_cut_already_is_air() {
+    for cutter in [
+        flat(),
+        ball(),
+        CutterProfile::new(2.0 * RADIUS, 1.5 * MM).unwrap(),
+    ] {
+        for angle in ANGLES {
+            for rise in [-2.0, 0.0, 2.0] {
+                let mut stock = stock(PITCH);
+                let from = place(angle, -20.3 * MM, 1.07 * MM, -DEPTH);
+                let to = place(angle, 17.1 * MM, 1.07 * MM, -DEPTH + rise * MM);
+                line(&mut stock, from, to, 0.6 * MM, &cutter);
+                for bite in line(&mut stock, from, to, 0.6 * MM, &cutter) {
+                    assert_eq!(
+                        (bite.kind, bite.arcs, bite.volume),
+                        (BiteKind::Air, 0, 0.0),
+                        "{angle} {rise}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Bites round a circle about the origin, counterclockwise.
+fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &CutterProfile) -> Vec<Bite> {
+    let at = |k: u32| place(f64::from(k) / f64::from(steps) * TAU, radius, 0.0, -DEPTH);
+    (1..=steps)
+        .map(|k| {
+            let feed = Vector3::z().cross(&at(k).coords.xy().push(0.0));
+            stock.cut(at(k - 1), &arriving(at(k), feed), cutter).unwrap()
+        })
+        .collect()
+}
+
+#[test]
+fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
+    let mut stock = stock(PITCH);
+    // A pocket of 15 mm radius, cleared from within; then rings of 1.5 mm outwards: part on the right.
+    for ring in [1.0, 4.0, 8.0, 10.0] {
+        round(&mut stock, ring * MM, 400, &flat());
+    }
+    let mut wall = 15.0 * MM;
+    for ring in [11.5 * MM, 13.0 * MM] {
+        let bites = round(&mut stock, ring, 150, &flat());
+        // Where a point of the rim is as far from the centre as the wall: law of cosines.
+        let half = ((wall * wall - ring * ring - RADIUS * RADIUS) / (2.0 * ring * RADIUS)).acos();
+        // Not near the start, whose disc is cut already when the ring closes.
+        for bite in &bites[60..110] {
+            assert_eq!(bite.kind, BiteKind::Side(Milling::Down));
+            assert_eq!(bite.exit, PI);
+            // The arc leaves its chord within the window by another part of a pitch.
+            assert!(is_at(bite.entry, PI - half, 1.2), "{} {bite:?}", PI - half);
+        }
+        // A straight wall would be met over less: the test can tell.
+        let straight = (1.0 - (ring + RADIUS - wall) / RADIUS).acos();
+        assert!(!is_at(PI - straight, PI - half, 1.2));
+        wall = ring + RADIUS;
+    }
+    let again = round(&mut stock, 13.0 * MM, 150, &flat());
+    assert!(
+        again
+            .iter()
+            .all(|bite| bite.kind == BiteKind::Air && bite.volume == 0.0)
+    );
+}
+
+#[test]
+fn entering_and_leaving_a_face_follow_the_rim() {
+    let mut stock = stock(PITCH);
+    let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
+    let bites = line(&mut stock, at(-70.0), at(70.0), MM, &flat());
+    for (k, bite) in bites.iter().enumerate() {
+        // From the centre of the tool to the face at -60 mm.
+        let short = -60.0 * MM - (-70.0 + k as f64) * MM;
+        if short >= RADIUS + 2.0 * PITCH || short <= -120.0 * MM {
+            assert_eq!(bite.kind, BiteKind::Air, "{k}");
+            continue;
+        }
+        if (0.2 * RADIUS..0.9 * RADIUS).contains(&short) {
+            let entry = (short / RADIUS).asin();
+            // The face lies across: a pitch along the feed is a pitch times tan(phi) along the rim's y.
+            let off = 1.5 * entry.tan() + EDGE;
+            assert!(is_at(bite.entry, entry, off), "{k} {bite:?}");
+            assert!(is_at(bite.exit, PI - entry, off), "{k} {bite:?}");
+        }
+        if (-115.0 * MM..0.0).contains(&short) {
+            assert_eq!(bite.kind, BiteKind::Slot, "{k}");
+        }
+    }
+}
+
+/// Clears a rectangle with a thin cutter.
+fn clear(stock: &mut Stock, low: [f64; 2], high: [f64; 2]) {
+    let thin = CutterProfile::new(0.5 * MM, 0.0).unwrap();
+    let mut y = low[1] + 0.25;
+    while y < high[1] - 0.2 {
+        let at = |x: f64| Point3::new(x * MM, y * MM, -DEPTH);
+        line(stock, at(low[0]), at(high[0] - 0.25), 200.0 * MM, &thin);
+        y += 0.25;
+    }
+}
+
+#[test]
+fn engagement_rises_towards_an_inner_corner() {
+    let mut stock = stock(PITCH);
+    clear(&mut stock, [-60.0, -60.0], [20.0, 10.0]);
+    // The wall y = 10 mm is met with 2 mm, the wall x = 20 mm is ahead.
+    let at = |x: f64| Point3::new(x * MM, 7.0 * MM, -DEPTH);
+    let bites = line(&mut stock, at(-30.0), at(20.0), 0.5 * MM, &flat());
+    let side = (1.0 - 2.0 / 5.0_f64).acos();
+    let mut exits = Vec::new();
+    for (k, bite) in bites.iter().enumerate().skip(30) {
+        let away = (50.0 - 0.5 * k as f64) * MM;
+        if away > RADIUS + 2.0 * PITCH {
+            assert_eq!(bite.kind, BiteKind::Side(Milling::Up));
+            assert!(is_at(bite.exit, side, EDGE), "{k} {bite:?}");
+        } else if away < 0.75 * RADIUS {
+            // The rim passes x = 20 mm at sin(phi) = away/R, on the side of the free part.
+            let exit = PI - (away / RADIUS).asin();
+            // A pitch along the feed and one of the corner that the thin cutter leaves.
+            let off = 2.0 * (away / RADIUS).asin().tan() + EDGE;
+            assert!(
+                bite.entry == 0.0 && is_at(bite.exit, exit, off),
+                "{k} {exit} {bite:?}"
+            );
+            exits.push(bite.exit);
+        }
+    }
+    assert!(
+        exits.len() > 6 && exits.windows(2).all(|pair| pair[1] >= pair[0] - 1e-12),
+        "{exits:?}"
+    );
+    assert_eq!(bites.last().unwrap().kind, BiteKind::Slot);
+}
+
+#[test]
+fn a_channel_in_the_middle_leaves_two_arcs() {
+    let mut stock = stock(PITCH);
+    let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
+    let channel = CutterProfile::new(5.0 * MM, 0.0).unwrap();
+    line(&mut stock, at(-50.0), at(50.0), 100.0 * MM, &channel);
+    let bites = line(&mut stock, at(-20.0), at(0.0), MM, &flat());
+    for bite in &bites {
+        assert_eq!(bite.arcs, 2);
+        let upper = bite.entry == 0.0 && is_at(bite.exit, PI / 3.0, EDGE);
+        let lower = bite.exit == PI && is_at(bite.entry, 2.0 * PI / 3.0, EDGE);
+        assert!(upper || lower, "{bite:?}");
+    }
+}
+
+#[test]
+fn a_rib_narrower_than_the_cutter_is_met_in_the_middle() {
+    let mut stock = stock(PITCH);
+    clear(&mut stock, [-60.0, -20.0], [60.0, -2.0]);
+    clear(&mut stock, [-60.0, 3.0], [60.0, 20.0]);
+    let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
+    for bite in line(&mut stock, at(-20.0), at(0.0), MM, &flat()) {
+        assert_eq!((bite.kind, bite.arcs), (BiteKind::Side(Milling::Up), 1));
+        assert!(is_at(bite.entry, 0.6_f64.acos(), 2.0 * EDGE), "{bite:?}");
+        assert!(is_at(bite.exit, (-0.4_f64).acos(), 2.0 * EDGE), "{bite:?}");
+    }
+}
+
+#[test]
+fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
+    let mut stock = stock(PITCH);
+    let (from, to) = (
+        Point3::new(-20.0, 0.0, 0.0) * MM,
+        Point3::new(20.0, 0.0, -4.0) * MM,
+    );
+    let bites = line(&mut stock, from, to, MM, &flat());
+    let steps = (bites.len() - 1) as f64;
+    for (k, bite) in bites.iter().enumerate().skip(1) {
+        assert_eq!(
+            (bite.kind, bite.entry, bite.exit),
+            (BiteKind::Slot, 0.0, PI),
+            "{k}"
+        );
+        assert!(
+            (bite.axial_depth - 4.0 * MM * k as f64 / steps).abs() < 1e-8,
+            "{k} {bite:?}"
+        );
+    }
+    let down = [
+        Point3::new(0.0, 30.0, 1.0) * MM,
+        Point3::new(0.0, 30.0, -2.0) * MM,
+    ];
+    let plunge = line(&mut stock, down[0], down[1], MM, &flat());
+    let kinds: Vec<BiteKind> = plunge.iter().map(|bite| bite.kind).collect();
+    let (air, dive) = (BiteKind::Air, BiteKind::Plunge);
+    assert_eq!(kinds, [air, air, dive, dive]);
+    assert!((plunge[3].axial_depth - MM).abs() < 1e-8 && plunge[3].exit == TAU);
+    let up = line(&mut stock, down[1], down[0], MM, &flat());
+    assert!(up.iter().all(|bite| bite.kind == air && bite.volume == 0.0));
+}
+
+#[test]
+fn a_ball_is_engaged_up_to_the_height_of_the_material() {
+    for depth in [0.3, 1.0, 3.0, 8.0].map(|depth| depth * MM) {
+        let mut stock = stock(PITCH);
+        let (from, to) = (
+            place(0.4, -9.0 * MM, 0.0, -depth),
+            place(0.4, 9.0 * MM, 0.0, -depth),
+        );
+        let wide = ball().radius_at(depth);
+        for bite in line(&mut stock, from, to, MM, &ball()) {
+            assert_eq!(
+                (bite.kind, bite.entry, bite.exit),
+                (BiteKind::Slot, 0.0, PI),
+                "{depth}"
+            );
+            // Heights are rounded to 1e-9 m; a ball of 5 mm is 2.8 times as wide per height at 0.3 mm, on two sides.
+            assert!((bite.radial_depth - 2.0 * wide).abs() < 1e-8, "{depth} {bite:?}");
+            assert!((bite.axial_depth - depth).abs() < 1e-8, "{depth} {bite:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
+    let (depth, apart) = (2.0 * MM, 1.5 * MM);
+    let mut stock = stock(PITCH);
+    let at = |x: f64, y: f64| Point3::new(x * MM, y, -depth);
+    line(&mut stock, at(-40.0, 0.0), at(40.0, 0.0), 80.0 * MM, &ball());
+    line(&mut stock, at(-40.0, apart), at(-10.0, apart), 30.0 * MM, &ball());
+    // Left of the middle between both grooves the ball reaches below the first one.
+    let (left, right) = (ball().radius_at(depth), -apart / 2.0);
+    for bite in line(&mut stock, at(-10.0, apart), at(10.0, apart), MM, &ball()) {
+        assert_eq!(
+            (bite.kind, bite.entry, bite.arcs),
+            (BiteKind::Side(Milling::Up), 0.0, 1)
+        );
+        let off = bite.radial_depth - (left - right);
+        // The stack has discs of a sixth of the engaged radius: the lowest that meets the ridge tells where it begins.
+        assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {bite:?}");
+    }
+}
+
+#[test]
+fn the_immersion_converges_with_the_pitch() {
+    let worst = |pitch: f64| {
+        let errors = (0..10).map(|k| {
+            let mut stock = stock(pitch);
+            let (angle, ae) = (0.3 * f64::from(k), (1.5 + 0.17 * f64::from(k)) * MM);
+            let end = |along: f64, left: f64| place(angle, along * MM, left, -DEPTH);
+            line(&mut stock, end(-20.0, 0.0), end(20.0, 0.0), 40.0 * MM, &flat());
+            line(&mut stock, end(-8.0, ae), end(-5.0, ae), 3.0 * MM, &flat());
+            let bites = line(&mut stock, end(-5.0, ae), end(-4.0, ae), 0.5 * MM, &flat());
+            let errors = bites.iter().map(|bite| (bite.radial_depth - ae).abs());
+            errors.fold(0.0, f64::max)
+        });
+        errors.fold(0.0, f64::max)
+    };
+    let errors = [0.8, 0.4, 0.2, 0.1].map(|pitch| worst(pitch * MM));
+    for (error, pitch) in errors.iter().zip([0.8, 0.4, 0.2, 0.1]) {
+        assert!(*error <= EDGE * pitch * MM, "{errors:?}");
+    }
+    assert!(errors[3] < errors[0] / 3.0, "{errors:?}");
+}

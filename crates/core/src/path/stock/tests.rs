@@ -1,0 +1,322 @@
+use super::*;
+use crate::path::{BiteKind, Pace};
+use nalgebra::{Unit, Vector3};
+use std::f64::consts::PI;
+
+const MM: f64 = 1e-3;
+
+fn stock_mm(low: [f64; 3], high: [f64; 3], pitch: f64) -> Stock {
+    Stock::new([Point3::from(low) * MM, Point3::from(high) * MM], pitch * MM).unwrap()
+}
+
+fn cutter_mm(diameter: f64, corner: f64) -> CutterProfile {
+    CutterProfile::new(diameter * MM, corner * MM).unwrap()
+}
+
+fn arriving(before: Point3<f64>, at: Point3<f64>) -> PathPoint {
+    PathPoint {
+        at,
+        axis: None,
+        direction: Unit::try_new(at - before, 0.0).unwrap_or(Vector3::x_axis()),
+        along: 0.0,
+        pace: Pace::Untold,
+        line: 1,
+    }
+}
+
+/// One step between two places in mm.
+fn step(stock: &mut Stock, from: [f64; 3], to: [f64; 3], cutter: &CutterProfile) -> Bite {
+    let (from, to) = (Point3::from(from) * MM, Point3::from(to) * MM);
+    stock.cut(from, &arriving(from, to), cutter).unwrap()
+}
+
+/// Half a pitch all along the walls that are cut: what a volume may be wrong by.
+fn wall_error(wall: f64, depth: f64, stock: &Stock) -> f64 {
+    wall * depth * stock.pitch() / 2.0
+}
+
+#[test]
+fn a_step_inside_takes_a_rectangle_and_two_half_discs() {
+    for corner in [[13.07, 12.11], [31.4, 26.9], [30.0, 12.11], [13.07, 25.0]] {
+        let mut stock = stock_mm([0.0, 0.0, -20.0], [45.0, 40.0, 0.0], 0.25);
+        let full = stock.volume();
+        let from = [13.07, 12.11, -4.0];
+        let bite = step(
+            &mut stock,
+            from,
+            [corner[0], corner[1], -4.0],
+            &cutter_mm(10.0, 0.0),
+        );
+        let length = (corner[0] - from[0]).hypot(corner[1] - from[1]) * MM;
+        let (radius, depth) = (5.0 * MM, 4.0 * MM);
+        let swept = depth * (2.0 * radius * length + PI * radius * radius);
+        let wall = 2.0 * length + 2.0 * PI * radius;
+        assert!(
+            (bite.volume - swept).abs() < wall_error(wall, depth, &stock),
+            "{corner:?}"
+        );
+        // Some 3e4 cells, each rounded in single precision to 6e-8 of 20 mm.
+        assert!((full - stock.volume() - bite.volume).abs() < 1e-7 * full);
+    }
+}
+
+#[test]
+fn the_volume_of_a_ball_that_goes_in_is_that_of_a_half_ball_and_a_cylinder() {
+    let mut stock = stock_mm([0.0, 0.0, -20.0], [20.0, 20.0, 0.0], 0.1);
+    let bite = step(
+        &mut stock,
+        [10.03, 9.96, 5.0],
+        [10.03, 9.96, -8.0],
+        &cutter_mm(10.0, 5.0),
+    );
+    let radius = 5.0 * MM;
+    let body = 2.0 / 3.0 * PI * radius.powi(3) + PI * radius * radius * 3.0 * MM;
+    assert!((bite.volume - body).abs() < wall_error(2.0 * PI * radius, 8.0 * MM, &stock));
+    assert_eq!(bite.kind, BiteKind::Plunge);
+    assert!((bite.axial_depth - 8.0 * MM).abs() < 0.001 * MM, "{bite:?}");
+}
+
+#[test]
+fn the_order_of_passes_changes_neither_heights_nor_the_sum_of_volumes() {
+    let passes = [
+        ([-5.0, 8.0, -2.0], [35.0, 8.0, -2.0], cutter_mm(10.0, 0.0)),
+        ([12.0, -5.0, -4.0], [20.0, 35.0, -1.0], cutter_mm(8.0, 4.0)),
+        ([25.0, 25.0, 0.5], [3.0, 3.0, -5.0], cutter_mm(12.0, 2.0)),
+    ];
+    let orders = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
+    let ends = orders.map(|order| {
+        let mut stock = stock_mm([0.0, 0.0, -10.0], [30.0, 30.0, 0.0], 0.2);
+        let volumes = order.map(|k| step(&mut stock, passes[k].0, passes[k].1, &passes[k].2).volume);
+        (stock.heights, volumes.iter().sum::<f64>())
+    });
+    for (heights, volume) in &ends[1..] {
+        assert_eq!(heights, &ends[0].0);
+        assert!((volume / ends[0].1 - 1.0).abs() < 1e-7, "{volume}");
+    }
+}
+
+#[test]
+fn the_lowest_point_of_a_step_is_that_of_many_stamps() {
+    let stamps = 4000;
+    for (diameter, corner) in [(10.0, 0.0), (10.0, 5.0), (10.0, 2.0)] {
+        let cutter = cutter_mm(diameter, corner);
+        for rise in [-9.0, -1.0, 0.0, 0.5, 6.0] {
+            let (from, to) = (Point3::new(0.0, 0.0, 0.0), Point3::new(7.0, 3.0, rise) * MM);
+            let sweep = Sweep::of(from, to, &cutter, 1e-6 * MM);
+            let space = (to - from).norm() / f64::from(stamps);
+            for (x, y) in [
+                (1.0, 1.0),
+                (3.5, -1.5),
+                (-2.0, 3.0),
+                (6.9, 6.0),
+                (11.0, 3.0),
+                (4.0, 1.7),
+            ] {
+                let at = Point2::new(x, y) * MM;
+                let heights = (0..=stamps).filter_map(|k| {
+                    let tip = from + (to - from) * (f64::from(k) / f64::from(stamps));
+                    let rho = (at - tip.xy()).norm();
+                    (rho <= cutter.radius()).then(|| tip.z + cutter.height(rho))
+                });
+                let stamped = heights.fold(f64::INFINITY, f64::min);
+                let swept = sweep.bottom(at).unwrap();
+                // Half a space away from the lowest tip a flat one is higher by the slope, at most 9/7.6; rounded ones
+                // are as good unless the rim itself is there, whose wall is upright.
+                assert!(swept <= stamped + 1e-10, "{corner} {rise} {at}");
+                assert!(
+                    stamped - swept < 2.0 * space,
+                    "{corner} {rise} {at}: {stamped} {swept}"
+                );
+            }
+            assert_eq!(sweep.bottom(Point2::new(-5.1, 0.0) * MM), None);
+            assert_eq!(sweep.bottom(Point2::new(12.1, 3.0) * MM), None);
+        }
+    }
+}
+
+#[test]
+fn parallel_passes_of_a_ball_leave_scallops() {
+    let (radius, apart) = (5.0, 2.0);
+    let mut stock = stock_mm([0.0, 0.0, -10.0], [30.0, 30.0, 0.0], 0.1);
+    for pass in 0..8 {
+        let y = 8.0 + apart * f64::from(pass);
+        step(
+            &mut stock,
+            [-6.0, y, -3.0],
+            [36.0, y, -3.0],
+            &cutter_mm(10.0, 5.0),
+        );
+    }
+    let heights: Vec<f64> = (0..400)
+        .map(|k| 9.0 + 0.03 * f64::from(k))
+        .filter_map(|y| stock.top_at(Point2::new(15.0, y) * MM))
+        .collect();
+    let highest = heights.iter().fold(f64::MIN, |most, &z| most.max(z));
+    let lowest = heights.iter().fold(f64::MAX, |least, &z| least.min(z));
+    // h = R - sqrt(R^2 - (s/2)^2); a cell centre is at most half a pitch off the ridge, where it falls by s/(2 R).
+    let scallop = radius - (radius * radius - apart * apart / 4.0).sqrt();
+    let off = 0.05 * (apart / 2.0) / (radius - scallop);
+    let above = (highest / MM + 3.0) - scallop;
+    assert!(above < 1e-6 && above > -off, "{above}");
+    assert!((lowest / MM + 3.0).abs() < 0.05 * 0.05 / (2.0 * radius) + 1e-6);
+}
+
+#[test]
+fn volumes_converge_with_the_pitch() {
+    let worst = |pitch: f64| {
+        let errors = (0..12).map(|k| {
+            let mut stock = stock_mm([0.0; 3], [24.0, 24.0, 1.0], pitch);
+            let at = 12.0 + 0.073 * f64::from(k);
+            let cutter = cutter_mm(10.0, 0.0);
+            let bite = step(&mut stock, [at, 12.03, 2.0], [at, 12.03, 0.0], &cutter);
+            (bite.volume / (PI * 25.0 * MM.powi(3)) - 1.0).abs()
+        });
+        errors.fold(0.0, f64::max)
+    };
+    let errors = [1.0, 0.5, 0.25, 0.125].map(worst);
+    for (k, error) in errors.iter().enumerate() {
+        // First order at least: rim times half a pitch over the disc is pitch/R.
+        assert!(*error < 0.5_f64.powi(k as i32) / 5.0, "{errors:?}");
+    }
+    assert!(errors[3] < errors[0] / 8.0, "{errors:?}");
+}
+
+#[test]
+fn a_cutter_larger_than_the_box_takes_all_of_it_above_its_tip_and_never_more() {
+    let mut stock = stock_mm([0.0; 3], [10.0, 7.0, 5.0], 0.3);
+    let cutter = cutter_mm(80.0, 0.0);
+    let face = step(&mut stock, [-50.0, 3.0, 3.0], [60.0, 3.0, 3.0], &cutter);
+    assert!((face.volume / MM.powi(3) - 140.0).abs() < 1e-4, "{face:?}");
+    let through = step(&mut stock, [-50.0, 3.0, -9.0], [60.0, 3.0, -9.0], &cutter);
+    assert!((through.volume / MM.powi(3) - 210.0).abs() < 1e-4, "{through:?}");
+    assert_eq!(stock.volume(), 0.0);
+    assert_eq!(stock.top_at(Point2::new(5.0, 5.0) * MM), Some(0.0));
+    assert_eq!(stock.top_at(Point2::new(5.0, 7.1) * MM), None);
+    assert_eq!(
+        step(&mut stock, [-50.0, 3.0, -9.0], [60.0, 3.0, -9.0], &cutter).volume,
+        0.0
+    );
+}
+
+#[test]
+fn boxes_that_cannot_be_are_refused() {
+    let boxed =
+        |low: [f64; 3], high: [f64; 3], pitch: f64| Stock::new([low.into(), high.into()], pitch).unwrap_err();
+    let one = [1.0; 3];
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert_eq!(
+            boxed([0.0, bad, 0.0], one, 0.1),
+            StockError::NotFinite("a corner of the stock")
+        );
+        assert_eq!(
+            boxed([0.0; 3], [1.0, 1.0, bad], 0.1),
+            StockError::NotFinite("a corner of the stock")
+        );
+        assert_eq!(
+            boxed([0.0; 3], one, bad),
+            StockError::NotFinite("the pitch of the stock")
+        );
+    }
+    for pitch in [0.0, -0.1, 1e-300] {
+        assert!(
+            matches!(boxed([0.0; 3], one, pitch), StockError::Pitch { .. }),
+            "{pitch}"
+        );
+    }
+    for (high, axis) in [
+        ([0.0, 1.0, 1.0], 'x'),
+        ([1.0, -1.0, 1.0], 'y'),
+        ([1.0, 1.0, 0.0], 'z'),
+    ] {
+        let refused = boxed([0.0; 3], high, 0.1);
+        assert!(
+            matches!(refused, StockError::Box { axis: told, .. } if told == axis),
+            "{refused}"
+        );
+    }
+    assert!(matches!(
+        boxed([0.0; 3], one, 5e-5),
+        StockError::TooManyCells { .. }
+    ));
+    assert!(matches!(boxed([-1e300; 3], one, 0.1), StockError::TooFar { .. }));
+}
+
+#[test]
+fn points_that_cannot_be_and_tools_that_lean_are_refused_and_cut_nothing() {
+    let mut stock = stock_mm([0.0; 3], [10.0, 10.0, 5.0], 0.5);
+    let (full, cutter) = (stock.volume(), cutter_mm(4.0, 0.0));
+    let (from, to) = (Point3::new(0.0, 5.0, 2.0) * MM, Point3::new(5.0, 5.0, 2.0) * MM);
+    let good = arriving(from, to);
+    let nowhere = Point3::new(f64::NAN, 0.0, 0.0);
+    assert!(stock.cut(nowhere, &good, &cutter).is_err());
+    assert!(
+        stock
+            .cut(from, &PathPoint { at: nowhere, ..good }, &cutter)
+            .is_err()
+    );
+    let far = Point3::new(1e300, 0.0, 0.0);
+    assert!(matches!(
+        stock.cut(far, &good, &cutter),
+        Err(StockError::TooFar { .. })
+    ));
+    let lost = Unit::new_unchecked(Vector3::new(f64::NAN, 0.0, 0.0));
+    assert!(
+        stock
+            .cut(
+                from,
+                &PathPoint {
+                    direction: lost,
+                    ..good
+                },
+                &cutter
+            )
+            .is_err()
+    );
+    for lean in [0.5_f64, 90.0, 180.0] {
+        let (sin, cos) = lean.to_radians().sin_cos();
+        let axis = Some(Unit::new_unchecked(Vector3::new(0.0, sin, cos)));
+        let refused = stock.cut(from, &PathPoint { axis, ..good }, &cutter);
+        let Err(StockError::Tilted { angle_deg }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert!((angle_deg - lean).abs() < 1e-9);
+    }
+    assert_eq!(stock.volume(), full);
+    let upright = PathPoint {
+        axis: Some(Vector3::z_axis()),
+        ..good
+    };
+    assert!(stock.cut(from, &upright, &cutter).unwrap().volume > 0.0);
+}
+
+#[test]
+fn places_and_cutters_at_the_ends_of_what_is_allowed_cut_without_fault() {
+    let mut stock = stock_mm([0.0; 3], [10.0, 10.0, 5.0], 0.5);
+    let places = [-FARTHEST, -1.0, 0.0, 0.005, FARTHEST];
+    for cutter in [
+        (1e-12, 0.0),
+        (1e-12, 5e-13),
+        (FARTHEST, 0.0),
+        (FARTHEST, 1.0),
+        (f64::MIN_POSITIVE * 2.0, 0.0),
+    ] {
+        let cutter = CutterProfile::new(cutter.0, cutter.1).unwrap();
+        for x in places {
+            for z in places {
+                let (from, to) = (Point3::new(-x, x, z), Point3::new(x, z, -z));
+                let bite = stock.cut(from, &arriving(from, to), &cutter).unwrap();
+                let told = [
+                    bite.entry,
+                    bite.exit,
+                    bite.axial_depth,
+                    bite.radial_depth,
+                    bite.volume,
+                ];
+                assert!(
+                    told.iter().all(|value| value.is_finite() && *value >= 0.0),
+                    "{bite:?}"
+                );
+            }
+        }
+    }
+}
