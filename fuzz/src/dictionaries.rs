@@ -87,3 +87,7 @@ pub const LOAD_TESTS: &[&str] = &[
     "dx_um", "dy_mm", "dz_m", "d_u_mm", "joint", "turn_urad", "turn_mrad", "turn_deg", "turn_u_urad", "force_x_mm", "force_z_m",
     "gauge_y_um", "gauge_z_mm", "weight", "note", "expected_dz_mm", ";", ",", "\t", "#", "\"", "1e308", "1e-320", "nan", "inf", "-0",
 ];
+
+/// What a reading is made of, and numbers at the edge.
+#[rustfmt::skip]
+pub const PENDANT: &[&str] = &["=", ",", "0,0,0,1,0,0,0", "-0.0", "1e9", "1e200", "1e308", "1e-320", "nan", "inf", "-", "+"];

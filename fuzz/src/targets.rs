@@ -47,7 +47,7 @@ pub const TARGETS: &[Target] = &[
     target("chain", verdicts::chain, fixtures::chain, &["chain", "fsf"], words::CHAIN),
     target("format", verdicts::format, fixtures::named, &[], words::FORMAT),
     target("load-tests", verdicts::load_tests, fixtures::load_tests, &["csv"], words::LOAD_TESTS),
-    target("pendant", verdicts::pendant, fixtures::pendant, &[], &[]),
+    target("pendant", verdicts::pendant, fixtures::pendant, &[], words::PENDANT),
     // Tool paths: gcode, apt, csv.
     // Measurements: dynoware, csv.
     // Material files.

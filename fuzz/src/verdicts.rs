@@ -35,32 +35,36 @@ pub fn study(bytes: &[u8]) {
 
 /// Our own robot file.
 pub fn armill(bytes: &[u8]) {
-    robot(bytes, Path::new("arm.toml"), Format::Armill);
+    judge_ours(read_as(bytes, Path::new("arm.toml"), Format::Armill));
 }
 
 /// URDF.
 pub fn urdf(bytes: &[u8]) {
-    robot(bytes, Path::new("arm.urdf"), Format::Urdf);
+    judge_foreign(read_as(bytes, Path::new("arm.urdf"), Format::Urdf));
 }
 
 /// xacro.
 pub fn xacro(bytes: &[u8]) {
-    robot(bytes, &Path::new(NOWHERE).join("arm.xacro"), Format::Xacro);
+    judge_foreign(read_as(
+        bytes,
+        &Path::new(NOWHERE).join("arm.xacro"),
+        Format::Xacro,
+    ));
 }
 
 /// OPW parameters.
 pub fn opw(bytes: &[u8]) {
-    robot(bytes, Path::new("arm.yaml"), Format::Opw);
+    judge_foreign(read_as(bytes, Path::new("arm.yaml"), Format::Opw));
 }
 
 /// A Denavit-Hartenberg table.
 pub fn dh(bytes: &[u8]) {
-    robot(bytes, Path::new("arm.dh"), Format::Dh);
+    judge_foreign(read_as(bytes, Path::new("arm.dh"), Format::Dh));
 }
 
 /// A chain of elementary motions.
 pub fn chain(bytes: &[u8]) {
-    robot(bytes, Path::new("arm.chain"), Format::Chain);
+    judge_foreign(read_as(bytes, Path::new("arm.chain"), Format::Chain));
 }
 
 /// A file whose format is to be found out: its ending on the first line, its content after that.
@@ -72,13 +76,12 @@ pub fn format(bytes: &[u8]) {
     let (ending, content) = bytes.split_at(end);
     let ending = String::from_utf8_lossy(ending).replace(['/', '\\', '\0'], "");
     let path = PathBuf::from(format!("{NOWHERE}/arm.{ending}"));
-    let read = format::read(
-        &path,
-        "arm",
-        content.get(1..).unwrap_or_default(),
-        &Wanted::default(),
-    );
-    judge(read);
+    let content = content.get(1..).unwrap_or_default();
+    let read = format::read(&path, "arm", content, &Wanted::default());
+    match Format::of(&path, "") {
+        Some(Format::Armill) => judge_ours(read),
+        _ => judge_foreign(read),
+    }
 }
 
 /// A table of load tests.
@@ -117,16 +120,27 @@ pub fn pendant(bytes: &[u8]) {
     }
 }
 
-fn robot(bytes: &[u8], path: &Path, format: Format) {
+fn read_as(bytes: &[u8], path: &Path, format: Format) -> Result<RobotDescription, Problems> {
     let wanted = Wanted {
         format: Some(format),
         tip: None,
     };
-    judge(format::read(path, "arm", bytes, &wanted));
+    format::read(path, "arm", bytes, &wanted)
 }
 
-/// A robot can be posed, written as ours, and read again as the same.
-fn judge(read: Result<RobotDescription, Problems>) {
+/// A robot of ours can be posed.
+fn judge_ours(read: Result<RobotDescription, Problems>) {
+    match read {
+        Err(problems) => refused(&problems),
+        Ok(found) => {
+            let pose = flange(&found.robot);
+            assert!(pose.iter().all(|value| value.is_finite()), "{pose}");
+        }
+    }
+}
+
+/// A robot of another format can be posed, written as ours, and read again as the same.
+fn judge_foreign(read: Result<RobotDescription, Problems>) {
     let found = match read {
         Err(problems) => return refused(&problems),
         Ok(found) => found,

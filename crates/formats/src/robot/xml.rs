@@ -8,6 +8,8 @@ use crate::document::{Problems, Source};
 
 /// More elements, attributes and texts than this are no robot: the largest of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
+/// Attributes of one element: none has ten.
+const MOST_ATTRIBUTES: usize = 200;
 /// Elements within elements: robots have five, xacro with conditions ten. What walks the tree calls itself for each.
 const MOST_LEVELS: usize = 64;
 
@@ -16,6 +18,10 @@ const MOST_LEVELS: usize = 64;
 /// # Errors
 /// What is not well-formed, at its place; elements that nest deeper than [`MOST_LEVELS`].
 pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
+    if let Some(place) = too_many_attributes(source.text()) {
+        let message = format!("an element with more than {MOST_ATTRIBUTES} attributes");
+        return Err(source.problem(place, message, None).into());
+    }
     let options = ParsingOptions {
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
@@ -38,6 +44,20 @@ pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
         }
         None => Ok(document),
     }
+}
+
+/// Where an element begins that has too many attributes, by its quotes: the parser compares each with all others.
+fn too_many_attributes(text: &str) -> Option<Range<usize>> {
+    let mut at = 0;
+    for piece in text.split_inclusive('<') {
+        let quotes = piece.bytes().filter(|byte| matches!(byte, b'"' | b'\'')).count();
+        // Comments hold any text.
+        if quotes > 2 * MOST_ATTRIBUTES && !piece.starts_with(['!', '?']) {
+            return Some(at..at);
+        }
+        at += piece.len();
+    }
+    None
 }
 
 /// Where an element stands that has too many others around it.
