@@ -8,6 +8,7 @@
 mod audit;
 mod bench;
 mod command;
+mod fuzz;
 mod test;
 mod tidy;
 mod validate;
@@ -49,6 +50,11 @@ const CHORES: &[Chore] = &[
         name: "bench",
         about: bench::ABOUT,
         run: bench::run,
+    },
+    Chore {
+        name: "fuzz",
+        about: fuzz::ABOUT,
+        run: fuzz::run,
     },
     Chore {
         name: "audit",

@@ -229,6 +229,24 @@ fn the_text_that_is_mutated_is_good() {
     outcome(GOOD.as_bytes()).unwrap();
 }
 
+#[test]
+fn lists_longer_than_a_person_writes_are_refused() {
+    let tilts: String = (0..1001)
+        .map(|index| format!("{}, ", f64::from(index) * 0.1))
+        .collect();
+    let asks = "[[ask]]\nkind = \"map\"\n".repeat(201);
+    for (text, most) in [
+        (
+            GOOD.replace("tilts_deg = [0, 30]", &format!("tilts_deg = [{tilts}]")),
+            "1000",
+        ),
+        (format!("{GOOD}{asks}"), "200"),
+    ] {
+        let told = study(text.as_bytes()).unwrap_err().to_string();
+        assert!(told.contains(most) && told.contains("entries"), "{told}");
+    }
+}
+
 proptest! {
     #![proptest_config(config(400, 11))]
 

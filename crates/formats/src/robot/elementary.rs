@@ -21,6 +21,7 @@ use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Joint, Motion, Robot};
 
 use self::factors::Factor;
+use super::MOST_JOINTS;
 use super::description::RobotDescription;
 use crate::document::{Problems, Source};
 
@@ -49,6 +50,11 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
         };
         let amount = match argument.joint {
             None => Amount::Constant(constant),
+            Some(_) if joints.len() >= MOST_JOINTS => {
+                let message = format!("more than {MOST_JOINTS} joints move");
+                problems.push(file.problem(place, message, None));
+                break;
+            }
             Some((name, against)) => {
                 if joints.iter().any(|joint| joint.name == name) {
                     let message = format!("joint `{name}` moves a second time");

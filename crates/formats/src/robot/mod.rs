@@ -19,4 +19,8 @@ pub mod xacro;
 mod description;
 mod xml;
 
+/// More joints than this are no serial arm, and what looks at pairs of joints would take long: the longest snake robots
+/// have about thirty. The schema of our own robot file says the same.
+const MOST_JOINTS: usize = 64;
+
 pub use description::{JointNote, RobotDescription, Source, Symbol};

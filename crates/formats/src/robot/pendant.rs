@@ -35,6 +35,9 @@ pub enum Convention {
 /// A quaternion whose length is farther from 1 than this was mistyped: pendants show four digits and more.
 const UNIT: f64 = 1e-2;
 
+/// No pendant shows a larger number, mm or deg; sines and squares of far larger ones are none.
+const LARGEST: f64 = 1e9;
+
 /// Why a reading is none.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PendantError {
@@ -59,6 +62,9 @@ pub enum PendantError {
     /// A quaternion that is not of unit length.
     #[error("the quaternion has length {0:.4}, not 1")]
     NotUnit(f64),
+    /// A number that no pendant shows.
+    #[error("{0:e} is beyond {LARGEST:e}: no length in mm or angle in deg is so large")]
+    TooLarge(f64),
 }
 
 impl Convention {
@@ -98,7 +104,7 @@ impl Convention {
     /// The pose of these numbers, m.
     ///
     /// # Errors
-    /// Another count of numbers; a quaternion that is not of unit length.
+    /// Another count of numbers; a number beyond any pendant's; a quaternion that is not of unit length.
     pub fn pose(self, numbers: &[f64]) -> Result<Isometry, PendantError> {
         let wrong_count = || PendantError::Count {
             convention: self.name(),
@@ -106,6 +112,10 @@ impl Convention {
             expected: if self == Convention::Abb { 7 } else { 6 },
             names: self.numbers(),
         };
+        // Not so written that what is no number passes.
+        if let Some(number) = numbers.iter().find(|number| !(number.abs() <= LARGEST)) {
+            return Err(PendantError::TooLarge(*number));
+        }
         if self == Convention::Abb {
             let [x, y, z, w, i, j, k] = *numbers else {
                 return Err(wrong_count());
@@ -235,6 +245,9 @@ mod tests {
         assert!(told("0,0,0").contains("no `=`"));
         assert!(told("0,zero=1,2,3,4,5,6").contains("`zero`"));
         assert!(told("0,0=1,2,3,4,5,inf").contains("`inf`"));
+        // The square of this overflows, and so the angle of a rotation vector did.
+        let large = reading("0=1,2,3,1e200,0,0", Convention::Ur).unwrap_err();
+        assert_eq!(large, PendantError::TooLarge(1e200));
         assert!(told("0,0=1,2,3").contains("3 numbers of the pose, where kuka has 6"));
     }
 }

@@ -18,8 +18,11 @@ use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
 
 use self::joints::{JointElement, Kind};
 use super::description::RobotDescription;
-use super::xml;
+use super::{MOST_JOINTS, xml};
 use crate::document::{self, Problems};
+
+/// Joints of a chain, fixed ones included: a few stand between two that move.
+const MOST_ELEMENTS: usize = 4 * MOST_JOINTS;
 
 /// A component of an axis below this counts as none: files print six digits and more.
 const ALIGNED: f64 = 1e-9;
@@ -60,9 +63,18 @@ pub fn read_to_tip(
     let mut problems = Vec::new();
     let mut motions = Vec::new();
     let mut moving = Vec::new();
+    if let Some(joint) = chain.joints.get(MOST_ELEMENTS) {
+        let message = format!("the chain has more than {MOST_ELEMENTS} joints, fixed ones included");
+        return Err(file.problem(joint.place.clone(), message, None).into());
+    }
     for joint in &chain.joints {
         motions.extend(displacement(joint));
         match moved(joint, moving.len()) {
+            Ok(Some(_)) if moving.len() >= MOST_JOINTS => {
+                let message = format!("more than {MOST_JOINTS} joints move");
+                problems.push(file.problem(joint.place.clone(), message, None));
+                break;
+            }
             Ok(Some((motion, described))) => {
                 if moving.iter().any(|other: &Joint| other.name == described.name) {
                     let message = format!("another joint is called `{}`", described.name);

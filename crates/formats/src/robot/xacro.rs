@@ -2,15 +2,17 @@
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
 //! includes are looked for beside it and in the packages around it; missing files of colours, materials
-//! and simulation are remarks. What links look like and weigh is dropped before expansion, so that nothing of it can
+//! and simulation are remarks. A file whose macros could grow without bound is refused ([`growth`]). What links look like and weigh is dropped before expansion, so that nothing of it can
 //! fail. Expressions are worked out by the crate `xacro-rs`; `$(env ...)` is not.
 
 mod expand;
 mod flatten;
+mod growth;
 mod packages;
 
 use std::path::Path;
 
+pub use self::expand::EXPANDER;
 use self::flatten::Flat;
 use super::description::RobotDescription;
 use super::urdf;

@@ -8,17 +8,25 @@ use crate::document::{Problems, Source};
 
 /// More elements, attributes and texts than this are no robot: the largest of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
+/// Attributes of one element: none has ten.
+const MOST_ATTRIBUTES: usize = 200;
+/// Elements within elements: robots have five, xacro with conditions ten. What walks the tree calls itself for each.
+const MOST_LEVELS: usize = 64;
 
 /// The tree of an XML text.
 ///
 /// # Errors
-/// What is not well-formed, at its place.
+/// What is not well-formed, at its place; elements that nest deeper than [`MOST_LEVELS`].
 pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
+    if let Some(place) = too_many_attributes(source.text()) {
+        let message = format!("an element with more than {MOST_ATTRIBUTES} attributes");
+        return Err(source.problem(place, message, None).into());
+    }
     let options = ParsingOptions {
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
-    Document::parse_with_options(source.text(), options).map_err(|error| {
+    let document = Document::parse_with_options(source.text(), options).map_err(|error| {
         let at = offset(source.text(), error.pos().row, error.pos().col);
         // The place stands before the message already.
         let text = error.to_string();
@@ -27,10 +35,42 @@ pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
             .map_or(text.as_str(), |(before, _)| before);
         let hint =
             "the XML is broken there or just before: a tag left open, a quote or `<` too many".to_owned();
-        source
-            .problem(at..at, format!("not XML: {message}"), Some(hint))
-            .into()
-    })
+        Problems::from(source.problem(at..at, format!("not XML: {message}"), Some(hint)))
+    })?;
+    match too_deep(&document) {
+        Some(place) => {
+            let message = format!("elements nest deeper than {MOST_LEVELS} levels");
+            Err(source.problem(place, message, None).into())
+        }
+        None => Ok(document),
+    }
+}
+
+/// Where an element begins that has too many attributes, by its quotes: the parser compares each with all others.
+fn too_many_attributes(text: &str) -> Option<Range<usize>> {
+    let mut at = 0;
+    for piece in text.split_inclusive('<') {
+        let quotes = piece.bytes().filter(|byte| matches!(byte, b'"' | b'\'')).count();
+        // Comments hold any text.
+        if quotes > 2 * MOST_ATTRIBUTES && !piece.starts_with(['!', '?']) {
+            return Some(at..at);
+        }
+        at += piece.len();
+    }
+    None
+}
+
+/// Where an element stands that has too many others around it.
+fn too_deep(document: &Document<'_>) -> Option<Range<usize>> {
+    let mut front = vec![(document.root(), 0)];
+    while let Some((node, level)) = front.pop() {
+        if level > MOST_LEVELS {
+            return Some(tag(node));
+        }
+        let inside = node.children().filter(Node::is_element);
+        front.extend(inside.map(|child| (child, level + 1)));
+    }
+    None
 }
 
 /// The byte at a line and column, both counted from 1.

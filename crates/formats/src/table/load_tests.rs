@@ -49,6 +49,10 @@ const OUTSIDE: f64 = 0.0175;
 const TURNS: f64 = 4.0 * std::f64::consts::PI;
 /// All angles below this many degrees were radians: tests so near together tell nothing anyway.
 const RADIANS: f64 = 2.0 * std::f64::consts::PI;
+/// More columns than this are another table: every quantity in every unit comes to fewer.
+const MOST_COLUMNS: usize = 200;
+/// More problems than this are not told: one mistake is in every row.
+const MOST_PROBLEMS: usize = 1000;
 /// No length, angle or force of a test is larger, in the units of the file.
 const LARGEST: f64 = 1e9;
 
@@ -72,6 +76,11 @@ pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> 
         tool_point,
         problems: Vec::new(),
     };
+    if let Some(cell) = sheet.header.get(MOST_COLUMNS) {
+        let message = format!("the table has more than {MOST_COLUMNS} columns");
+        let hint = "one row a test, one column a quantity".to_owned();
+        return Err(source.problem(cell.span.clone(), message, Some(hint)).into());
+    }
     let columns = Columns::of(&source, &sheet, robot, &mut reader.problems);
     let mut found = LoadTests {
         tests: Vec::new(),
@@ -80,6 +89,9 @@ pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> 
         uncertainties_stated: true,
     };
     for row in &sheet.rows {
+        if reader.problems.len() >= MOST_PROBLEMS {
+            break;
+        }
         reader.row(row, &sheet, &columns, &mut found);
     }
     reader.angles(&sheet, &columns);

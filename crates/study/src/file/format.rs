@@ -45,9 +45,11 @@ pub struct StudyFile {
     /// How the arm stands.
     pub posture: Option<PostureTable>,
     /// What is asked; one map of the plane if left out.
+    #[schemars(length(max = 200))]
     #[serde(default)]
     pub ask: Vec<AskTable>,
     /// Figures published by others, to stand beside ours.
+    #[schemars(length(max = 1000))]
     #[serde(default)]
     pub statement: Vec<StatementTable>,
 }
@@ -273,10 +275,10 @@ pub struct AskTable {
     /// Another posture.
     pub posture: Option<PostureTable>,
     /// Sections: the x coordinate of the plane's centre, one a section.
-    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    #[schemars(length(max = 1000), inner(range(min = -1e6, max = 1e6)))]
     pub distances_mm: Option<Vec<f64>>,
     /// Sections: the tilt of the plane, one a section.
-    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    #[schemars(length(max = 1000), inner(range(min = -360.0, max = 360.0)))]
     pub tilts_deg: Option<Vec<f64>>,
     /// Volume: the box of points.
     #[serde(rename = "box")]

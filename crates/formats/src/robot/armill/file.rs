@@ -24,14 +24,18 @@ pub(super) struct RobotFile {
     /// Elementary motions from base to flange.
     pub chain: ChainTable,
     /// Joints, in the order of the chain.
+    #[schemars(length(max = 64))]
     pub joint: Vec<JointEntry>,
     /// Frames that positions may be counted from, beside base_link.
+    #[schemars(length(max = 1000))]
     #[serde(default)]
     pub frame: Vec<FrameEntry>,
     /// What yields beside the drives.
+    #[schemars(length(max = 1000))]
     #[serde(default)]
     pub spring: Vec<SpringTable>,
     /// What gravity pulls on.
+    #[schemars(length(max = 1000))]
     #[serde(default)]
     pub mass: Vec<MassTable>,
     /// The spring that holds a joint against gravity.
@@ -50,6 +54,7 @@ pub(super) struct ChainTable {
     /// Key of the source of the lengths and angles.
     pub source: String,
     /// Elementary motions, base to flange.
+    #[schemars(length(max = 1000))]
     pub motions: Vec<MotionEntry>,
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use armill_core::robot::chain::LONGEST;
 
+use super::super::MOST_JOINTS;
 use super::table::{Cell, Table};
 use crate::document::{Problems, Source};
 
@@ -59,6 +60,9 @@ const UNITS: [(&str, Kind); 4] = [
     ("_rad", Kind::Angle),
 ];
 
+/// Rows of a table, fixed ones included.
+const MOST_ROWS: usize = MOST_JOINTS;
+
 /// Angles beyond two turns, rad, are degrees under the wrong name.
 const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
@@ -91,6 +95,11 @@ pub(super) fn read(file: &Source, table: &Table) -> Result<Vec<Row>, Problems> {
     }
     Problems::from(problems).into_result()?;
 
+    if let Some(row) = table.rows.get(MOST_ROWS) {
+        let place = row.first().map_or(0..0, |cell| cell.place.clone());
+        let message = format!("the table has more than {MOST_ROWS} rows");
+        return Err(file.problem(place, message, None).into());
+    }
     let mut problems = Vec::new();
     let mut rows: Vec<Row> = Vec::new();
     for (index, cells) in table.rows.iter().enumerate() {

@@ -195,3 +195,15 @@ fn every_cell_that_is_wrong_is_told() {
     assert!(refusal("convention = standard\n").contains("no header"));
     assert!(refusal("convention = standard\na_m, alpha_deg, d_m, theta_deg\n").contains("no row"));
 }
+
+#[test]
+fn a_table_of_more_rows_than_any_arm_has_is_refused() {
+    let rows = |count: usize| {
+        format!(
+            "convention = standard\na_mm alpha_deg d_mm theta_deg\n{}",
+            "0 0 0 0\n".repeat(count)
+        )
+    };
+    assert!(refusal(&rows(65)).contains("more than 64 rows"));
+    assert!(read("a.dh", "a", &rows(64)).is_ok());
+}

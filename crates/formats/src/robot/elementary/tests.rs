@@ -104,3 +104,14 @@ fn every_word_that_is_no_factor_is_told() {
     assert!(refusal("Tz(450)").contains("no joint"));
     assert!(refusal("H = tall\nTz(H) Rz(q1)").contains("`H = tall` defines nothing"));
 }
+
+#[test]
+fn more_joints_than_any_arm_has_are_refused() {
+    let chain = |count: usize| {
+        (0..count)
+            .map(|joint| format!("Rz(q{joint}) "))
+            .collect::<String>()
+    };
+    assert!(refusal(&chain(65)).contains("more than 64 joints move"));
+    assert!(read("a.chain", "a", &chain(64)).is_ok());
+}

@@ -102,3 +102,21 @@ fn a_format_that_is_said_goes_before_the_ending_and_tips_are_for_links() {
         .to_string();
     assert!(text.contains("--tip"), "{text}");
 }
+
+#[test]
+fn elements_that_nest_without_end_are_refused_before_anything_walks_them() {
+    let deep = |levels: usize| {
+        format!(
+            "<robot xmlns:xacro=\"http://ros.org/wiki/xacro\">{}{}</robot>",
+            "<a>".repeat(levels),
+            "</a>".repeat(levels)
+        )
+    };
+    for path in ["a.urdf", "/nowhere/a.xacro"] {
+        // Far more than any stack holds.
+        let text = read_as(path, deep(300_000).as_bytes()).unwrap_err();
+        assert!(text.contains("nest deeper than 64 levels"), "{text}");
+        let text = read_as(path, deep(63).as_bytes()).unwrap_err();
+        assert!(!text.contains("nest deeper"), "{text}");
+    }
+}

@@ -44,6 +44,9 @@ pub(super) struct JointElement {
     pub child_place: Range<usize>,
 }
 
+/// More joints than this are no machine: a whole cell has a few hundred.
+const MOST_ELEMENTS: usize = 10_000;
+
 /// Every `<joint>` below the root.
 ///
 /// # Errors
@@ -51,7 +54,11 @@ pub(super) struct JointElement {
 pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement>, Problems> {
     let mut problems = Vec::new();
     let mut joints = Vec::new();
-    for node in children(root, "joint") {
+    for (index, node) in children(root, "joint").enumerate() {
+        if index == MOST_ELEMENTS {
+            let message = format!("the file has more than {MOST_ELEMENTS} joints");
+            return Err(file.problem(tag(node), message, None).into());
+        }
         match joint(file, node) {
             Ok(joint) => joints.push(joint),
             Err(found) => problems.extend(found),

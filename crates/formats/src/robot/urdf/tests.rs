@@ -241,3 +241,39 @@ fn the_link_base_is_the_frame_of_the_controller() {
     assert_eq!(frame.base_from_frame.translation.vector.z, 0.45);
     assert!((frame.base_from_frame.rotation.angle() - 0.3).abs() < 1e-15);
 }
+
+#[test]
+fn more_joints_and_attributes_than_any_arm_has_are_refused() {
+    let chain = |count: usize, kind: &str| {
+        let joints = (0..count).map(|index| {
+            format!(
+                "<joint name=\"j{index}\" type=\"{kind}\"><parent link=\"l{index}\"/><child link=\"l{}\"/></joint>",
+                index + 1
+            )
+        });
+        let links = (0..=count).map(|index| format!("<link name=\"l{index}\"/>"));
+        format!(
+            "<robot name=\"r\">{}{}</robot>",
+            links.collect::<String>(),
+            joints.collect::<String>()
+        )
+    };
+    let refusal = |text: &str| read("r.urdf", "r", text).unwrap_err().to_string();
+    assert!(read("r.urdf", "r", &chain(64, "continuous")).is_ok());
+    assert!(refusal(&chain(65, "continuous")).contains("more than 64 joints move"));
+    assert!(refusal(&chain(257, "fixed")).contains("more than 256 joints, fixed ones included"));
+    assert!(refusal(&chain(10_001, "fixed")).contains("more than 10000 joints"));
+    let attributes: String = (0..201).map(|index| format!(" a{index}=\"1\"")).collect();
+    let text = refusal(&format!("<robot{attributes}/>"));
+    assert!(text.contains("more than 200 attributes"), "{text}");
+    // Text in a comment is no attribute.
+    let comment = format!("<robot name=\"r\"><!--{}-->", "''".repeat(300));
+    assert!(
+        read(
+            "r.urdf",
+            "r",
+            &chain(2, "continuous").replace("<robot name=\"r\">", &comment)
+        )
+        .is_ok()
+    );
+}

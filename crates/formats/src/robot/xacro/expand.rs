@@ -6,15 +6,18 @@ use std::path::{Path, PathBuf};
 use xacro_rs::extensions::ExtensionHandler;
 use xacro_rs::{XacroError, XacroProcessor};
 
-use super::packages;
+use super::super::xml;
+use super::{growth, packages};
 use crate::document::{Problem, Problems, Source};
 
 /// Brackets within one another in an expression: the evaluator calls itself for each.
 const MOST_BRACKETS: usize = 40;
 /// Room for an expression of that depth, in a build without optimisation.
 const STACK_BYTES: usize = 64 << 20;
+/// Name of the thread that works expressions out: a panic there becomes a problem of the file.
+pub const EXPANDER: &str = "xacro";
 /// A longer text is no robot: the longest of ROS-Industrial has 20 kB without meshes.
-const LONGEST_BYTES: usize = 16 << 20;
+const LONGEST_BYTES: usize = 4 << 20;
 
 /// The expanded text.
 ///
@@ -35,9 +38,14 @@ pub(super) fn expand(
             return Err(problem.into());
         }
     }
+    let flat = Source::new(main.name(), &xml);
+    if let Some(message) = growth::refusal(xml::parse(&flat)?.root_element()) {
+        return Err(placed(main, included, &message).into());
+    }
     let folder = path.parent().unwrap_or(Path::new(".")).to_owned();
     // A thread of its own has the stack that the evaluator needs, and keeps a fault of it from ending the program.
     let worker = std::thread::Builder::new()
+        .name(EXPANDER.to_owned())
         .stack_size(STACK_BYTES)
         .spawn(move || {
             let processor = XacroProcessor::builder()

@@ -287,7 +287,7 @@ impl Writer<'_> {
     }
 }
 
-fn is_xacro(node: Node<'_, '_>) -> bool {
+pub(super) fn is_xacro(node: Node<'_, '_>) -> bool {
     node.tag_name()
         .namespace()
         .is_some_and(|uri| uri.contains("xacro"))

@@ -177,3 +177,93 @@ fn a_tip_that_is_not_there_lists_the_links() {
         "{text}"
     );
 }
+
+/// A robot of one joint whose file also holds `more`.
+fn with(more: &str) -> String {
+    MACRO
+        .replace(
+            "</robot>",
+            &format!("{more}<xacro:maker_arm prefix=\"\"/></robot>"),
+        )
+        .replace("http://wiki.ros.org/xacro", "http://ros.org/wiki/xacro")
+}
+
+#[test]
+fn macros_that_double_at_every_level_are_refused_at_once() {
+    let doubling: String = (1..45)
+        .map(|level| {
+            let below = level - 1;
+            format!("<xacro:macro name=\"m{level}\"><xacro:m{below}/><xacro:m{below}/></xacro:macro>")
+        })
+        .collect();
+    let bottom = "<xacro:macro name=\"m0\"><link name=\"x\"/></xacro:macro>";
+    let text = refusal(&with(&format!("{bottom}{doubling}<xacro:m44/>")));
+    assert!(text.contains("may expand to more than 1 MiB"), "{text}");
+    assert!(text.contains("expand it with ROS"), "{text}");
+    // As many levels that do not double are fine.
+    let single: String = (1..40)
+        .map(|level| {
+            let below = level - 1;
+            format!("<xacro:macro name=\"m{level}\"><xacro:m{below}/></xacro:macro>")
+        })
+        .collect();
+    let text = with(&format!("{bottom}{single}<xacro:m39/>"));
+    let found = expand(Path::new("/nowhere/arm.xacro"), &text);
+    assert!(found.unwrap().urdf.contains("<link name=\"x\""));
+}
+
+#[test]
+fn a_macro_that_calls_itself_twice_is_refused_and_once_under_a_condition_is_not() {
+    let own = |calls: &str| {
+        with(&format!(
+            "<xacro:macro name=\"row\" params=\"n\"><link name=\"l${{n}}\"/>\
+             <xacro:if value=\"${{n > 0}}\">{calls}</xacro:if></xacro:macro><xacro:row n=\"5\"/>"
+        ))
+    };
+    let call = "<xacro:row n=\"${n - 1}\"/>";
+    let found = expand(Path::new("/nowhere/arm.xacro"), &own(call)).unwrap();
+    assert!(found.urdf.contains("\"l5\"") && found.urdf.contains("\"l0\""));
+    let text = refusal(&own(&call.repeat(2)));
+    assert!(text.contains("`row` may expand to more than"), "{text}");
+}
+
+#[test]
+fn blocks_that_double_and_values_that_double_are_refused() {
+    let twice = "<xacro:insert_block name=\"b\"/>".repeat(2);
+    let nested = format!(
+        "<xacro:macro name=\"two\" params=\"**b\">{twice}</xacro:macro>{}<x><link name=\"x\"/></x>{}",
+        "<xacro:two><x>".repeat(22),
+        "</x></xacro:two>".repeat(22)
+    );
+    let text = refusal(&with(&nested));
+    assert!(text.contains("may expand to more than"), "{text}");
+    let values: String = (1..60)
+        .map(|level| {
+            let below = level - 1;
+            format!("<xacro:property name=\"p{level}\" value=\"${{p{below}}}${{p{below}}}\"/>")
+        })
+        .collect();
+    let text = refusal(&with(&format!(
+        "<xacro:property name=\"p0\" value=\"x\"/>{values}<link name=\"${{p59}}\"/>"
+    )));
+    assert!(text.contains("may grow longer than 64 KiB"), "{text}");
+}
+
+#[test]
+fn expressions_that_make_much_of_little_are_refused() {
+    for (value, words) in [
+        ("${'a'.zfill(99999999999)}", "`zfill` is not understood"),
+        (
+            "${(lambda f: f(f))(lambda f: f(f))}",
+            "`lambda` is not understood",
+        ),
+        ("${[x for x in [1, 2]]}", "`for` is not understood"),
+        ("$", "a `$` begins an expression"),
+    ] {
+        let text = refusal(&with(&format!("<xacro:property name=\"p\" value=\"{value}\"/>")));
+        assert!(text.contains(words), "{text}");
+    }
+    let long = format!("${{1{}}}", " + 1".repeat(1000));
+    let text = refusal(&with(&format!("<link name=\"{long}\"/><joint name=\"{long}\"/>")));
+    assert!(text.contains("longer than 2000 bytes"), "{text}");
+}

@@ -170,3 +170,17 @@ fn no_text_makes_it_panic() {
         assert!(table(text).is_err(), "{text:?}");
     }
 }
+
+#[test]
+fn a_table_that_is_wrong_everywhere_is_not_told_in_full() {
+    let wide = "x,".repeat(200) + "x\n1\n";
+    assert!(problems(&wide).contains("more than 200 columns"));
+    let long = format!("A1_deg,A2_deg,Z_mm,fz_n,dz_mm\n{}", "a,b,c,d,e\n".repeat(5000));
+    let told = table(&long).unwrap_err();
+    // One row may bring several beyond the thousand.
+    assert!(
+        (1000..1010).contains(&told.as_slice().len()),
+        "{}",
+        told.as_slice().len()
+    );
+}

@@ -1,0 +1,286 @@
+//! How much a xacro can grow to, worked out before anything is expanded: a macro that calls another twice, which does
+//! the same, is a few lines that fill any memory.
+//!
+//! ```text
+//! length(value)  <= its own letters + a number for each `$` + the lengths of the values that it names
+//! bytes(element) <= its own letters + its attributes + its children; of a call, the body; of insert_block, the block
+//! ```
+//!
+//! Both are followed as deep as the evaluator goes, with every condition taken as true, and the greatest where a name
+//! has several values. What recurs once a level grows by its own size a level; what recurs twice doubles, and is refused.
+//!
+//! Expressions that make much of little (`lambda`, comprehensions, padding) are refused: no robot needs them.
+
+use std::collections::BTreeMap;
+
+use roxmltree::Node;
+
+use super::flatten::is_xacro;
+
+/// More text than this is no robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
+const MOST_BYTES: u64 = 1 << 20;
+/// A longer value is no name and no list of numbers.
+const LONGEST_VALUE: u64 = 64 << 10;
+/// A longer expression is none that a person wrote; the evaluator calls itself for each sign.
+const LONGEST_EXPRESSION: usize = 2000;
+/// Digits of a number, sign and exponent included.
+const NUMBER: u64 = 32;
+/// Levels that the evaluator of `xacro-rs` follows values through, and macros within macros.
+const LEVELS: usize = 100;
+
+/// Elements of xacro that are no calls.
+const DIRECTIVES: [&str; 7] = [
+    "property",
+    "arg",
+    "macro",
+    "if",
+    "unless",
+    "insert_block",
+    "include",
+];
+/// What an expression may not use: functions of the file's own, loops, and methods that lengthen a text.
+const REFUSED: [&str; 11] = [
+    "lambda",
+    "for",
+    "center",
+    "expandtabs",
+    "format",
+    "join",
+    "ljust",
+    "replace",
+    "rjust",
+    "translate",
+    "zfill",
+];
+
+/// What stands against expanding the document, if anything does; names stand in quotes.
+pub(super) fn refusal(root: Node<'_, '_>) -> Option<String> {
+    let texts = root.descendants().flat_map(|node| {
+        let attributes = node.attributes().map(|attribute| attribute.value());
+        attributes.chain(node.is_text().then(|| node.text().unwrap_or_default()))
+    });
+    texts
+        .into_iter()
+        .find_map(refused_expression)
+        .or_else(|| too_long(root).err())
+}
+
+/// An expression in `text` that is not worked out whatever its values are.
+fn refused_expression(text: &str) -> Option<String> {
+    for (at, _) in text.match_indices('$') {
+        let rest = text.get(at + 1..).unwrap_or_default();
+        // To the last bracket: braces and quotes may hold others.
+        let expression = match rest.chars().next() {
+            Some('{') => rest.rsplit_once('}').map_or(rest, |(inside, _)| inside),
+            Some('(') => rest.rsplit_once(')').map_or(rest, |(inside, _)| inside),
+            // It could make an expression of what is none.
+            _ => {
+                return Some(format!(
+                    "`{text}`: a `$` begins an expression, `${{...}}` or `$(...)`"
+                ));
+            }
+        };
+        if expression.len() > LONGEST_EXPRESSION {
+            let shown: String = expression.chars().take(LONGEST_EXPRESSION / 50).collect();
+            return Some(format!(
+                "the expression `{shown}` ... is longer than {LONGEST_EXPRESSION} bytes"
+            ));
+        }
+        if let Some(word) = words(expression).find(|word| REFUSED.contains(word)) {
+            return Some(format!("`{word}` is not understood in the expression `{text}`"));
+        }
+    }
+    None
+}
+
+/// Refuses values and macros that could grow beyond all need.
+fn too_long(root: Node<'_, '_>) -> Result<(), String> {
+    let lengths = Lengths::of(root)?;
+    let mut sizes = Sizes::default();
+    for _ in 0..LEVELS {
+        let next = sizes.one_level_deeper(root, &lengths);
+        let too_large = next.bodies.iter().find(|(_, bytes)| **bytes > MOST_BYTES);
+        if let Some((name, _)) = too_large {
+            return Err(format!("macro `{name}` may expand to more than {}", megabytes()));
+        }
+        let same = next.bodies == sizes.bodies && next.blocks == sizes.blocks;
+        sizes = next;
+        if same {
+            break;
+        }
+    }
+    match sizes.of_children(root, &lengths) {
+        bytes if bytes > MOST_BYTES => Err(format!("the file may expand to more than {}", megabytes())),
+        _ => Ok(()),
+    }
+}
+
+fn megabytes() -> String {
+    format!("{} MiB of joints", MOST_BYTES >> 20)
+}
+
+/// The names in a text: words of letters, digits and `_`.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_'))
+        .filter(|word| !word.is_empty())
+}
+
+/// How long a value can be, by the name of its property, argument or parameter.
+struct Lengths<'a>(BTreeMap<&'a str, u64>);
+
+impl<'a> Lengths<'a> {
+    /// # Errors
+    /// The name whose value may grow too long.
+    fn of(root: Node<'a, '_>) -> Result<Lengths<'a>, String> {
+        let mut values: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+        for node in root.descendants().filter(|node| is_xacro(*node)) {
+            match node.tag_name().name() {
+                "property" | "arg" => {
+                    let given = ["value", "default"].into_iter();
+                    let given = given.filter_map(|of| node.attribute(of));
+                    values
+                        .entry(node.attribute("name").unwrap_or_default())
+                        .or_default()
+                        .extend(given);
+                }
+                "macro" => {
+                    for (name, default) in parameters(node.attribute("params").unwrap_or_default()) {
+                        values.entry(name).or_default().push(default);
+                    }
+                }
+                name if DIRECTIVES.contains(&name) => {}
+                _ => {
+                    for attribute in node.attributes() {
+                        values
+                            .entry(attribute.name())
+                            .or_default()
+                            .push(attribute.value());
+                    }
+                }
+            }
+        }
+        let mut lengths = Lengths(BTreeMap::new());
+        for _ in 0..LEVELS {
+            let longest = |texts: &Vec<&str>| texts.iter().map(|text| lengths.of_text(text)).max();
+            let next: BTreeMap<&str, u64> = values
+                .iter()
+                .map(|(name, texts)| (*name, longest(texts).unwrap_or_default()))
+                .collect();
+            if let Some((name, _)) = next.iter().find(|(_, length)| **length > LONGEST_VALUE) {
+                return Err(format!(
+                    "the value of `{name}` may grow longer than {} KiB",
+                    LONGEST_VALUE >> 10
+                ));
+            }
+            let same = next == lengths.0;
+            lengths = Lengths(next);
+            if same {
+                break;
+            }
+        }
+        Ok(lengths)
+    }
+
+    /// How long a text can get: any name in it may stand for its value.
+    fn of_text(&self, text: &str) -> u64 {
+        let own = text.len() as u64;
+        if !text.contains('$') {
+            return own;
+        }
+        let numbers = text.matches('$').count() as u64 * NUMBER;
+        let named = words(text).filter_map(|word| self.0.get(word));
+        named.fold(own + numbers, |sum, length| sum.saturating_add(*length))
+    }
+}
+
+/// Each parameter of a macro with its default.
+fn parameters(text: &str) -> Vec<(&str, &str)> {
+    let mut quote = None;
+    let mut depth = 0_usize;
+    let ends = |c: char| {
+        match (quote, c) {
+            (Some(open), _) if open == c => quote = None,
+            (Some(_), _) => {}
+            (None, '\'' | '"') => quote = Some(c),
+            (None, '{' | '(') => depth += 1,
+            (None, '}' | ')') => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        c.is_whitespace() && quote.is_none() && depth == 0
+    };
+    let all = text.split(ends).filter(|one| !one.is_empty());
+    all.map(|one| match one.split_once('=') {
+        Some((name, default)) => (name.trim_end_matches(':'), default),
+        None => (one, ""),
+    })
+    .collect()
+}
+
+/// How many bytes macros and blocks can come to, by name, as far as levels have been followed.
+#[derive(Default)]
+struct Sizes<'a> {
+    bodies: BTreeMap<&'a str, u64>,
+    blocks: BTreeMap<&'a str, u64>,
+}
+
+impl<'a> Sizes<'a> {
+    fn one_level_deeper(&self, root: Node<'a, '_>, lengths: &Lengths<'_>) -> Sizes<'a> {
+        let mut next = Sizes::default();
+        let mut given: BTreeMap<&str, u64> = BTreeMap::new();
+        let greater = |all: &mut BTreeMap<&'a str, u64>, name: &'a str, bytes: u64| {
+            let known = all.entry(name).or_default();
+            *known = bytes.max(*known);
+        };
+        for node in root.descendants().filter(|node| is_xacro(*node)) {
+            let name = node.attribute("name").unwrap_or_default();
+            match node.tag_name().name() {
+                "macro" => greater(&mut next.bodies, name, self.of_children(node, lengths)),
+                "property" => greater(&mut next.blocks, name, self.of_children(node, lengths)),
+                called if DIRECTIVES.contains(&called) => {}
+                called => greater(&mut given, called, self.of_children(node, lengths)),
+            }
+        }
+        // A parameter of a macro is a block if a call has something inside.
+        for node in root.descendants().filter(|node| is_xacro(*node)) {
+            let called = node.attribute("name").unwrap_or_default();
+            if let Some(bytes) = given.get(called).filter(|_| node.tag_name().name() == "macro") {
+                for (name, _) in parameters(node.attribute("params").unwrap_or_default()) {
+                    greater(&mut next.blocks, name.trim_start_matches('*'), *bytes);
+                }
+            }
+        }
+        next
+    }
+
+    fn of_children(&self, node: Node<'_, '_>, lengths: &Lengths<'_>) -> u64 {
+        node.children()
+            .map(|child| self.of(child, lengths))
+            .fold(0, u64::saturating_add)
+    }
+
+    fn of(&self, node: Node<'_, '_>, lengths: &Lengths<'_>) -> u64 {
+        if !node.is_element() {
+            return lengths.of_text(node.text().unwrap_or_default());
+        }
+        let tag = node.tag_name().name();
+        let inside = || self.of_children(node, lengths);
+        if !is_xacro(node) {
+            let attributes = node.attributes().map(|attribute| {
+                (attribute.name().len() as u64).saturating_add(lengths.of_text(attribute.value()))
+            });
+            let own = 2 * tag.len() as u64;
+            return attributes.fold(own.saturating_add(inside()), u64::saturating_add);
+        }
+        let of = |all: &BTreeMap<&str, u64>, name: &str| all.get(name).copied().unwrap_or_default();
+        match tag {
+            "property" | "arg" | "macro" => 0,
+            "insert_block" => match node.attribute("name").unwrap_or_default() {
+                // Any block may be meant.
+                name if name.contains('$') => self.blocks.values().copied().max().unwrap_or_default(),
+                name => of(&self.blocks, name),
+            },
+            "if" | "unless" => inside(),
+            called => inside().saturating_add(of(&self.bodies, called)),
+        }
+    }
+}

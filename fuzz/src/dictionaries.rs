@@ -1,0 +1,93 @@
+//! Pieces of text that random bytes would not hit: keys, tags, words, numbers at the edge.
+
+/// Keys and words of a study file.
+#[rustfmt::skip]
+pub const STUDY: &[&str] = &[
+    "format = 1\n", "robot = \"yaskawa/mh12\"\n", "robot = \"kuka/lbr-iiwa-14-r820\"\n", "base = \"controller\"\n", "limit_um = ",
+    "[compliance]\n", "rad_per_n_m = ", "u_rad_per_n_m = ", "class = \"light\"\n", "assumed = true\n", "source = \"\"\n",
+    "[tool]\n", "flange_from_tool_mm_deg = ", "diameter_mm = ", "stick_out_mm = ", "modulus_gpa = ", "material = ",
+    "[plane]\n", "centre_mm = ", "tilt_deg = ", "rotation_deg = ", "half_size_mm = ", "step_mm = ", "[load]\n",
+    "frame = \"part\"\n", "cases_n = [[", "moments_n_m = [[", "u_percent = ", "u_n = ", "[posture]\n", "branch = ", "home_deg = ",
+    "[positioner]\n", "base_from_root_mm_deg = ", "joints_deg = ", "[[ask]]\n", "kind = \"map\"\n", "kind = \"sections\"\n",
+    "kind = \"volume\"\n", "kind = \"path\"\n", "distances_mm = ", "tilts_deg = ", "box = { ", "circle = { ", "line = { ",
+    "polyline_mm = [[", "rectangle = { ", "radius_mm = ", "from_mm = ", "to_mm = ", "size_mm = ", "[[statement]]\n", "of = [",
+    "[stiffness]\n", "[[stiffness.spring]]\n", "gravity = true\n", "load_dependent = true\n", "best", "nominal", "flip", "rear",
+    "nan", "inf", "1e308", "1e-320", "-0.0", "'''", "\"\"\"", "\\u0000", "0x7fffffffffffffff", "{}", "[]", "[[", "]]",
+];
+
+/// Keys and words of our robot file.
+#[rustfmt::skip]
+pub const ROBOT: &[&str] = &[
+    "format = 1\n", "name = ", "nominal_branch = \"front elbow-up\"\n", "[chain]\n", "motions = [\n", "{ along = \"x\", length_mm = ",
+    "{ about = \"z\", joint = \"", "angle_deg = ", "symbol = \"", "[[joint]]\n", "sign = -1\n", "zero_offset_deg = ",
+    "zero_offset_mm = ", "limits_deg = [", "limits_mm = [", "max_speed_deg_per_s = ", "compliance_rad_per_n_m = ",
+    "compliance_u_rad_per_n_m = ", "compliance_um_per_n = ", "compliance_u_um_per_n = ", "compliance_source = ", "coupling = { of = ",
+    "factor = ", "[[frame]]\n", "rotation_deg = [", "origin_mm = [", "[[spring]]\n", "at = \"base\"\n", "at = \"flange\"\n",
+    "compliance_matrix = ", "[[mass]]\n", "mass_kg = ", "centre_mm = [", "payload = true\n", "[compensator]\n", "free_length_mm = ",
+    "stiffness_n_per_mm = ", "arm_radius_mm = ", "fixed_radius_mm = ", "torque_curve_n_m_rad = [[", "torque_curve_falling_n_m_rad = [[",
+    "[covariance]\n", "of = [", "hysteresis = ", "[[source]]\n", "key = ", "what = ", "place = ", "licence = ", "nan", "inf", "1e308",
+    "1e-320", "-0.0", "'''", "{}", "[]",
+];
+
+/// Tags and attributes of URDF.
+#[rustfmt::skip]
+pub const URDF: &[&str] = &[
+    "<robot name=\"", "</robot>", "<link name=\"", "<joint name=\"", "</joint>", " type=\"revolute\">", "continuous", "prismatic",
+    "fixed", "floating", "planar", "<parent link=\"", "<child link=\"", "<origin xyz=\"", " rpy=\"", "<axis xyz=\"", "<limit lower=\"",
+    " upper=\"", " velocity=\"", " effort=\"", "<mimic joint=\"", "\"/>", "tool0", "flange", "base_link", "base", "<!DOCTYPE x [",
+    "<!ENTITY e \"", "&e;", "]>", "&lt;", "&#0;", "<![CDATA[", "]]>", "<!--", "-->", "<?xml version=\"1.0\"?>", "xmlns=\"", "nan",
+    "inf", "1e308", "1e-320",
+];
+
+/// What xacro adds.
+#[rustfmt::skip]
+pub const XACRO: &[&str] = &[
+    " xmlns:xacro=\"http://www.ros.org/wiki/xacro\"", "<xacro:property name=\"", " value=\"${", " default=\"", " scope=\"parent\"",
+    "<xacro:arg name=\"", "<xacro:macro name=\"", " params=\"", "</xacro:macro>", "<xacro:insert_block name=\"", "<xacro:if value=\"",
+    "</xacro:if>", "<xacro:unless value=\"", "<xacro:include filename=\"", "<xacro:call macro=\"", ":=", ":=^", ":=^|", "**", "$(arg ",
+    "$(find ", "$(env ", "$(cwd)", "${", "}", "$${", "radians(", "degrees(", "pi", " if ", " else ", " and ", " not ", "lambda x: ",
+    " for x in ", "range(", "len(", "str(", "int(", "['", "']", "<joint name=\"", "<parent link=\"", "<child link=\"", "<link name=\"",
+    "<origin xyz=\"", "<axis xyz=\"", "\"/>", "&quot;", "<robot name=\"", "</robot>",
+];
+
+/// Keys of OPW parameters.
+#[rustfmt::skip]
+pub const OPW: &[&str] = &[
+    "opw_kinematics_geometric_parameters:\n", "opw_kinematics_joint_offsets:", "opw_kinematics_joint_sign_corrections:", "deg(",
+    "rad(", "  a1: ", "  a2: ", "  b: ", "  c1: ", "  c2: ", "  c3: ", "  c4: ", "  - ", "[", "]", "{", "}", "---\n", "&a ", "*a", "!!float ",
+    "|\n", ">\n", "#", "\"", "'", ".inf", ".nan", "1e308",
+];
+
+/// Words of a Denavit-Hartenberg table.
+#[rustfmt::skip]
+pub const DH: &[&str] = &[
+    "convention = standard\n", "convention = modified\n", "name = ", "joint", "type", "sign", "a_mm", "a_m", "alpha_deg", "alpha_rad",
+    "d_mm", "d_m", "theta_deg", "theta_rad", "lower_deg", "upper_deg", "lower_mm", "upper_mm", "revolute", "prismatic", "fixed", "; ",
+    ", ", "\t", "\"", "#", "nan", "inf", "1e308", "-1",
+];
+
+/// Factors of a chain.
+#[rustfmt::skip]
+pub const CHAIN: &[&str] = &[
+    "Tx(", "Ty(", "Tz(", "Rx(", "Ry(", "Rz(", "A1(", "A^2(", "A3(", "A4(", "A5(", "A^6(", "q1", "-q2", "90-q3", "phi", "H = 450\n", "A = ",
+    " * ", ")", "#", "1e308", "1e-320", "−", "°",
+];
+
+/// Endings, and what tells formats apart.
+#[rustfmt::skip]
+pub const FORMAT: &[&str] = &[
+    "toml\n", "urdf\n", "xacro\n", "xml\n", "yaml\n", "yml\n", "dh\n", "csv\n", "chain\n", "fsf\n", "txt\n", "step\n", "<robot", "<xacro:",
+    "xmlns:xacro", "convention", "alpha", "\u{feff}", "\u{fffd}", "\r", "\0",
+];
+
+/// Columns of a table of load tests.
+#[rustfmt::skip]
+pub const LOAD_TESTS: &[&str] = &[
+    "test", "S_deg", "L_deg", "U_deg", "R_deg", "B_deg", "T_deg", "q1_rad", "fx_n", "fy_kn", "fz_n", "mx_n_m", "my_n_m", "mz_n_m",
+    "dx_um", "dy_mm", "dz_m", "d_u_mm", "joint", "turn_urad", "turn_mrad", "turn_deg", "turn_u_urad", "force_x_mm", "force_z_m",
+    "gauge_y_um", "gauge_z_mm", "weight", "note", "expected_dz_mm", ";", ",", "\t", "#", "\"", "1e308", "1e-320", "nan", "inf", "-0",
+];
+
+/// What a reading is made of, and numbers at the edge.
+#[rustfmt::skip]
+pub const PENDANT: &[&str] = &["=", ",", "0,0,0,1,0,0,0", "-0.0", "1e9", "1e200", "1e308", "1e-320", "nan", "inf", "-", "+"];

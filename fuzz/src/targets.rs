@@ -1,0 +1,54 @@
+//! Which parsers there are: name, what reads the bytes, what the bytes may look like.
+
+use crate::dictionaries as words;
+use crate::fixtures;
+use crate::verdicts;
+
+/// One parser.
+pub struct Target {
+    /// What `cargo xtask fuzz` calls it.
+    pub name: &'static str,
+    /// Reads one input; a panic is a finding.
+    pub read: fn(&[u8]),
+    /// Good inputs to begin with.
+    pub seeds: fn() -> Vec<Vec<u8>>,
+    /// Sample files with these endings are seeds too.
+    pub endings: &'static [&'static str],
+    /// Pieces of text that random bytes would not hit.
+    pub words: &'static [&'static str],
+}
+
+const fn target(
+    name: &'static str,
+    read: fn(&[u8]),
+    seeds: fn() -> Vec<Vec<u8>>,
+    endings: &'static [&'static str],
+    words: &'static [&'static str],
+) -> Target {
+    Target {
+        name,
+        read,
+        seeds,
+        endings,
+        words,
+    }
+}
+
+/// Every parser; a new one is a line here, its seeds in `fixtures`, and a function in `verdicts` if its result is of a
+/// new kind.
+#[rustfmt::skip]
+pub const TARGETS: &[Target] = &[
+    target("study", verdicts::study, fixtures::studies, &["toml"], words::STUDY),
+    target("robot", verdicts::armill, fixtures::robots, &["toml"], words::ROBOT),
+    target("urdf", verdicts::urdf, fixtures::urdf, &["urdf"], words::URDF),
+    target("xacro", verdicts::xacro, fixtures::xacro, &["xacro"], words::XACRO),
+    target("opw", verdicts::opw, fixtures::opw, &["yaml", "yml"], words::OPW),
+    target("dh", verdicts::dh, fixtures::dh, &["dh"], words::DH),
+    target("chain", verdicts::chain, fixtures::chain, &["chain", "fsf"], words::CHAIN),
+    target("format", verdicts::format, fixtures::named, &[], words::FORMAT),
+    target("load-tests", verdicts::load_tests, fixtures::load_tests, &["csv"], words::LOAD_TESTS),
+    target("pendant", verdicts::pendant, fixtures::pendant, &[], words::PENDANT),
+    // Tool paths: gcode, apt, csv.
+    // Measurements: dynoware, csv.
+    // Material files.
+];

@@ -1,0 +1,76 @@
+//! The fuzzing program: built with counters at every branch, asked which targets it has.
+
+use super::{FOLDER, built};
+use crate::command::{cargo, command_line};
+use std::ffi::{OsStr, OsString};
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked, since
+/// safe Rust needs none to see a fault.
+const FLAGS: &[&str] = &[
+    "--cfg=fuzzing",
+    "-Cpasses=sancov-module",
+    // Edges, calls and counters.
+    "-Cllvm-args=-sanitizer-coverage-level=4",
+    "-Cllvm-args=-sanitizer-coverage-inline-8bit-counters",
+    "-Cllvm-args=-sanitizer-coverage-pc-table",
+    // Both sides of comparisons, so that words and numbers are guessed.
+    "-Cllvm-args=-sanitizer-coverage-trace-compares",
+    // Branches that were folded together could not be told apart.
+    "-Cllvm-args=-simplifycfg-branch-fold-threshold=0",
+    // The pass wants a crate in one piece.
+    "-Ccodegen-units=1",
+];
+
+/// Between flags in the variable that cargo reads.
+const BETWEEN: &str = "\x1f";
+
+/// Builds the program and gives its path.
+///
+/// # Errors
+/// What the compiler says stands on stderr; here, that it failed.
+pub fn program() -> Result<OsString, String> {
+    let host = host()?;
+    let folder = Path::new(FOLDER).join("build");
+    let mut command = cargo(&["build", "--release", "--manifest-path", "fuzz/Cargo.toml"]);
+    // With a target named, the flags are for our code alone, not for build scripts.
+    command.args(["--target", &host]);
+    command.env("CARGO_TARGET_DIR", &folder);
+    command.env("CARGO_ENCODED_RUSTFLAGS", FLAGS.join(BETWEEN));
+    eprintln!("building fuzz/ with coverage counters; the first time takes minutes");
+    let status = command.status();
+    let status = status.map_err(|problem| format!("cargo does not start: {problem}"))?;
+    if !status.success() {
+        return Err("fuzz/ does not build; libFuzzer needs a C++ compiler".to_owned());
+    }
+    Ok(built(&folder, &host))
+}
+
+/// The names of all targets, as the program tells them.
+///
+/// # Errors
+/// The program does not run.
+pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
+    let mut command = Command::new(program);
+    let printed = said(command.env_remove("ARMILL_FUZZ_TARGET"))?;
+    Ok(printed.lines().map(str::to_owned).collect())
+}
+
+/// The machine that rustc builds for when nobody says otherwise.
+fn host() -> Result<String, String> {
+    let printed = said(Command::new("rustc").arg("-vV"))?;
+    let host = printed.lines().find_map(|line| line.strip_prefix("host: "));
+    host.map(str::to_owned)
+        .ok_or_else(|| "rustc -vV names no host".to_owned())
+}
+
+fn said(command: &mut Command) -> Result<String, String> {
+    let line = command_line(command);
+    let ran = command.stderr(Stdio::inherit()).output();
+    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
+    match output.status.success() {
+        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
+        false => Err(format!("{line} failed")),
+    }
+}

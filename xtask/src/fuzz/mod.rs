@@ -1,0 +1,216 @@
+//! Hostile input: every parser under coverage-guided fuzzing, one after another.
+//!
+//! `fuzz/` holds what runs: a Cargo package of its own with libFuzzer, one program for all parsers. Here it is built
+//! with the compiler's coverage counters ([`build`]), called for each target, and what it says is read ([`said`]).
+//! All that is written lies under `target/fuzz/`: `corpus/TARGET/` (kept from run to run), `crashes/TARGET/`,
+//! `dictionaries/`, `build/`.
+
+mod build;
+mod said;
+
+use crate::command::command_line;
+use crate::{COULD_NOT_RUN, FOUND_WRONG};
+use said::Said;
+use std::ffi::OsString;
+use std::fs;
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+
+/// What `--help` says.
+pub const ABOUT: &str =
+    "Feeds hostile input to the parsers: [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE.";
+
+/// Where everything lies that a run writes.
+const FOLDER: &str = "target/fuzz";
+/// Time for each target where none is said, s.
+const SECONDS: u32 = 60;
+/// An input that takes longer is a finding, s: users wait for none of these parsers.
+const LONGEST_S: u32 = 10;
+/// A parser that takes more memory is a finding, MiB.
+const MOST_MIB: u32 = 2048;
+/// Inputs are no longer: 64 KiB hold any robot and any study, and longer ones run slowly.
+const LONGEST_BYTES: u32 = 64 << 10;
+
+/// What was asked for.
+#[derive(Debug, PartialEq)]
+struct Options {
+    target: Option<String>,
+    seconds: u32,
+    jobs: u32,
+    input: Option<String>,
+}
+
+/// Builds, runs one target or all, prints a row for each.
+pub fn run(arguments: &[String]) -> ExitCode {
+    let Some(options) = options(arguments) else {
+        eprintln!("usage: cargo xtask fuzz [TARGET] [--seconds N] [--jobs N] | TARGET --input FILE");
+        return ExitCode::from(COULD_NOT_RUN);
+    };
+    match fuzzed(&options) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::from(FOUND_WRONG),
+        Err(problem) => {
+            eprintln!("{problem}");
+            ExitCode::from(COULD_NOT_RUN)
+        }
+    }
+}
+
+fn options(arguments: &[String]) -> Option<Options> {
+    let mut options = Options {
+        target: None,
+        seconds: SECONDS,
+        jobs: 1,
+        input: None,
+    };
+    let mut arguments = arguments.iter();
+    while let Some(argument) = arguments.next() {
+        match argument.as_str() {
+            "--seconds" => options.seconds = positive(arguments.next()?)?,
+            "--jobs" => options.jobs = positive(arguments.next()?)?,
+            "--input" => options.input = Some(arguments.next()?.clone()),
+            name if !name.starts_with('-') && options.target.is_none() => {
+                options.target = Some(name.to_owned());
+            }
+            _ => return None,
+        }
+    }
+    // An input is for one parser.
+    (options.input.is_none() || options.target.is_some()).then_some(options)
+}
+
+fn positive(text: &str) -> Option<u32> {
+    text.parse().ok().filter(|number| *number > 0)
+}
+
+/// Whether nothing was found.
+fn fuzzed(options: &Options) -> Result<bool, String> {
+    let program = build::program()?;
+    let all = build::targets(&program)?;
+    let chosen: Vec<&String> = match &options.target {
+        Some(name) => all.iter().filter(|target| *target == name).collect(),
+        None => all.iter().collect(),
+    };
+    if chosen.is_empty() {
+        return Err(format!("no such target; there are {}", all.join(", ")));
+    }
+    let mut sound = true;
+    let mut rows = Vec::new();
+    for target in chosen {
+        let mut command = Command::new(&program);
+        command.env("ARMILL_FUZZ_TARGET", target);
+        let said = match &options.input {
+            Some(file) => watch(command.args(limits()).arg(file))?,
+            None => {
+                let crashes = format!("{FOLDER}/crashes/{target}/");
+                fs::create_dir_all(&crashes)
+                    .map_err(|problem| format!("cannot create {crashes}: {problem}"))?;
+                watch(
+                    command
+                        .env("ARMILL_FUZZ_FOLDER", FOLDER)
+                        .args(campaign(target, &crashes, options)),
+                )?
+            }
+        };
+        if !said.passed {
+            sound = false;
+            if let Some(file) = said.written.as_ref().or(options.input.as_ref()) {
+                println!("{target}: FOUND {file}\n  repeat: cargo xtask fuzz {target} --input {file}");
+            } else {
+                println!("{target}: FAILED without an input; see above");
+            }
+        }
+        rows.push(said.row(target));
+    }
+    if options.input.is_none() {
+        println!("{}{}", said::HEADING, rows.concat());
+    }
+    Ok(sound)
+}
+
+/// What libFuzzer is told for a run over time.
+fn campaign(target: &str, crashes: &str, options: &Options) -> Vec<String> {
+    let mut arguments = limits();
+    arguments.push(format!("{FOLDER}/corpus/{target}"));
+    arguments.push(format!("-dict={FOLDER}/dictionaries/{target}.dict"));
+    arguments.push(format!("-artifact_prefix={crashes}"));
+    arguments.push(format!("-max_total_time={}", options.seconds));
+    arguments.push("-print_final_stats=1".to_owned());
+    if options.jobs > 1 {
+        arguments.push(format!("-fork={}", options.jobs));
+    }
+    arguments
+}
+
+/// Time, memory and length of one input.
+fn limits() -> Vec<String> {
+    vec![
+        format!("-timeout={LONGEST_S}"),
+        format!("-rss_limit_mb={MOST_MIB}"),
+        format!("-max_len={LONGEST_BYTES}"),
+    ]
+}
+
+/// Runs it, passes on what a person wants to see of its talk, and keeps what it counted.
+fn watch(command: &mut Command) -> Result<Said, String> {
+    let line = command_line(command);
+    eprintln!("+ {line}");
+    let spawned = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
+    let mut child = spawned.map_err(|problem| format!("{line} does not start: {problem}"))?;
+    let mut said = Said::default();
+    if let Some(talk) = child.stderr.take() {
+        // An input may be printed as it is, so that the talk need not be UTF-8.
+        for line in BufReader::new(talk).split(b'\n').map_while(Result::ok) {
+            let line = String::from_utf8_lossy(&line);
+            if said.hear(&line) {
+                eprintln!("{line}");
+            }
+        }
+    }
+    let status = child.wait().map_err(|problem| format!("{line}: {problem}"))?;
+    said.passed = status.success();
+    Ok(said)
+}
+
+/// The path of the program that cargo built in `folder` for `host`.
+fn built(folder: &Path, host: &str) -> OsString {
+    let name = format!("armill-fuzz{}", std::env::consts::EXE_SUFFIX);
+    folder.join(host).join("release").join(name).into_os_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn asked(line: &str) -> Option<Options> {
+        options(&line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn options_are_understood_and_unknown_ones_refused() {
+        let found = asked("urdf --seconds 5 --jobs 2");
+        assert!(found.is_some_and(|found| found.target.as_deref() == Some("urdf")
+            && found.seconds == 5
+            && found.jobs == 2));
+        assert!(asked("").is_some_and(|found| found.target.is_none() && found.seconds == SECONDS));
+        for line in [
+            "urdf dh",
+            "--seconds",
+            "--seconds 0",
+            "--jobs x",
+            "--fast",
+            "--input a",
+        ] {
+            assert_eq!(asked(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn limits_hold_for_a_campaign_and_for_one_input() {
+        let options = asked("dh").unwrap();
+        let arguments = campaign("dh", "target/fuzz/crashes/dh/", &options);
+        assert!(limits().iter().all(|limit| arguments.contains(limit)));
+        assert!(!arguments.iter().any(|argument| argument.starts_with("-fork")));
+    }
+}

@@ -1,0 +1,115 @@
+//! What libFuzzer says of a run: how much was tried, how much was reached, where a finding lies.
+
+/// The heading over all rows.
+pub const HEADING: &str = "target        verdict   executions   per s   edges   features   inputs\n";
+
+/// What a run came to.
+#[derive(Debug, Default, PartialEq)]
+pub struct Said {
+    /// Whether it ended without a finding.
+    pub passed: bool,
+    /// The input of the finding.
+    pub written: Option<String>,
+    executions: u64,
+    per_second: u64,
+    edges: u64,
+    features: u64,
+    /// Inputs kept since each reached something new.
+    inputs: u64,
+}
+
+impl Said {
+    /// Takes in a line; whether a person wants to see it.
+    pub fn hear(&mut self, line: &str) -> bool {
+        if let Some((_, file)) = line.split_once("Test unit written to ") {
+            self.written = Some(file.trim().to_owned());
+            return true;
+        }
+        let Some(progress) = line.strip_prefix('#') else {
+            if let Some(total) = line.strip_prefix("stat::number_of_executed_units:") {
+                self.executions = total.trim().parse().unwrap_or(self.executions);
+            }
+            let talk = ["INFO: ", "stat::", "\t", "Recommended", "\"", "#"];
+            return !line.trim().is_empty() && !talk.iter().any(|start| line.starts_with(start));
+        };
+        let mut words = progress.split_whitespace().peekable();
+        // `#1234`, or `#1234:` of many processes.
+        let executed = words
+            .next()
+            .and_then(|word| word.trim_end_matches(':').parse().ok());
+        self.executions = executed.unwrap_or(self.executions);
+        while let Some(word) = words.next() {
+            let Some(value) = words.peek().and_then(|next| leading_number(next)) else {
+                continue;
+            };
+            match word {
+                "cov:" => self.edges = value,
+                "ft:" => self.features = value,
+                "corp:" => self.inputs = value,
+                // Of many processes the number of the last second comes first, the mean in brackets.
+                "exec/s:" | "exec/s" => self.per_second = value,
+                _ => {}
+            }
+        }
+        // Each new input has a line; these two begin and end the run.
+        ["INITED", "DONE"].iter().any(|word| progress.contains(word))
+    }
+
+    /// One line for a person.
+    pub fn row(&self, target: &str) -> String {
+        format!(
+            "{target:<14}{:<10}{:>10}{:>8}{:>8}{:>11}{:>9}\n",
+            if self.passed { "ok" } else { "FOUND" },
+            self.executions,
+            self.per_second,
+            self.edges,
+            self.features,
+            self.inputs
+        )
+    }
+}
+
+/// The number that `12/34Kb` begins with.
+fn leading_number(word: &str) -> Option<u64> {
+    let end = word.find(|c: char| !c.is_ascii_digit()).unwrap_or(word.len());
+    word.get(..end)?.parse().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_those_of_the_last_line() {
+        let mut said = Said::default();
+        assert!(!said.hear("#8\tNEW    cov: 2 ft: 3 corp: 2/10b lim: 4 exec/s: 0 rss: 30Mb L: 4/4 MS: 1 X-"));
+        assert!(said.hear("#524288\tDONE   cov: 310 ft: 1200 corp: 45/2Kb lim: 64 exec/s: 9000 rss: 40Mb"));
+        assert!(!said.hear("stat::number_of_executed_units: 524290"));
+        let row = said.row("dh");
+        for number in ["524290", "9000", " 310", "1200", " 45"] {
+            assert!(row.contains(number), "{row}");
+        }
+        assert_eq!(
+            row.lines().next().map(str::len),
+            HEADING.lines().next().map(str::len)
+        );
+    }
+
+    #[test]
+    fn many_processes_tell_the_same_numbers_in_other_words() {
+        let mut said = Said::default();
+        said.hear("#4137: cov: 512 ft: 900 corp: 30 exec/s: 1200 oom/timeout/crash: 0/0/0 time: 4s job: 2 dft_time: 0");
+        let row = said.row("dh");
+        for number in ["4137", "1200", " 512", " 900", " 30"] {
+            assert!(row.contains(number), "{row}");
+        }
+    }
+
+    #[test]
+    fn a_finding_is_told_with_its_file() {
+        let mut said = Said::default();
+        assert!(said.hear("artifact_prefix='x/'; Test unit written to target/fuzz/crashes/dh/crash-12ab"));
+        assert_eq!(said.written.as_deref(), Some("target/fuzz/crashes/dh/crash-12ab"));
+        assert!(said.hear("thread '<unnamed>' panicked at src/a.rs:1:2:"));
+    }
+}
