@@ -6,8 +6,9 @@ use std::f64::consts::{PI, TAU};
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Arc, Course, Move, Pace, Program};
 use armill_formats::document::{Problem, Problems};
+use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{
-    self, LengthUnit, Options, Rotaries, Rotary, Summary, Tool, ToolTable, Warning, interpret,
+    self, Options, Rotaries, Rotary, Summary, Tool, ToolTable, Warning, interpret,
 };
 
 fn read(program: &str, options: &Options<'_>) -> Result<(Program, Summary), Problems> {
