@@ -27,7 +27,7 @@ fn a_new_study_is_commented_and_runs_for_every_robot_of_the_library() {
             );
             cell.file(
                 &format!("{folder}/study.toml"),
-                &known.replace("source = \"\"", "source = \"made up here\""),
+                known.replace("source = \"\"", "source = \"made up here\""),
             );
         }
         cell.armill(&["check", &folder]).fine();

@@ -378,7 +378,7 @@ mod tests {
             assert!(arm.moves_freely(), "{name}");
             let (mut most, mut returned) = (0, 0);
             for k in 1..=2000 {
-                let angle = |step: f64| 3.14 * (2.0 * (f64::from(k) * step).fract() - 1.0);
+                let angle = |step: f64| 3.1 * (2.0 * (f64::from(k) * step).fract() - 1.0);
                 let theta = [angle(0.819_173), angle(0.671_044), angle(0.549_700)];
                 let (goal, columns) = arm.place(&theta);
                 let found = arm.bring_to(&goal, 0.0, 0.0);
