@@ -39,5 +39,5 @@ pub use law::CuttingLaw;
 pub use mean::MeanForce;
 pub use mechanistic::Mechanistic;
 pub use milling::{Cut, Milling, Peak};
-pub use process::{Advance, CuttingForce, FeedFrame, Process};
+pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};

@@ -1,19 +1,18 @@
-//! A tool that mills on its way: cutter, law, cut, feed and spindle to a force, and the force to wrenches in base.
+//! A tool that mills on its way: cutter, law, cut, feed and spindle to a force.
 //!
-//!     z = -tool axis,   x = the feed less its part along z, made a unit vector,   y = z x x
 //!     rise = asin(feed . z)          c = c_f cos(rise),  c_z = c_f sin(rise)
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | x, y, z | feed frame: along the feed, to its left, from part to spindle | - |
+//! | x, y, z | feed frame: along the feed, to its left, from part to spindle ([`crate::path::placing`]) | - |
 //! | `rise` | how steeply the feed leaves the plane across the tool axis, towards the spindle | rad |
 //! | `c_f` | feed per tooth | m |
 //!
-//! The force turns with the path. A dive steeper than 30 deg is refused: the edges on the bottom cut then, and they are
+//! A dive steeper than 30 deg is refused: the edges on the bottom cut then, and they are
 //! not modelled; a straight plunge of a drill is [`super::drilling`]. The force acts at the TCP; the moment that the
 //! spindle's torque makes, and the lever of the depth of cut, are left out.
 
-use nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Unit, Vector3};
 
 use super::cutter::Cutter;
 use super::engagement::{Engagement, Immersion, feed_per_tooth};
@@ -21,8 +20,6 @@ use super::error::CuttingError;
 use super::law::CuttingLaw;
 use super::mean::MeanForce;
 use super::milling::{Cut, Milling, Peak};
-use crate::frame::tool_orientation;
-use crate::spatial::Wrench;
 
 /// What mills, and how. Not checked before it is asked for a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,15 +60,6 @@ pub struct CuttingForce {
     pub peak: Peak,
     /// Covariance of the mean, N².
     pub covariance: Matrix3<f64>,
-}
-
-/// The feed frame in base, and how the tool advances in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FeedFrame {
-    /// Turns feed components into base components.
-    pub base_from_feed: UnitQuaternion<f64>,
-    /// How the tool advances.
-    pub advance: Advance,
 }
 
 /// Steepest dive, rad.
@@ -137,43 +125,23 @@ fn plunge(dive: f64) -> CuttingError {
     }
 }
 
-impl FeedFrame {
-    /// The feed frame of a tool that moves along `feed` with its axis along `tool_axis` (from spindle to part); base.
-    pub fn in_base(feed: Unit<Vector3<f64>>, tool_axis: Unit<Vector3<f64>>) -> FeedFrame {
-        let z = -tool_axis.into_inner();
-        let up = feed.dot(&z);
-        let across = feed.into_inner() - z * up;
-        if across.norm() < ALONG_AXIS {
-            return FeedFrame {
-                base_from_feed: tool_orientation(-tool_axis, 0.0),
-                advance: if up < 0.0 {
-                    Advance::Plunge
-                } else {
-                    Advance::Withdrawal
-                },
+impl Advance {
+    /// How a tool advances that moves along `feed` and whose `spindle` lies that way from its tip; the same axes for both.
+    pub fn of(feed: &Unit<Vector3<f64>>, spindle: &Unit<Vector3<f64>>) -> Advance {
+        let up = feed.dot(spindle);
+        let across = (feed.into_inner() - spindle.into_inner() * up).norm();
+        if across < ALONG_AXIS {
+            return if up < 0.0 {
+                Advance::Plunge
+            } else {
+                Advance::Withdrawal
             };
         }
-        let x = across.normalize();
-        let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
-        FeedFrame {
-            base_from_feed: UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
-            advance: if up.abs() < LEVEL {
-                Advance::Level
-            } else {
-                Advance::Ramp(up.atan2(across.norm()))
-            },
+        if up.abs() < LEVEL {
+            Advance::Level
+        } else {
+            Advance::Ramp(up.atan2(across))
         }
-    }
-
-    /// A force told in the feed frame (N) as the wrench on the tool at the TCP, base.
-    pub fn wrench(&self, force: Vector3<f64>) -> Wrench {
-        Wrench::from_force(self.base_from_feed * force)
-    }
-
-    /// A covariance told in the feed frame (N²), in base.
-    pub fn covariance(&self, covariance: Matrix3<f64>) -> Matrix3<f64> {
-        let turn = self.base_from_feed.to_rotation_matrix().into_inner();
-        turn * covariance * turn.transpose()
     }
 }
 

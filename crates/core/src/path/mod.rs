@@ -2,11 +2,12 @@
 //!
 //! [`shape`]: circles and lines on a workpiece plane. [`program`]: what a tool path program tells, move after move.
 //! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned.
-//! [`cutter_profile`], [`stock`] and [`bite`]: what the cutter meets on its way. [`roundness`](mod@roundness) and
+//! [`cutter_profile`], [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`]: what that pushes with. [`roundness`](mod@roundness) and
 //! [`feature`]: the circle, line, plane or hole that comes out.
 
 pub mod bite;
 pub mod cutter_profile;
+pub mod cutting;
 pub mod feature;
 pub mod placing;
 pub mod program;
@@ -17,9 +18,10 @@ pub mod stock;
 
 pub use bite::{Bite, BiteKind, Milling};
 pub use cutter_profile::CutterProfile;
+pub use cutting::{Cutting, CuttingForces, NoForces};
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
-pub use program::{Arc, Course, Engagement, Move, Operation, Pace, Program, Step};
+pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Program, Step};
 pub use roundness::{Roundness, roundness};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::{Sample, Shape};

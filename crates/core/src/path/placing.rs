@@ -12,6 +12,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::sampler::PathPoint;
 use crate::frame::{Isometry, tool_orientation};
+use crate::load::Advance;
 
 /// How the tool is turned about its own axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,6 +70,14 @@ impl Placing {
             .across(point)
             .unwrap_or_else(|| self.base_from_tool(point) * Vector3::x());
         Rotation3::from_matrix_unchecked(Matrix3::from_columns(&[x, z.cross(&x), z]))
+    }
+
+    /// How the tool advances at `point`: across its axis, on a ramp, along it.
+    pub fn advance(&self, point: &PathPoint) -> Advance {
+        Advance::of(
+            &(self.base_from_path.rotation * point.direction),
+            &self.spindle(point),
+        )
     }
 
     /// Where the tip goes across the tool, base; `None` in a plunge.

@@ -14,7 +14,7 @@ pub enum Step {
     Move(Move),
 }
 
-/// A stretch of the program with one tool, one spindle speed and one engagement.
+/// A stretch of the program with one tool, one spindle speed and one depth of cut.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Operation {
     /// What the program calls it, or its tool.
@@ -28,18 +28,18 @@ pub struct Operation {
     /// Speed of the spindle, rad/s; clockwise seen from the spindle is positive.
     pub spindle: Option<f64>,
     /// How deep the cutter goes, where the program tells it.
-    pub engagement: Option<Engagement>,
+    pub depths: Option<DepthOfCut>,
     /// Line of the program where it begins, from 1.
     pub line: u32,
 }
 
 /// How deep the cutter is in the material.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Engagement {
+pub struct DepthOfCut {
     /// Along the tool, m.
-    pub axial_depth: f64,
+    pub axial: f64,
     /// Across the tool and the feed, m.
-    pub radial_depth: f64,
+    pub radial: f64,
 }
 
 /// A move of the tip.

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use std::io::BufRead;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::path::{Course, Engagement, Move, Operation, Pace, Step};
+use armill_core::path::{Course, DepthOfCut, Move, Operation, Pace, Step};
 
 use crate::document::lines::{Line, Lines};
 use crate::document::unit::suggestion;
@@ -285,7 +285,7 @@ impl Table {
             return;
         }
         match row.said() {
-            Ok((end, axis, engagement)) => self.give(line, row, (end, axis, engagement), out),
+            Ok((end, axis, depths)) => self.give(line, row, (end, axis, depths), out),
             Err((message, hint)) => problems.push(line.problem(path, 0..line.text.len(), message, hint)),
         }
     }
@@ -294,7 +294,7 @@ impl Table {
         &mut self,
         line: &Line,
         row: Row,
-        (end, axis, engagement): (Point3<f64>, Option<Unit<Vector3<f64>>>, Option<Engagement>),
+        (end, axis, depths): (Point3<f64>, Option<Unit<Vector3<f64>>>, Option<DepthOfCut>),
         out: &mut dyn FnMut(Step),
     ) {
         let number = u32::try_from(line.number).unwrap_or(u32::MAX);
@@ -304,7 +304,7 @@ impl Table {
                 .operation
                 .or_else(|| before.and_then(|before| before.name.clone())),
             spindle: row.spindle,
-            engagement,
+            depths,
             line: before.map_or(number, |before| before.line),
             ..Operation::default()
         };
@@ -364,7 +364,7 @@ impl Row {
     }
 
     #[expect(clippy::type_complexity, reason = "three parts of one row")]
-    fn said(&self) -> Result<(Point3<f64>, Option<Unit<Vector3<f64>>>, Option<Engagement>), Wrong> {
+    fn said(&self) -> Result<(Point3<f64>, Option<Unit<Vector3<f64>>>, Option<DepthOfCut>), Wrong> {
         let [Some(x), Some(y), Some(z)] = self.point else {
             return Err((
                 "a point without one of its coordinates".to_owned(),
@@ -392,12 +392,9 @@ impl Row {
                 ));
             }
         };
-        let engagement = match self.depths {
+        let depths = match self.depths {
             [None, None] => None,
-            [Some(axial_depth), Some(radial_depth)] => Some(Engagement {
-                axial_depth,
-                radial_depth,
-            }),
+            [Some(axial), Some(radial)] => Some(DepthOfCut { axial, radial }),
             _ => {
                 return Err((
                     "one depth without the other".to_owned(),
@@ -405,7 +402,7 @@ impl Row {
                 ));
             }
         };
-        Ok((Point3::new(x, y, z), axis, engagement))
+        Ok((Point3::new(x, y, z), axis, depths))
     }
 }
 

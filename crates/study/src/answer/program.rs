@@ -2,6 +2,7 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Held, evaluate};
+use armill_core::load::PathLoad;
 use armill_core::map::{ProgramAnswer, Track};
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
 use armill_core::path::{Became, Strayed, became};
@@ -41,6 +42,12 @@ pub struct ProgramResult {
     pub features: Vec<FeatureResult>,
     /// Where it is worst, each from another part of the path.
     pub worst_points: Vec<WorstPoint>,
+    /// Material of the cut that the forces were computed from; none where load cases were given.
+    pub material: Option<String>,
+    /// Points whose cut has no force: plunges and steep dives, where the bottom of the cutter is not modelled.
+    pub points_without_force: usize,
+    /// Largest mean and largest greatest force along the program, where they were computed from the cut.
+    pub largest_mean_and_peak_n: Option<[f64; 2]>,
     /// What was passed over in the program, or taken for granted.
     pub notes: Vec<String>,
     /// Where a joint jumps from one point to the next.
@@ -170,7 +177,10 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             operations: told.operations(),
             features: told.features(),
             worst_points,
-            notes: ask.summary.notes.clone(),
+            material: ask.cut.as_ref().map(|cut| cut.material.name.clone()),
+            points_without_force: ask.without_force,
+            largest_mean_and_peak_n: told.largest_forces(),
+            notes: told.notes(),
             jumps: told.jumps(),
         }),
     }
@@ -194,6 +204,29 @@ impl Told<'_> {
             let parts = self.track().parts(index, deviation);
             [parts.along, parts.cross, parts.normal]
         })
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = self.ask.summary.notes.clone();
+        if let Some(cut) = &self.ask.cut {
+            notes.push(
+                "forces are those of the same engagement everywhere: what earlier passes took away is not looked at"
+                    .to_owned(),
+            );
+            notes.extend(cut.remarks.iter().cloned());
+        }
+        notes
+    }
+
+    fn largest_forces(&self) -> Option<[f64; 2]> {
+        let PathLoad::OfEach { cases, wrenches } = &self.track().load else {
+            return None;
+        };
+        let largest = |case: usize| {
+            let sizes = wrenches.iter().skip(case).step_by(*cases).map(|w| w.force.norm());
+            sizes.fold(0.0, f64::max)
+        };
+        Some([largest(0), largest(1)])
     }
 
     fn operations(&self) -> Vec<OperationResult> {

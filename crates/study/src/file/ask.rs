@@ -12,12 +12,13 @@ use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
+use super::cut;
 use super::format::{
     AskKind, AskTable, HalfSize, LoadFrameName, LoadTable, PlaneTable, PostureTable, StudyFile,
 };
 use super::memory;
 use super::places::Places;
-use super::program;
+use super::program::{self, Pushes};
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
@@ -87,7 +88,19 @@ impl Resolver<'_> {
         let Some((setting, load)) = setting.zip(load) else {
             return Ok(None);
         };
-        let read = program::read(places, table, self.folder, setting, load)?;
+        // A load of its own stands against the cut of the study.
+        let cut = match (&self.table.cut, &self.table.load) {
+            (Some(own), _) => Some(own),
+            (None, Some(_)) => None,
+            (None, None) => self.file.cut.as_ref(),
+        };
+        let cut = match cut.map(|table| cut::resolve(places, table)) {
+            Some(None) => return Ok(None),
+            Some(cut) => cut,
+            None => None,
+        };
+        let pushes = Pushes { load, cut };
+        let read = program::read(places, table, self.folder, setting, pushes)?;
         Ok(read.map(|read| Subject::Program(Box::new(read))))
     }
 
@@ -211,6 +224,7 @@ impl Resolver<'_> {
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
             ("program", AskKind::Program, t.program.is_some()),
+            ("cut", AskKind::Program, t.cut.is_some()),
         ];
         if t.kind != AskKind::Program && matches!(self.load().frame, Some(LoadFrameName::Feed)) {
             let message = format!("a {} has no feed that a load could turn with", kind_name(t.kind));

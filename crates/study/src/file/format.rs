@@ -6,6 +6,7 @@ use armill_formats::robot::structure::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::cut::CutTable;
 use super::program::ProgramTable;
 use crate::compliance_class::ComplianceClass;
 
@@ -39,6 +40,8 @@ pub struct StudyFile {
     pub plane: PlaneTable,
     /// The load on the tool.
     pub load: LoadTable,
+    /// The cut: along programs its forces take the place of the load.
+    pub cut: Option<CutTable>,
     /// Greatest in-plane deviation that is tolerated.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub limit_um: f64,
@@ -295,6 +298,8 @@ pub struct AskTable {
     /// Path: greatest distance between points along it.
     #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
+    /// Program: another cut.
+    pub cut: Option<CutTable>,
     /// Program: its file, and how the tool follows it.
     pub program: Option<ProgramTable>,
 }

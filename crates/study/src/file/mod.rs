@@ -4,6 +4,7 @@
 //! each ask means, its [`quantities`] in SI and the [`compliance`] that it brings.
 
 pub mod compliance;
+pub mod cut;
 pub mod format;
 pub mod positioner;
 pub mod program;

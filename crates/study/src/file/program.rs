@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use armill_core::frame::Isometry;
-use armill_core::load::{LoadCases, PathLoad};
+use armill_core::load::{Doubt, LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
@@ -16,6 +16,7 @@ use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::cut::Cut;
 use super::places::Places;
 use super::quantities::{pose_mm_deg, positive};
 use super::resolve::Setting;
@@ -179,6 +180,18 @@ pub struct ProgramAsk {
     pub track: Track,
     /// Features asked for.
     pub features: Vec<FeatureTable>,
+    /// The cut that the forces come from, in place of given cases.
+    pub cut: Option<Cut>,
+    /// Points whose cut has no force: plunges and steep dives.
+    pub without_force: usize,
+}
+
+/// What pushes on the tool along a program.
+pub(super) struct Pushes {
+    /// The load cases of the study.
+    pub load: LoadCases,
+    /// The cut, whose forces take their place.
+    pub cut: Option<Cut>,
 }
 
 impl ProgramAsk {
@@ -209,7 +222,7 @@ pub(super) fn read(
     table: &ProgramTable,
     folder: &Path,
     setting: Setting,
-    load: LoadCases,
+    pushes: Pushes,
 ) -> Result<Option<ProgramAsk>, StudyError> {
     let chord_error = positive(
         places,
@@ -268,10 +281,12 @@ pub(super) fn read(
         tools,
         subroutines: Some(&subroutine),
     };
-    let mut cut = Cut::new(Sampling { chord_error, step });
+    let mut cut_up = CutUp::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
-    let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| cut.take(step))?;
-    if cut.too_many {
+    let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| {
+        cut_up.take(step)
+    })?;
+    if cut_up.too_many {
         let message = format!("{shown} gives more than {MOST_POINTS} points");
         places.problem(
             "program.step_mm",
@@ -280,7 +295,7 @@ pub(super) fn read(
         );
         return Ok(None);
     }
-    if cut.points.is_empty() {
+    if cut_up.points.is_empty() {
         let message = format!("{shown} has no cutting move");
         places.problem("program.file", message, "rapids alone cut nothing");
         return Ok(None);
@@ -300,20 +315,43 @@ pub(super) fn read(
             Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
         },
     };
+    let (mut setting, mut without_force) = (setting, 0);
+    let load = match &pushes.cut {
+        None => PathLoad::Cases(pushes.load),
+        Some(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
+            Ok(forces) => {
+                without_force = forces.without_force;
+                setting.cases.clear();
+                setting.doubt = Doubt {
+                    relative: forces.relative_uncertainty,
+                    tool_length: setting.doubt.tool_length,
+                    ..Doubt::NONE
+                };
+                forces.load
+            }
+            Err(error) => {
+                let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+                places.problem("program.file", format!("{shown}: {error}"), hint);
+                return Ok(None);
+            }
+        },
+    };
     Ok(Some(ProgramAsk {
         file: table.file.clone(),
         summary,
-        moves: cut.moves,
-        length: cut.points.last().map_or(0.0, |point| point.along),
-        time: cut.time,
-        operations: cut.operations,
+        moves: cut_up.moves,
+        length: cut_up.points.last().map_or(0.0, |point| point.along),
+        time: cut_up.time,
+        operations: cut_up.operations,
         track: Track {
-            points: cut.points,
+            points: cut_up.points,
             placing,
-            load: PathLoad::Cases(load),
+            load,
             base_from_part,
         },
         features: table.feature.clone(),
+        cut: pushes.cut,
+        without_force,
         setting,
     }))
 }
@@ -328,7 +366,7 @@ fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
 }
 
 /// A program while it is cut into points.
-struct Cut {
+struct CutUp {
     sampler: Sampler,
     points: Vec<PathPoint>,
     operations: Vec<(usize, Operation)>,
@@ -337,9 +375,9 @@ struct Cut {
     too_many: bool,
 }
 
-impl Cut {
-    fn new(sampling: Sampling) -> Cut {
-        Cut {
+impl CutUp {
+    fn new(sampling: Sampling) -> CutUp {
+        CutUp {
             sampler: Sampler::new(sampling),
             points: Vec::new(),
             operations: Vec::new(),

@@ -229,6 +229,7 @@ fn whole_plane() -> AskTable {
         polyline_mm: None,
         rectangle: None,
         step_mm: None,
+        cut: None,
         program: None,
     }
 }

@@ -41,52 +41,24 @@ fn the_published_cut_has_its_published_mean() {
 }
 
 #[test]
-fn feed_along_x_with_the_tool_pointing_down_is_the_feed_frame_itself() {
-    let frame = FeedFrame::in_base(unit(1.0, 0.0, 0.0), unit(0.0, 0.0, -1.0));
-    assert_eq!(frame.advance, Advance::Level);
-    assert!(frame.base_from_feed.angle() < 1e-15);
-}
-
-#[test]
-fn the_frame_is_right_handed_with_z_to_the_spindle_and_x_along_the_feed() {
-    let (feed, axis) = (unit(0.3, -0.8, 0.1), unit(-0.2, 0.1, -0.9));
-    let frame = FeedFrame::in_base(feed, axis);
-    let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()].map(|v| frame.base_from_feed * v);
-    assert!((z + axis.into_inner()).norm() < 1e-15);
-    assert!(x.dot(&feed) > 0.9 && y.dot(&feed).abs() < 1e-15);
-    assert!((x.cross(&y) - z).norm() < 1e-15);
-    let Advance::Ramp(rise) = frame.advance else {
-        panic!("{:?}", frame.advance)
+fn a_feed_across_the_tool_is_level_and_any_other_rises_or_dives() {
+    let spindle = unit(0.2, -0.1, 0.9);
+    let across = Unit::new_normalize(spindle.cross(&Vector3::x()));
+    assert_eq!(Advance::of(&across, &spindle), Advance::Level);
+    let rise = -0.4_f64;
+    let down = across.into_inner() * rise.cos() + spindle.into_inner() * rise.sin();
+    let Advance::Ramp(found) = Advance::of(&Unit::new_normalize(down), &spindle) else {
+        panic!("a ramp")
     };
-    // The feed is the level part and the rise.
-    assert!((x * rise.cos() + z * rise.sin() - feed.into_inner()).norm() < 1e-15);
-}
-
-#[test]
-fn a_turned_cell_turns_the_force_and_its_covariance() {
-    let force = process().force(Advance::Level).unwrap();
-    let turn = UnitQuaternion::from_euler_angles(0.3, -1.1, 2.0);
-    let level = FeedFrame::in_base(unit(1.0, 0.0, 0.0), unit(0.0, 0.0, -1.0));
-    let turned = FeedFrame::in_base(turn * unit(1.0, 0.0, 0.0), turn * unit(0.0, 0.0, -1.0));
-    let (here, there) = (level.wrench(force.mean), turned.wrench(force.mean));
-    assert!((turn * here.force - there.force).norm() < 1e-12);
-    let (a, b) = (
-        level.covariance(force.covariance),
-        turned.covariance(force.covariance),
-    );
-    let direction = Vector3::new(0.2, 0.5, -0.7);
-    let along = |c: &Matrix3<f64>, d: &Vector3<f64>| d.dot(&(c * d));
-    assert!((along(&a, &direction) - along(&b, &(turn * direction))).abs() < 1e-9);
+    assert!((found - rise).abs() < 1e-15);
 }
 
 #[test]
 fn straight_along_the_axis_is_a_plunge_or_a_withdrawal_and_neither_mills() {
-    let axis = unit(0.1, 0.2, -1.0);
-    let down = FeedFrame::in_base(axis, axis);
-    assert_eq!(down.advance, Advance::Plunge);
-    assert_eq!(FeedFrame::in_base(-axis, axis).advance, Advance::Withdrawal);
-    assert!((down.base_from_feed * Vector3::z() + axis.into_inner()).norm() < 1e-15);
-    let error = process().mean(down.advance).unwrap_err().to_string();
+    let spindle = unit(0.1, 0.2, 1.0);
+    assert_eq!(Advance::of(&-spindle, &spindle), Advance::Plunge);
+    assert_eq!(Advance::of(&spindle, &spindle), Advance::Withdrawal);
+    let error = process().mean(Advance::Plunge).unwrap_err().to_string();
     assert!(
         error.contains("dives 90.0 deg") && error.contains("30 deg"),
         "{error}"

@@ -72,7 +72,7 @@ fn an_operation_begins_where_name_speed_or_engagement_change() {
     let names: Vec<&str> = found.iter().filter_map(|o| o.name.as_deref()).collect();
     assert_eq!(names, ["rough", "rough", "finish", "finish"]);
     assert!((found[0].spindle.unwrap() - 200.0 * std::f64::consts::PI).abs() < 1e-9);
-    let depths = |k: usize| found[k].engagement.map(|e| (e.axial_depth, e.radial_depth));
+    let depths = |k: usize| found[k].depths.map(|d| (d.axial, d.radial));
     assert_eq!(depths(0), Some((2e-3, 5e-3)));
     assert_eq!(depths(1), Some((2e-3, 4e-3)));
     assert_eq!(

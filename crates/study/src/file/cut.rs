@@ -1,0 +1,279 @@
+//! The cut of a study: cutter, material and depths, from which forces along a program come.
+
+use std::f64::consts::TAU;
+
+use armill_core::load::{
+    Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Runout,
+};
+use armill_core::path::Cutting;
+use armill_formats::material::Material;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::places::Places;
+use crate::library;
+
+/// What cuts, and how deep.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutTable {
+    /// Name of a material of the library.
+    pub material: String,
+    /// Law of the chip; mechanistic if left out, where the material has the coefficients.
+    pub law: Option<LawName>,
+    /// The cutter.
+    pub cutter: CutterTable,
+    /// Depth along the tool.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub axial_depth_mm: f64,
+    /// Depth across the tool and the feed; the whole diameter of a slot.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub radial_depth_mm: Option<f64>,
+    /// On which side of the feed the part stands.
+    pub side: SideName,
+    /// Feed where the program does not tell it.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub feed_mm_min: Option<f64>,
+    /// Speed of the spindle where the program does not tell it; clockwise.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub spindle_rpm: Option<f64>,
+    /// Kienzle: radial over cutting force, and its standard uncertainty.
+    pub radial_ratio: Option<[f64; 2]>,
+    /// Kienzle: axial over cutting force, positive as a right-hand helix makes it, and its standard uncertainty.
+    pub axial_ratio: Option<[f64; 2]>,
+    /// Standard uncertainty of the coefficients, in place of the scatter of the material's sets.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub u_percent: Option<f64>,
+}
+
+/// A law of the chip.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum LawName {
+    /// Shear and edge coefficients.
+    Mechanistic,
+    /// Specific force and exponent, with ratios for the other components.
+    Kienzle,
+}
+
+/// Where the part stands, seen along the feed; the spindle turns clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SideName {
+    /// On the left: chips begin thin.
+    Up,
+    /// On the right: chips end thin.
+    Down,
+    /// A strip in the middle of the cutter.
+    Centred,
+    /// On both: the whole width.
+    Slot,
+}
+
+/// An end mill.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CutterTable {
+    /// Its diameter.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub diameter_mm: f64,
+    /// Radius of its corner: 0 or left out is flat, half the diameter a ball.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub corner_radius_mm: Option<f64>,
+    /// How many flutes.
+    #[schemars(range(min = 1, max = 100))]
+    pub flutes: u32,
+    /// Helix; 30 if left out. Negative is left-hand.
+    #[schemars(range(min = -80.0, max = 80.0))]
+    pub helix_deg: Option<f64>,
+    /// Rake, for Kienzle.
+    #[schemars(range(min = -45.0, max = 45.0))]
+    pub rake_deg: Option<f64>,
+    /// How far its axis lies from that of the spindle.
+    #[schemars(range(min = 0.0, max = 1e4))]
+    pub runout_um: Option<f64>,
+}
+
+/// Helix of an end mill where nobody tells it, deg.
+const HELIX_DEG: f64 = 30.0;
+/// Ratios of radial and axial to cutting force where nobody tells them, each with its standard uncertainty: wide, since
+/// they follow edge, rake and helix.
+const RADIAL_RATIO: [f64; 2] = [0.3, 0.1];
+const AXIAL_RATIO: [f64; 2] = [0.2, 0.1];
+/// Standard uncertainty of coefficients that one set alone tells: half the scatter among sets of one alloy, whose
+/// Ktc differ by a factor of 2.2.
+const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
+
+/// A cut, worked out, and where its numbers come from.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    /// What the core takes.
+    pub cutting: Cutting,
+    /// The material.
+    pub material: Material,
+    /// What a user should know of it.
+    pub remarks: Vec<String>,
+}
+
+/// The cut of this table; `None` where it has problems.
+pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> {
+    let material = material(places, &table.material);
+    let cutter = cutter(&table.cutter)
+        .map_err(|error| {
+            places.problem(
+                "cut.cutter",
+                error.to_string(),
+                "an end mill as its catalogue tells it",
+            )
+        })
+        .ok();
+    let immersion = immersion(places, table);
+    let (material, cutter, immersion) = (material?, cutter?, immersion?);
+    let mut remarks = Vec::new();
+    let law = law(places, table, &material, &mut remarks)?;
+    Some(Cut {
+        cutting: Cutting {
+            cutter,
+            law,
+            depth: table.axial_depth_mm * 1e-3,
+            immersion,
+            feed: table
+                .feed_mm_min
+                .filter(|feed| *feed > 0.0)
+                .map(|feed| feed * 1e-3 / 60.0),
+            spindle: table
+                .spindle_rpm
+                .filter(|speed| *speed > 0.0)
+                .map(|speed| speed * TAU / 60.0),
+        },
+        material,
+        remarks,
+    })
+}
+
+fn material(places: &mut Places<'_>, name: &str) -> Option<Material> {
+    // Those of the library are read by its tests.
+    match library::material(name) {
+        Some(Ok(material)) => Some(material),
+        Some(Err(_)) | None => {
+            let names: Vec<&str> = library::MATERIALS.iter().map(|entry| entry.name).collect();
+            let message = format!("no material is called `{name}`");
+            places.problem(
+                "cut.material",
+                message,
+                &format!("the library has: {}", names.join(", ")),
+            );
+            None
+        }
+    }
+}
+
+fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
+    let diameter = table.diameter_mm * 1e-3;
+    let corner = table.corner_radius_mm.unwrap_or(0.0) * 1e-3;
+    let cutter = if corner == 0.0 {
+        Cutter::flat(diameter, table.flutes)?
+    } else {
+        Cutter::bull_nose(diameter, corner, table.flutes)?
+    };
+    let helix = table.helix_deg.unwrap_or(HELIX_DEG);
+    let hand = if helix < 0.0 { Hand::Left } else { Hand::Right };
+    let runout = Runout {
+        offset: table.runout_um.unwrap_or(0.0) * 1e-6,
+        ..Runout::default()
+    };
+    cutter
+        .with_helix(helix.abs().to_radians(), hand)?
+        .with_rake(table.rake_deg.unwrap_or(0.0).to_radians())?
+        .with_runout(runout)
+}
+
+fn immersion(places: &mut Places<'_>, table: &CutTable) -> Option<Immersion> {
+    if table.side == SideName::Slot {
+        return Some(Immersion::Slot);
+    }
+    let Some(depth) = table.radial_depth_mm else {
+        let hint = "radial_depth_mm = 2; only a slot has none";
+        places.problem("cut", "a cut on one side needs its `radial_depth_mm`", hint);
+        return None;
+    };
+    let depth = depth * 1e-3;
+    Some(match table.side {
+        SideName::Up => Immersion::Up(depth),
+        SideName::Down => Immersion::Down(depth),
+        SideName::Centred | SideName::Slot => Immersion::Centred(depth),
+    })
+}
+
+fn law(
+    places: &mut Places<'_>,
+    table: &CutTable,
+    material: &Material,
+    remarks: &mut Vec<String>,
+) -> Option<CuttingLaw> {
+    let given = table.u_percent.map(|percent| percent / 100.0);
+    let one_set = |sets: usize| (sets == 1).then_some(RELATIVE_U_OF_ONE_SET);
+    let wanted = match (table.law, material.mechanistic()) {
+        (Some(LawName::Mechanistic) | None, Some(together)) => {
+            if together.sets == 1 && given.is_none() {
+                remarks.push(one_set_remark(&material.name));
+            }
+            let law = together.law;
+            match given.or(one_set(together.sets)) {
+                Some(fraction) => law
+                    .with_relative_uncertainty(fraction)
+                    .map(CuttingLaw::Mechanistic),
+                None => Ok(CuttingLaw::Mechanistic(law)),
+            }
+        }
+        (Some(LawName::Mechanistic), None) => {
+            let message = format!("{} has no whole set of mechanistic coefficients", material.name);
+            places.problem("cut.law", message, "law = \"kienzle\"");
+            return None;
+        }
+        (Some(LawName::Kienzle) | None, _) => {
+            let Some(together) = material.kienzle() else {
+                let message = format!("{} has no specific cutting force", material.name);
+                places.problem("cut.law", message, "another material");
+                return None;
+            };
+            if table.radial_ratio.is_none() || table.axial_ratio.is_none() {
+                remarks.push(format!(
+                    "Kienzle tells the cutting force alone: radial and axial force are assumed as {} +- {} and {} +- {} of it where the study does not say.",
+                    RADIAL_RATIO[0], RADIAL_RATIO[1], AXIAL_RATIO[0], AXIAL_RATIO[1]
+                ));
+            }
+            let [mut specific_force, exponent] = together.law;
+            if let Some(fraction) = given.or(one_set(together.sets)) {
+                specific_force.standard_uncertainty = fraction * specific_force.value;
+            }
+            if together.sets == 1 && given.is_none() {
+                remarks.push(one_set_remark(&material.name));
+            }
+            let ratio = |given: Option<[f64; 2]>, assumed: [f64; 2]| {
+                let [value, standard_uncertainty] = given.unwrap_or(assumed);
+                Estimate {
+                    value,
+                    standard_uncertainty,
+                }
+            };
+            Kienzle::new(KienzleValues {
+                specific_force,
+                exponent,
+                radial_ratio: ratio(table.radial_ratio, RADIAL_RATIO),
+                axial_ratio: ratio(table.axial_ratio, AXIAL_RATIO),
+            })
+            .map(CuttingLaw::Kienzle)
+        }
+    };
+    wanted
+        .map_err(|error| places.problem("cut.material", error.to_string(), "is the number right?"))
+        .ok()
+}
+
+fn one_set_remark(material: &str) -> String {
+    format!(
+        "{material}: one set of coefficients alone is known; {:.0} % is taken as its standard uncertainty.",
+        RELATIVE_U_OF_ONE_SET * 100.0
+    )
+}
