@@ -9,7 +9,6 @@ use std::process::{Command, Stdio};
 /// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked, since
 /// safe Rust needs none to see a fault.
 const FLAGS: &[&str] = &[
-    "--cfg=fuzzing",
     "-Cpasses=sancov-module",
     // Edges, calls and counters.
     "-Cllvm-args=-sanitizer-coverage-level=4",
@@ -21,6 +20,7 @@ const FLAGS: &[&str] = &[
     "-Cllvm-args=-simplifycfg-branch-fold-threshold=0",
     // The pass wants a crate in one piece.
     "-Ccodegen-units=1",
+    "--cfg=fuzzing",
 ];
 
 /// Between flags in the variable that cargo reads.

@@ -29,7 +29,15 @@ impl Said {
             if let Some(total) = line.strip_prefix("stat::number_of_executed_units:") {
                 self.executions = total.trim().parse().unwrap_or(self.executions);
             }
-            let talk = ["INFO: ", "stat::", "\t", "Recommended", "\"", "#"];
+            // Of the three warnings none matters: they miss functions of sanitizers.
+            let talk = [
+                "INFO: ",
+                "stat::",
+                "WARNING: Failed to find function",
+                "\t",
+                "\"",
+                "#",
+            ];
             return !line.trim().is_empty() && !talk.iter().any(|start| line.starts_with(start));
         };
         let mut words = progress.split_whitespace().peekable();

@@ -112,7 +112,6 @@ impl Convention {
             expected: if self == Convention::Abb { 7 } else { 6 },
             names: self.numbers(),
         };
-        // Not so written that what is no number passes.
         if let Some(number) = numbers
             .iter()
             .find(|number| number.is_nan() || number.abs() > LARGEST)
