@@ -91,3 +91,44 @@ pub const LOAD_TESTS: &[&str] = &[
 /// What a reading is made of, and numbers at the edge.
 #[rustfmt::skip]
 pub const PENDANT: &[&str] = &["=", ",", "0,0,0,1,0,0,0", "-0.0", "1e9", "1e200", "1e308", "1e-320", "nan", "inf", "-", "+"];
+
+/// Words of G-code.
+#[rustfmt::skip]
+pub const GCODE: &[&str] = &[
+    "G0 ", "G1 ", "G2 ", "G3 ", "G10 L2 P1 ", "G10 L20 P2 ", "G17\n", "G18\n", "G19\n", "G20\n", "G21\n", "G28\n", "G40\n", "G41 D1\n", "G41.1 D6\n",
+    "G42\n", "G43 H1\n", "G43.4\n", "G43.5\n", "G49\n", "G52 ", "G53 ", "G54\n", "G59.3\n", "G61\n", "G64 P0.1\n", "G73 ", "G81 ", "G82 ", "G83 ", "G89 ",
+    "G80\n", "G90\n", "G91\n", "G90.1\n", "G91.1\n", "G92 ", "G92.1\n", "G93\n", "G94\n", "G95\n", "G98\n", "G99\n", "M3 S1000\n", "M5\n", "M6 T1\n",
+    "M98 P100 L2\n", "M99\n", "M128\n", "M429\n", "TRAORI\n", "o1 sub\n", "o1 endsub\n", "o1 call [1]\n", "o1 while [1]\n", "o1 endwhile\n", "o1 do\n",
+    "o1 repeat [3]\n", "o1 endrepeat\n", "o1 if [1]\n", "o1 elseif [0]\n", "o1 else\n", "o1 endif\n", "o1 break\n", "o1 return\n", "#1=2\n", "#<_x>=3\n",
+    "[1 MOD 0]", "[2 ** 3]", "ATAN[1]/[0]", "SQRT[-1]", "EXISTS[#<x>]", "FUP[", "I1 J2 K3 ", "R5 ", "P2 ", "Q1 ", "L3 ", "A10 B20 C30 ", "F100\n", "%\n", "(MSG, x)",
+    "1e308", "99999999999999999999", ";", "/",
+];
+
+/// Words of cutter locations.
+#[rustfmt::skip]
+pub const APT: &[&str] = &[
+    "GOTO/", "FROM/", "GOHOME/", "CIRCLE/", "RAPID\n", "FEDRAT/", "MMPM", "IPM", "MMPR", "SPINDL/", "RPM", "CLW", "LOAD/TOOL,", "CUTTER/", "TLDATA/MILL,", "UNIT/MM\n",
+    "UNITS/INCH\n", "CSYS/", "MSYS/", "TRNTYP/WORLD\n", "TOOL PATH/", "END-OF-PATH\n", "CYCLE/DRILL,", "CYCLE/DEEP,", "CYCLE/OFF\n", "RAPTO,", "FEDTO,", "TIMES,",
+    "PARTNO/", "INSERT/", "CUTCOM/", "COOLNT/", "FINI\n", "$\n", "$$", "1e308", "NURBS/", "GODLTA/",
+];
+
+/// Columns of a path.
+#[rustfmt::skip]
+pub const PATH_CSV: &[&str] = &[
+    "x_mm", "y_mm", "z_mm", "x_in", "i,j,k", "feed_mm_min", "feed_mm_s", "rapid", "spindle_rpm", "axial_depth_mm", "radial_depth_mm", "op", "note", ";", "\t", "yes",
+    "true", "nan", "1e308",
+];
+
+/// Words of force records.
+#[rustfmt::skip]
+pub const FORCES: &[&str] = &[
+    "Time", "Fx", "Fy", "Fz", "Mx", "time_s", "time_ms", "fx_n", "fy_kn", "mz_n_m", "s,N,N,N", "Sampling rate [Hz]:", "Cycle No:", "Samples per channel:", "\t", ";", "0,000",
+    "nan", "1e308", "-",
+];
+
+/// Keys of a material file.
+#[rustfmt::skip]
+pub const MATERIAL: &[&str] = &[
+    "[[mechanistic]]\n", "[[kienzle]]\n", "tool = ", "source = ", "ktc_n_per_mm2 = ", "krc_n_per_mm2 = ", "kac_n_per_mm2 = ", "kte_n_per_mm = ", "kre_n_per_mm = ",
+    "kae_n_per_mm = ", "kc1_n_per_mm2 = ", "mc_exponent = ", "group = ", "condition = ", "note = ", "[sources.x]\n", "nan", "inf", "1e308",
+];

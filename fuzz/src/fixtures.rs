@@ -1,6 +1,6 @@
 //! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format.
 
-use armill_study::library::{ROBOTS, STUDIES};
+use armill_study::library::{MATERIALS, ROBOTS, STUDIES};
 
 /// Four arms in URDF: two of makers, one with every oddity, one of a single joint.
 pub fn urdf() -> Vec<Vec<u8>> {
@@ -107,6 +107,65 @@ pub fn pendant() -> Vec<Vec<u8>> {
         "10,20,30,40,50,60=900,-0.5,1e3,0.7071,0,0.7071,0",
         "0=1,2,3,-3.03,0.81,0",
     ])
+}
+
+/// Lines, arcs, cycles, subroutines, expressions, offsets, five axes.
+pub fn gcode() -> Vec<Vec<u8>> {
+    seeds(&[
+        "%\nG21 G90 G94 G17\nT1 M6 S6000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG2 X10 Y0 I5 J0\nG3 X0 R5 Z-2\nG81 X5 Y5 Z-3 R1\nX8\nG80\nM2\n%\n",
+        "o100 sub\nG91 G1 X#1 F[#2 * 2]\no100 endsub\nG20 G90\n#<n>=3\no1 while [#<n> GT 0]\no100 call [1.5] [10]\n#<n>=[#<n>-1]\no1 endwhile\n\
+         o2 if [EXISTS[#<n>]]\nG1 X[SIN[30]+ATAN[1]/[2]] F10\no2 endif\nG10 L2 P1 X1 Y2 R30\nG54 G92 X0\nG53 G0 Z0\nM30\n",
+        "G21 G43.4 H1\nG0 X0 Y0 Z50 A0 C0\nG93 G1 X1 Y2 Z3 A-30 C45 F60\nG43.5 X1 I0 J0.1 K0.99 F30\nG49\nM2\n",
+        "G21 G41.1 D6\nG0 X-5 Y-5\nG1 X0 Y0 F100\nG1 Y20\nG2 X10 Y30 I10 J0\nG1 X30\nG40 X40 Y40\nM2\n",
+    ])
+}
+
+/// Both dialects, cycles, arcs, planes.
+pub fn apt() -> Vec<Vec<u8>> {
+    seeds(&[
+        "PARTNO/PLATE\nUNIT/MM\nTRNTYP/WORLD\nCSYS/1,0,0,0,0,1,0,0,0,0,1,0\nLOAD/TOOL,1\nCUTTER/6,0.5\nSPINDL/5000,RPM,CLW\nRAPID\nGOTO/0,0,10\nFEDRAT/300,MMPM\n\
+         GOTO/0,0,-1\nCIRCLE/5,0,-1,0,0,1\nGOTO/10,0,-1\nCYCLE/DRILL,RAPTO,2,FEDTO,-5,MMPM,100\nGOTO/20,0,0\nCYCLE/OFF\nFINI\n",
+        "TOOL PATH/MILL_1,TOOL,T1\nTLDATA/MILL,10.0,1.0,50.0\nMSYS/0,0,0,1,0,0,0,1,0\nFEDRAT/MMPM,250.0\nGOTO/1,2,3,0,0,1\nGOTO/4,5,6\n\
+         CIRCLE/4,0,6,0,0,-1,5.0,0.06,0.5,10.0,1.0\nGOTO/9,0,6\nEND-OF-PATH\n",
+    ])
+}
+
+/// Every column; decimal commas.
+pub fn path_csv() -> Vec<Vec<u8>> {
+    seeds(&[
+        "x_mm,y_mm,z_mm,i,j,k,feed_mm_min,rapid,spindle_rpm,axial_depth_mm,radial_depth_mm,op,note\n0,0,5,0,0,1,,1,,,,a,\n1,2,3,0,0.1,0.995,300,0,6000,1,2,a,x\n",
+        "x_m;y_m;z_m;feed_mm_s\n0,1;0,2;0,3;10,5\n0,2;0,2;0,3;\n",
+    ])
+}
+
+/// Programs of every format.
+pub fn program() -> Vec<Vec<u8>> {
+    [gcode(), apt(), path_csv()].concat()
+}
+
+/// With tabs and with commas that are decimal marks too.
+pub fn dynoware() -> Vec<Vec<u8>> {
+    let header = "DynoWare:,3.2.5.0\nFile:,c.dwd\nSampling rate [Hz]:,1000\nCycle No:,1\n";
+    seeds(&[
+        &format!("{header}Time,Fx,Fy,Fz\ns,N,N,N\n0,000,1,5,-2,5,3,0\n0,001,1,6,-2,4,3,1\n"),
+        &format!(
+            "{}Time\tFx\tFy\tFz\ns\tN\tN\tN\n0.000\t1.5\t-2.5\t3.0\n0.001\t1.6\t-2.4\t3.1\n",
+            header.replace(',', "\t")
+        ),
+    ])
+}
+
+/// Units in names and in a row.
+pub fn forces() -> Vec<Vec<u8>> {
+    seeds(&[
+        "time_s,fx_n,fy_n,fz_n,mx_n_m,my_n_m,mz_n_m\n0,1,2,3,0,0,0.1\n0.001,1,2,3,0,0,0.1\n0.002,1,2,3,0,0,0.1\n",
+        "Time;Fx;Fy;Fz\ns;kN;N;N\n0,0;1,5;2;3\n0,1;1,5;2;3\n",
+    ])
+}
+
+/// The library of materials.
+pub fn materials() -> Vec<Vec<u8>> {
+    MATERIALS.iter().map(|material| material.text.into()).collect()
 }
 
 fn seeds(texts: &[&str]) -> Vec<Vec<u8>> {

@@ -48,7 +48,11 @@ pub const TARGETS: &[Target] = &[
     target("format", verdicts::format, fixtures::named, &[], words::FORMAT),
     target("load-tests", verdicts::load_tests, fixtures::load_tests, &["csv"], words::LOAD_TESTS),
     target("pendant", verdicts::pendant, fixtures::pendant, &[], words::PENDANT),
-    // Tool paths: gcode, apt, csv.
-    // Measurements: dynoware, csv.
-    // Material files.
+    target("gcode", verdicts::gcode, fixtures::gcode, &["ngc", "nc"], words::GCODE),
+    target("apt", verdicts::apt, fixtures::apt, &["apt"], words::APT),
+    target("path-csv", verdicts::path_csv, fixtures::path_csv, &[], words::PATH_CSV),
+    target("program", verdicts::program, fixtures::program, &["ngc", "apt"], words::GCODE),
+    target("dynoware", verdicts::dynoware, fixtures::dynoware, &[], words::FORCES),
+    target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),
+    target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

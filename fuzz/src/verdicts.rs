@@ -4,14 +4,19 @@ use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use armill_core::frame::Isometry;
+use armill_core::load::ActsOn;
 use armill_core::nalgebra::Vector3;
+use armill_core::path::{Course, Pace, Step};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_formats::document::Problems;
+use armill_formats::material;
+use armill_formats::measurement::{csv as forces, dynoware};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant::{self, Convention};
 use armill_formats::robot::{RobotDescription, armill};
 use armill_formats::table::load_tests as tests;
+use armill_formats::toolpath::{LengthUnit, apt, csv, gcode, program};
 use armill_study::file::resolve;
 use armill_study::{ErrorKind, library};
 
@@ -116,6 +121,87 @@ pub fn pendant(bytes: &[u8]) {
                 assert!(joints.iter().all(|value| value.is_finite()));
                 assert!(pose.to_homogeneous().iter().all(|value| value.is_finite()));
             }
+        }
+    }
+}
+
+/// G-code of a machine with a tilting table.
+pub fn gcode(bytes: &[u8]) {
+    let options = gcode::Options {
+        rotaries: Some(gcode::Rotaries::table_ac()),
+        ..gcode::Options::default()
+    };
+    let mut reader = bytes;
+    if let Err(problems) = gcode::read("part.ngc", &mut reader, &options, &mut told) {
+        refused(&problems);
+    }
+}
+
+/// Cutter locations.
+pub fn apt(bytes: &[u8]) {
+    let wanted = apt::Wanted {
+        unit: Some(LengthUnit::Millimetre),
+        dialect: None,
+    };
+    if let Err(problems) = apt::read("part.apt", bytes, &wanted, &mut told) {
+        refused(&problems);
+    }
+}
+
+/// A path as a table.
+pub fn path_csv(bytes: &[u8]) {
+    if let Err(problems) = csv::read("path.csv", bytes, &mut told) {
+        refused(&problems);
+    }
+}
+
+/// A tool path program whose format is to be found out.
+pub fn program(bytes: &[u8]) {
+    if let Err(problems) = program::read("part", bytes, &program::Wanted::default(), &mut told) {
+        refused(&problems);
+    }
+}
+
+/// A step of a program holds numbers that are numbers, and arcs that turn.
+fn told(step: Step) {
+    let Step::Move(next) = step else { return };
+    assert!(next.end.iter().all(|value| value.is_finite()), "{next:?}");
+    if let Course::Arc(arc) = next.course {
+        assert!(arc.centre.iter().all(|value| value.is_finite()), "{next:?}");
+        assert!(arc.sweep.is_finite() && arc.sweep > 0.0, "{next:?}");
+    }
+    if let Pace::Feed(speed) = next.pace {
+        assert!(speed.is_finite() && speed > 0.0, "{next:?}");
+    }
+}
+
+/// Forces as DynoWare exports them.
+pub fn dynoware(bytes: &[u8]) {
+    match dynoware::read("cut.txt", bytes, ActsOn::Part, &dynoware::Channels::default()) {
+        Err(problems) => refused(&problems),
+        Ok(found) => assert!(!found.cycles.is_empty()),
+    }
+}
+
+/// Forces as a table.
+pub fn forces(bytes: &[u8]) {
+    let wanted = forces::Wanted {
+        acts_on: ActsOn::Tool,
+        rate_hz: Some(1e4),
+        columns: None,
+    };
+    if let Err(problems) = forces::read("cut.csv", bytes, &wanted) {
+        refused(&problems);
+    }
+}
+
+/// A material file.
+pub fn material(bytes: &[u8]) {
+    match material::read("metal.toml", &String::from_utf8_lossy(bytes)) {
+        Err(problems) => refused(&problems),
+        Ok(found) => {
+            let laws = (found.mechanistic(), found.kienzle());
+            assert!(found.mechanistic.len() + found.kienzle.len() > 0 || laws == (None, None));
         }
     }
 }

@@ -96,6 +96,8 @@ fn guide_runs() {
         "study-file",
         "robot-file",
         "results",
+        "tool-path",
+        "material-file",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -106,7 +108,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 6, "name the new page in `guide_runs`");
+    assert_eq!(pages, 8, "name the new page in `guide_runs`");
 }
 
 #[test]

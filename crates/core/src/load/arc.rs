@@ -1,6 +1,8 @@
 //! The arc over which a point of the edge cuts, and integrals over it in closed form.
 //!
-//!     h(phi) = a sin(phi) + b        integrals of 1, sin, cos and of h, h sin, h cos from entry to exit
+//! ```text
+//! h(phi) = a sin(phi) + b        integrals of 1, sin, cos and of h, h sin, h cos from entry to exit
+//! ```
 //!
 //! They are told by the middle `m` and the half width `w` of the arc, so that a short arc keeps its digits:
 //! `cos p - cos q = 2 sin m sin w`.

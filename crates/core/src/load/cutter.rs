@@ -3,9 +3,11 @@
 //! The edges wind round a cylinder of radius `R` that ends in a corner of radius `r`: none of a flat end mill, `R` of
 //! a ball. At the height `z` above the tip
 //!
-//!     cos kappa = 1 - z/r,   R(z) = R - r + r sin kappa     in the corner, z < r
-//!     kappa = 90 deg,        R(z) = R                       above it
-//!     psi(z) = z tan(beta) / R                              lag behind the tip, one lead for all of the edge
+//! ```text
+//! cos kappa = 1 - z/r,   R(z) = R - r + r sin kappa     in the corner, z < r
+//! kappa = 90 deg,        R(z) = R                       above it
+//! psi(z) = z tan(beta) / R                              lag behind the tip, one lead for all of the edge
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

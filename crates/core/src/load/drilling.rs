@@ -1,9 +1,11 @@
 //! Drilling: thrust and torque of a twist drill with two lips, in Kienzle's form.
 //!
-//!     b = d/(2 sin(sigma/2)),   h = (f/2) sin(sigma/2)                 chip of one lip
-//!     Fc = kc1 b h (h/h0)^-mc                                          cutting force of one lip
-//!     M = Fc d/2                                                       both lips, each at a quarter of the diameter
-//!     Ff = 2 r Fc sin(sigma/2)                                         thrust; r: force normal to the lip over Fc
+//! ```text
+//! b = d/(2 sin(sigma/2)),   h = (f/2) sin(sigma/2)                 chip of one lip
+//! Fc = kc1 b h (h/h0)^-mc                                          cutting force of one lip
+//! M = Fc d/2                                                       both lips, each at a quarter of the diameter
+//! Ff = 2 r Fc sin(sigma/2)                                         thrust; r: force normal to the lip over Fc
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -2,20 +2,24 @@
 //!
 //! Seen from the spindle, feed upwards on this page:
 //!
-//!                 x, feed                     phi counts clockwise, as the spindle turns, from the left (+y).
-//!               phi = 90 deg                  A tooth in front of the tool (0 to 180 deg) makes a chip of
-//!                   |                         c sin(phi): none at the sides, most straight ahead.
-//!       y  phi = 0 -+- phi = 180 deg
-//!                   |                         Part on the left: teeth enter at 0, thin chip first: up-milling.
-//!                  tool                       Part on the right: teeth leave at 180 deg: down-milling.
+//! ```text
+//!             x, feed                     phi counts clockwise, as the spindle turns, from the left (+y).
+//!           phi = 90 deg                  A tooth in front of the tool (0 to 180 deg) makes a chip of
+//!               |                         c sin(phi): none at the sides, most straight ahead.
+//!   y  phi = 0 -+- phi = 180 deg
+//!               |                         Part on the left: teeth enter at 0, thin chip first: up-milling.
+//!              tool                       Part on the right: teeth leave at 180 deg: down-milling.
+//! ```
 //!
 //! The part fills a strip in front of the tool, told by where it lies to the left of the axis. At the radius `R` of a
 //! point of the edge `y = R cos(phi)`, so
 //!
-//!     up:       entry = 0                       exit = acos((R - ae)/R)
-//!     down:     entry = 180 deg - that          exit = 180 deg
-//!     centred:  entry = acos(ae/(2 R))          exit = 180 deg - entry
-//!     c = f / (n N) = 2 pi v / (omega N)        h = c sin(phi),   mean h = c (cos entry - cos exit)/(exit - entry)
+//! ```text
+//! up:       entry = 0                       exit = acos((R - ae)/R)
+//! down:     entry = 180 deg - that          exit = 180 deg
+//! centred:  entry = acos(ae/(2 R))          exit = 180 deg - entry
+//! c = f / (n N) = 2 pi v / (omega N)        h = c sin(phi),   mean h = c (cos entry - cos exit)/(exit - entry)
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

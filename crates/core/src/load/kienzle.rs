@@ -1,6 +1,8 @@
 //! Kienzle's cutting law: the specific force falls with the thickness of the chip.
 //!
-//!     Fc = kc1 b h (h/h0)^-mc (1 - gamma/100)       h0 = 1 mm        Fr = r Fc        Fa = a Fc
+//! ```text
+//! Fc = kc1 b h (h/h0)^-mc (1 - gamma/100)       h0 = 1 mm        Fr = r Fc        Fa = a Fc
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -2,13 +2,17 @@
 //!
 //! Every point of an edge passes all angles alike, so the helix drops out:
 //!
-//!     F = N/(2 pi) integral over db integral from entry to exit of dF(phi) dphi
+//! ```text
+//! F = N/(2 pi) integral over db integral from entry to exit of dF(phi) dphi
+//! ```
 //!
 //! Under a linear law without runout the integral over `phi` is closed, and so is all of it for a flat end mill; along
 //! a rounded corner it is summed over 16 nodes between the points where the arc has a kink. Kienzle's law takes 16
 //! nodes in `phi` too. The force is linear in the coefficients `k`, so `F = M k` and
 //!
-//!     cov F = M S M^T            S: covariance of the coefficients (Kienzle: M by differentiation)
+//! ```text
+//! cov F = M S M^T            S: covariance of the coefficients (Kienzle: M by differentiation)
+//! ```
 //!
 //! What a revolution cuts does not depend on runout: teeth share the same `N c` otherwise. So the shear part of the
 //! mean never changes; the edge part does where a tooth cuts nothing, since it no longer rubs.

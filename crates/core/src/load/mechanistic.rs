@@ -1,6 +1,8 @@
 //! Mechanistic cutting law: six coefficients, three for shearing the chip and three for the edge that ploughs.
 //!
-//!     dFt = (Ktc h + Kte) db     dFr = (Krc h + Kre) db     dFa = (Kac h + Kae) db
+//! ```text
+//! dFt = (Ktc h + Kte) db     dFr = (Krc h + Kre) db     dFa = (Kac h + Kae) db
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

@@ -3,17 +3,21 @@
 //! Every tooth that meets the part pushes with `dFt` against its way, `dFr` along the inward normal of the body and
 //! `dFa` along its profile to the tip (`s` = 1 for a right-hand helix, -1 for a left-hand one):
 //!
-//!     dFx = -dFt cos(phi) - (dFr sin(kappa) + s dFa cos(kappa)) sin(phi)
-//!     dFy =  dFt sin(phi) - (dFr sin(kappa) + s dFa cos(kappa)) cos(phi)
-//!     dFz =  dFr cos(kappa) - s dFa sin(kappa)
-//!     phi = spindle angle - j 2 pi/N - psi(z)          h = c sin(phi) sin(kappa) - c_z cos(kappa)
+//! ```text
+//! dFx = -dFt cos(phi) - (dFr sin(kappa) + s dFa cos(kappa)) sin(phi)
+//! dFy =  dFt sin(phi) - (dFr sin(kappa) + s dFa cos(kappa)) cos(phi)
+//! dFz =  dFr cos(kappa) - s dFa sin(kappa)
+//! phi = spindle angle - j 2 pi/N - psi(z)          h = c sin(phi) sin(kappa) - c_z cos(kappa)
+//! ```
 //!
 //! **Signs.** The force acts **on the tool**; the part feels the opposite. Feed frame: x along the feed of the tool, z
 //! from part to spindle, y to the left. Picture, seen from the spindle, feed to the right of this page, slot:
 //!
-//!        y  |    <- tooth at phi = 0 moves to the right   In front of the tool (phi = 90 deg) the tooth moves down the
-//!           |   ( tool )  ---> x, feed                    page, to -y: the part pushes the tool to +y by Ft, and back
-//!           |      turns clockwise                        to -x by Fr.
+//! ```text
+//!    y  |    <- tooth at phi = 0 moves to the right   In front of the tool (phi = 90 deg) the tooth moves down the
+//!       |   ( tool )  ---> x, feed                    page, to -y: the part pushes the tool to +y by Ft, and back
+//!       |      turns clockwise                        to -x by Fr.
+//! ```
 //!
 //! So a slot pushes the tool back and to the left; up-milling (part on the left) pushes it back, down-milling (part on
 //! the right) pushes it away from the part, to the left. A right-hand helix draws it to the part (-z).

@@ -1,6 +1,8 @@
 //! A tool that mills on its way: cutter, law, cut, feed and spindle to a force.
 //!
-//!     rise = asin(feed . z)          c = c_f cos(rise),  c_z = c_f sin(rise)
+//! ```text
+//! rise = asin(feed . z)          c = c_f cos(rise),  c_z = c_f sin(rise)
+//! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|

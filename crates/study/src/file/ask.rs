@@ -4,7 +4,7 @@ use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
-use armill_core::load::Doubt;
+use armill_core::load::{Doubt, LoadCases, LoadFrame};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
 use armill_core::path::Shape;
@@ -12,7 +12,7 @@ use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use super::cut;
+use super::cut::{self, CutTable};
 use super::format::{
     AskKind, AskTable, HalfSize, LoadFrameName, LoadTable, PlaneTable, PostureTable, StudyFile,
 };
@@ -57,6 +57,14 @@ impl Resolver<'_> {
     /// The problems of a file that the ask names.
     pub(super) fn subject(&self, places: &mut Places<'_>) -> Result<Option<Subject>, StudyError> {
         self.refuse_keys_of_other_kinds(places);
+        if self.load().is_none() && self.cut().is_none() {
+            let hint = "[load] cases_n = [[3, 5, 5]]: force on the tool, x, y, z; along a program [cut] does as well";
+            places.problem(
+                "load",
+                "nothing pushes on the tool: the study has no `load`",
+                hint,
+            );
+        }
         self.refuse_what_no_cell_has(places);
         let plane = self.plane_table();
         let grid = grid(places, &plane);
@@ -84,28 +92,27 @@ impl Resolver<'_> {
             places.problem_here("a program needs its `program`", hint);
             return Ok(None);
         };
-        let load = load_cases(places, self.load());
-        let Some((setting, load)) = setting.zip(load) else {
+        let pushes = match (self.cut(), self.load()) {
+            (Some(cut), _) => cut::resolve(places, cut).map(|cut| Pushes::Cut(Box::new(cut))),
+            (None, Some(load)) => load_cases(places, load).map(Pushes::Cases),
+            (None, None) => None,
+        };
+        let Some((setting, pushes)) = setting.zip(pushes) else {
             return Ok(None);
         };
-        // A load of its own stands against the cut of the study.
-        let cut = match (&self.table.cut, &self.table.load) {
-            (Some(own), _) => Some(own),
-            (None, Some(_)) => None,
-            (None, None) => self.file.cut.as_ref(),
-        };
-        let cut = match cut.map(|table| cut::resolve(places, table)) {
-            Some(None) => return Ok(None),
-            Some(cut) => cut,
-            None => None,
-        };
-        let pushes = Pushes { load, cut };
         let read = program::read(places, table, self.folder, setting, pushes)?;
         Ok(read.map(|read| Subject::Program(Box::new(read))))
     }
 
-    fn load(&self) -> &LoadTable {
-        self.table.load.as_ref().unwrap_or(&self.file.load)
+    fn load(&self) -> Option<&LoadTable> {
+        self.table.load.as_ref().or(self.file.load.as_ref())
+    }
+
+    /// The cut that takes the place of the load: of a program that has no load of its own.
+    fn cut(&self) -> Option<&CutTable> {
+        let of_study = self.file.cut.as_ref().filter(|_| self.table.load.is_none());
+        let cut = self.table.cut.as_ref().or(of_study);
+        cut.filter(|_| self.table.kind == AskKind::Program)
     }
 
     /// Lengths, angles, forces and moments beyond all reason.
@@ -132,12 +139,21 @@ impl Resolver<'_> {
             (
                 "load.cases_n",
                 "N",
-                load.cases_n.iter().flatten().copied().collect(),
+                load.iter()
+                    .flat_map(|load| &load.cases_n)
+                    .flatten()
+                    .copied()
+                    .collect(),
             ),
             (
                 "load.moments_n_m",
                 "N m",
-                load.moments_n_m.iter().flatten().flatten().copied().collect(),
+                load.iter()
+                    .filter_map(|load| load.moments_n_m.as_ref())
+                    .flatten()
+                    .flatten()
+                    .copied()
+                    .collect(),
             ),
             (
                 "posture.home_deg",
@@ -226,7 +242,9 @@ impl Resolver<'_> {
             ("program", AskKind::Program, t.program.is_some()),
             ("cut", AskKind::Program, t.cut.is_some()),
         ];
-        if t.kind != AskKind::Program && matches!(self.load().frame, Some(LoadFrameName::Feed)) {
+        if t.kind != AskKind::Program
+            && matches!(self.load().and_then(|load| load.frame), Some(LoadFrameName::Feed))
+        {
             let message = format!("a {} has no feed that a load could turn with", kind_name(t.kind));
             places.problem("load.frame", message, "`base` or `part`; `feed` along a program");
         }
@@ -265,8 +283,15 @@ impl Resolver<'_> {
             plane,
             &base_from_counted.unwrap_or_else(Isometry::identity),
         );
-        let load = self.load();
-        let cases = load_cases(places, load);
+        // The forces of a cut come from the program.
+        let load = self.load().filter(|_| self.cut().is_none());
+        let cases = match load {
+            Some(load) => load_cases(places, load),
+            None => Some(LoadCases {
+                frame: LoadFrame::Base,
+                cases: Vec::new(),
+            }),
+        };
         let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
         let model = self
             .robot
@@ -274,11 +299,12 @@ impl Resolver<'_> {
         let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
         let (model, cases) = (model?, cases?);
         let doubt = Doubt {
-            relative: load.u_percent.unwrap_or(0.0) / 100.0,
+            relative: load.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
             tool_length: tool.and_then(|t| t.u_length_mm).unwrap_or(0.0) * 1e-3,
             ..Doubt::NONE
         };
-        let doubt = doubt.of_components(load.u_n.unwrap_or_default(), cases.frame, &plane.base_from_part);
+        let u_n = load.and_then(|load| load.u_n).unwrap_or_default();
+        let doubt = doubt.of_components(u_n, cases.frame, &plane.base_from_part);
         let cases = cases.in_base(&plane.base_from_part);
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));

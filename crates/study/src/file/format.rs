@@ -38,8 +38,8 @@ pub struct StudyFile {
     pub load_dependent: bool,
     /// The workpiece plane.
     pub plane: PlaneTable,
-    /// The load on the tool.
-    pub load: LoadTable,
+    /// The load on the tool; along programs a cut does as well.
+    pub load: Option<LoadTable>,
     /// The cut: along programs its forces take the place of the load.
     pub cut: Option<CutTable>,
     /// Greatest in-plane deviation that is tolerated.

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use armill_core::frame::Isometry;
-use armill_core::load::{Doubt, LoadCases, PathLoad};
+use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
@@ -187,11 +187,11 @@ pub struct ProgramAsk {
 }
 
 /// What pushes on the tool along a program.
-pub(super) struct Pushes {
-    /// The load cases of the study.
-    pub load: LoadCases,
-    /// The cut, whose forces take their place.
-    pub cut: Option<Cut>,
+pub(super) enum Pushes {
+    /// Load cases, the same at every point.
+    Cases(LoadCases),
+    /// What the cut needs.
+    Cut(Box<Cut>),
 }
 
 impl ProgramAsk {
@@ -315,19 +315,13 @@ pub(super) fn read(
             Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
         },
     };
-    let (mut setting, mut without_force) = (setting, 0);
-    let load = match &pushes.cut {
-        None => PathLoad::Cases(pushes.load),
-        Some(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
+    let mut setting = setting;
+    let (load, cut, without_force) = match pushes {
+        Pushes::Cases(load) => (PathLoad::Cases(load), None, 0),
+        Pushes::Cut(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
             Ok(forces) => {
-                without_force = forces.without_force;
-                setting.cases.clear();
-                setting.doubt = Doubt {
-                    relative: forces.relative_uncertainty,
-                    tool_length: setting.doubt.tool_length,
-                    ..Doubt::NONE
-                };
-                forces.load
+                setting.doubt.relative = forces.relative_uncertainty;
+                (forces.load, Some(*cut), forces.without_force)
             }
             Err(error) => {
                 let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
@@ -350,7 +344,7 @@ pub(super) fn read(
             base_from_part,
         },
         features: table.feature.clone(),
-        cut: pushes.cut,
+        cut,
         without_force,
         setting,
     }))

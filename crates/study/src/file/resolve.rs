@@ -203,7 +203,7 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
             .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
         question: file.question,
         own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
-        load_source: file.load.source,
+        load_source: file.load.and_then(|load| load.source),
         robot,
         asks,
         statements: file.statement,

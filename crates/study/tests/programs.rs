@@ -1,0 +1,254 @@
+//! Tool path programs in a study: the same numbers as shapes of the same form, features, forces from the cut, errors.
+
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::fs;
+
+use armill_core::watch::Watch;
+use armill_study::answer::{StudyAnswer, answer};
+use armill_study::file::resolve::read;
+use armill_study::run::run;
+
+/// A horizontal plate in front of an MH12; asks follow.
+const CELL: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+plane = { centre_mm = [1000, 50, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
+posture = { branch = "front elbow-up no-flip" }
+"#;
+const LOAD: &str = "load = { cases_n = [[3, -5, 5], [3, 5, 5]] }\n";
+const CUT: &str = r#"
+[cut]
+material = "aluminium-6082-t6"
+cutter = { diameter_mm = 10, flutes = 2 }
+axial_depth_mm = 1
+radial_depth_mm = 3
+side = "down"
+feed_mm_min = 600
+spindle_rpm = 9000
+"#;
+/// A full circle of radius 40 mm about the zero, and a rapid to its start.
+const RING: &str = "G21 G90 G17\nS9000 M3\nG0 X40 Y0 Z10\nG0 Z0\nG3 X40 Y0 I-40 J0 F600\nG0 Z10\nM2\n";
+
+fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    let study = read("study.toml", folder.path(), study.as_bytes()).map_err(|error| error.to_string())?;
+    let found = run(&study, Watch::NONE).unwrap();
+    Ok(answer(&study, &found))
+}
+
+fn ask(program: &str) -> String {
+    format!("\n[[ask]]\nkind = \"program\"\nname = \"part\"\n[ask.program]\n{program}\n")
+}
+
+#[test]
+fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
+    // Both have 360 points: the path begins at y' and turns to z', the program at x_part = -y'.
+    let step = TAU * 40.0 / 360.0;
+    let shape =
+        format!("\n[[ask]]\nkind = \"path\"\nname = \"shape\"\ncircle.radius_mm = 40\nstep_mm = {step}\n");
+    let feature = "feature = [{ name = \"ring\", kind = \"circle\", lines = [5, 5] }]";
+    let program = ask(&format!(
+        "file = \"ring.ngc\"\nstep_mm = {step}\nchord_error_mm = 1\n{feature}"
+    ));
+    let study = format!("{CELL}{LOAD}{shape}{program}");
+    let answer = told(&study, &[("ring.ngc", RING)]).unwrap();
+    let [shape, part] = &answer.paths[..] else {
+        panic!("two paths")
+    };
+    assert_eq!((shape.points, part.points), (360, 361));
+    let same = |a: Option<f64>, b: Option<f64>| (a.unwrap() - b.unwrap()).abs() < 1e-6;
+    assert!(
+        same(shape.max_in_plane_um, part.max_in_plane_um),
+        "{:?} {:?}",
+        shape.max_in_plane_um,
+        part.max_in_plane_um
+    );
+    assert!(same(shape.max_full_um, part.max_full_um));
+    // The last point of the program stands on its first: the least-squares circle hardly notices.
+    assert!((shape.roundness_um.unwrap() - part.roundness_um.unwrap()).abs() < 0.05);
+    let program = part.program.as_ref().unwrap();
+    let ring = &program.features[0];
+    assert_eq!((ring.kind, ring.points, ring.case), ("circle", 361, 1));
+    assert!((ring.radius_mm.unwrap() - 40.0).abs() < 1e-9);
+    let shift = shape.circle_cases[0].centre_shift_um;
+    let [x, y, z] = ring.shift_um.unwrap();
+    // Part x is -y'.
+    assert!(
+        (x + shift[0]).abs() < 0.3 && (y - shift[1]).abs() < 0.3 && z.abs() < 1e-9,
+        "{x} {y} {shift:?}"
+    );
+    assert!((program.cutting_length_mm - TAU * 40.0).abs() < 1e-6);
+    assert!((program.cutting_time_s - TAU * 40.0 / 10.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_worst_point_carries_shares_uncertainty_line_and_cause() {
+    let answer = told(
+        &format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"")),
+        &[("ring.ngc", RING)],
+    )
+    .unwrap();
+    let part = &answer.paths[0];
+    let worst = part.worst.as_ref().unwrap();
+    assert!((worst.in_plane_um - part.max_in_plane_um.unwrap()).abs() < 1e-9);
+    let shares: f64 = worst.joint_share_um.iter().sum();
+    assert!((shares - worst.in_plane_um).abs() < 1e-9 && worst.in_plane_u_um > 0.0);
+    let point = &part.program.as_ref().unwrap().worst_points[0];
+    assert_eq!(point.line, 5);
+    assert!(point.cause.contains('%'), "{}", point.cause);
+    let [along, cross, _] = point.along_cross_normal_um;
+    assert!((along.hypot(cross) - worst.in_plane_um).abs() < 1e-6);
+}
+
+#[test]
+fn a_load_in_the_feed_frame_turns_with_the_circle() {
+    // A force against the feed alone: its deviation along the track is never forwards.
+    let load = "load = { frame = \"feed\", cases_n = [[-20, 0, 0]] }\n";
+    let answer = told(
+        &format!("{CELL}{load}{}", ask("file = \"ring.ngc\"")),
+        &[("ring.ngc", RING)],
+    )
+    .unwrap();
+    let program = answer.paths[0].program.as_ref().unwrap();
+    for point in &program.worst_points {
+        assert!(point.along_cross_normal_um[0] < 0.0, "{point:?}");
+    }
+    assert!(program.largest_mean_and_peak_n.is_none() && program.material.is_none());
+}
+
+#[test]
+fn forces_come_from_the_cut_and_need_no_load() {
+    let half = CUT.replace("axial_depth_mm = 1", "axial_depth_mm = 2");
+    let [one, two] = [CUT, &half].map(|cut| {
+        let answer = told(
+            &format!("{CELL}{cut}{}", ask("file = \"ring.ngc\"")),
+            &[("ring.ngc", RING)],
+        )
+        .unwrap();
+        answer.paths[0].clone()
+    });
+    let forces = |path: &armill_study::answer::PathResult| {
+        path.program.as_ref().unwrap().largest_mean_and_peak_n.unwrap()
+    };
+    let ([mean, peak], [twice, _]) = (forces(&one), forces(&two));
+    // A mean force goes with the depth; so does what it moves.
+    assert!((twice / mean - 2.0).abs() < 1e-12 && peak > mean);
+    let ratio = two.program.as_ref().unwrap().max_cross_um.unwrap()
+        / one.program.as_ref().unwrap().max_cross_um.unwrap();
+    assert!(ratio > 1.5 && ratio < 2.5, "{ratio}");
+    let program = one.program.as_ref().unwrap();
+    assert!(program.material.as_ref().unwrap().contains("6082"));
+    assert!(program.notes.iter().any(|note| note.contains("same engagement")));
+    let worst = one.worst.as_ref().unwrap();
+    assert!(worst.in_plane_u_um > 0.2 * worst.in_plane_um, "{worst:?}");
+}
+
+#[test]
+fn kienzle_says_what_it_assumes() {
+    let cut = CUT
+        .replace("[cut]", "[cut]\nlaw = \"kienzle\"")
+        .replace("aluminium-6082-t6", "steel-low-alloy");
+    let answer = told(
+        &format!("{CELL}{cut}{}", ask("file = \"ring.ngc\"")),
+        &[("ring.ngc", RING)],
+    )
+    .unwrap();
+    let notes = &answer.paths[0].program.as_ref().unwrap().notes;
+    assert!(
+        notes
+            .iter()
+            .any(|note| note.contains("radial and axial force are assumed")),
+        "{notes:?}"
+    );
+}
+
+#[test]
+fn what_is_wrong_is_told_at_its_place() {
+    let ring = ask("file = \"ring.ngc\"");
+    let slow = CUT
+        .replace("spindle_rpm = 9000", "")
+        .replace("feed_mm_min = 600", "");
+    let silent = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nM2\n";
+    for (study, program, words) in [
+        (
+            format!("{CELL}{LOAD}{}", ask("file = \"none.ngc\"")),
+            RING,
+            &["cannot read", "none.ngc", "study.toml:"][..],
+        ),
+        (
+            format!("{CELL}{LOAD}{ring}"),
+            "G21\nG0 X1\nM2\n",
+            &["no cutting move"],
+        ),
+        (
+            format!("{CELL}{LOAD}{ring}"),
+            "G21\nG1 X1 F100\nG99.5 X2\nM2\n",
+            &["ring.ngc:3:1", "G99.5"],
+        ),
+        (
+            format!("{CELL}{LOAD}{}", ask("file = \"ring.ngc\"\nstep_mm = 1e-6")),
+            RING,
+            &["more than", "points"],
+        ),
+        (
+            format!(
+                "{CELL}{LOAD}{}",
+                ask("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [5, 2] }]")
+            ),
+            RING,
+            &["lines 5 to 2"],
+        ),
+        (format!("{CELL}{ring}"), RING, &["no `load`"]),
+        (
+            format!("{CELL}{slow}{ring}"),
+            silent,
+            &["line 3", "spindle speed", "cut.spindle_rpm"],
+        ),
+        (
+            format!("{CELL}{}{ring}", CUT.replace("6082-t6", "6082")),
+            RING,
+            &["no material is called `aluminium-6082`", "aluminium-6082-t6"],
+        ),
+        (
+            format!(
+                "{CELL}{}{ring}",
+                CUT.replace("diameter_mm = 10", "diameter_mm = 0")
+            ),
+            RING,
+            &["diameter"],
+        ),
+        (
+            format!("{CELL}{}{ring}", CUT.replace("radial_depth_mm = 3", "")),
+            RING,
+            &["radial_depth_mm"],
+        ),
+        (
+            format!(
+                "{CELL}{}{ring}",
+                CUT.replace("radial_depth_mm = 3", "radial_depth_mm = 30")
+            ),
+            RING,
+            &["radial depth", "line 5"],
+        ),
+        (
+            format!("{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[ask]]\nkind = \"map\"\n"),
+            RING,
+            &["no feed that a load could turn with"],
+        ),
+    ] {
+        let error = told(&study, &[("ring.ngc", program)]).unwrap_err();
+        let mut message = String::new();
+        let _ = write!(message, "{error}");
+        for word in words {
+            assert!(message.contains(word), "no `{word}` in\n{message}");
+        }
+    }
+}
