@@ -3,6 +3,8 @@
 // A panic is how a test says that its claim is false.
 #![allow(clippy::unwrap_used, clippy::panic)]
 
+use std::f64::consts::PI;
+
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles, tool_orientation};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
@@ -190,4 +192,51 @@ fn only_arms_with_a_published_stiffness_have_a_compliance() {
             "yaskawa/mh12"
         ]
     );
+}
+
+/// Poses an arm; 100 000 where `ARMILL_ROUND_TRIPS` says so.
+const ROUND_TRIPS: usize = 3000;
+const PRIMES: [f64; 7] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0];
+
+#[test]
+fn every_arm_gives_back_the_joints_that_made_the_pose() {
+    let count = std::env::var("ARMILL_ROUND_TRIPS").map_or(ROUND_TRIPS, |count| count.parse().unwrap());
+    let tool = from_xyz_and_fixed_angles(Vector3::new(0.05, -0.02, 0.15), Vector3::new(0.3, -0.2, 0.1));
+    for entry in library::ROBOTS {
+        let robot = robot(entry.name);
+        let (mut poses, mut returned) = (0, 0);
+        for trip in 0..count {
+            // A step of its own for each joint, the root of a prime: nothing repeats.
+            let part = |i: usize| ((trip + 1) as f64 * PRIMES[i].sqrt()).fract();
+            let within = |(i, joint): (usize, &armill_core::robot::Joint)| {
+                // Joints whose limits nobody publishes turn once.
+                let [lower, upper] = joint
+                    .limits
+                    .map_or([-PI, PI], |limits| [limits.lower, limits.upper]);
+                lower + (upper - lower) * part(i)
+            };
+            let q: Vec<f64> = robot.joints().iter().enumerate().map(within).collect();
+            let made = posture_at(&robot, &q, &tool);
+            if made.singularity.is_some() {
+                continue;
+            }
+            poses += 1;
+            // A joint to spare stands where it stood.
+            let at = ToolAt {
+                flange_from_tool: &tool,
+                near: None,
+                home: (q.len() > 6).then_some(&q[..]),
+            };
+            let found = postures(&robot, &made.base_from_tool, at).unwrap_or_default();
+            let same = |a: &f64, b: &f64| (0.5 * (a - b)).sin().abs() < 5e-7;
+            let is_back = |joints: &[f64]| joints.iter().zip(&q).all(|(a, b)| same(a, b));
+            returned += usize::from(found.iter().any(|posture| is_back(&posture.joints)));
+        }
+        assert!(poses > count / 2, "{}: {poses} of {count} poses", entry.name);
+        assert!(
+            returned as f64 > 0.999 * poses as f64,
+            "{}: {returned} of {poses}",
+            entry.name
+        );
+    }
 }
