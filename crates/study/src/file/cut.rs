@@ -33,6 +33,7 @@ pub struct CutTable {
     pub side: SideName,
     /// Feed where the program does not tell it.
     #[schemars(range(min = 0.0, max = 1e6))]
+    // unit: mm/min
     pub feed_mm_min: Option<f64>,
     /// Speed of the spindle where the program does not tell it; clockwise.
     #[schemars(range(min = 0.0, max = 1e6))]
@@ -124,7 +125,7 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
                 "cut.cutter",
                 error.to_string(),
                 "an end mill as its catalogue tells it",
-            )
+            );
         })
         .ok();
     let immersion = immersion(places, table);

@@ -284,7 +284,7 @@ pub(super) fn read(
     let mut cut_up = CutUp::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
     let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| {
-        cut_up.take(step)
+        cut_up.take(step);
     })?;
     if cut_up.too_many {
         let message = format!("{shown} gives more than {MOST_POINTS} points");
