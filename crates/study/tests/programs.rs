@@ -141,6 +141,14 @@ fn forces_come_from_the_cut_and_need_no_load() {
     let ([mean, peak], [twice, _]) = (forces(&one), forces(&two));
     // A mean force goes with the depth; so does what it moves.
     assert!((twice / mean - 2.0).abs() < 1e-12 && peak > mean);
+    let greatest = CUT.replace("flutes = 2 }", "flutes = 2 }\ngreatest = true");
+    let both = told(
+        &format!("{CELL}{greatest}{}", ask("file = \"ring.ngc\"")),
+        &[("ring.ngc", RING)],
+    )
+    .unwrap();
+    assert!(both.paths[0].max_in_plane_um > one.max_in_plane_um);
+    assert_eq!(both.paths[0].worst.as_ref().unwrap().deciding_case, 2);
     let ratio = two.program.as_ref().unwrap().max_cross_um.unwrap()
         / one.program.as_ref().unwrap().max_cross_um.unwrap();
     assert!(ratio > 1.5 && ratio < 2.5, "{ratio}");

@@ -1,6 +1,8 @@
 //! What a cut pushes with along a path: the forces of [`Process`] at every point, told in the feed frame.
 //!
-//! Two wrenches a point: the mean over a revolution, then the greatest of it. Feed and spindle are those of the program,
+//! One wrench a point, the mean over a revolution; where it is asked for also the greatest. An arm whose modes lie at some
+//! 10 Hz does not follow the teeth: the mean moves it, and what the greatest force would move it if it stood still is a
+//! bound. Feed and spindle are those of the program,
 //! where it tells them; depths too. Engagement is the same everywhere: what the program cuts away before is not looked
 //! at ([`super::stock`] knows).
 //!
@@ -30,13 +32,26 @@ pub struct Cutting {
     pub feed: Option<f64>,
     /// Speed of the spindle, rad/s; clockwise.
     pub spindle: Option<f64>,
+    /// Whether the greatest force is a load case too.
+    pub greatest: Greatest,
+}
+
+/// What becomes of the greatest force of a revolution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Greatest {
+    /// The mean alone is a load case.
+    LeftOut,
+    /// It is the second load case.
+    SecondCase,
 }
 
 /// Forces along a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CuttingForces {
-    /// Mean and greatest force at every point.
+    /// The wrenches at every point.
     pub load: PathLoad,
+    /// Largest of the mean forces and of the greatest ones along the path, N.
+    pub largest: [f64; 2],
     /// Standard uncertainty of the largest mean force over its size, from the law.
     pub relative_uncertainty: f64,
     /// Points without a force: plunges, dives too steep, withdrawals.
@@ -68,9 +83,6 @@ pub enum NoForces {
     },
 }
 
-/// Wrenches a point: mean and greatest.
-const CASES: usize = 2;
-
 impl Cutting {
     /// The forces at `points`; `operations` come with the index of their first point.
     ///
@@ -82,16 +94,12 @@ impl Cutting {
         operations: &[(usize, Operation)],
         placing: &Placing,
     ) -> Result<CuttingForces, NoForces> {
-        let mut forces = CuttingForces {
-            load: PathLoad::OfEach {
-                cases: CASES,
-                wrenches: Vec::new(),
-            },
-            relative_uncertainty: 0.0,
-            without_force: 0,
+        let cases = match self.greatest {
+            Greatest::LeftOut => 1,
+            Greatest::SecondCase => 2,
         };
-        let mut wrenches = Vec::with_capacity(points.len() * CASES);
-        let mut largest = 0.0;
+        let mut wrenches = Vec::with_capacity(points.len() * cases);
+        let (mut largest, mut relative_uncertainty, mut without_force) = ([0.0_f64; 2], 0.0, 0);
         let mut operation = operations.iter().peekable();
         let mut process = self.process(None);
         let mut known: Option<(Process, CuttingForce)> = None;
@@ -123,25 +131,29 @@ impl Cutting {
                 advance => match process.mean(advance) {
                     Ok(mean) => mean.force,
                     Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
-                        forces.without_force += 1;
+                        without_force += 1;
                         Vector3::zeros()
                     }
                     Err(error) => return Err(told(error)),
                 },
             };
             let share = mean.norm() / level.mean.norm().max(f64::MIN_POSITIVE);
+            let greatest = level.peak.force * share;
             wrenches.push(Wrench::from_force(mean));
-            wrenches.push(Wrench::from_force(level.peak.force * share));
-            if level.mean.norm() > largest {
-                largest = level.mean.norm();
-                forces.relative_uncertainty = along(&level.covariance, &level.mean) / largest;
+            if self.greatest == Greatest::SecondCase {
+                wrenches.push(Wrench::from_force(greatest));
             }
+            if mean.norm() > largest[0] {
+                relative_uncertainty = along(&level.covariance, &level.mean) / level.mean.norm();
+            }
+            largest = [largest[0].max(mean.norm()), largest[1].max(greatest.norm())];
         }
-        forces.load = PathLoad::OfEach {
-            cases: CASES,
-            wrenches,
-        };
-        Ok(forces)
+        Ok(CuttingForces {
+            load: PathLoad::OfEach { cases, wrenches },
+            largest,
+            relative_uncertainty,
+            without_force,
+        })
     }
 
     /// The process of an operation, its feed still to be told; a spindle that nobody tells stands.
@@ -194,6 +206,7 @@ mod tests {
             immersion: Immersion::Up(5e-3),
             feed: Some(40e-3),
             spindle: Some(3333.0 * TAU / 60.0),
+            greatest: Greatest::SecondCase,
         }
     }
 
@@ -235,6 +248,11 @@ mod tests {
             let both = forces(&cutting(), &[point(direction, Pace::Untold)], &[]);
             assert!((both[0].norm() - 155.6207).abs() < 5e-5, "{}", both[0]);
             assert!(both[1].norm() > both[0].norm());
+            let alone = Cutting {
+                greatest: Greatest::LeftOut,
+                ..cutting()
+            };
+            assert_eq!(forces(&alone, &[point(direction, Pace::Untold)], &[]), both[..1]);
         }
     }
 

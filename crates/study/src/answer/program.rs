@@ -2,7 +2,6 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Held, evaluate};
-use armill_core::load::PathLoad;
 use armill_core::map::{ProgramAnswer, Track};
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
 use armill_core::path::{Became, Strayed, became};
@@ -179,7 +178,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             worst_points,
             material: ask.cut.as_ref().map(|cut| cut.material.name.clone()),
             points_without_force: ask.without_force,
-            largest_mean_and_peak_n: told.largest_forces(),
+            largest_mean_and_peak_n: ask.largest,
             notes: told.notes(),
             jumps: told.jumps(),
         }),
@@ -216,17 +215,6 @@ impl Told<'_> {
             notes.extend(cut.remarks.iter().cloned());
         }
         notes
-    }
-
-    fn largest_forces(&self) -> Option<[f64; 2]> {
-        let PathLoad::OfEach { cases, wrenches } = &self.track().load else {
-            return None;
-        };
-        let largest = |case: usize| {
-            let sizes = wrenches.iter().skip(case).step_by(*cases).map(|w| w.force.norm());
-            sizes.fold(0.0, f64::max)
-        };
-        Some([largest(0), largest(1)])
     }
 
     fn operations(&self) -> Vec<OperationResult> {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use armill_core::load::{
     Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Runout,
 };
-use armill_core::path::Cutting;
+use armill_core::path::{Cutting, Greatest};
 use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -38,6 +38,9 @@ pub struct CutTable {
     /// Speed of the spindle where the program does not tell it; clockwise.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
+    /// Whether the greatest force of a revolution is a second load case, beside the mean.
+    #[serde(default)]
+    pub greatest: bool,
     /// Kienzle: radial over cutting force, and its standard uncertainty.
     pub radial_ratio: Option<[f64; 2]>,
     /// Kienzle: axial over cutting force, positive as a right-hand helix makes it, and its standard uncertainty.
@@ -146,6 +149,11 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
                 .spindle_rpm
                 .filter(|speed| *speed > 0.0)
                 .map(|speed| speed * TAU / 60.0),
+            greatest: if table.greatest {
+                Greatest::SecondCase
+            } else {
+                Greatest::LeftOut
+            },
         },
         material,
         remarks,

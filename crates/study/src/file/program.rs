@@ -182,6 +182,8 @@ pub struct ProgramAsk {
     pub features: Vec<FeatureTable>,
     /// The cut that the forces come from, in place of given cases.
     pub cut: Option<Cut>,
+    /// Largest of its mean forces and of its greatest ones, N.
+    pub largest: Option<[f64; 2]>,
     /// Points whose cut has no force: plunges and steep dives.
     pub without_force: usize,
 }
@@ -316,12 +318,17 @@ pub(super) fn read(
         },
     };
     let mut setting = setting;
-    let (load, cut, without_force) = match pushes {
-        Pushes::Cases(load) => (PathLoad::Cases(load), None, 0),
+    let (load, cut, largest, without_force) = match pushes {
+        Pushes::Cases(load) => (PathLoad::Cases(load), None, None, 0),
         Pushes::Cut(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
             Ok(forces) => {
                 setting.doubt.relative = forces.relative_uncertainty;
-                (forces.load, Some(*cut), forces.without_force)
+                (
+                    forces.load,
+                    Some(*cut),
+                    Some(forces.largest),
+                    forces.without_force,
+                )
             }
             Err(error) => {
                 let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
@@ -345,6 +352,7 @@ pub(super) fn read(
         },
         features: table.feature.clone(),
         cut,
+        largest,
         without_force,
         setting,
     }))
