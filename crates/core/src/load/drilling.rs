@@ -14,7 +14,7 @@
 //! | `kc1`, `mc` | Kienzle values | Pa, - |
 //! | `r` | normal over cutting force on a lip: the radial ratio of the law | - |
 //!
-//! The formulas are [recalled] (Victor's extension of Kienzle's law to drills): no worked case with its source is at
+//! The formulas are \[recalled\] (Victor's extension of Kienzle's law to drills): no worked case with its source is at
 //! hand, so they are no more than an estimate. Left out: the chisel edge, which can make half of the thrust where no
 //! pilot hole is, friction of the margins, wear.
 

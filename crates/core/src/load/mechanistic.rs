@@ -14,7 +14,7 @@
 //! and draws the tool to the part. Coefficients belong to a tool as much as to a material: published sets of one alloy
 //! differ by a factor of two, so their covariance is an input.
 //!
-//! Source: Altintas, Manufacturing Automation [recalled]; its shear terms meet a published mean force, see
+//! Source: Altintas, Manufacturing Automation \[recalled\]; its shear terms meet a published mean force, see
 //! `validation/milling-mean-force`.
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};

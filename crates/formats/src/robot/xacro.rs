@@ -2,7 +2,7 @@
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
 //! includes are looked for beside it and in the packages around it; missing files of colours, materials
-//! and simulation are remarks. A file whose macros could grow without bound is refused ([`growth`]). What links look like and weigh is dropped before expansion, so that nothing of it can
+//! and simulation are remarks. A file whose macros could grow without bound is refused (`growth`). What links look like and weigh is dropped before expansion, so that nothing of it can
 //! fail. Expressions are worked out by the crate `xacro-rs`; `$(env ...)` is not.
 
 mod expand;

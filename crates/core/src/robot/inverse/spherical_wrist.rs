@@ -5,7 +5,7 @@
 //! ```
 //!
 //! `Ei` is the turn by `theta_i` about axis `i` as it lies at zero. Turns 4 to 6 leave the wrist centre `w` where it is:
-//! joints 1 to 3 bring `w` to `X w` ([`ThreeTurns`]), and for the wrist the turn `Q = (R1 R2 R3)^T R_X` is left. Let
+//! joints 1 to 3 bring `w` to `X w` (`three_turns`), and for the wrist the turn `Q = (R1 R2 R3)^T R_X` is left. Let
 //! `alpha` and `beta` be the angles from axis 4 to 5 and from 5 to 6, and `gamma` that from axis 4 to `Q z6`. On a sphere
 //! about `w` they are the sides of a triangle with the angle `psi` at axis 5:
 //!
