@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, evaluate};
+use armill_core::kernel::{BranchChoice, Loaded, Question, at_joints, evaluate};
 use armill_core::load::Doubt;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
@@ -19,7 +19,7 @@ use armill_core::workpiece::{Grid, Plane};
 use rayon::ThreadPool;
 
 use crate::clock::Candidate;
-use crate::work::{C66, DEV, IK8};
+use crate::work::{C66, DEV, DEV_AT, IK8};
 use crate::workload::{A1, A2, C1, C2, C3, C4, COMPLIANCE, FORCES, NORMAL, Pose, TOOL};
 
 /// Repetitions of the work on one pose, to be long against the clock's step.
@@ -138,6 +138,7 @@ pub fn isometry(pose: &Pose) -> Isometry {
 pub fn candidates<'a>(arm: &'a Arm, poses: &'a [Isometry], pools: &'a [ThreadPool; 2]) -> Vec<Candidate<'a>> {
     let mut all = kernel(arm, poses, pools);
     all.extend(general(arm, &poses[..FEW.min(poses.len())]));
+    all.push(known_joints(arm, &pools[0]));
     all.extend(one_pose(arm));
     all.extend(maps(arm, &pools[0]));
     all
@@ -189,6 +190,28 @@ fn general<'a>(arm: &'a Arm, poses: &'a [Isometry]) -> Vec<Candidate<'a>> {
         Candidate::new("armill compliance_at_tool", C66, poses.len(), compliance)
             .note("one pose at a time; solve, posture_at, compliance_at_tool"),
     ]
+}
+
+/// The general path of any chain at known joint positions: tool, screws, and the deviation under all forces.
+fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
+    // A step of the golden angle a joint: nothing repeats.
+    let joints: Vec<f64> = (0..6 * FEW)
+        .map(|k| ((k / 6 + 1) as f64 * 2.399_963 * ((k % 6) as f64 + 1.0)).sin())
+        .collect();
+    let run = move || {
+        let loaded = Loaded {
+            robot: &arm.robot,
+            compliance: arm.compliance(),
+            model: StiffnessModel::DRIVES,
+            flange_from_tool: &arm.tool,
+            cases: &arm.cases,
+        };
+        one_thread
+            .install(|| black_box(at_joints(&loaded, &joints, Watch::NONE)))
+            .ok();
+    };
+    Candidate::new("armill at_joints", DEV_AT, FEW, run)
+        .note("any chain, read motion by motion; with screws, other postures")
 }
 
 /// The parts of the general path, on one pose.
