@@ -129,6 +129,8 @@ pub fn pendant(bytes: &[u8]) {
 pub fn gcode(bytes: &[u8]) {
     let options = gcode::Options {
         rotaries: Some(gcode::Rotaries::table_ac()),
+        // Endless loops end soon enough to try others.
+        most_repeated_lines: Some(20_000),
         ..gcode::Options::default()
     };
     let mut reader = bytes;

@@ -678,3 +678,25 @@ fn programs_that_never_end_are_stopped() {
         Some("more than 20000000 lines of loops and subroutines to be done")
     );
 }
+
+#[test]
+fn an_endless_loop_ends_and_sooner_after_a_line_that_was_refused() {
+    let told = |program: &str, most_repeated_lines| {
+        let options = Options {
+            most_repeated_lines,
+            ..Options::default()
+        };
+        read(program, &options).unwrap_err().to_string()
+    };
+    let endless = told("o1 while [1]\nG1 X1 F100\no1 endwhile\nM2\n", Some(1000));
+    assert!(endless.contains("1000"), "{endless}");
+    // Its end was refused: nothing counts down.
+    let broken = told(
+        "#<n>=3\no1 while [#<n> GT 0]\n#<n>=[<->1]\no1 endwhile\nM2\n",
+        None,
+    );
+    assert!(
+        broken.contains("3:") && broken.matches("error:").count() == 2,
+        "{broken}"
+    );
+}

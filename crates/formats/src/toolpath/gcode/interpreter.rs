@@ -26,6 +26,8 @@ pub const MOST_KEPT_BYTES: usize = 256 << 20;
 pub const MOST_CALLS_DEEP: usize = 100;
 /// Lines of subroutines and loops that are done, repetitions counted.
 pub const MOST_REPEATED_LINES: usize = 20_000_000;
+/// The same after the first line that was refused.
+pub const MOST_REPEATED_AFTER_FAULT: usize = 10_000;
 /// Canonical calls of one line: what cycles may expand to.
 pub const MOST_CALLS_OF_A_LINE: usize = 5_000_000;
 
@@ -54,6 +56,7 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
         subroutines: BTreeMap::new(),
         kept_bytes: 0,
         repeated: 0,
+        repeated_until_fault: 0,
         depth: 0,
         faults: Vec::new(),
         refused: BTreeSet::new(),
@@ -76,9 +79,11 @@ pub(super) struct Interpreter<'a> {
     pub subroutines: BTreeMap<String, Rc<Body>>,
     kept_bytes: usize,
     pub repeated: usize,
+    /// The same when the first line was refused.
+    pub repeated_until_fault: usize,
     /// Subroutines being called.
     pub depth: usize,
-    faults: Vec<Fault>,
+    pub faults: Vec<Fault>,
     /// Lines refused once are not told again in the next round of their loop.
     refused: BTreeSet<(Option<Rc<str>>, u32)>,
     pub stopped: bool,

@@ -24,6 +24,8 @@ pub struct Options<'a> {
     pub rotaries: Option<Rotaries>,
     /// Whether blocks that begin with `/` are left out.
     pub block_delete: bool,
+    /// Lines of loops and subroutines that may be done, repetitions counted; 20 million where nothing is told.
+    pub most_repeated_lines: Option<usize>,
     /// Subroutines that are not in the program.
     pub subroutines: Option<Lookup<'a>>,
 }

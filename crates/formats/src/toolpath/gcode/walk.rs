@@ -4,7 +4,9 @@ use std::rc::Rc;
 
 use super::expression::Reader;
 use super::flow::{Body, Keyword, OWord};
-use super::interpreter::{Interpreter, Left, MOST_CALLS_DEEP, MOST_REPEATED_LINES};
+use super::interpreter::{
+    Interpreter, Left, MOST_CALLS_DEEP, MOST_REPEATED_AFTER_FAULT, MOST_REPEATED_LINES,
+};
 use super::lines::Line;
 use super::parameters;
 use super::refusal::Refusal;
@@ -17,8 +19,17 @@ impl Interpreter<'_> {
         let mut repeats: Vec<(usize, u64)> = Vec::new();
         while let Some(kept) = body.lines.get(at) {
             self.repeated += 1;
-            if self.repeated > MOST_REPEATED_LINES {
-                let limit = MOST_REPEATED_LINES;
+            let limit = if self.faults.is_empty() {
+                self.options.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
+            } else {
+                // A loop whose end was refused may have none.
+                self.repeated_until_fault
+                    .saturating_add(MOST_REPEATED_AFTER_FAULT)
+            };
+            if self.faults.is_empty() {
+                self.repeated_until_fault = self.repeated;
+            }
+            if self.repeated > limit {
                 let refusal = Refusal::TooMuch {
                     what: "lines of loops and subroutines to be done",
                     limit,
