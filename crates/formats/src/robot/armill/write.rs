@@ -196,7 +196,12 @@ fn source(found: &RobotDescription) -> &str {
 
 fn pose(base_from_frame: &Isometry) -> (String, String) {
     let at = base_from_frame.translation.vector;
-    let (rx, ry, rz) = base_from_frame.rotation.euler_angles();
+    let m = base_from_frame.rotation.to_rotation_matrix();
+    // By arc tangents alone, and the first angle after the others: good to rounding also where y turns by 90 deg.
+    let ry = (-m[(2, 0)]).atan2(m[(0, 0)].hypot(m[(1, 0)]));
+    let rz = m[(1, 0)].atan2(m[(0, 0)]);
+    let (sin, cos) = rz.sin_cos();
+    let rx = (sin * m[(0, 2)] - cos * m[(1, 2)]).atan2(cos * m[(1, 1)] - sin * m[(0, 1)]);
     let three = |values: [String; 3]| format!("[{}]", values.join(", "));
     (
         three([at.x, at.y, at.z].map(|m| millimetres(m, CHAIN))),

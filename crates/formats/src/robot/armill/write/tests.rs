@@ -99,6 +99,30 @@ proptest! {
 }
 
 #[test]
+fn a_frame_turned_by_nearly_90_deg_about_y_keeps_its_axes() {
+    for ry in [-1.571_146_254_116_563, 1.570_796_3, std::f64::consts::FRAC_PI_2] {
+        let turned = armill_core::frame::from_xyz_and_fixed_angles(
+            Vector3::zeros(),
+            Vector3::new(2.399_883_181_176_401_4, ry, 0.4),
+        );
+        let (_, written) = pose(&turned);
+        let angles: Vec<f64> = written
+            .trim_matches(['[', ']'])
+            .split(", ")
+            .map(|deg| deg.parse::<f64>().unwrap().to_radians())
+            .collect();
+        let again = armill_core::frame::from_xyz_and_fixed_angles(
+            Vector3::zeros(),
+            Vector3::new(angles[0], angles[1], angles[2]),
+        );
+        assert!(
+            (turned.to_homogeneous() - again.to_homogeneous()).norm() < 1e-14,
+            "{written}"
+        );
+    }
+}
+
+#[test]
 fn round_numbers_are_written_round() {
     assert_eq!(millimetres(0.155, CHAIN), "155");
     assert_eq!(millimetres(-0.1475, CHAIN), "-147.5");
