@@ -1,7 +1,7 @@
 //! Points that each have a load of their own: a tool path, where forces turn with the feed.
 //!
-//! Of a model whose deviation is `C w + g` a point is asked under unit loads, and `C` and `g` serve any wrench; a model
-//! in which the load changes the arm is asked under each wrench as it is.
+//! Of a model whose deviation is `C w + g` a point is asked under unit loads, and `C` and `g` serve any wrench, also one
+//! that depends on how the tip yields there; a model in which the load changes the arm is asked under each wrench as it is.
 
 use nalgebra::{Matrix3, Unit, Vector3};
 
@@ -10,7 +10,7 @@ use super::general::General;
 use super::question::Question;
 use super::solver::{BLOCK, Order, Slots, Solver};
 use crate::frame::Isometry;
-use crate::load::Doubt;
+use crate::load::{Doubt, TipYield};
 use crate::robot::Unreachable;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -26,9 +26,10 @@ pub struct Stop {
 
 /// Answers `question` at `count` points one after the other, each under wrenches of its own.
 ///
-/// `stop(i)` tells where the tool stands; `load(i, wrenches)` fills in the wrenches on the tool at the TCP, base basis, as
-/// many as `question.cases`, whose values, like its `normal` and `doubt`, are not looked at. No shares and no
-/// uncertainties are told: ask [`super::evaluate`] at the points that matter.
+/// `stop(i)` tells where the tool stands; `load(i, tip, wrenches)` fills in the wrenches on the tool at the TCP, base
+/// basis, as many as `question.cases`, whose values, like its `normal` and `doubt`, are not looked at. `tip` tells how the
+/// tip yields to a force there, base; `None` of a model in which that changes with the load. It is asked in order, and only
+/// at points that are reached. No shares and no uncertainties are told: ask [`super::evaluate`] at the points that matter.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
@@ -36,7 +37,7 @@ pub fn evaluate_loaded(
     question: &Question<'_>,
     count: usize,
     stop: impl Fn(usize) -> Stop,
-    load: impl Fn(usize, &mut [Wrench]),
+    load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
     let question = Question {
@@ -76,7 +77,7 @@ impl Rows<'_> {
         mut self,
         question: &Question<'_>,
         stop: impl Fn(usize) -> Stop,
-        load: impl Fn(usize, &mut [Wrench]),
+        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
         let units = unit_loads();
@@ -102,18 +103,17 @@ impl Rows<'_> {
             };
             solver.answer(|i| stop(first + i).base_from_tool, slots, watch)?;
             for index in here {
-                load(index, &mut self.wrenches);
+                let Ok(held) = &mut self.answers.points[index] else {
+                    continue;
+                };
                 let yields = Yields::of(&under_units[(index - first) * units.len()..][..units.len()]);
+                load(index, Some(&yields.tip), &mut self.wrenches);
                 let cases = self.answers.case_count;
                 let deviations = &mut self.answers.deviations[index * cases..][..cases];
                 for (deviation, wrench) in deviations.iter_mut().zip(&self.wrenches) {
                     *deviation = yields.under(wrench);
                 }
-                if let Ok(held) = &mut self.answers.points[index] {
-                    settle(held, deviations, stop(index).normal);
-                } else {
-                    deviations.fill(Vector3::zeros());
-                }
+                settle(held, deviations, stop(index).normal);
             }
         }
         Ok(())
@@ -123,7 +123,7 @@ impl Rows<'_> {
         mut self,
         question: &Question<'_>,
         stop: impl Fn(usize) -> Stop,
-        load: impl Fn(usize, &mut [Wrench]),
+        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
         let mut general = General::new(question);
@@ -134,7 +134,7 @@ impl Rows<'_> {
             if watch.is_cancelled() {
                 return Err(Cancelled);
             }
-            load(index, &mut self.wrenches);
+            load(index, None, &mut self.wrenches);
             let stop = stop(index);
             let asked = Question {
                 cases: &self.wrenches,
@@ -175,9 +175,9 @@ fn unit_loads() -> [Wrench; 7] {
 
 /// `delta = C_f f + C_m m + g`.
 struct Yields {
-    by_force: Matrix3<f64>,
+    /// `C_f` and `g`.
+    tip: TipYield,
     by_moment: Matrix3<f64>,
-    unloaded: Vector3<f64>,
 }
 
 impl Yields {
@@ -187,14 +187,16 @@ impl Yields {
         let columns =
             |first: usize| Matrix3::from_fn(|row, column| (deviations[first + column] - unloaded)[row]);
         Yields {
-            by_force: columns(1),
+            tip: TipYield {
+                by_force: columns(1),
+                unloaded,
+            },
             by_moment: columns(4),
-            unloaded,
         }
     }
 
     fn under(&self, wrench: &Wrench) -> Vector3<f64> {
-        self.by_force * wrench.force + self.by_moment * wrench.moment + self.unloaded
+        self.tip.under(wrench.force) + self.by_moment * wrench.moment
     }
 }
 

@@ -1,8 +1,11 @@
-//! The load along a path: it may turn with the feed and change from point to point.
+//! The load along a path: it may turn with the feed, change from point to point, and give way with the tool.
 
-use nalgebra::Rotation3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::cases::{LoadCases, LoadFrame};
+use super::cutter::Cutter;
+use super::law::CuttingLaw;
+use super::milling::Cut;
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 
@@ -18,6 +21,47 @@ pub enum PathLoad {
         /// All of them.
         wrenches: Vec<Wrench>,
     },
+    /// A tool cuts on its way.
+    Cuts(CutsAlong),
+}
+
+/// What is cut along a path, and what that pushes with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CutsAlong {
+    /// The tool.
+    pub cutter: Cutter,
+    /// Force of a chip.
+    pub law: CuttingLaw,
+    /// Whether the greatest force of a revolution is a second load case.
+    pub with_greatest: bool,
+    /// The cut at every point.
+    pub points: Vec<CutHere>,
+}
+
+/// The cut at a point, as drawn; forces in the feed frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutHere {
+    /// What is cut; `None` in the air, and where no force is known.
+    pub cut: Option<Cut>,
+    /// Mean force over a revolution, N.
+    pub mean: Vector3<f64>,
+    /// Greatest force of a revolution, N; zero where nobody asks for it.
+    pub greatest: Vector3<f64>,
+}
+
+impl CutHere {
+    /// Nothing is cut.
+    pub const NOTHING: CutHere = CutHere {
+        cut: None,
+        mean: Vector3::new(0.0, 0.0, 0.0),
+        greatest: Vector3::new(0.0, 0.0, 0.0),
+    };
+
+    /// Its forces where the mean one has become `mean` (N): the greatest goes with it.
+    pub fn under(&self, mean: Vector3<f64>) -> [Vector3<f64>; 2] {
+        let share = mean.norm() / self.mean.norm().max(f64::MIN_POSITIVE);
+        [mean, self.greatest * share]
+    }
 }
 
 impl PathLoad {
@@ -26,10 +70,12 @@ impl PathLoad {
         match self {
             PathLoad::Cases(load) => load.cases.len(),
             PathLoad::OfEach { cases, .. } => *cases,
+            PathLoad::Cuts(cuts) if cuts.with_greatest => 2,
+            PathLoad::Cuts(_) => 1,
         }
     }
 
-    /// Fills in the wrenches at point `index` in base axes.
+    /// Fills in the wrenches at point `index` in base axes; of cuts those of the path as drawn.
     pub fn in_base(
         &self,
         index: usize,
@@ -37,9 +83,15 @@ impl PathLoad {
         base_from_feed: &Rotation3<f64>,
         out: &mut [Wrench],
     ) {
+        let of_cut;
         let (told, axes) = match self {
             PathLoad::Cases(load) => (&load.cases[..], load.frame),
             PathLoad::OfEach { cases, wrenches } => (&wrenches[index * cases..][..*cases], LoadFrame::Feed),
+            PathLoad::Cuts(cuts) => {
+                let here = &cuts.points[index];
+                of_cut = [here.mean, here.greatest].map(Wrench::from_force);
+                (&of_cut[..], LoadFrame::Feed)
+            }
         };
         let turned = match axes {
             LoadFrame::Base => Rotation3::identity(),

@@ -91,6 +91,41 @@ impl Engagement {
         })
     }
 
+    /// The strip from `right` to `left` (m, to the left of the tool axis) before a tool of this `diameter` (m); what lies
+    /// beyond the tool is not looked at.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, a strip without width.
+    pub fn strip([right, left]: [f64; 2], diameter: f64) -> Result<Engagement, CuttingError> {
+        let radius = diameter / 2.0;
+        within("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
+        within("strip of material, right", right, [-f64::MAX, left], "m")?;
+        let (right, left) = (right.max(-radius), left.min(radius));
+        within("width of the strip", left - right, [f64::MIN_POSITIVE, diameter], "m")?;
+        Ok(Engagement { right, left })
+    }
+
+    /// The strip that a tool of this `radius` (m) meets when it runs `cross` (m) to the left of where it should; `None` if
+    /// that takes it past the strip. A strip that reaches the rim goes on beyond it.
+    pub fn strayed(&self, cross: f64, radius: f64) -> Option<Engagement> {
+        let left = if self.left >= radius {
+            radius
+        } else {
+            (self.left - cross).min(radius)
+        };
+        let right = if self.right <= -radius {
+            -radius
+        } else {
+            (self.right - cross).max(-radius)
+        };
+        (right < left).then_some(Engagement { right, left })
+    }
+
+    /// Width of the strip across the feed, m.
+    pub fn width(&self) -> f64 {
+        self.left - self.right
+    }
+
     /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
     pub fn arc_at(&self, radius: f64) -> Option<Arc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
@@ -212,6 +247,34 @@ mod tests {
         let arc = quarter.arc_at(0.005).unwrap();
         // Exit at 60 deg, before the thickest chip of a slot.
         assert!((greatest_chip(arc, 1.0) - 60_f64.to_radians().sin()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_tool_that_strays_meets_more_or_less_of_a_wall_and_all_of_a_slot() {
+        let (diameter, radius) = (10.0 * MM, 5.0 * MM);
+        let up = Engagement::of(Immersion::Up(2.0 * MM), diameter).unwrap();
+        let down = Engagement::of(Immersion::Down(2.0 * MM), diameter).unwrap();
+        let slot = Engagement::of(Immersion::Slot, diameter).unwrap();
+        // Half a millimetre to the left: into a wall on the left, out of one on the right.
+        let width = |strip: Engagement| strip.strayed(0.5 * MM, radius).map(|strip| strip.width() / MM);
+        assert!((width(up).unwrap() - 2.5).abs() < 1e-12);
+        assert!((width(down).unwrap() - 1.5).abs() < 1e-12);
+        assert_eq!(slot.strayed(0.5 * MM, radius), Some(slot));
+        assert_eq!(down.strayed(2.0 * MM, radius), None);
+        // A rib keeps its width until its edge passes the rim.
+        let rib = Engagement::of(Immersion::Centred(2.0 * MM), diameter).unwrap();
+        assert!((width(rib).unwrap() - 2.0).abs() < 1e-12);
+        let beside = rib.strayed(-5.0 * MM, radius).unwrap();
+        assert!((beside.width() - MM).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_strip_is_cut_off_at_the_rim_and_must_have_a_width() {
+        let strip = Engagement::strip([3.0 * MM, 8.0 * MM], 10.0 * MM).unwrap();
+        assert_eq!(strip, Engagement::of(Immersion::Up(2.0 * MM), 10.0 * MM).unwrap());
+        for no_strip in [[MM, MM], [MM, 0.0], [6.0 * MM, 7.0 * MM], [f64::NAN, MM], [0.0, f64::INFINITY]] {
+            assert!(Engagement::strip(no_strip, 10.0 * MM).is_err(), "{no_strip:?}");
+        }
     }
 
     #[test]

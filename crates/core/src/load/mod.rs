@@ -6,7 +6,7 @@
 //! What a cut pushes with: [`cutter`] (the edge), [`engagement`] and [`arc`] (where and how thick it cuts),
 //! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either), [`milling`] (force at an angle of the spindle
 //! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
-//! its way).
+//! its way), [`straying`] (the force on a tool that it pushes off its path).
 //!
 //! [`record`]: a force as it was measured over time.
 
@@ -25,10 +25,11 @@ pub mod mechanistic;
 pub mod milling;
 pub mod process;
 pub mod record;
+pub mod straying;
 
 mod quadrature;
 
-pub use along::PathLoad;
+pub use along::{CutHere, CutsAlong, PathLoad};
 pub use cases::{LoadCases, LoadFrame};
 pub use cutter::{Cutter, Hand, Runout};
 pub use doubt::Doubt;
@@ -41,3 +42,4 @@ pub use mechanistic::Mechanistic;
 pub use milling::{Cut, Milling, Peak};
 pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};
+pub use straying::{Rest, Straying, TipYield};

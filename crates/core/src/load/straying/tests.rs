@@ -1,0 +1,145 @@
+use super::*;
+use crate::load::{Engagement, Hand, Immersion, Mechanistic};
+
+fn law() -> CuttingLaw {
+    let shear = Vector3::new(796e6, 168e6, 222e6);
+    let edge = Vector3::new(27e3, 30e3, 5e3);
+    CuttingLaw::Mechanistic(Mechanistic::new(shear, edge).unwrap())
+}
+
+fn cut(cutter: &Cutter, immersion: Immersion) -> Cut {
+    Cut {
+        depth: 2e-3,
+        engagement: Engagement::of(immersion, cutter.diameter()).unwrap(),
+        feed: 0.1e-3,
+        rise: 0.0,
+    }
+}
+
+fn drawn(cutter: Cutter, cut: Cut) -> Vector3<f64> {
+    Milling::new(cutter, law(), cut).unwrap().mean().force
+}
+
+/// A tip that yields by `um_n` along each axis, and a little across them.
+fn tip(um_n: f64) -> TipYield {
+    let a = Matrix3::new(1.0, 0.2, -0.1, 0.2, 0.8, 0.15, -0.1, 0.15, 1.3);
+    TipYield {
+        by_force: a * (um_n * 1e-6),
+        unloaded: Vector3::new(3e-6, -5e-6, -8e-6),
+    }
+}
+
+/// By halves: the force that is met when the deviation grows from nothing, in steps so small that it cannot run away.
+fn crept(cutter: Cutter, cut: &Cut, tip: &TipYield) -> Vector2<f64> {
+    let mut s = Vector2::zeros();
+    for _ in 0..200_000 {
+        let force = cut
+            .strayed(s, cutter.radius())
+            .map_or_else(Vector3::zeros, |cut| drawn(cutter, cut));
+        s += (strays(tip, force) - s) * 0.02;
+    }
+    s
+}
+
+#[test]
+fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
+    for cutter in [Cutter::flat(10e-3, 2), Cutter::ball(10e-3, 2)].map(Result::unwrap) {
+        for immersion in [
+            Immersion::Up(3e-3),
+            Immersion::Down(3e-3),
+            Immersion::Slot,
+            Immersion::Centred(4e-3),
+        ] {
+            let cut = cut(&cutter, immersion);
+            let force = drawn(cutter, cut);
+            for um_n in [0.01, 0.3, 1.0, 3.0] {
+                let tip = tip(um_n);
+                let mut straying = Straying::new(cutter, law());
+                let rest = straying.rest(&cut, force, &tip);
+                assert!(rest.settled, "{immersion:?} {um_n}");
+                let s = strays(&tip, rest.force);
+                let met = cut.strayed(s, cutter.radius()).map(|cut| drawn(cutter, cut));
+                let again = strays(&tip, met.unwrap());
+                let size = (tip.by_force * force).norm();
+                assert!((again - s).norm() < 1e-4 * size, "{immersion:?} {um_n}: {s} {again}");
+            }
+        }
+    }
+}
+
+#[test]
+fn creeping_there_ends_at_the_same_place() {
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    for immersion in [Immersion::Up(3e-3), Immersion::Slot] {
+        let cut = cut(&cutter, immersion);
+        let tip = tip(1.0);
+        let rest = Straying::new(cutter, law()).rest(&cut, drawn(cutter, cut), &tip);
+        let crept = crept(cutter, &cut, &tip);
+        let found = strays(&tip, rest.force);
+        assert!((found - crept).norm() < 1e-4 * crept.norm(), "{found} {crept}");
+    }
+}
+
+#[test]
+fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
+    // A flat end mill: the force goes with the depth, so d = a F0 (1 - d/ap), d = a F0/(1 + a F0/ap). A left-hand helix
+    // lifts the tool out.
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    let cutter = cutter.with_helix(0.6, Hand::Left).unwrap();
+    let cut = cut(&cutter, Immersion::Slot);
+    let force = drawn(cutter, cut);
+    for a in [1e-8, 1e-6, 1e-5, 1e-4] {
+        let tip = TipYield {
+            by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, a)),
+            unloaded: Vector3::zeros(),
+        };
+        let rest = Straying::new(cutter, law()).rest(&cut, force, &tip);
+        let stiff = a * force.z;
+        let expected = stiff / (1.0 + stiff / cut.depth);
+        assert!(rest.settled && ((a * rest.force.z) - expected).abs() < 2e-5 * expected.abs(), "{a}");
+    }
+}
+
+#[test]
+fn a_stiff_tip_feels_the_force_of_the_drawing() {
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    let cut = cut(&cutter, Immersion::Down(3e-3));
+    let force = drawn(cutter, cut);
+    let tip = TipYield {
+        by_force: Matrix3::identity() * 1e-15,
+        unloaded: Vector3::zeros(),
+    };
+    let rest = Straying::new(cutter, law()).rest(&cut, force, &tip);
+    assert!(rest.settled && (rest.force - force).norm() < 1e-6 * force.norm());
+}
+
+#[test]
+fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
+    // A right-hand helix draws the tool to the part: soft enough, and every depth draws it deeper still.
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    let cutter = cutter.with_helix(0.6, Hand::Right).unwrap();
+    let cut = cut(&cutter, Immersion::Slot);
+    let force = drawn(cutter, cut);
+    assert!(force.z < 0.0);
+    let soft = |over: f64| TipYield {
+        by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, over * cut.depth / -force.z)),
+        unloaded: Vector3::zeros(),
+    };
+    let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(2.0));
+    assert_eq!(rest, Rest { force, settled: false });
+    // At half of that it goes twice as deep as drawn, and stays there.
+    let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(0.5));
+    assert!(rest.settled && (rest.force.z / force.z - 2.0).abs() < 1e-4);
+}
+
+#[test]
+fn weight_that_lifts_the_tool_out_of_the_cut_leaves_no_force() {
+    let cutter = Cutter::flat(10e-3, 2).unwrap();
+    let cut = cut(&cutter, Immersion::Slot);
+    let tip = TipYield {
+        by_force: Matrix3::identity() * 1e-9,
+        unloaded: Vector3::new(0.0, 0.0, 3e-3),
+    };
+    let rest = Straying::new(cutter, law()).rest(&cut, drawn(cutter, cut), &tip);
+    assert_eq!((rest.force, rest.settled), (Vector3::zeros(), true));
+}
