@@ -78,7 +78,14 @@ pub struct Bite {
     pub arcs: usize,
     /// Depth along the tool axis where it is largest, m; of a plunge what the step takes off where it takes most.
     pub axial_depth: f64,
-    /// Width of the strip of material across the feed, m.
+    /// Left edge of the strip of material, m to the left of the tool axis; 0 in the air.
+    pub left: f64,
+    /// Right edge of the strip, m to the left of the tool axis, so negative on the right; 0 in the air.
+    ///
+    /// A part of the cutter of another radius `rho` than the widest, which `entry` and `exit` belong to, meets the strip
+    /// from `acos(left/rho)` to `acos(right/rho)`, the quotients clipped to -1 and 1.
+    pub right: f64,
+    /// Width of the strip of material across the feed, m: `left - right`.
     pub radial_depth: f64,
     /// Taken away by the step, m^3.
     pub volume: f64,
@@ -173,6 +180,8 @@ pub(super) fn bite(
             exit: TAU,
             arcs: 1,
             axial_depth: removal.depth,
+            left: cutter.radius(),
+            right: -cutter.radius(),
             radial_depth: 2.0 * cutter.radius(),
             volume,
         };
@@ -184,6 +193,8 @@ pub(super) fn bite(
             exit: 0.0,
             arcs: 0,
             axial_depth: 0.0,
+            left: 0.0,
+            right: 0.0,
             radial_depth: 0.0,
             volume,
         };
@@ -202,6 +213,8 @@ pub(super) fn bite(
         exit: (front.right / front.radius).clamp(-1.0, 1.0).acos(),
         arcs: front.arcs,
         axial_depth: front.depth,
+        left: front.left,
+        right: front.right,
         radial_depth: front.left - front.right,
         volume,
     }

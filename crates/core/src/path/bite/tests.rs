@@ -115,6 +115,8 @@ fn a_pass_beside_another_has_the_closed_immersion_of_its_radial_depth() {
                             "{told}"
                         );
                         assert!((bite.radial_depth - ae).abs() <= EDGE * PITCH, "{told}");
+                        let told_by_edges = [bite.left, bite.right].map(|y| (y / RADIUS).acos());
+                        assert_eq!(told_by_edges, [bite.entry, bite.exit], "{told}");
                         let away = if side > 0.0 { bite.entry } else { PI - bite.exit };
                         assert!(away == 0.0 && bite.arcs == 1, "{told}");
                         assert!((bite.axial_depth - DEPTH).abs() < 1e-9, "{told}");
@@ -378,6 +380,13 @@ fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
         let off = bite.radial_depth - (left - right);
         // The stack has discs of a sixth of the engaged radius: the lowest that meets the ridge tells where it begins.
         assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {bite:?}");
+        // The strip tells the radius that its angles belong to: it reaches that far to the left.
+        assert_eq!(bite.radial_depth, bite.left - bite.right);
+        assert!((bite.left - left).abs() < 1e-8, "{bite:?}");
+        assert!(
+            (bite.exit.cos() - bite.right / bite.left).abs() < 1e-12,
+            "{bite:?}"
+        );
     }
 }
 
