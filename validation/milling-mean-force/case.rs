@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use nalgebra::Vector3;
 
 use armill_core::load::process::Advance;
-use armill_core::load::{Cutter, CuttingLaw, Hand, Immersion, Mechanistic, Process};
+use armill_core::load::{Cutter, CuttingLaw, Engagement, Hand, Immersion, Mechanistic, Process};
 use armill_core::predict::predict;
 use armill_core::spatial::Wrench;
 
@@ -34,11 +34,12 @@ fn process(immersion: Immersion) -> Process {
     let cutter = Cutter::flat(16e-3, 4)
         .and_then(|flat| flat.with_helix(45_f64.to_radians(), Hand::Left))
         .expect("a published tool exists");
+    let engagement = Engagement::of(immersion, cutter.diameter());
     Process {
         cutter,
         law: CuttingLaw::Mechanistic(law),
         depth: 1e-3,
-        immersion,
+        engagement: engagement.expect("a published cut can be made"),
         feed: 40e-3,
         spindle: 3333.0 * TAU / 60.0,
     }

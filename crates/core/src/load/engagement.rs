@@ -101,7 +101,12 @@ impl Engagement {
         within("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
         within("strip of material, right", right, [-f64::MAX, left], "m")?;
         let (right, left) = (right.max(-radius), left.min(radius));
-        within("width of the strip", left - right, [f64::MIN_POSITIVE, diameter], "m")?;
+        within(
+            "width of the strip",
+            left - right,
+            [f64::MIN_POSITIVE, diameter],
+            "m",
+        )?;
         Ok(Engagement { right, left })
     }
 
@@ -119,6 +124,25 @@ impl Engagement {
             (self.right - cross).max(-radius)
         };
         (right < left).then_some(Engagement { right, left })
+    }
+
+    /// The strip made `width` (m) wide before a tool of this `radius` (m): at the rim, if it reaches one, else about its
+    /// middle, as far as the tool goes. `None` if nothing is left.
+    pub fn of_width(&self, width: f64, radius: f64) -> Option<Engagement> {
+        let [right, left] = if self.left >= radius {
+            [radius - width, radius]
+        } else if self.right <= -radius {
+            [-radius, width - radius]
+        } else {
+            let middle = 0.5 * (self.left + self.right);
+            [middle - 0.5 * width, middle + 0.5 * width]
+        };
+        Engagement::strip([right, left], 2.0 * radius).ok()
+    }
+
+    /// Right and left edge of the strip, m to the left of the tool axis.
+    pub fn edges(&self) -> [f64; 2] {
+        [self.right, self.left]
     }
 
     /// Width of the strip across the feed, m.
@@ -272,7 +296,13 @@ mod tests {
     fn a_strip_is_cut_off_at_the_rim_and_must_have_a_width() {
         let strip = Engagement::strip([3.0 * MM, 8.0 * MM], 10.0 * MM).unwrap();
         assert_eq!(strip, Engagement::of(Immersion::Up(2.0 * MM), 10.0 * MM).unwrap());
-        for no_strip in [[MM, MM], [MM, 0.0], [6.0 * MM, 7.0 * MM], [f64::NAN, MM], [0.0, f64::INFINITY]] {
+        for no_strip in [
+            [MM, MM],
+            [MM, 0.0],
+            [6.0 * MM, 7.0 * MM],
+            [f64::NAN, MM],
+            [0.0, f64::INFINITY],
+        ] {
             assert!(Engagement::strip(no_strip, 10.0 * MM).is_err(), "{no_strip:?}");
         }
     }

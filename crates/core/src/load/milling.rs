@@ -113,6 +113,11 @@ impl Milling {
         })
     }
 
+    /// What is cut.
+    pub fn cut(&self) -> &Cut {
+        &self.cut
+    }
+
     /// Force on the tool (N, feed frame) when tooth 0 stands at `angle` (rad) with its tip.
     ///
     /// In closed form for a flat end mill without runout under a linear law; else summed over 256 slices of the corner

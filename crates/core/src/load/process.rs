@@ -17,7 +17,7 @@
 use nalgebra::{Matrix3, Unit, Vector3};
 
 use super::cutter::Cutter;
-use super::engagement::{Engagement, Immersion, feed_per_tooth};
+use super::engagement::{Engagement, feed_per_tooth};
 use super::error::CuttingError;
 use super::law::CuttingLaw;
 use super::mean::MeanForce;
@@ -32,8 +32,8 @@ pub struct Process {
     pub law: CuttingLaw,
     /// Axial depth of cut, m.
     pub depth: f64,
-    /// Radial depth of cut, and on which side.
-    pub immersion: Immersion,
+    /// Where round the tool it cuts.
+    pub engagement: Engagement,
     /// Feed speed, m/s.
     pub feed: f64,
     /// Spindle speed, rad/s; clockwise seen from the spindle.
@@ -90,11 +90,27 @@ impl Process {
         let per_tooth = feed_per_tooth(self.feed, self.spindle, self.cutter.flutes())?;
         let cut = Cut {
             depth: self.depth,
-            engagement: Engagement::of(self.immersion, self.cutter.diameter())?,
+            engagement: self.engagement,
             feed: per_tooth * rise.cos(),
             rise: per_tooth * rise.sin(),
         };
         Milling::new(self.cutter, self.law, cut)
+    }
+
+    /// The same with depth and edges of the engagement rounded to multiples of `part` of the diameter: cuts that are alike
+    /// become one.
+    #[must_use]
+    pub fn rounded(&self, part: f64) -> Process {
+        let diameter = self.cutter.diameter();
+        let (step, rim) = (part * diameter, diameter / 2.0);
+        let nearest = |value: f64| ((value / step).round() * step).clamp(-rim, rim);
+        let [right, left] = self.engagement.edges().map(nearest);
+        Process {
+            depth: (self.depth / step).round().max(1.0) * step,
+            // A strip thinner than a step keeps its edges.
+            engagement: Engagement::strip([right, left], diameter).unwrap_or(self.engagement),
+            ..*self
+        }
     }
 
     /// The mean force alone: closed, for every point of a path.

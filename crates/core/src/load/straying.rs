@@ -118,10 +118,7 @@ impl Straying {
             if let Some(force) = self.search(cut, tip)
                 && self.strayed.dot(&stiff) >= 0.0
             {
-                return Rest {
-                    force,
-                    settled: true,
-                };
+                return Rest { force, settled: true };
             }
         }
         (self.strayed, self.slope) = (Vector2::zeros(), Matrix2::identity());
@@ -129,6 +126,11 @@ impl Straying {
             force: drawn,
             settled: false,
         }
+    }
+
+    /// The mean force (N, feed frame) of `cut` on a tool that does not stray; `None` where there is no such cut.
+    pub fn drawn(&self, cut: &Cut) -> Option<Vector3<f64>> {
+        self.force(cut, Vector2::zeros())
     }
 
     /// The force at rest, by steps from where the tool rested last.

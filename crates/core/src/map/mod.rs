@@ -1,12 +1,14 @@
 //! Where does the tolerance hold?
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path on a plane, with radial
-//! deviation and roundness on a circle; [`program`]: along a tool path program; [`region`]: the part within a limit, its area, boundary and what fits;
+//! deviation and roundness on a circle; [`program`]: along a tool path program; [`limits`]: which cut it permits;
+//! [`region`]: the part within a limit, its area, boundary and what fits;
 //! [`certainty`]: how sure that is.
 
 pub mod along;
 pub mod certainty;
 mod inscribed;
+pub mod limits;
 mod marching_squares;
 pub mod plane;
 pub mod program;
@@ -15,7 +17,8 @@ pub mod volume;
 
 pub use along::{PathAnswer, RadialDeviation, along_path};
 pub use certainty::{COVERAGE, Certainty, probability_within};
+pub use limits::{CutLimits, DepthByFeed, Permitted, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
-pub use program::{Parts, ProgramAnswer, Track, along_program};
+pub use program::{Parts, ProgramAnswer, Rested, Track, along_program};
 pub use region::{Region, region_within};
 pub use volume::{BoxGrid, VolumeMap, volume_map};

@@ -2,13 +2,14 @@
 //! feed.
 //!
 //! A program is followed in one posture: the branch is chosen once, from points spread over the path, so the arm does not
-//! change its elbow in the middle of a part.
+//! change its elbow in the middle of a part. Where a tool cuts, force and deviation come to rest at every point
+//! ([`crate::load::straying`]); the branch is chosen under the forces of the path as drawn.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
 use crate::frame::Isometry;
 use crate::kernel::{Answers, BranchChoice, Question, Stop, evaluate_loaded};
-use crate::load::PathLoad;
+use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
 use crate::path::{PathPoint, Placing};
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
@@ -17,15 +18,13 @@ use crate::watch::{Cancelled, Watch};
 /// Points of the path that decide on the branch.
 const SPREAD: usize = 400;
 
-/// The points of a program, where they lie, and what pushes there.
+/// The points of a program, and where they lie.
 #[derive(Clone, Debug)]
 pub struct Track {
     /// Its points.
     pub points: Vec<PathPoint>,
     /// Where they lie.
     pub placing: Placing,
-    /// What pushes.
-    pub load: PathLoad,
     /// The part whose axes a load may be told in.
     pub base_from_part: Isometry,
 }
@@ -37,6 +36,21 @@ pub struct ProgramAnswer {
     pub choice: BranchChoice,
     /// What came out at each point; in-plane is across the tool, normal along it. No shares, no uncertainties.
     pub answers: Answers,
+    /// What pushed: of cuts the forces at rest, with the cuts as drawn.
+    pub load: PathLoad,
+    /// How force and deviation came to rest; `None` where no tool cuts, or the load changes the arm.
+    pub rested: Option<Rested>,
+}
+
+/// How force and deviation came to rest along a program.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rested {
+    /// Largest in-plane deviation if the forces did not give way, m.
+    pub largest_if_drawn: f64,
+    /// Points at which they do not rest: the cut draws the tool in.
+    pub unsettled: usize,
+    /// Index of the first of them.
+    pub first_unsettled: Option<usize>,
 }
 
 /// A deviation seen from the path, m.
@@ -82,14 +96,14 @@ impl Track {
         self.placing.base_from_feed(&self.points[index])
     }
 
-    /// Fills in the wrenches at point `index`, base.
-    pub fn wrenches(&self, index: usize, out: &mut [Wrench]) {
+    /// Fills in the wrenches of `load` at point `index`, base.
+    pub fn wrenches(&self, load: &PathLoad, index: usize, out: &mut [Wrench]) {
         let axes = self.base_from_feed(index);
-        self.load.in_base(index, &self.base_from_part, &axes, out);
+        load.in_base(index, &self.base_from_part, &axes, out);
     }
 }
 
-/// The answers along `track`. What `question` says of cases, normal and doubt is not looked at.
+/// The answers along `track` under `load`. What `question` says of cases, normal and doubt is not looked at.
 ///
 /// Of several branches that match (or of all, for the best one) the arm keeps the one in which it reaches most points
 /// within its limits; of equal ones for [`BranchChoice::Best`] the one with the least of the largest in-plane deviations,
@@ -100,27 +114,101 @@ impl Track {
 pub fn along_program(
     question: &Question<'_>,
     track: &Track,
+    load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<ProgramAnswer, Cancelled> {
-    let cases = vec![Wrench::from_force(Vector3::zeros()); track.load.case_count()];
+    let cases = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
     let asked = Question {
         cases: &cases,
         ..*question
     };
-    let choice = chosen(&asked, track, watch)?;
+    let choice = chosen(&asked, track, &load, watch)?;
     let asked = Question { choice, ..asked };
+    let count = track.points.len();
+    let stop = |i| track.stop(i);
+    if let PathLoad::Cuts(cuts) = load {
+        let mut resting = Resting::new(track, cuts);
+        let answers = evaluate_loaded(
+            &asked,
+            count,
+            stop,
+            |i, tip, out| resting.load(i, tip, out),
+            watch,
+        )?;
+        return Ok(ProgramAnswer {
+            choice,
+            answers,
+            load: PathLoad::Cuts(resting.cuts),
+            rested: question.model.is_affine().then_some(resting.rested),
+        });
+    }
     let answers = evaluate_loaded(
         &asked,
-        track.points.len(),
-        |i| track.stop(i),
-        |i, out| track.wrenches(i, out),
+        count,
+        stop,
+        |i, _, out| track.wrenches(&load, i, out),
         watch,
     )?;
-    Ok(ProgramAnswer { choice, answers })
+    Ok(ProgramAnswer {
+        choice,
+        answers,
+        load,
+        rested: None,
+    })
+}
+
+/// Cuts whose forces come to rest point after point.
+struct Resting<'a> {
+    track: &'a Track,
+    cuts: CutsAlong,
+    straying: Straying,
+    rested: Rested,
+}
+
+impl Resting<'_> {
+    fn new(track: &Track, cuts: CutsAlong) -> Resting<'_> {
+        Resting {
+            track,
+            straying: Straying::new(cuts.cutter, cuts.law),
+            cuts,
+            rested: Rested::default(),
+        }
+    }
+
+    /// Brings the force at point `index` to rest, and fills in its wrenches, base.
+    fn load(&mut self, index: usize, tip: Option<&TipYield>, out: &mut [Wrench]) {
+        let base_from_feed = self.track.base_from_feed(index);
+        let here = &mut self.cuts.points[index];
+        if let Some(tip) = tip {
+            let tip = tip.seen_from(&base_from_feed.inverse());
+            let drawn = [here.mean, here.greatest];
+            for force in &drawn[..out.len().min(drawn.len())] {
+                // In plane is across the tool.
+                let in_plane = tip.under(*force).xy().norm();
+                self.rested.largest_if_drawn = self.rested.largest_if_drawn.max(in_plane);
+            }
+            if let Some(cut) = here.cut {
+                let rest = self.straying.rest(&cut, here.mean, &tip);
+                [here.mean, here.greatest] = here.under(rest.force);
+                if !rest.settled {
+                    self.rested.unsettled += 1;
+                    self.rested.first_unsettled.get_or_insert(index);
+                }
+            }
+        }
+        for (out, force) in out.iter_mut().zip([here.mean, here.greatest]) {
+            *out = Wrench::from_force(base_from_feed * force);
+        }
+    }
 }
 
 /// The one branch that the whole path is followed in.
-fn chosen(question: &Question<'_>, track: &Track, watch: Watch<'_>) -> Result<BranchChoice, Cancelled> {
+fn chosen(
+    question: &Question<'_>,
+    track: &Track,
+    load: &PathLoad,
+    watch: Watch<'_>,
+) -> Result<BranchChoice, Cancelled> {
     let pattern = match question.choice {
         BranchChoice::Of(pattern) => pattern,
         BranchChoice::Best => BranchPattern::default(),
@@ -148,7 +236,7 @@ fn chosen(question: &Question<'_>, track: &Track, watch: Watch<'_>) -> Result<Br
             &asked,
             count,
             |i| track.stop(i * stride),
-            |i, out| track.wrenches(i * stride, out),
+            |i, _, out| track.wrenches(load, i * stride, out),
             quiet,
         )?;
         let merit = Merit::of(&answers, question.choice);

@@ -1,21 +1,29 @@
 //! What a cut pushes with along a path: the forces of [`Process`] at every point, told in the feed frame.
 //!
-//! One wrench a point, the mean over a revolution; where it is asked for also the greatest. An arm whose modes lie at some
+//! The mean over a revolution; where it is asked for also the greatest. An arm whose modes lie at some
 //! 10 Hz does not follow the teeth: the mean moves it, and what the greatest force would move it if it stood still is a
-//! bound. Feed and spindle are those of the program,
-//! where it tells them; depths too. Engagement is the same everywhere: what the program cuts away before is not looked
-//! at ([`super::stock`] knows).
+//! bound. Feed and spindle are those of the program, where it tells them; depths too.
 //!
-//! The greatest force is searched for once for each feed, spindle and depth, on the level; on a ramp it is taken to be
-//! as many times the mean as there. Plunges and steep dives have no force here: the bottom of the cutter is not modelled.
+//! What the tool meets comes from the [`stock`](super::stock), as far as the tool stands upright in it; else the
+//! engagement is the same everywhere. The greatest force is searched for once for each cut, on the level; on a ramp it is
+//! taken to be as many times the mean as there. In a stock cuts differ from point to point, and those
+//! that are alike to [`ALIKE`] of the diameter share one search. Plunges and steep dives have no force here: the bottom of
+//! the cutter is not modelled.
+
+use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
+use super::bite::{Bite, BiteKind};
+use super::cutter_profile::CutterProfile;
 use super::placing::Placing;
 use super::program::{Operation, Pace};
 use super::sampler::PathPoint;
-use crate::load::{Advance, Cutter, CuttingError, CuttingForce, CuttingLaw, Immersion, PathLoad, Process};
-use crate::spatial::Wrench;
+use super::stock::{Stock, StockError};
+use crate::load::{
+    Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, Engagement, Immersion, Peak, Process,
+};
+use crate::watch::{Cancelled, Watch};
 
 /// What cuts, and how, where the program does not tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,14 +56,42 @@ pub enum Greatest {
 /// Forces along a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CuttingForces {
-    /// The wrenches at every point.
-    pub load: PathLoad,
-    /// Largest of the mean forces and of the greatest ones along the path, N.
-    pub largest: [f64; 2],
+    /// The cut and its forces at every point.
+    pub cuts: CutsAlong,
+    /// What is worth telling of them.
+    pub told: ForcesTold,
+}
+
+/// Forces along a path in a few numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ForcesTold {
+    /// Largest mean force along the path, N.
+    pub largest_mean: f64,
+    /// Greatest force of a revolution where the mean is largest, or anywhere, if it is a case; N.
+    pub greatest: f64,
     /// Standard uncertainty of the largest mean force over its size, from the law.
     pub relative_uncertainty: f64,
     /// Points without a force: plunges, dives too steep, withdrawals.
     pub without_force: usize,
+    /// What the stock said; `None` where the engagement is the same everywhere.
+    pub met: Option<Met>,
+}
+
+/// What a tool met in a stock.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Met {
+    /// Points with nothing ahead.
+    pub in_air: usize,
+    /// Points with material over the whole width.
+    pub slots: usize,
+    /// Points at which the tool leans: they have the engagement that is the same everywhere.
+    pub leaning: usize,
+    /// Deepest and widest cut, m.
+    pub largest_depth: f64,
+    /// Likewise across the feed, m.
+    pub largest_width: f64,
+    /// Taken away in all, m^3.
+    pub removed: f64,
 }
 
 /// Why there are no forces along a path.
@@ -81,101 +117,259 @@ pub enum NoForces {
         /// Why.
         error: CuttingError,
     },
+    /// The stock cannot be cut so.
+    #[error("line {line}: {error}")]
+    Stock {
+        /// Line of the program.
+        line: u32,
+        /// Why.
+        error: StockError,
+    },
+    /// The watch says so.
+    #[error("cancelled")]
+    Cancelled,
 }
 
+impl From<Cancelled> for NoForces {
+    fn from(Cancelled: Cancelled) -> NoForces {
+        NoForces::Cancelled
+    }
+}
+
+/// Cuts of a stock whose depth and edges differ by less than this part of the diameter have one greatest force over
+/// their mean: the peak of a slice that thin differs by as much.
+pub const ALIKE: f64 = 0.02;
+
+/// Points between two looks at the watch.
+const POINTS_A_LOOK: usize = 1024;
+
 impl Cutting {
-    /// The forces at `points`; `operations` come with the index of their first point.
+    /// The forces at `points`; `operations` come with the index of their first point. A `stock` is cut away on the way.
     ///
     /// # Errors
-    /// [`NoForces`] at the first point where the cut is not known or cannot be.
+    /// [`NoForces`] at the first point where the cut is not known or cannot be, or if the watch says so.
     pub fn along(
         &self,
         points: &[PathPoint],
         operations: &[(usize, Operation)],
         placing: &Placing,
+        stock: Option<&mut Stock>,
+        watch: Watch<'_>,
     ) -> Result<CuttingForces, NoForces> {
-        let cases = match self.greatest {
-            Greatest::LeftOut => 1,
-            Greatest::SecondCase => 2,
+        let mut cuts = Vec::with_capacity(points.len());
+        let mut told = ForcesTold {
+            met: stock.as_ref().map(|_| Met::default()),
+            ..ForcesTold::default()
         };
-        let mut wrenches = Vec::with_capacity(points.len() * cases);
-        let (mut largest, mut relative_uncertainty, mut without_force) = ([0.0_f64; 2], 0.0, 0);
+        let mut largest: Option<Process> = None;
+        let mut peaks = Peaks::default();
+        let mut stock = stock.map(|stock| InStock::of(stock, &self.cutter)).transpose()?;
         let mut operation = operations.iter().peekable();
-        let mut process = self.process(None);
-        let mut known: Option<(Process, CuttingForce)> = None;
+        let mut of_operation = None;
         for (index, point) in points.iter().enumerate() {
+            if index % POINTS_A_LOOK == 0 && watch.is_cancelled() {
+                return Err(NoForces::Cancelled);
+            }
             while let Some((_, next)) = operation.next_if(|(first, _)| *first <= index) {
-                process = self.process(Some(next));
+                of_operation = Some(next);
             }
-            process.feed = match point.pace {
-                Pace::Feed(feed) if feed > 0.0 => feed,
-                _ => self.feed.ok_or(NoForces::NoFeed { line: point.line })?,
-            };
-            if process.spindle <= 0.0 {
-                return Err(NoForces::NoSpindle { line: point.line });
-            }
-            let told = |error| NoForces::Cut {
+            let no_cut = |error| NoForces::Cut {
                 line: point.line,
                 error,
             };
-            let level = match &known {
-                Some((of, force)) if *of == process => *force,
-                _ => {
-                    let force = process.force(Advance::Level).map_err(told)?;
-                    known = Some((process, force));
-                    force
-                }
-            };
-            let mean = match placing.advance(point) {
-                Advance::Level => level.mean,
-                advance => match process.mean(advance) {
-                    Ok(mean) => mean.force,
-                    Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
-                        without_force += 1;
-                        Vector3::zeros()
+            let mut process = self.process(of_operation, point)?;
+            let mut is_of_stock = false;
+            if let (Some(stock), Some(met)) = (&mut stock, &mut told.met) {
+                let before = index.checked_sub(1).map(|before| &points[before]);
+                match stock.meets(before, point, placing, met)? {
+                    Meets::AsTold => {}
+                    Meets::Nothing => {
+                        cuts.push(CutHere::NOTHING);
+                        continue;
                     }
-                    Err(error) => return Err(told(error)),
-                },
+                    Meets::Strip(strip, depth) => {
+                        process.engagement =
+                            Engagement::strip(strip, self.cutter.diameter()).map_err(no_cut)?;
+                        process.depth = depth;
+                        is_of_stock = true;
+                    }
+                }
+            }
+            let milling = match process.milling(placing.advance(point)) {
+                Ok(milling) => milling,
+                Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
+                    told.without_force += 1;
+                    cuts.push(CutHere::NOTHING);
+                    continue;
+                }
+                Err(error) => return Err(no_cut(error)),
             };
-            let share = mean.norm() / level.mean.norm().max(f64::MIN_POSITIVE);
-            let greatest = level.peak.force * share;
-            wrenches.push(Wrench::from_force(mean));
+            let mean = milling.mean();
+            let size = mean.force.norm();
+            let mut greatest = Vector3::zeros();
             if self.greatest == Greatest::SecondCase {
-                wrenches.push(Wrench::from_force(greatest));
+                let alike = if is_of_stock {
+                    process.rounded(ALIKE)
+                } else {
+                    process
+                };
+                greatest = peaks.over_mean(&alike).map_err(no_cut)? * size;
+                told.greatest = told.greatest.max(greatest.norm());
             }
-            if mean.norm() > largest[0] {
-                relative_uncertainty = along(&level.covariance, &level.mean) / level.mean.norm();
+            if size > told.largest_mean {
+                (told.largest_mean, largest) = (size, Some(process));
+                told.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
             }
-            largest = [largest[0].max(mean.norm()), largest[1].max(greatest.norm())];
+            cuts.push(CutHere {
+                cut: Some(*milling.cut()),
+                mean: mean.force,
+                greatest,
+            });
+        }
+        if let (Greatest::LeftOut, Some(process)) = (self.greatest, largest) {
+            // A cut whose mean was found has a peak.
+            let over_mean = peaks.over_mean(&process).unwrap_or_default();
+            told.greatest = over_mean.norm() * told.largest_mean;
         }
         Ok(CuttingForces {
-            load: PathLoad::OfEach { cases, wrenches },
-            largest,
-            relative_uncertainty,
-            without_force,
+            cuts: CutsAlong {
+                cutter: self.cutter,
+                law: self.law,
+                with_greatest: self.greatest == Greatest::SecondCase,
+                points: cuts,
+            },
+            told,
         })
     }
 
-    /// The process of an operation, its feed still to be told; a spindle that nobody tells stands.
-    fn process(&self, operation: Option<&Operation>) -> Process {
+    /// The process of an operation at a point.
+    fn process(&self, operation: Option<&Operation>, point: &PathPoint) -> Result<Process, NoForces> {
+        let line = point.line;
         let depths = operation.and_then(|operation| operation.depths);
-        let spindle = operation.and_then(|operation| operation.spindle).map(f64::abs);
-        Process {
+        let told = operation.and_then(|operation| operation.spindle).map(f64::abs);
+        let spindle = told.filter(|speed| *speed > 0.0).or(self.spindle);
+        let feed = match point.pace {
+            Pace::Feed(feed) if feed > 0.0 => Some(feed),
+            _ => self.feed,
+        };
+        let immersion = match (depths, self.immersion) {
+            (None, immersion) => immersion,
+            (Some(depths), Immersion::Up(_)) => Immersion::Up(depths.radial),
+            (Some(depths), Immersion::Down(_)) => Immersion::Down(depths.radial),
+            (Some(depths), Immersion::Centred(_) | Immersion::Slot) => Immersion::Centred(depths.radial),
+        };
+        let engagement = Engagement::of(immersion, self.cutter.diameter());
+        Ok(Process {
             cutter: self.cutter,
             law: self.law,
             depth: depths.map_or(self.depth, |depths| depths.axial),
-            immersion: match (depths, self.immersion) {
-                (None, immersion) => immersion,
-                (Some(depths), Immersion::Up(_)) => Immersion::Up(depths.radial),
-                (Some(depths), Immersion::Down(_)) => Immersion::Down(depths.radial),
-                (Some(depths), Immersion::Centred(_) | Immersion::Slot) => Immersion::Centred(depths.radial),
-            },
-            feed: 0.0,
+            engagement: engagement.map_err(|error| NoForces::Cut { line, error })?,
+            feed: feed.ok_or(NoForces::NoFeed { line })?,
             spindle: spindle
                 .filter(|speed| *speed > 0.0)
-                .or(self.spindle)
-                .unwrap_or(0.0),
+                .ok_or(NoForces::NoSpindle { line })?,
+        })
+    }
+}
+
+/// What the tool meets at a point.
+enum Meets {
+    /// What the cut of the study says.
+    AsTold,
+    /// Nothing.
+    Nothing,
+    /// A strip (right and left edge, m, to the left of the axis) this deep (m).
+    Strip([f64; 2], f64),
+}
+
+/// A cutter on its way through a stock.
+struct InStock<'a> {
+    stock: &'a mut Stock,
+    profile: CutterProfile,
+}
+
+impl<'a> InStock<'a> {
+    fn of(stock: &'a mut Stock, cutter: &Cutter) -> Result<InStock<'a>, NoForces> {
+        let profile = CutterProfile::new(cutter.diameter(), cutter.corner_radius());
+        Ok(InStock {
+            stock,
+            profile: profile.map_err(|error| NoForces::Stock { line: 0, error })?,
+        })
+    }
+
+    /// What the tool meets on its way to `point` from the point `before`, where it cut before.
+    fn meets(
+        &mut self,
+        before: Option<&PathPoint>,
+        point: &PathPoint,
+        placing: &Placing,
+        met: &mut Met,
+    ) -> Result<Meets, NoForces> {
+        let goes_on = before.filter(|before| before.along < point.along);
+        let upright = PathPoint {
+            axis: Some(placing.path_spindle(point)),
+            ..*point
+        };
+        let bite = match self
+            .stock
+            .cut(goes_on.unwrap_or(point).at, &upright, &self.profile)
+        {
+            Ok(bite) => bite,
+            Err(StockError::Tilted { .. }) => {
+                met.leaning += 1;
+                return Ok(Meets::AsTold);
+            }
+            Err(error) => {
+                let line = point.line;
+                return Err(NoForces::Stock { line, error });
+            }
+        };
+        met.removed += bite.volume;
+        Ok(match bite.kind {
+            BiteKind::Air => {
+                met.in_air += 1;
+                Meets::Nothing
+            }
+            // The force of a dive is not known, whatever it bites into.
+            BiteKind::Plunge => Meets::AsTold,
+            BiteKind::Slot | BiteKind::Side(_) => {
+                met.slots += usize::from(bite.kind == BiteKind::Slot);
+                met.largest_depth = met.largest_depth.max(bite.axial_depth);
+                met.largest_width = met.largest_width.max(bite.radial_depth);
+                Meets::Strip(self.strip(&bite), bite.axial_depth)
+            }
+        })
+    }
+
+    /// Its edges: one that reaches the rim at its own height goes on beyond it.
+    fn strip(&self, bite: &Bite) -> [f64; 2] {
+        let radius = self.profile.radius();
+        let right = if bite.exit >= std::f64::consts::PI {
+            -radius
+        } else {
+            bite.right
+        };
+        let left = if bite.entry <= 0.0 { radius } else { bite.left };
+        [right, left]
+    }
+}
+
+/// Greatest forces over the size of the mean one, on the level, of the cuts that were asked for.
+#[derive(Default)]
+struct Peaks(BTreeMap<[u64; 5], Vector3<f64>>);
+
+impl Peaks {
+    fn over_mean(&mut self, process: &Process) -> Result<Vector3<f64>, CuttingError> {
+        let [right, left] = process.engagement.edges();
+        let key = [process.depth, right, left, process.feed, process.spindle].map(f64::to_bits);
+        if let Some(known) = self.0.get(&key) {
+            return Ok(*known);
         }
+        let force = process.force(Advance::Level)?;
+        let Peak { force: peak, .. } = force.peak;
+        let found = peak / force.mean.norm().max(f64::MIN_POSITIVE);
+        self.0.insert(key, found);
+        Ok(found)
     }
 }
 
@@ -186,137 +380,4 @@ fn along(covariance: &Matrix3<f64>, force: &Vector3<f64>) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::frame::Isometry;
-    use crate::load::{Hand, Mechanistic};
-    use crate::path::{DepthOfCut, Spin};
-    use nalgebra::{Point3, Unit};
-    use std::f64::consts::TAU;
-
-    /// The cut of `figures.md` section 4.3: 155.6207 N.
-    fn cutting() -> Cutting {
-        let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
-        let law = Mechanistic::new(shear, Vector3::zeros()).unwrap();
-        let cutter = Cutter::flat(16e-3, 4).unwrap();
-        Cutting {
-            cutter: cutter.with_helix(45_f64.to_radians(), Hand::Right).unwrap(),
-            law: CuttingLaw::Mechanistic(law.with_relative_uncertainty(0.2).unwrap()),
-            depth: 1e-3,
-            immersion: Immersion::Up(5e-3),
-            feed: Some(40e-3),
-            spindle: Some(3333.0 * TAU / 60.0),
-            greatest: Greatest::SecondCase,
-        }
-    }
-
-    fn point(direction: [f64; 3], pace: Pace) -> PathPoint {
-        PathPoint {
-            at: Point3::origin(),
-            axis: None,
-            direction: Unit::new_normalize(direction.into()),
-            along: 0.0,
-            pace,
-            line: 7,
-        }
-    }
-
-    fn placing() -> Placing {
-        Placing {
-            base_from_path: Isometry::identity(),
-            axis: Vector3::z_axis(),
-            keeps_axis: false,
-            spin: Spin::Fixed(0.0),
-        }
-    }
-
-    fn forces(
-        cutting: &Cutting,
-        points: &[PathPoint],
-        operations: &[(usize, Operation)],
-    ) -> Vec<Vector3<f64>> {
-        let found = cutting.along(points, operations, &placing()).unwrap();
-        let PathLoad::OfEach { wrenches, .. } = found.load else {
-            panic!("each point has its own")
-        };
-        wrenches.iter().map(|wrench| wrench.force).collect()
-    }
-
-    #[test]
-    fn the_mean_force_is_the_published_one_wherever_the_feed_goes() {
-        for direction in [[1.0, 0.0, 0.0], [-0.3, 0.8, 0.0]] {
-            let both = forces(&cutting(), &[point(direction, Pace::Untold)], &[]);
-            assert!((both[0].norm() - 155.6207).abs() < 5e-5, "{}", both[0]);
-            assert!(both[1].norm() > both[0].norm());
-            let alone = Cutting {
-                greatest: Greatest::LeftOut,
-                ..cutting()
-            };
-            assert_eq!(forces(&alone, &[point(direction, Pace::Untold)], &[]), both[..1]);
-        }
-    }
-
-    #[test]
-    fn feed_spindle_and_depths_are_those_of_the_program_where_it_tells_them() {
-        let slow = Operation {
-            spindle: Some(3333.0 * TAU / 60.0 / 2.0),
-            depths: Some(DepthOfCut {
-                axial: 2e-3,
-                radial: 5e-3,
-            }),
-            ..Operation::default()
-        };
-        let points = [
-            point([1.0, 0.0, 0.0], Pace::Feed(40e-3)),
-            point([1.0, 0.0, 0.0], Pace::Feed(20e-3)),
-        ];
-        let found = forces(&cutting(), &points, &[(1, slow)]);
-        // Half the feed at half the speed is the same chip; twice the depth is twice the force.
-        assert!((found[2] - found[0] * 2.0).norm() < 1e-9);
-    }
-
-    #[test]
-    fn a_ramp_keeps_the_share_of_its_greatest_force_and_a_plunge_has_none() {
-        let points = [
-            point([1.0, 0.0, -0.2], Pace::Untold),
-            point([0.0, 0.0, -1.0], Pace::Untold),
-        ];
-        let found = cutting().along(&points, &[], &placing()).unwrap();
-        assert_eq!(found.without_force, 1);
-        let level = cutting().along(&points[..1], &[], &placing()).unwrap();
-        assert!((level.relative_uncertainty - 0.2).abs() < 0.1);
-        let PathLoad::OfEach { wrenches, .. } = found.load else {
-            panic!("each point has its own")
-        };
-        let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::Untold)], &[]);
-        let (mean, peak) = (wrenches[0].force.norm(), wrenches[1].force.norm());
-        assert!((peak / mean - flat[1].norm() / flat[0].norm()).abs() < 1e-12);
-        assert_eq!(wrenches[2].force, Vector3::zeros());
-    }
-
-    #[test]
-    fn what_nobody_tells_is_named_with_its_line() {
-        let points = [point([1.0, 0.0, 0.0], Pace::Untold)];
-        let no_feed = Cutting {
-            feed: None,
-            ..cutting()
-        };
-        let error = no_feed.along(&points, &[], &placing()).unwrap_err();
-        assert_eq!(error, NoForces::NoFeed { line: 7 });
-        let no_spindle = Cutting {
-            spindle: None,
-            ..cutting()
-        };
-        let error = no_spindle.along(&points, &[], &placing()).unwrap_err();
-        assert_eq!(error, NoForces::NoSpindle { line: 7 });
-        let too_wide = Cutting {
-            immersion: Immersion::Up(1.0),
-            ..cutting()
-        };
-        let error = too_wide.along(&points, &[], &placing()).unwrap_err().to_string();
-        assert!(
-            error.starts_with("line 7: ") && error.contains("radial"),
-            "{error}"
-        );
-    }
-}
+mod tests;

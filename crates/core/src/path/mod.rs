@@ -18,7 +18,7 @@ pub mod stock;
 
 pub use bite::{Bite, BiteKind, Milling};
 pub use cutter_profile::CutterProfile;
-pub use cutting::{Cutting, CuttingForces, Greatest, NoForces};
+pub use cutting::{Cutting, CuttingForces, ForcesTold, Greatest, Met, NoForces};
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Program, Step};

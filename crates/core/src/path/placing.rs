@@ -42,8 +42,12 @@ const PLUNGE: f64 = 1e-6;
 impl Placing {
     /// The tool at `point`, from the tip towards the spindle, base.
     pub fn spindle(&self, point: &PathPoint) -> Unit<Vector3<f64>> {
-        let told = point.axis.filter(|_| !self.keeps_axis);
-        self.base_from_path.rotation * told.unwrap_or(self.axis)
+        self.base_from_path.rotation * self.path_spindle(point)
+    }
+
+    /// The same, path.
+    pub fn path_spindle(&self, point: &PathPoint) -> Unit<Vector3<f64>> {
+        point.axis.filter(|_| !self.keeps_axis).unwrap_or(self.axis)
     }
 
     /// The tool pose at `point`.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::load::{Hand, Mechanistic};
+use crate::load::{Hand, Immersion, Mechanistic};
 use std::f64::consts::TAU;
 
 const MM: f64 = 1e-3;
@@ -14,7 +14,7 @@ fn process() -> Process {
             .unwrap(),
         law: CuttingLaw::Mechanistic(law.with_relative_uncertainty(0.3).unwrap()),
         depth: MM,
-        immersion: Immersion::Up(5.0 * MM),
+        engagement: Engagement::of(Immersion::Up(5.0 * MM), 16.0 * MM).unwrap(),
         feed: 40.0 * MM,
         spindle: 3333.0 * TAU / 60.0,
     }
@@ -90,10 +90,6 @@ fn a_process_that_cannot_be_is_refused() {
         },
         Process {
             feed: f64::NAN,
-            ..process()
-        },
-        Process {
-            immersion: Immersion::Down(0.02),
             ..process()
         },
     ] {

@@ -61,7 +61,10 @@ fn at_rest_the_deviation_is_that_of_the_force_and_the_force_that_of_the_cut() {
                 let met = cut.strayed(s, cutter.radius()).map(|cut| drawn(cutter, cut));
                 let again = strays(&tip, met.unwrap());
                 let size = (tip.by_force * force).norm();
-                assert!((again - s).norm() < 1e-4 * size, "{immersion:?} {um_n}: {s} {again}");
+                assert!(
+                    (again - s).norm() < 1e-4 * size,
+                    "{immersion:?} {um_n}: {s} {again}"
+                );
             }
         }
     }
@@ -96,7 +99,10 @@ fn a_tip_that_yields_along_the_tool_alone_rests_where_a_straight_line_says() {
         let rest = Straying::new(cutter, law()).rest(&cut, force, &tip);
         let stiff = a * force.z;
         let expected = stiff / (1.0 + stiff / cut.depth);
-        assert!(rest.settled && ((a * rest.force.z) - expected).abs() < 2e-5 * expected.abs(), "{a}");
+        assert!(
+            rest.settled && ((a * rest.force.z) - expected).abs() < 2e-5 * expected.abs(),
+            "{a}"
+        );
     }
 }
 
@@ -126,7 +132,13 @@ fn a_tool_that_is_drawn_in_deeper_than_it_went_does_not_rest() {
         unloaded: Vector3::zeros(),
     };
     let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(2.0));
-    assert_eq!(rest, Rest { force, settled: false });
+    assert_eq!(
+        rest,
+        Rest {
+            force,
+            settled: false
+        }
+    );
     // At half of that it goes twice as deep as drawn, and stays there.
     let rest = Straying::new(cutter, law()).rest(&cut, force, &soft(0.5));
     assert!(rest.settled && (rest.force.z / force.z - 2.0).abs() < 1e-4);

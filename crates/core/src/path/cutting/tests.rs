@@ -1,0 +1,231 @@
+use super::*;
+use crate::frame::Isometry;
+use crate::load::{Hand, Mechanistic};
+use crate::path::{Course, DepthOfCut, Move, Sampler, Sampling, Spin};
+use nalgebra::{Point3, Unit};
+use std::f64::consts::TAU;
+
+/// The cut of `figures.md` section 4.3: 155.6207 N.
+fn cutting() -> Cutting {
+    let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
+    let law = Mechanistic::new(shear, Vector3::zeros()).unwrap();
+    let cutter = Cutter::flat(16e-3, 4).unwrap();
+    Cutting {
+        cutter: cutter.with_helix(45_f64.to_radians(), Hand::Right).unwrap(),
+        law: CuttingLaw::Mechanistic(law.with_relative_uncertainty(0.2).unwrap()),
+        depth: 1e-3,
+        immersion: Immersion::Up(5e-3),
+        feed: Some(40e-3),
+        spindle: Some(3333.0 * TAU / 60.0),
+        greatest: Greatest::SecondCase,
+    }
+}
+
+fn point(direction: [f64; 3], pace: Pace) -> PathPoint {
+    PathPoint {
+        at: Point3::origin(),
+        axis: None,
+        direction: Unit::new_normalize(direction.into()),
+        along: 0.0,
+        pace,
+        line: 7,
+    }
+}
+
+fn placing() -> Placing {
+    Placing {
+        base_from_path: Isometry::identity(),
+        axis: Vector3::z_axis(),
+        keeps_axis: false,
+        spin: Spin::Fixed(0.0),
+    }
+}
+
+fn along(
+    cutting: &Cutting,
+    points: &[PathPoint],
+    operations: &[(usize, Operation)],
+    stock: Option<&mut Stock>,
+) -> Result<CuttingForces, NoForces> {
+    cutting.along(points, operations, &placing(), stock, Watch::NONE)
+}
+
+fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operation)]) -> Vec<Vector3<f64>> {
+    let found = along(cutting, points, operations, None).unwrap();
+    let of = |here: &CutHere| [here.mean, here.greatest];
+    let cases = if found.cuts.with_greatest { 2 } else { 1 };
+    let all = found.cuts.points.iter();
+    all.flat_map(|here| of(here).into_iter().take(cases)).collect()
+}
+
+#[test]
+fn the_mean_force_is_the_published_one_wherever_the_feed_goes() {
+    for direction in [[1.0, 0.0, 0.0], [-0.3, 0.8, 0.0]] {
+        let both = forces(&cutting(), &[point(direction, Pace::Untold)], &[]);
+        assert!((both[0].norm() - 155.6207).abs() < 5e-5, "{}", both[0]);
+        assert!(both[1].norm() > both[0].norm());
+        let alone = Cutting {
+            greatest: Greatest::LeftOut,
+            ..cutting()
+        };
+        assert_eq!(forces(&alone, &[point(direction, Pace::Untold)], &[]), both[..1]);
+    }
+}
+
+#[test]
+fn feed_spindle_and_depths_are_those_of_the_program_where_it_tells_them() {
+    let slow = Operation {
+        spindle: Some(3333.0 * TAU / 60.0 / 2.0),
+        depths: Some(DepthOfCut {
+            axial: 2e-3,
+            radial: 5e-3,
+        }),
+        ..Operation::default()
+    };
+    let points = [
+        point([1.0, 0.0, 0.0], Pace::Feed(40e-3)),
+        point([1.0, 0.0, 0.0], Pace::Feed(20e-3)),
+    ];
+    let found = forces(&cutting(), &points, &[(1, slow)]);
+    // Half the feed at half the speed is the same chip; twice the depth is twice the force.
+    assert!((found[2] - found[0] * 2.0).norm() < 1e-9);
+}
+
+#[test]
+fn a_ramp_keeps_the_share_of_its_greatest_force_and_a_plunge_has_none() {
+    let points = [
+        point([1.0, 0.0, -0.2], Pace::Untold),
+        point([0.0, 0.0, -1.0], Pace::Untold),
+    ];
+    let found = along(&cutting(), &points, &[], None).unwrap();
+    assert_eq!(found.told.without_force, 1);
+    let level = along(&cutting(), &points[..1], &[], None).unwrap();
+    assert!((level.told.relative_uncertainty - 0.2).abs() < 0.1);
+    let [ramp, plunge] = &found.cuts.points[..] else {
+        panic!("two points")
+    };
+    let flat = forces(&cutting(), &[point([1.0, 0.0, 0.0], Pace::Untold)], &[]);
+    let (mean, peak) = (ramp.mean.norm(), ramp.greatest.norm());
+    assert!((peak / mean - flat[1].norm() / flat[0].norm()).abs() < 1e-12);
+    assert_eq!(*plunge, CutHere::NOTHING);
+}
+
+#[test]
+fn what_nobody_tells_is_named_with_its_line() {
+    let points = [point([1.0, 0.0, 0.0], Pace::Untold)];
+    let no_feed = Cutting {
+        feed: None,
+        ..cutting()
+    };
+    let error = along(&no_feed, &points, &[], None).unwrap_err();
+    assert_eq!(error, NoForces::NoFeed { line: 7 });
+    let no_spindle = Cutting {
+        spindle: None,
+        ..cutting()
+    };
+    let error = along(&no_spindle, &points, &[], None).unwrap_err();
+    assert_eq!(error, NoForces::NoSpindle { line: 7 });
+    let too_wide = Cutting {
+        immersion: Immersion::Up(1.0),
+        ..cutting()
+    };
+    let error = along(&too_wide, &points, &[], None).unwrap_err().to_string();
+    assert!(
+        error.starts_with("line 7: ") && error.contains("radial"),
+        "{error}"
+    );
+}
+
+/// A square pocket of 40 mm in a box: out from the middle, then round.
+fn pocket() -> Vec<PathPoint> {
+    let mut sampler = Sampler::new(Sampling {
+        chord_error: 1e-5,
+        step: 0.5e-3,
+    });
+    let mut points = Vec::new();
+    let to = |x: f64, y: f64, pace| Move {
+        end: Point3::new(x, y, -1e-3),
+        axis: None,
+        course: Course::Line,
+        pace,
+        line: 1,
+    };
+    let feed = Pace::Feed(40e-3);
+    for next in [
+        to(-60e-3, 0.0, Pace::Rapid),
+        to(20e-3, 0.0, feed),
+        to(20e-3, 5e-3, feed),
+        to(-60e-3, 5e-3, feed),
+    ] {
+        sampler.points(&next, |point| points.push(point));
+    }
+    points
+}
+
+#[test]
+fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
+    let corners = [
+        Point3::new(-40e-3, -40e-3, -10e-3),
+        Point3::new(40e-3, 40e-3, 0.0),
+    ];
+    let mut stock = Stock::new(corners, 0.25e-3).unwrap();
+    let points = pocket();
+    let found = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
+    let met = found.told.met.unwrap();
+    assert!(met.in_air > 10 && met.slots > 50 && met.leaning == 0, "{met:?}");
+    assert!((met.largest_depth - 1e-3).abs() < 1e-6 && (met.largest_width - 16e-3).abs() < 1e-9);
+    assert_eq!(found.cuts.points[0], CutHere::NOTHING);
+    let at = |x: f64, y: f64| {
+        let near = |point: &PathPoint| (point.at.xy() - nalgebra::Point2::new(x, y)).norm() < 1e-6;
+        found.cuts.points[points.iter().position(near).unwrap()]
+    };
+    let as_told = |immersion| {
+        let alone = Cutting {
+            immersion,
+            ..cutting()
+        };
+        forces(&alone, &[point([1.0, 0.0, 0.0], Pace::Untold)], &[])
+    };
+    let slot = at(-10e-3, 0.0);
+    assert!((slot.mean - as_told(Immersion::Slot)[0]).norm() < 1e-9 * slot.mean.norm());
+    assert!((slot.greatest - as_told(Immersion::Slot)[1]).norm() < 1e-9 * slot.mean.norm());
+    // Back to -x the slot lies on the left, 5 mm of material on the right: down-milling.
+    let back = at(-10e-3, 5e-3);
+    let down = as_told(Immersion::Down(5e-3));
+    // Edges of a strip are right to a quarter of a millimetre here: 5 % of its width.
+    assert!(
+        (back.mean - down[0]).norm() < 0.06 * down[0].norm(),
+        "{} {}",
+        back.mean,
+        down[0]
+    );
+    let share = |mean: Vector3<f64>, greatest: Vector3<f64>| greatest.norm() / mean.norm();
+    assert!((share(back.mean, back.greatest) / share(down[0], down[1]) - 1.0).abs() < 0.05);
+}
+
+#[test]
+fn a_leaning_tool_has_the_engagement_that_was_told() {
+    let corners = [
+        Point3::new(-40e-3, -40e-3, -10e-3),
+        Point3::new(40e-3, 40e-3, 0.0),
+    ];
+    let mut stock = Stock::new(corners, 1e-3).unwrap();
+    let leaning = PathPoint {
+        axis: Some(Unit::new_normalize(Vector3::new(0.0, 0.3, 1.0))),
+        ..point([1.0, 0.0, 0.0], Pace::Untold)
+    };
+    let found = along(&cutting(), &[leaning], &[], Some(&mut stock)).unwrap();
+    assert_eq!(found.told.met.unwrap().leaning, 1);
+    assert_eq!(found.cuts, along(&cutting(), &[leaning], &[], None).unwrap().cuts);
+}
+
+#[test]
+fn long_work_can_be_stopped() {
+    let cancel = std::sync::atomic::AtomicBool::new(true);
+    let watch = Watch {
+        cancel: &cancel,
+        ..Watch::NONE
+    };
+    let stopped = cutting().along(&pocket(), &[], &placing(), None, watch);
+    assert_eq!(stopped, Err(NoForces::Cancelled));
+}
