@@ -21,6 +21,7 @@ mod sheet;
 
 mod path_plot;
 mod polar_plot;
+mod process_map;
 mod track;
 mod vector_field;
 
@@ -59,6 +60,7 @@ pub use map::{DeviationMap, Marker, MarkerKind, Overlay};
 pub use path_plot::{PathPlot, Series};
 pub use plane::AxisLabels;
 pub use polar_plot::{PolarPlot, RadialSeries};
+pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{Arrangement, ShareBar, ShareBars};
 pub use sheet::{Panel, Sheet};

@@ -1,13 +1,17 @@
 //! Runs a study: every ask through the core.
 
 use armill_core::kernel::Question;
+use armill_core::load::PathLoad;
 use armill_core::map::{
-    PathAnswer, PlaneMap, ProgramAnswer, VolumeMap, along_path, along_program, plane_map, volume_map,
+    PathAnswer, PlaneMap, ProgramAnswer, ProgramLimits, VolumeMap, along_path, along_program, plane_map,
+    program_limits, volume_map,
 };
+use armill_core::path::{ForcesTold, NoForces};
 use armill_core::robot::{JointCompliance, Robot};
-use armill_core::watch::Watch;
+use armill_core::watch::{Cancelled, Watch};
 
 use crate::error::StudyError;
+use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Ask, Setting, Sheet, Study, Subject};
 
 /// What came out of one ask.
@@ -22,7 +26,18 @@ pub enum Found {
     /// A path.
     Path(PathAnswer),
     /// A tool path program.
-    Program(Box<ProgramAnswer>),
+    Program(Box<ProgramFound>),
+}
+
+/// What came out along a program.
+#[derive(Clone, Debug)]
+pub struct ProgramFound {
+    /// Its deviation.
+    pub answer: ProgramAnswer,
+    /// What is worth telling of its forces, where a cut makes them.
+    pub forces: Option<ForcesTold>,
+    /// What keeps the tolerance, where that was asked and can be told.
+    pub limits: Option<ProgramLimits>,
 }
 
 /// How many points the study asks for.
@@ -32,7 +47,8 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
         Subject::Path(_, shape, step) => (shape.length() / step).ceil() as usize,
-        Subject::Program(program) => program.track.points.len(),
+        // A stock is cut in a pass of its own.
+        Subject::Program(program) => program.track.points.len() * if program.has_stock() { 2 } else { 1 },
     };
     study.asks.iter().map(of).sum()
 }
@@ -84,11 +100,43 @@ impl Runner<'_> {
                 *step,
                 self.watch,
             )?),
-            Subject::Program(program) => Found::Program(Box::new(along_program(
-                &self.question(&program.setting),
-                &program.track,
-                self.watch,
-            )?)),
+            Subject::Program(program) => Found::Program(Box::new(self.program(program)?)),
+        })
+    }
+
+    fn program(&self, ask: &ProgramAsk) -> Result<ProgramFound, StudyError> {
+        let (load, forces) = match &ask.cut {
+            Some(cut) if let Some(stock) = &cut.stock => {
+                let (points, placing) = (&ask.track.points, &ask.track.placing);
+                let mut stock = stock.clone();
+                let found = cut
+                    .cutting
+                    .along(points, &ask.operations, placing, Some(&mut stock), self.watch);
+                let found = found.map_err(|error| match error {
+                    NoForces::Cancelled => StudyError::Cancelled(Cancelled),
+                    error => StudyError::value(
+                        format!("{}: {error}", ask.file),
+                        "is the stock where the program cuts?",
+                    ),
+                })?;
+                (PathLoad::Cuts(found.cuts), Some(found.told))
+            }
+            _ => (ask.load.clone(), ask.forces),
+        };
+        let question = self.question(&ask.setting);
+        let answer = along_program(&question, &ask.track, load, self.watch)?;
+        let question = Question {
+            choice: answer.choice,
+            ..question
+        };
+        let limits = match ask.tells_limits() {
+            true => program_limits(&question, &ask.track, &answer, ask.setting.limit, self.watch)?,
+            false => None,
+        };
+        Ok(ProgramFound {
+            answer,
+            forces,
+            limits,
         })
     }
 

@@ -159,6 +159,90 @@ fn forces_come_from_the_cut_and_need_no_load() {
     assert!(worst.in_plane_u_um > 0.2 * worst.in_plane_um, "{worst:?}");
 }
 
+/// A slot out from the middle of a block, and a step-over back; the robot reaches all of it.
+const STEP_OVER: &str =
+    "G21 G90 G17\nS9000 M3\nG0 X-60 Y0 Z10\nG0 Z-1\nG1 X30 F600\nG1 Y3\nG1 X-60\nG0 Z10\nM2\n";
+const STOCK: &str = "\nstock = { from_mm = [-40, -40, -20], to_mm = [40, 40, 0] }";
+
+fn of_cut(cut: &str) -> armill_study::answer::PathResult {
+    let study = format!("{CELL}{cut}{}", ask("file = \"step.ngc\""));
+    told(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
+}
+
+#[test]
+fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
+    let with_stock = format!("{CUT}{STOCK}");
+    let program = of_cut(&with_stock).program.unwrap();
+    let stock = program.stock.as_ref().unwrap();
+    // 15 mm to the block, where the rim of the cutter meets it; 20 mm behind it, where nothing is ahead.
+    assert!((34..=39).contains(&stock.points_in_air), "{stock:?}");
+    assert!((60..=80).contains(&stock.points_in_slot), "{stock:?}");
+    assert!((stock.largest_axial_depth_mm - 1.0).abs() < 1e-3 && stock.points_leaning == 0);
+    // A strip of 13 mm, 75 mm long with its round ends, 1 mm deep; cells of a quarter of a millimetre.
+    let swept = 13.0 * 70.0 + 25.0 * TAU / 4.0 + 5.0 * 3.0;
+    assert!(
+        (stock.removed_mm3 / swept - 1.0).abs() < 0.02,
+        "{stock:?} {swept}"
+    );
+    let note = |program: &armill_study::answer::ProgramResult, words: &str| {
+        program.notes.iter().any(|note| note.contains(words))
+    };
+    assert!(note(&program, "finds in the stock") && !note(&program, "same engagement"));
+    // A slot pushes harder than the cut that the study told.
+    let told = of_cut(CUT).program.unwrap();
+    let mean = |program: &armill_study::answer::ProgramResult| program.largest_mean_and_peak_n.unwrap()[0];
+    assert!(
+        mean(&program) > 1.2 * mean(&told),
+        "{} {}",
+        mean(&program),
+        mean(&told)
+    );
+    assert!(told.stock.is_none() && note(&told, "same engagement"));
+}
+
+#[test]
+fn what_keeps_the_tolerance_is_told_and_holds_when_it_is_cut() {
+    let path = of_cut(CUT);
+    let limits = path.program.as_ref().unwrap().limits.as_ref().unwrap();
+    let depth = limits.axial_depth.as_ref().unwrap();
+    assert_eq!((depth.unit, depth.verdict), ("mm", "up to"));
+    let at_limit = of_cut(&CUT.replace("axial_depth_mm = 1", &format!("axial_depth_mm = {}", depth.value)));
+    // The points asked are every third or so of the path: between them it may be a little worse.
+    let largest = at_limit.max_in_plane_um.unwrap();
+    assert!((largest / 60.0 - 1.0).abs() < 0.01, "{largest}");
+    // The edges rub too hard at this depth, however thin the chip.
+    let feed = limits.feed_per_tooth.as_ref().unwrap();
+    assert_eq!((feed.value, feed.verdict), (0.0, "nothing"));
+    let width = limits.radial_depth.as_ref().unwrap();
+    assert!(width.value > 0.0 && limits.points > 50);
+    let force = |limit: &Option<armill_study::answer::LimitResult>| limit.as_ref().unwrap().value;
+    assert!(force(&limits.any_direction) <= force(&limits.cross).min(force(&limits.along)) * (1.0 + 1e-9));
+    let without = ask("file = \"step.ngc\"\nlimits = false");
+    let answer = told(&format!("{CELL}{CUT}{without}"), &[("step.ngc", STEP_OVER)]).unwrap();
+    assert!(answer.paths[0].program.as_ref().unwrap().limits.is_none());
+}
+
+#[test]
+fn force_and_tool_rest_and_it_is_told_where_that_matters() {
+    let deep = of_cut(
+        &CUT.replace("axial_depth_mm = 1", "axial_depth_mm = 0.2")
+            .replace("radial_depth_mm = 3", "radial_depth_mm = 0.3"),
+    );
+    let rest = deep.program.as_ref().unwrap().rest.as_ref().unwrap();
+    assert_eq!((rest.points_unsettled, rest.first_unsettled_line), (0, None));
+    let largest = deep.max_in_plane_um.unwrap();
+    let ratio = rest.max_in_plane_if_drawn_um / largest;
+    let noted = deep
+        .program
+        .as_ref()
+        .unwrap()
+        .notes
+        .iter()
+        .any(|note| note.contains("strays so far"));
+    assert_eq!(noted, (ratio - 1.0).abs() > 0.05, "{ratio}");
+    assert!((ratio - 1.0).abs() > 1e-4, "{ratio}");
+}
+
 #[test]
 fn kienzle_says_what_it_assumes() {
     let cut = CUT
@@ -232,6 +316,22 @@ fn what_is_wrong_is_told_at_its_place() {
             ),
             RING,
             &["diameter"],
+        ),
+        (
+            format!(
+                "{CELL}{CUT}{}{ring}",
+                STOCK.replace("[40, 40, 0]", "[40, -40, 0]")
+            ),
+            RING,
+            &["study.toml:", "along y", "must be greater"],
+        ),
+        (
+            format!(
+                "{CELL}{}{ring}",
+                CUT.replace("axial_depth_mm = 1", "axial_depth_mm = 0")
+            ),
+            RING,
+            &["axial depth of 0 mm"],
         ),
         (
             format!("{CELL}{}{ring}", CUT.replace("radial_depth_mm = 3", "")),

@@ -167,8 +167,11 @@ impl Cutting {
         let mut operation = operations.iter().peekable();
         let mut of_operation = None;
         for (index, point) in points.iter().enumerate() {
-            if index % POINTS_A_LOOK == 0 && watch.is_cancelled() {
-                return Err(NoForces::Cancelled);
+            if index % POINTS_A_LOOK == 0 {
+                if watch.is_cancelled() {
+                    return Err(NoForces::Cancelled);
+                }
+                (watch.finished)(POINTS_A_LOOK.min(points.len() - index));
             }
             while let Some((_, next)) = operation.next_if(|(first, _)| *first <= index) {
                 of_operation = Some(next);

@@ -1,8 +1,8 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, Growth, PathPlot, PolarPlot, RadialSeries, Series, ShareBar,
-    ShareBars, StiffnessEllipse, VectorField,
+    Arrangement, Arrow, ArrowCase, AxisLabels, Growth, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series,
+    ShareBar, ShareBars, StiffnessEllipse, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -20,6 +20,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     vec![
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
+        ("process_map", process_map().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
         ("shares_stacked", shares(Arrangement::Stacked).to_svg()),
         ("shares_grouped", shares(Arrangement::Grouped).to_svg()),
@@ -52,6 +53,37 @@ fn vector_field() -> VectorField {
             .map(|k| on_circle(turn * f64::from(k) / 128.0))
             .collect(),
         cases: cases.collect(),
+    }
+}
+
+/// A cut whose deviation goes with depth and, from a base that the edges make, with feed; deep cuts draw the tool in.
+fn process_map() -> ProcessMap {
+    let steps = |most: f64| (1..=24).map(|k| most * f64::from(k) / 24.0).collect::<Vec<f64>>();
+    let (feeds, depths) = (steps(0.2), steps(4.0));
+    let deviation = |depth: f64, feed: f64| {
+        let drawn = depth * (22.0 + 260.0 * feed);
+        if drawn < 220.0 {
+            drawn / (1.0 - drawn / 400.0)
+        } else {
+            f64::INFINITY
+        }
+    };
+    ProcessMap {
+        title: "ring: depth and feed".to_owned(),
+        subtitle: "front elbow-up no-flip, EN AW-6082 T6, flat end mill of 10 mm".to_owned(),
+        axes: AxisLabels {
+            horizontal: "feed per tooth (mm)".to_owned(),
+            vertical: "axial depth (mm)".to_owned(),
+        },
+        quantity: "largest deviation across the tool (µm)".to_owned(),
+        deviation_um: depths
+            .iter()
+            .flat_map(|depth| feeds.iter().map(|feed| deviation(*depth, *feed)))
+            .collect(),
+        horizontal: feeds,
+        vertical: depths,
+        limit_um: 100.0,
+        drawn: Some([0.08, 2.5]),
     }
 }
 

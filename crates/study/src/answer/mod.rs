@@ -3,6 +3,7 @@
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
 
+pub(crate) mod limits;
 mod map;
 mod path;
 mod point;
@@ -11,6 +12,7 @@ mod sentence;
 mod statement;
 mod volume;
 
+pub use limits::{LimitResult, LimitsResult, RestResult, StockResult};
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
 pub use path::PathResult;
 pub use point::{PointAnswer, SettingAnswer};

@@ -2,7 +2,7 @@
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Held, evaluate};
-use armill_core::map::{ProgramAnswer, Track};
+use armill_core::map::Track;
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
 use armill_core::path::{Became, Strayed, became};
 use armill_core::spatial::Wrench;
@@ -10,11 +10,12 @@ use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 use serde::Serialize;
 
+use super::limits::{LimitsResult, RestResult, StockResult};
 use super::path::{PathResult, joint_ranges};
 use super::point::{PointAnswer, SettingAnswer, tidy};
 use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Setting, Study};
-use crate::run::question;
+use crate::run::{ProgramFound, question};
 
 /// What only a program has.
 #[derive(Clone, Debug, Serialize)]
@@ -47,6 +48,12 @@ pub struct ProgramResult {
     pub points_without_force: usize,
     /// Largest mean and largest greatest force along the program, where they were computed from the cut.
     pub largest_mean_and_peak_n: Option<[f64; 2]>,
+    /// What the tool met in the stock, where the study tells one.
+    pub stock: Option<StockResult>,
+    /// How the force of the cut gave way with the tool.
+    pub rest: Option<RestResult>,
+    /// What keeps the tolerance everywhere.
+    pub limits: Option<LimitsResult>,
     /// What was passed over in the program, or taken for granted.
     pub notes: Vec<String>,
     /// Where a joint jumps from one point to the next.
@@ -126,8 +133,8 @@ const SHARP: f64 = 0.5;
 /// A joint nearer to its limit than this is told, rad.
 const NEAR_LIMIT: f64 = 0.087;
 
-pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &ProgramAnswer) -> PathResult {
-    let (setting, answers) = (&ask.setting, &found.answers);
+pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &ProgramFound) -> PathResult {
+    let (setting, answers) = (&ask.setting, &found.answer.answers);
     let told = Told { study, ask, found };
     let held = || answers.held().map(|(_, held)| held);
     let within = held().filter(|held| held.in_plane <= setting.limit).count();
@@ -144,7 +151,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
     PathResult {
         name: name.to_owned(),
         branch: Setting {
-            choice: found.choice,
+            choice: found.answer.choice,
             ..setting.clone()
         }
         .branch(),
@@ -177,8 +184,14 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             features: told.features(),
             worst_points,
             material: ask.cut.as_ref().map(|cut| cut.material.name.clone()),
-            points_without_force: ask.without_force,
-            largest_mean_and_peak_n: ask.largest,
+            points_without_force: found.forces.map_or(0, |forces| forces.without_force),
+            largest_mean_and_peak_n: found.forces.map(|forces| [forces.largest_mean, forces.greatest]),
+            stock: found
+                .forces
+                .and_then(|forces| forces.met)
+                .map(|met| StockResult::of(&met)),
+            rest: found.answer.rested.map(|rested| RestResult::of(ask, &rested)),
+            limits: LimitsResult::of(ask, found),
             notes: told.notes(),
             jumps: told.jumps(),
         }),
@@ -188,7 +201,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
 struct Told<'a> {
     study: &'a Study,
     ask: &'a ProgramAsk,
-    found: &'a ProgramAnswer,
+    found: &'a ProgramFound,
 }
 
 impl Told<'_> {
@@ -198,7 +211,7 @@ impl Told<'_> {
 
     /// Deviation of each case at a point along the track, across it and along the tool, m.
     fn cases_at(&self, index: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
-        let deviations = self.found.answers.deviations_at(index).iter();
+        let deviations = self.found.answer.answers.deviations_at(index).iter();
         deviations.map(move |deviation| {
             let parts = self.track().parts(index, deviation);
             [parts.along, parts.cross, parts.normal]
@@ -208,10 +221,7 @@ impl Told<'_> {
     fn notes(&self) -> Vec<String> {
         let mut notes = self.ask.summary.notes.clone();
         if let Some(cut) = &self.ask.cut {
-            notes.push(
-                "forces are those of the same engagement everywhere: what earlier passes took away is not looked at"
-                    .to_owned(),
-            );
+            notes.extend(super::limits::notes(self.ask, self.found));
             notes.extend(cut.remarks.iter().cloned());
         }
         notes
@@ -221,10 +231,10 @@ impl Told<'_> {
         let all = &self.ask.operations;
         let end = |i: usize| {
             all.get(i + 1)
-                .map_or(self.found.answers.points.len(), |next| next.0)
+                .map_or(self.found.answer.answers.points.len(), |next| next.0)
         };
         let of = |(i, (first, operation)): (usize, &(usize, armill_core::path::Operation))| {
-            let points = &self.found.answers.points[*first..end(i)];
+            let points = &self.found.answer.answers.points[*first..end(i)];
             let largest = points.iter().flatten().map(|held| held.in_plane * 1e6);
             OperationResult {
                 name: operation.name.clone(),
@@ -239,7 +249,7 @@ impl Told<'_> {
     }
 
     fn features(&self) -> Vec<FeatureResult> {
-        let cases = 0..self.found.answers.case_count;
+        let cases = 0..self.found.answer.answers.case_count;
         let of = |feature: &crate::file::program::FeatureTable| {
             let [first, last] = feature.lines;
             let points = &self.track().points;
@@ -275,7 +285,7 @@ impl Told<'_> {
             flatness_um: None,
             missing: None,
         };
-        let answers = &self.found.answers;
+        let answers = &self.found.answer.answers;
         if points.iter().any(|i| answers.points[*i].is_err()) {
             told.missing = Some("not every point of it is reached");
             return told;
@@ -330,6 +340,7 @@ impl Told<'_> {
         let apart = APART * (high - low).norm();
         let mut by_size: Vec<(usize, f64)> = self
             .found
+            .answer
             .answers
             .held()
             .map(|(i, held)| (i, held.in_plane))
@@ -376,8 +387,8 @@ impl Told<'_> {
     /// One point asked in full: with shares and uncertainty, on a plane across the tool.
     fn here(&self, index: usize) -> Option<(Setting, Answers)> {
         let track = self.track();
-        let mut cases = vec![Wrench::from_force(Vector3::zeros()); self.found.answers.case_count];
-        track.wrenches(index, &mut cases);
+        let mut cases = vec![Wrench::from_force(Vector3::zeros()); self.found.answer.answers.case_count];
+        track.wrenches(&self.found.answer.load, index, &mut cases);
         let stop = track.stop(index);
         let across = Plane {
             base_from_part: Isometry::from_parts(
@@ -389,9 +400,9 @@ impl Told<'_> {
             plane: across,
             tilt: None,
             cases,
-            choice: self.found.choice,
+            choice: self.found.answer.choice,
             // The arm stands as it does on the path, whatever its joints to spare.
-            home: Some(self.found.answers.joints_at(index).to_vec()),
+            home: Some(self.found.answer.answers.joints_at(index).to_vec()),
             ..self.ask.setting.clone()
         };
         let robot = &self.study.robot.robot;
@@ -438,7 +449,7 @@ impl Told<'_> {
 
     /// Joints that jump between points next to each other on the path.
     fn jumps(&self) -> Vec<String> {
-        let (answers, robot) = (&self.found.answers, &self.study.robot.robot);
+        let (answers, robot) = (&self.found.answer.answers, &self.study.robot.robot);
         let points = &self.track().points;
         let mut told = Vec::new();
         for index in 1..points.len() {

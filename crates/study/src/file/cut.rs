@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use armill_core::load::{
     Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Runout,
 };
-use armill_core::path::{Cutting, Greatest};
+use armill_core::nalgebra::Point3;
+use armill_core::path::{Cutting, Greatest, Stock, StockError};
 use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -48,6 +49,23 @@ pub struct CutTable {
     /// Standard uncertainty of the coefficients, in place of the scatter of the material's sets.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub u_percent: Option<f64>,
+    /// The box that the part is cut from: where the tool meets it, depths are those that it finds.
+    pub stock: Option<StockTable>,
+}
+
+/// A box of material, in the frame of the program.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StockTable {
+    /// One corner: x, y, z.
+    #[schemars(inner(range(min = -1e5, max = 1e5)))]
+    pub from_mm: [f64; 3],
+    /// The other, greater in each.
+    #[schemars(inner(range(min = -1e5, max = 1e5)))]
+    pub to_mm: [f64; 3],
+    /// Side of a cell of its height map; a fortieth of the cutter if left out.
+    #[schemars(range(min = 1e-3, max = 1e3))]
+    pub cell_mm: Option<f64>,
 }
 
 /// A law of the chip.
@@ -117,6 +135,8 @@ pub struct Cut {
     pub material: Material,
     /// What a user should know of it.
     pub remarks: Vec<String>,
+    /// What it cuts from, uncut, if the study tells it.
+    pub stock: Option<Stock>,
 }
 
 /// The cut of this table; `None` where it has problems.
@@ -132,7 +152,17 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
         })
         .ok();
     let immersion = immersion(places, table);
+    let stock = stock(places, table);
     let (material, cutter, immersion) = (material?, cutter?, immersion?);
+    if table.axial_depth_mm <= 0.0 {
+        let message = format!("an axial depth of {} mm cuts nothing", table.axial_depth_mm);
+        places.problem(
+            "cut.axial_depth_mm",
+            message,
+            "how deep the cutter is in the part along its axis",
+        );
+        return None;
+    }
     let mut remarks = Vec::new();
     let law = law(places, table, &material, &mut remarks)?;
     Some(Cut {
@@ -157,7 +187,29 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
         },
         material,
         remarks,
+        stock: stock?,
     })
+}
+
+/// Cells across a cutter where the study does not tell them: edges of the engagement are then right to about 1.3 % of
+/// the diameter.
+const CELLS_ACROSS: f64 = 40.0;
+
+/// The stock, `Some(None)` where none is told.
+fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
+    let Some(told) = &table.stock else {
+        return Some(None);
+    };
+    let corners = [told.from_mm, told.to_mm].map(|mm| Point3::from(mm.map(|c| c * 1e-3)));
+    let cell_mm = told.cell_mm.unwrap_or(table.cutter.diameter_mm / CELLS_ACROSS);
+    let refused = |error: StockError| {
+        let hint = "from_mm = [-50, -50, -20], to_mm = [50, 50, 0]: two corners in the frame of the program";
+        places.problem("cut.stock", error.to_string(), hint);
+    };
+    Stock::new(corners, cell_mm * 1e-3)
+        .map_err(refused)
+        .ok()
+        .map(Some)
 }
 
 fn material(places: &mut Places<'_>, name: &str) -> Option<Material> {

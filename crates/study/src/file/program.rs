@@ -9,7 +9,10 @@ use armill_core::frame::Isometry;
 use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
+use armill_core::path::{
+    FeatureKind, ForcesTold, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step,
+};
+use armill_core::watch::Watch;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
 use armill_formats::toolpath::program::{self, Summary, Wanted};
@@ -51,6 +54,8 @@ pub struct ProgramTable {
     /// Longest distance between points; 1 if left out.
     #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
+    /// Whether force, depth, width and feed that keep the tolerance are told; so if left out.
+    pub limits: Option<bool>,
     /// Stretches of the program that make a feature.
     #[serde(default)]
     pub feature: Vec<FeatureTable>,
@@ -176,16 +181,18 @@ pub struct ProgramAsk {
     pub time: f64,
     /// Its operations, and the first point of each.
     pub operations: Vec<(usize, Operation)>,
-    /// The points, where they lie, and what pushes there.
+    /// The points, and where they lie.
     pub track: Track,
+    /// What pushes there; of a cut in a stock as if the engagement were the same everywhere.
+    pub load: PathLoad,
+    /// Whether it is asked what keeps the tolerance.
+    pub wants_limits: bool,
     /// Features asked for.
     pub features: Vec<FeatureTable>,
     /// The cut that the forces come from, in place of given cases.
     pub cut: Option<Cut>,
-    /// Largest of its mean forces and of its greatest ones, N.
-    pub largest: Option<[f64; 2]>,
-    /// Points whose cut has no force: plunges and steep dives.
-    pub without_force: usize,
+    /// What is worth telling of its forces.
+    pub forces: Option<ForcesTold>,
 }
 
 /// What pushes on the tool along a program.
@@ -197,6 +204,16 @@ pub(super) enum Pushes {
 }
 
 impl ProgramAsk {
+    /// Whether what keeps the tolerance is asked and can be told.
+    pub fn tells_limits(&self) -> bool {
+        self.wants_limits && self.setting.model.is_affine()
+    }
+
+    /// Whether its cut tells the stock.
+    pub fn has_stock(&self) -> bool {
+        self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
+    }
+
     /// Points that follow on each other without a rapid between them.
     pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let points = &self.track.points;
@@ -318,24 +335,23 @@ pub(super) fn read(
         },
     };
     let mut setting = setting;
-    let (load, cut, largest, without_force) = match pushes {
-        Pushes::Cases(load) => (PathLoad::Cases(load), None, None, 0),
-        Pushes::Cut(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
-            Ok(forces) => {
-                setting.doubt.relative = forces.relative_uncertainty;
-                (
-                    forces.load,
-                    Some(*cut),
-                    Some(forces.largest),
-                    forces.without_force,
-                )
+    let (load, cut, forces) = match pushes {
+        Pushes::Cases(load) => (PathLoad::Cases(load), None, None),
+        Pushes::Cut(cut) => {
+            let (points, operations) = (&cut_up.points, &cut_up.operations);
+            match cut.cutting.along(points, operations, &placing, None, Watch::NONE) {
+                Ok(found) => {
+                    setting.doubt.relative = found.told.relative_uncertainty;
+                    (PathLoad::Cuts(found.cuts), Some(*cut), Some(found.told))
+                }
+                Err(error) => {
+                    let hint =
+                        "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+                    places.problem("program.file", format!("{shown}: {error}"), hint);
+                    return Ok(None);
+                }
             }
-            Err(error) => {
-                let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
-                places.problem("program.file", format!("{shown}: {error}"), hint);
-                return Ok(None);
-            }
-        },
+        }
     };
     Ok(Some(ProgramAsk {
         file: table.file.clone(),
@@ -347,13 +363,13 @@ pub(super) fn read(
         track: Track {
             points: cut_up.points,
             placing,
-            load,
             base_from_part,
         },
+        load,
+        wants_limits: table.limits.unwrap_or(true),
         features: table.feature.clone(),
         cut,
-        largest,
-        without_force,
+        forces,
         setting,
     }))
 }

@@ -6,6 +6,7 @@
 
 mod arm;
 mod folder;
+mod limits;
 mod pictures;
 mod plates;
 mod program;
@@ -72,8 +73,8 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 8] = [
-    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
+const PICTURES: [&str; 9] = [
+    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "process",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.

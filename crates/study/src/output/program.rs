@@ -1,6 +1,6 @@
 //! Pictures of a tool path program: the path coloured by its deviation, the deviation along it, who is to blame, the arm.
 
-use armill_core::map::{Parts, ProgramAnswer};
+use armill_core::map::Parts;
 use armill_core::nalgebra::Point3;
 use armill_report::{ArmDrawing, AxisLabels, Marker, MarkerKind, PathPlot, Series, Stretch, TrackMap, View};
 
@@ -10,6 +10,7 @@ use super::plates::subtitle;
 use crate::answer::{PathResult, ProgramResult, WorstPoint};
 use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Setting, Study};
+use crate::run::ProgramFound;
 
 /// Points that a chart shows at most: of a longer path each stands for the largest deviations of those around it.
 const MOST_POINTS: usize = 1200;
@@ -21,7 +22,7 @@ pub(super) fn pictures(
     study: &Study,
     ask: &ProgramAsk,
     (told, program): (&PathResult, &ProgramResult),
-    found: &ProgramAnswer,
+    found: &ProgramFound,
 ) -> Vec<Picture> {
     let slug = super::slug(&told.name);
     let picture = |what: &str, caption: String, svg: String| Picture {
@@ -64,6 +65,7 @@ pub(super) fn pictures(
             ),
         ));
     }
+    pictures.extend(super::limits::picture(&told.name, drawing.subtitle(), ask, found));
     let arm = drawing.arm();
     pictures.extend(arm.map(|svg| {
         picture(
@@ -79,20 +81,20 @@ struct Drawing<'a> {
     study: &'a Study,
     ask: &'a ProgramAsk,
     told: &'a PathResult,
-    found: &'a ProgramAnswer,
+    found: &'a ProgramFound,
 }
 
 impl Drawing<'_> {
     /// What a reader must know beside the title.
     fn subtitle(&self) -> String {
         subtitle(&Setting {
-            choice: self.found.choice,
+            choice: self.found.answer.choice,
             ..self.ask.setting.clone()
         })
     }
 
     fn in_plane_um(&self, index: usize) -> f64 {
-        let point = &self.found.answers.points[index];
+        let point = &self.found.answer.answers.points[index];
         point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
     }
 
@@ -150,9 +152,9 @@ impl Drawing<'_> {
         let part = |name: &str, of: fn(Parts) -> f64| Series {
             name: name.to_owned(),
             position: position.clone(),
-            deviation_um: largest(&|i| match &self.found.answers.points[i] {
+            deviation_um: largest(&|i| match &self.found.answer.answers.points[i] {
                 Ok(held) => {
-                    let deviation = self.found.answers.deviations_at(i)[held.deciding_case];
+                    let deviation = self.found.answer.answers.deviations_at(i)[held.deciding_case];
                     of(self.ask.track.parts(i, &deviation)) * 1e6
                 }
                 Err(_) => f64::NAN,
@@ -187,7 +189,7 @@ impl Drawing<'_> {
     }
 
     fn arm(&self) -> Option<String> {
-        let (answers, track) = (&self.found.answers, &self.ask.track);
+        let (answers, track) = (&self.found.answer.answers, &self.ask.track);
         let (worst, _) = answers.worst()?;
         let robot = &self.study.robot.robot;
         let flange_from_tool = &self.ask.setting.flange_from_tool;

@@ -110,7 +110,7 @@ pub(super) fn rows<'a>(ask: &'a Ask, found: &'a Found) -> Vec<Rows<'a>> {
                 .map(|point| track.placing.base_from_path * point.at);
             vec![Rows {
                 program: Some(program),
-                ..Rows::new("", &program.setting, &found.answers, points)
+                ..Rows::new("", &program.setting, &found.answer.answers, points)
             }]
         }
         _ => Vec::new(),

@@ -2,12 +2,13 @@
 //!
 //! Positions count from the frame that the study names; deviations are in base axes, micrometres.
 
+mod track;
+
 use std::fmt::Display;
 use std::ops::Range;
 
 use armill_core::kernel::{Answers, Held};
-use armill_core::map::{Parts, probability_within};
-use armill_core::path::Pace;
+use armill_core::map::probability_within;
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
@@ -15,7 +16,6 @@ use rayon::prelude::*;
 use super::Csv;
 use super::rows::{Rows, of_held, of_points, rows};
 use crate::error::StudyError;
-use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::Found;
 
@@ -31,6 +31,11 @@ pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
     }
     if cfg!(feature = "parquet") {
         extensions.push("parquet");
+    }
+    if let Subject::Program(program) = &ask.subject
+        && program.tells_limits()
+    {
+        extensions.push(super::limits::EXTENSION);
     }
     extensions.push(match &ask.subject {
         Subject::Volume(..) => IMAGE,
@@ -72,6 +77,11 @@ pub(super) fn files(
         )?;
         if has_csv(ask, csv) {
             save("csv", &csv::write(&table))?;
+        }
+        if let (Subject::Program(program), Found::Program(found)) = (&ask.subject, found)
+            && let Some(table) = super::limits::table(&ask.name, program, found)?
+        {
+            save(super::limits::EXTENSION, &csv::write(&table))?;
         }
         Ok(())
     };
@@ -290,68 +300,12 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     ));
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
-        let mut columns = rows.program.map_or_else(Vec::new, of_program);
+        let mut columns = rows.program.map_or_else(Vec::new, track::columns);
         columns.extend(numbers(study, sharers, rows.answers));
         columns
     });
     columns.extend(filled(&numbers, series));
     Ok(Table::new(name, columns)?)
-}
-
-/// Columns that only a program has.
-fn of_program(program: &ProgramAsk) -> Vec<Numbers<'_>> {
-    let points = &program.track.points;
-    let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
-        Numbers::um(name.to_owned(), description, move |rows, index, held| {
-            let deviation = rows.answers.deviations_at(index)[held.deciding_case];
-            of(program.track.parts(index, &deviation)) * 1e6
-        })
-    };
-    vec![
-        Numbers {
-            unit: None,
-            decimals: 0,
-            ..Numbers::um("line".to_owned(), "line of the program", move |_, index, _| {
-                f64::from(points[index].line)
-            })
-        },
-        Numbers {
-            unit: Some("mm"),
-            decimals: MM_DECIMALS,
-            ..Numbers::um(
-                "along_mm".to_owned(),
-                "distance along all cuts before",
-                move |_, index, _| points[index].along * 1e3,
-            )
-        },
-        Numbers {
-            unit: Some("mm/s"),
-            decimals: MM_DECIMALS,
-            ..Numbers::um(
-                "feed_mm_s".to_owned(),
-                "speed of the tip, where the program tells it",
-                move |_, index, _| match points[index].pace {
-                    Pace::Feed(speed) => speed * 1e3,
-                    _ => f64::NAN,
-                },
-            )
-        },
-        part(
-            "along_um",
-            "deviation of the deciding case along the track",
-            |parts| parts.along,
-        ),
-        part(
-            "cross_um",
-            "deviation of the deciding case across the track, to the left",
-            |parts| parts.cross,
-        ),
-        part(
-            "axial_um",
-            "deviation of the deciding case along the tool, away from the part",
-            |parts| parts.normal,
-        ),
-    ]
 }
 
 /// Columns whose values a program does not tell at every point.

@@ -1,0 +1,169 @@
+//! What keeps the tolerance along a program: a table of its points, and a picture of depth over feed.
+
+use armill_core::load::PathLoad;
+use armill_core::map::{CutLimits, Permitted, PointLimits};
+use armill_formats::table::{Column, ColumnData, Table};
+use armill_report::{AxisLabels, ProcessMap};
+
+use super::pictures::Picture;
+use crate::answer::limits::verdict;
+use crate::error::StudyError;
+use crate::file::program::ProgramAsk;
+use crate::run::ProgramFound;
+
+/// What the table's name ends in.
+pub(super) const EXTENSION: &str = "limits.csv";
+/// Digits that a force (N) and a length (mm) of the table keep after the point.
+const N_DECIMALS: u8 = 2;
+const MM_DECIMALS: u8 = 4;
+
+/// One row for each point that was asked; `None` where it was not.
+///
+/// # Errors
+/// Never in practice: columns of one length with names of their own.
+pub(super) fn table(name: &str, ask: &ProgramAsk, found: &ProgramFound) -> Result<Option<Table>, StudyError> {
+    let Some(limits) = &found.limits else {
+        return Ok(None);
+    };
+    let points = &limits.points;
+    let at = |point: &PointLimits| &ask.track.points[point.index];
+    let column = |name: &str, unit: Option<&str>, description: &str, decimals: Option<u8>, data| Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        description: description.to_owned(),
+        decimals,
+        data,
+    };
+    let numbers =
+        |of: &dyn Fn(&PointLimits) -> Option<f64>| ColumnData::OptionalFloat(points.iter().map(of).collect());
+    let force = |name: &str, description: &str, which: usize| {
+        let data = numbers(&|point| Some(point.forces[which]).filter(|force| force.is_finite()));
+        column(name, Some("N"), description, Some(N_DECIMALS), data)
+    };
+    let mut columns = vec![
+        column(
+            "line",
+            None,
+            "line of the program",
+            None,
+            ColumnData::Integer(points.iter().map(|point| i64::from(at(point).line)).collect()),
+        ),
+        column(
+            "along_mm",
+            Some("mm"),
+            "distance along all cuts before",
+            Some(MM_DECIMALS),
+            numbers(&|point| Some(at(point).along * 1e3)),
+        ),
+        column(
+            "in_plane_um",
+            Some("um"),
+            "deviation across the tool as the study cuts",
+            Some(MM_DECIMALS),
+            numbers(&|point| {
+                let held = found.answer.answers.points[point.index].as_ref().ok()?;
+                Some(held.in_plane * 1e6)
+            }),
+        ),
+        force(
+            "permitted_along_n",
+            "force along the feed that the limit permits",
+            0,
+        ),
+        force(
+            "permitted_cross_n",
+            "force across the feed that the limit permits",
+            1,
+        ),
+        force(
+            "permitted_axial_n",
+            "force along the tool that the limit permits",
+            2,
+        ),
+        force(
+            "permitted_any_direction_n",
+            "force that the limit permits in every direction",
+            3,
+        ),
+    ];
+    type Part = fn(&CutLimits) -> Option<Permitted>;
+    let parts: [(&str, &str, Part); 3] = [
+        ("axial_depth", "axial depth that the limit permits", |cut| {
+            Some(cut.depth)
+        }),
+        ("radial_depth", "radial depth that the limit permits", |cut| {
+            cut.width
+        }),
+        ("feed_per_tooth", "feed per tooth that the limit permits", |cut| {
+            Some(cut.feed_per_tooth)
+        }),
+    ];
+    let told = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
+    for (name, description, part) in parts
+        .into_iter()
+        .filter(|(.., part)| points.iter().any(|p| told(*part)(p).is_some()))
+    {
+        columns.push(column(
+            &format!("permitted_{name}_mm"),
+            Some("mm"),
+            &format!("{description}, all else as the study has it"),
+            Some(MM_DECIMALS),
+            numbers(&|point| told(part)(point).map(|permitted| permitted.value() * 1e3)),
+        ));
+        columns.push(column(
+            &format!("permitted_{name}_verdict"),
+            None,
+            "whether it is up to this, at least this (more was not looked at), or nothing",
+            None,
+            ColumnData::Text(
+                points
+                    .iter()
+                    .map(|point| told(part)(point).map_or("", verdict).to_owned())
+                    .collect(),
+            ),
+        ));
+    }
+    Ok(Some(Table::new(name, columns)?))
+}
+
+/// Depth over feed with the line of the tolerance; `None` without a cut.
+pub(super) fn picture(
+    name: &str,
+    subtitle: String,
+    ask: &ProgramAsk,
+    found: &ProgramFound,
+) -> Option<Picture> {
+    let sheet = found.limits.as_ref()?.sheet.as_ref()?;
+    let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
+    let drawing = ProcessMap {
+        title: format!("{name}: which depth and feed hold the tolerance"),
+        subtitle,
+        axes: AxisLabels {
+            horizontal: "feed per tooth (mm)".to_owned(),
+            vertical: "axial depth (mm)".to_owned(),
+        },
+        quantity: "largest deviation across the tool (µm)".to_owned(),
+        horizontal: mm(&sheet.feeds_per_tooth),
+        vertical: mm(&sheet.depths),
+        deviation_um: sheet.deviations.iter().map(|deviation| deviation * 1e6).collect(),
+        limit_um: ask.setting.limit * 1e6,
+        drawn: drawn(found),
+    };
+    Some(Picture {
+        name: format!("{}-process", super::slug(name)),
+        caption: format!(
+            "{name}: largest deviation of the program over axial depth and feed per tooth, all else as the study has it."
+        ),
+        svg: drawing.to_svg(),
+    })
+}
+
+/// Feed per tooth and depth (mm) where the tool deviates most, if it cuts there.
+fn drawn(found: &ProgramFound) -> Option<[f64; 2]> {
+    let PathLoad::Cuts(cuts) = &found.answer.load else {
+        return None;
+    };
+    let (worst, _) = found.answer.answers.worst()?;
+    let cut = cuts.points[worst].cut?;
+    Some([cut.feed.hypot(cut.rise) * 1e3, cut.depth * 1e3])
+}
