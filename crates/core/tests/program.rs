@@ -268,3 +268,43 @@ fn each_point_may_have_a_wrench_of_its_own() {
         assert!((own.answers.deviations_at(i)[0] - expected).norm() < 1e-15 + 1e-12 * expected.norm());
     }
 }
+
+#[test]
+fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
+    for robot in [arms::mh12(), arms::kr120()] {
+        let level = Isometry::translation(1.0, 0.0, 0.6);
+        let mut track = track(cases(LoadFrame::Feed));
+        track.placing.base_from_path = level;
+        let question = Question {
+            robot: &robot,
+            compliance: robot.compliance().unwrap(),
+            model: StiffnessModel::DRIVES,
+            flange_from_tool: &Isometry::translation(0.0, 0.0, 0.2),
+            home: None,
+            cases: &[],
+            doubt: Doubt::NONE,
+            normal: Vector3::z_axis(),
+            choice: BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP),
+        };
+        let found = along_program(&question, &track, Watch::NONE).unwrap().answers;
+        let (mut range, mut steps) = ((f64::MAX, f64::MIN), 0);
+        for (i, held) in found.held() {
+            let last = found.joints_at(i)[5];
+            range = (range.0.min(last), range.1.max(last));
+            let (joint, margin) = robot.limit_margin(found.joints_at(i)).unwrap();
+            assert!(held.limit_joint == joint && (held.limit_margin - margin).abs() < 1e-12);
+            assert!(held.within_limits(), "point {i}");
+            let smooth = |i: usize| {
+                let [before, here] = [&track.points[i - 1], &track.points[i]];
+                here.along > before.along && before.direction.angle(&here.direction) < 0.1
+            };
+            if i > 0 && smooth(i) {
+                steps += 1;
+                let by = last - found.joints_at(i - 1)[5];
+                assert!(by.abs() < 0.5, "point {i} turns by {by}");
+            }
+        }
+        // The feed turns once about the upright tool, and the last joint with it.
+        assert!(range.1 - range.0 > 0.9 * TAU && steps > 200, "{range:?} {steps}");
+    }
+}

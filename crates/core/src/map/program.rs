@@ -6,6 +6,7 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::turns;
 use crate::frame::Isometry;
 use crate::kernel::{Answers, BranchChoice, Question, Stop, evaluate_loaded};
 use crate::load::PathLoad;
@@ -109,13 +110,17 @@ pub fn along_program(
     };
     let choice = chosen(&asked, track, watch)?;
     let asked = Question { choice, ..asked };
-    let answers = evaluate_loaded(
+    let mut answers = evaluate_loaded(
         &asked,
         track.points.len(),
         |i| track.stop(i),
         |i, out| track.wrenches(i, out),
         watch,
     )?;
+    let points = &track.points;
+    turns::count_on(asked.robot, &mut answers, |i| {
+        points[i].along > points[i - 1].along
+    });
     Ok(ProgramAnswer { choice, answers })
 }
 

@@ -43,10 +43,11 @@ pub(super) fn subtitle(setting: &Setting) -> String {
         .tilt
         .map_or(String::new(), |tilt| format!(", tilt {:.0}°", tilt.to_degrees()));
     let cases = setting.cases.len();
-    let worst = if cases == 1 {
-        "1 load case".to_owned()
-    } else {
-        format!("worst of {cases} load cases")
+    let worst = match cases {
+        // Along a program they may come from the cut.
+        0 => "forces of the cut".to_owned(),
+        1 => "1 load case".to_owned(),
+        _ => format!("worst of {cases} load cases"),
     };
     format!(
         "{}{tilt}, {tool}, {worst}, heights from {}",
