@@ -22,6 +22,7 @@ fn moves() -> Vec<Move> {
     let to = |x: f64, y: f64, z: f64, pace| Move {
         end: Point3::new(x, y, z),
         axis: None,
+        spin: None,
         course: Course::Line,
         pace,
         line: 1,

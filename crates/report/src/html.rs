@@ -209,7 +209,7 @@ fn table_html(table: &Table, number: &str) -> String {
     let mut out = String::from("<div class=\"scroll\">\n<table>\n");
     if !(table.caption.is_empty() && number.is_empty()) {
         out.push_str(&format!(
-            "<caption>{number}{}</caption>\n",
+            "<caption><span>{number}{}</span></caption>\n",
             escape(&table.caption)
         ));
     }

@@ -214,6 +214,7 @@ mod tests {
         PathPoint {
             at: Point3::origin(),
             axis: None,
+            spin: None,
             direction: Unit::new_normalize(direction.into()),
             along: 0.0,
             pace,
