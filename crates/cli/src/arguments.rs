@@ -31,6 +31,8 @@ pub(crate) enum Command {
     New(NewArguments),
     /// List the robot library, show one robot, or import one
     Robots(RobotsArguments),
+    /// List the material library, or show one material
+    Materials(MaterialsArguments),
     /// Every posture of one pose: joints, compliance, deviation
     Pose(Box<PoseArguments>),
     /// Joint compliances from load tests, and which tests to do
@@ -50,6 +52,7 @@ impl Command {
                 Some(RobotsAction::Check(check)) => check.json,
                 None => a.json,
             },
+            Command::Materials(a) => a.json,
             Command::Pose(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Completions(_) => false,
@@ -220,6 +223,22 @@ pub(crate) struct RobotsCheckArguments {
     /// Angle within which a reading agrees
     #[arg(long, value_name = "A", default_value_t = 0.1, allow_hyphen_values = true)]
     pub within_deg: f64,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+A study names a material in its [cut]. Forces come from the mean of its whole sets; their scatter is the uncertainty.
+
+Examples:
+  armill materials
+  armill materials aluminium-7075-t6
+  armill materials steel-low-alloy --json")]
+pub(crate) struct MaterialsArguments {
+    /// Name in the library
+    pub name: Option<String>,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

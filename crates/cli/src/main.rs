@@ -22,6 +22,7 @@ fn main() -> ExitCode {
         Command::Check(check) => command::check::run(check),
         Command::New(new) => command::new::run(new),
         Command::Robots(robots) => command::robots::run(robots),
+        Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Completions(completions) => command::completions::run(completions),

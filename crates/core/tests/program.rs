@@ -26,6 +26,7 @@ fn moves() -> Vec<Move> {
     let to = |x: f64, y: f64, z: f64, pace| Move {
         end: Point3::new(x, y, z),
         axis: None,
+        spin: None,
         course: Course::Line,
         pace,
         line: 1,
@@ -468,4 +469,38 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
         (rested.largest_if_drawn / worst - 1.0).abs() > 5e-3,
         "{rested:?} {worst}"
     );
+}
+
+#[test]
+fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
+    for robot in [arms::mh12(), arms::kr120()] {
+        let level = Isometry::translation(1.0, 0.0, 0.6);
+        let mut track = track();
+        track.placing.base_from_path = level;
+        let tool = Isometry::translation(0.0, 0.0, 0.2);
+        let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
+        let question = question(&robot, StiffnessModel::DRIVES, &tool, choice);
+        let found = along_program(&question, &track, cases(LoadFrame::Feed), Watch::NONE)
+            .unwrap()
+            .answers;
+        let (mut range, mut steps) = ((f64::MAX, f64::MIN), 0);
+        for (i, held) in found.held() {
+            let last = found.joints_at(i)[5];
+            range = (range.0.min(last), range.1.max(last));
+            let (joint, margin) = robot.limit_margin(found.joints_at(i)).unwrap();
+            assert!(held.limit_joint == joint && (held.limit_margin - margin).abs() < 1e-12);
+            assert!(held.within_limits(), "point {i}");
+            let smooth = |i: usize| {
+                let [before, here] = [&track.points[i - 1], &track.points[i]];
+                here.along > before.along && before.direction.angle(&here.direction) < 0.1
+            };
+            if i > 0 && smooth(i) {
+                steps += 1;
+                let by = last - found.joints_at(i - 1)[5];
+                assert!(by.abs() < 0.5, "point {i} turns by {by}");
+            }
+        }
+        // The feed turns once about the upright tool, and the last joint with it.
+        assert!(range.1 - range.0 > 0.9 * TAU && steps > 200, "{range:?} {steps}");
+    }
 }

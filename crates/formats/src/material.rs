@@ -107,6 +107,24 @@ impl Material {
         let law = [estimate(|set| set.specific_force), estimate(|set| set.exponent)];
         (sets > 0).then_some(Together { law, sets })
     }
+
+    /// Sources of the sets that [`Material::mechanistic`] is made of.
+    pub fn mechanistic_sources(&self) -> Vec<&Source> {
+        let whole = self.mechanistic.iter().filter(|set| set.whole().is_some());
+        let keys: Vec<&str> = whole.map(|set| set.source.as_str()).collect();
+        self.sources_called(&keys)
+    }
+
+    /// Sources of the sets that [`Material::kienzle`] is made of.
+    pub fn kienzle_sources(&self) -> Vec<&Source> {
+        let keys: Vec<&str> = self.kienzle.iter().map(|set| set.source.as_str()).collect();
+        self.sources_called(&keys)
+    }
+
+    fn sources_called(&self, keys: &[&str]) -> Vec<&Source> {
+        let called = |source: &&Source| keys.contains(&source.key.as_str());
+        self.sources.iter().filter(called).collect()
+    }
 }
 
 impl MechanisticSet {

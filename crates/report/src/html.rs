@@ -113,6 +113,15 @@ impl Report {
         self
     }
 
+    /// A list, one item a line; nothing where there are no items.
+    #[must_use]
+    pub fn list(mut self, items: &[String]) -> Self {
+        if !items.is_empty() {
+            self.body.push_str(&list_html(items));
+        }
+        self
+    }
+
     /// A picture of this crate with its caption. Not checked: that `svg` is one of ours; it is put in as it stands.
     #[must_use]
     pub fn picture(mut self, svg: &str, caption: &str) -> Self {
@@ -147,12 +156,10 @@ impl Report {
             main.push_str(&format!("<p class=\"answer\">{}</p>\n", escape(&self.answer)));
         }
         if !self.warnings.is_empty() {
-            let items: String = self
-                .warnings
-                .iter()
-                .map(|w| format!("<li>{}</li>\n", escape(w)))
-                .collect();
-            main.push_str(&format!("<aside class=\"warnings\" role=\"note\">\n<b>Before you use this</b>\n<ul>\n{items}</ul>\n</aside>\n"));
+            let items = list_html(&self.warnings);
+            main.push_str(&format!(
+                "<aside class=\"warnings\" role=\"note\">\n<b>Before you use this</b>\n{items}</aside>\n"
+            ));
         }
         main.push_str(&self.body);
         if !self.inputs.is_empty() {
@@ -163,6 +170,11 @@ impl Report {
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n{main}</main>\n</body>\n</html>\n"
         )
     }
+}
+
+fn list_html(items: &[String]) -> String {
+    let items = items.iter().map(|item| format!("<li>{}</li>\n", escape(item)));
+    format!("<ul>\n{}</ul>\n", items.collect::<String>())
 }
 
 fn inputs_table(inputs: &[Input]) -> Table {
@@ -197,7 +209,7 @@ fn table_html(table: &Table, number: &str) -> String {
     let mut out = String::from("<div class=\"scroll\">\n<table>\n");
     if !(table.caption.is_empty() && number.is_empty()) {
         out.push_str(&format!(
-            "<caption>{number}{}</caption>\n",
+            "<caption><span>{number}{}</span></caption>\n",
             escape(&table.caption)
         ));
     }

@@ -30,6 +30,9 @@ impl Series {
     }
 }
 
+/// A limit so many times the largest value is told in words: drawn, it would press the lines to the axis.
+const FAR: f64 = 3.0;
+
 /// What a path plot shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PathPlot {
@@ -59,6 +62,11 @@ impl PathPlot {
                 .filter(|p| p.iter().all(|v| v.is_finite()))
         };
         let limit = self.limit_um.filter(|l| l.is_finite());
+        let largest = finite().map(|p| p[1].abs()).fold(0.0, f64::max);
+        let (limit, far_limit) = match limit {
+            Some(limit) if largest > 0.0 && limit > FAR * largest => (None, Some(limit)),
+            limit => (limit, None),
+        };
         let x = range(finite().map(|p| p[0]), 0.0);
         let y = range(finite().map(|p| p[1]).chain([0.0]).chain(limit), 0.06);
         let (Some(x), Some(y), Some(_)) = (x, y, finite().next()) else {
@@ -98,6 +106,12 @@ impl PathPlot {
         svg.clipped(chart.area, |svg| self.draw_lines(svg, &chart));
         if let Some(limit) = limit {
             self.draw_limit(&mut svg, &chart, limit);
+        }
+        if let Some(limit) = far_limit {
+            let label = format!("limit {} µm, above this chart", plain(limit));
+            let at = [chart.area.right() - 6.0, chart.area.y + 15.0];
+            let text = Text::new(SMALL_PX).bold().end().colour(LIMIT).halo(3.0);
+            svg.text(at, &label, &text);
         }
         let mut entries: Vec<Entry> = Vec::new();
         for (k, series) in self.series.iter().enumerate() {
@@ -170,5 +184,28 @@ impl PathPlot {
             &label,
             &Text::new(SMALL_PX).bold().middle().colour(LIMIT).halo(3.0),
         );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_far_above_the_values_is_told_in_words_and_does_not_press_them_down() {
+        let plot = |limit_um| PathPlot {
+            series: vec![Series {
+                name: "case 1".to_owned(),
+                position: vec![0.0, 1.0, 2.0],
+                deviation_um: vec![10.0, -20.0, 15.0],
+            }],
+            limit_um: Some(limit_um),
+            ..PathPlot::default()
+        };
+        let (near, far) = (plot(60.0).to_svg(), plot(61.0).to_svg());
+        assert!(near.contains("limit 60 µm<") && !near.contains("above this chart"));
+        assert!(far.contains("limit 61 µm, above this chart"));
+        // The number of the highest line of the grid.
+        assert!(near.contains(">60<") && !far.contains(">60<"), "{far}");
     }
 }

@@ -28,6 +28,7 @@ fn report() -> Report {
         .warning("w & w")
         .section("s <h2>")
         .paragraph("p > p")
+        .list(&["l & l".into()])
         .table(&table)
         .picture("<svg xmlns=\"http://www.w3.org/2000/svg\"/>", "c & d")
         .inputs([input])
@@ -42,6 +43,7 @@ fn every_text_is_escaped() {
         "w & w",
         "s <h2>",
         "p > p",
+        "l & l",
         "<2>",
         "c & d",
         "<td><td>",

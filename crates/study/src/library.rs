@@ -4,6 +4,8 @@ use armill_formats::document::Problems;
 use armill_formats::material::{self, Material};
 use armill_formats::robot::{RobotDescription, armill};
 
+use crate::error::StudyError;
+
 /// A text file that travels inside the program.
 #[derive(Clone, Copy, Debug)]
 pub struct Embedded {
@@ -127,21 +129,44 @@ pub fn material(name: &str) -> Option<Result<Material, Problems>> {
     Some(material::read(entry.path, entry.text))
 }
 
-/// The name in the library that is most like `name`, if any is.
+/// The library material of this name, or why there is none.
+///
+/// # Errors
+/// An unknown name, with the one most like it; the problems of an embedded file.
+pub fn find_material(name: &str) -> Result<Material, StudyError> {
+    let found = material(name).ok_or_else(|| {
+        let message = format!("no material of the library is called `{name}`");
+        let like = spelt_like(MATERIALS, &name.to_lowercase());
+        StudyError::value(
+            message,
+            like.map_or_else(
+                || "`armill materials` lists all".to_owned(),
+                |like| format!("did you mean `{like}`? `armill materials` lists all"),
+            ),
+        )
+    })?;
+    Ok(found?)
+}
+
+/// The name of the robot library that is most like `name`, if any is.
 pub fn most_like(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
     let part = ROBOTS
         .iter()
         .find(|robot| robot.name.split('/').any(|word| word == lower));
-    part.map(|robot| robot.name).or_else(|| {
-        let scored = ROBOTS
-            .iter()
-            .map(|robot| (strsim::jaro_winkler(robot.name, &lower), robot.name));
-        scored
-            .filter(|(score, _)| *score > 0.75)
-            .max_by(|a, b| a.0.total_cmp(&b.0))
-            .map(|(_, name)| name)
-    })
+    part.map(|robot| robot.name)
+        .or_else(|| spelt_like(ROBOTS, &lower))
+}
+
+/// The name that is spelt most like `lower`, if any is.
+fn spelt_like(among: &[Embedded], lower: &str) -> Option<&'static str> {
+    let scored = among
+        .iter()
+        .map(|entry| (strsim::jaro_winkler(entry.name, lower), entry.name));
+    scored
+        .filter(|(score, _)| *score > 0.75)
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, name)| name)
 }
 
 #[cfg(test)]

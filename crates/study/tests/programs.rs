@@ -263,6 +263,59 @@ fn kienzle_says_what_it_assumes() {
 }
 
 #[test]
+fn a_given_spin_turns_the_last_joint_as_a_fixed_one_does() {
+    let row = |x: i32, spin: &str| format!("{x},0,0,{spin}\n");
+    let head = "x_mm,y_mm,z_mm,spin_deg\n";
+    let told_ones = format!("{head}{}{}", row(0, "20"), row(40, "50"));
+    let last = |extra: &str, table: &str| {
+        let study = format!("{CELL}{LOAD}{}", ask(&format!("file = \"path.csv\"\n{extra}")));
+        told(&study, &[("path.csv", table)]).map(|answer| answer.paths[0].joint_range_deg[5])
+    };
+    let given = last("spin = \"given\"\nspin_deg = 5", &told_ones).unwrap();
+    let [from, to] = [25.0, 55.0].map(|deg| {
+        let table = format!("{head}{}{}", row(0, ""), row(40, ""));
+        last(&format!("spin_deg = {deg}"), &table).unwrap()
+    });
+    // At the ends of the line the arm stands as with that spin all along.
+    let range = [from[0].min(to[0]), from[1].max(to[1])];
+    let among = |q: f64, of: [f64; 2]| of.iter().any(|end| (end - q).abs() < 1e-6);
+    assert!(
+        among(given[0], from) || among(given[0], to),
+        "{given:?} {from:?} {to:?}"
+    );
+    assert!(
+        among(given[1], from) || among(given[1], to),
+        "{given:?} {from:?} {to:?}"
+    );
+    assert!(given[1] - given[0] > 20.0 && given[1] <= range[1] + 1e-6);
+    let silent = format!("{head}{}{}{}", row(0, ""), row(10, ""), row(40, "50"));
+    let error = last("spin = \"given\"", &silent).unwrap_err();
+    for word in ["study.toml:", "path.csv: line 3 tells no spin", "spin_deg"] {
+        assert!(error.contains(word), "no `{word}` in\n{error}");
+    }
+}
+
+#[test]
+fn the_sources_of_the_material_stand_among_those_of_the_answer() {
+    let files = [("ring.ngc", RING)];
+    let answer = told(&format!("{CELL}{CUT}{}", ask("file = \"ring.ngc\"")), &files).unwrap();
+    let of_material = |answer: &StudyAnswer| {
+        let keys = answer.sources.iter().map(|source| source.key.clone());
+        keys.filter(|key| key.starts_with("material:"))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(of_material(&answer), ["material:duan"]);
+    let kienzle = CUT.replace("[cut]", "[cut]\nlaw = \"kienzle\"");
+    let answer = told(&format!("{CELL}{kienzle}{}", ask("file = \"ring.ngc\"")), &files).unwrap();
+    assert_eq!(of_material(&answer), ["material:iscar"]);
+    assert!(
+        answer.answer.contains("across its axis (line "),
+        "{}",
+        answer.answer
+    );
+}
+
+#[test]
 fn what_is_wrong_is_told_at_its_place() {
     let ring = ask("file = \"ring.ngc\"");
     let slow = CUT

@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod identify;
+pub(crate) mod materials;
 pub(crate) mod new;
 pub(crate) mod pose;
 pub(crate) mod robots;

@@ -13,6 +13,7 @@ mod marching_squares;
 pub mod plane;
 pub mod program;
 pub mod region;
+mod turns;
 pub mod volume;
 
 pub use along::{PathAnswer, RadialDeviation, along_path};

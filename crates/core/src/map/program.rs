@@ -7,11 +7,12 @@
 
 use nalgebra::{Point3, Rotation3, Vector3};
 
+use super::turns;
 use crate::frame::Isometry;
 use crate::kernel::{Answers, BranchChoice, Question, Stop, evaluate_loaded};
 use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
 use crate::path::{PathPoint, Placing};
-use crate::robot::{Branch, BranchPattern};
+use crate::robot::{Branch, BranchPattern, Robot};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -128,13 +129,14 @@ pub fn along_program(
     let stop = |i| track.stop(i);
     if let PathLoad::Cuts(cuts) = load {
         let mut resting = Resting::new(track, cuts);
-        let answers = evaluate_loaded(
+        let mut answers = evaluate_loaded(
             &asked,
             count,
             stop,
             |i, tip, out| resting.load(i, tip, out),
             watch,
         )?;
+        count_turns(question.robot, track, &mut answers);
         return Ok(ProgramAnswer {
             choice,
             answers,
@@ -142,19 +144,26 @@ pub fn along_program(
             rested: question.model.is_affine().then_some(resting.rested),
         });
     }
-    let answers = evaluate_loaded(
+    let mut answers = evaluate_loaded(
         &asked,
         count,
         stop,
         |i, _, out| track.wrenches(&load, i, out),
         watch,
     )?;
+    count_turns(question.robot, track, &mut answers);
     Ok(ProgramAnswer {
         choice,
         answers,
         load,
         rested: None,
     })
+}
+
+/// Joints go on past half a turn along each cut.
+fn count_turns(robot: &Robot, track: &Track, answers: &mut Answers) {
+    let points = &track.points;
+    turns::count_on(robot, answers, |i| points[i].along > points[i - 1].along);
 }
 
 /// Cuts whose forces come to rest point after point.

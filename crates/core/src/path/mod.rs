@@ -21,7 +21,7 @@ pub use cutter_profile::CutterProfile;
 pub use cutting::{Cutting, CuttingForces, ForcesTold, Greatest, Met, NoForces};
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
-pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Program, Step};
+pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step};
 pub use roundness::{Roundness, roundness};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::{Sample, Shape};

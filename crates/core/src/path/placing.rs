@@ -21,6 +21,9 @@ pub enum Spin {
     Fixed(f64),
     /// By this angle (rad) from x of the tool along the feed.
     AlongFeed(f64),
+    /// By what the program tells at each point, and this angle (rad) more, from where [`tool_orientation`] has it; by this
+    /// angle alone where the program tells nothing.
+    Given(f64),
 }
 
 /// A path in the cell.
@@ -55,6 +58,7 @@ impl Placing {
         let axis = -self.spindle(point);
         let rotation = match self.spin {
             Spin::Fixed(angle) => tool_orientation(axis, angle),
+            Spin::Given(angle) => tool_orientation(axis, angle + point.spin.unwrap_or(0.0)),
             Spin::AlongFeed(angle) => {
                 let tool = axis.into_inner();
                 let x = self.across(point).unwrap_or_else(|| self.unspun_x(point));
@@ -107,6 +111,7 @@ mod tests {
         PathPoint {
             at: Point3::new(0.1, 0.2, 0.3),
             axis: axis.map(Unit::new_normalize),
+            spin: None,
             direction: Unit::new_normalize(direction),
             along: 0.0,
             pace: Pace::Feed(0.01),
@@ -174,5 +179,21 @@ mod tests {
             let (axes, pose) = (placing.base_from_feed(&point), placing.base_from_tool(&point));
             assert!((axes * Vector3::x() - pose * Vector3::x()).norm() < 1e-14);
         }
+    }
+
+    #[test]
+    fn a_given_spin_is_added_to_the_fixed_one() {
+        let told = PathPoint {
+            spin: Some(0.3),
+            ..point(Vector3::x(), Some(Vector3::new(0.2, 0.1, 1.0)))
+        };
+        let given = placing(Spin::Given(0.4)).base_from_tool(&told);
+        let fixed = placing(Spin::Fixed(0.7)).base_from_tool(&told);
+        assert!((given.to_homogeneous() - fixed.to_homogeneous()).norm() < 1e-14);
+        // By the right hand about the tool, which points from the spindle to the tip.
+        let unspun = placing(Spin::Given(-0.3)).base_from_tool(&told);
+        let axis = Unit::new_normalize(unspun * Vector3::z());
+        let turned = UnitQuaternion::from_axis_angle(&axis, 0.7) * unspun.rotation;
+        assert!(turned.angle_to(&given.rotation) < 1e-7);
     }
 }

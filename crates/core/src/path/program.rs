@@ -1,7 +1,7 @@
 //! Tool path programs: what the tip of the tool is told to do, move after move.
 //!
-//! Readers give [`Step`]s one by one, so a program of any length can be followed without room for all of it;
-//! [`Program`] keeps them. All in the frame of the path: the workpiece zero that the program counts from. m, rad, s.
+//! Readers give [`Step`]s one by one, so a program of any length can be followed without room for all of it. All in the
+//! frame of the path: the workpiece zero that the program counts from. m, rad, s.
 
 use nalgebra::{Point3, Unit, Vector3};
 
@@ -49,6 +49,9 @@ pub struct Move {
     pub end: Point3<f64>,
     /// The tool at its end, from the tip towards the spindle; `None` where the program says nothing of it.
     pub axis: Option<Unit<Vector3<f64>>>,
+    /// How the tool is turned about its axis at its end, rad, by the right hand about the direction from spindle to tip;
+    /// `None` where the program says nothing of it.
+    pub spin: Option<f64>,
     /// What it follows.
     pub course: Course,
     /// How fast.
@@ -92,29 +95,5 @@ impl Pace {
     /// Whether the tool cuts on the way.
     pub fn cuts(self) -> bool {
         self != Pace::Rapid
-    }
-}
-
-/// A whole program.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Program {
-    /// Its operations, in order.
-    pub operations: Vec<Operation>,
-    /// Its moves, in order; the first says where the tip stands.
-    pub moves: Vec<Move>,
-    /// Of each operation the index of its first move.
-    pub starts: Vec<usize>,
-}
-
-impl Program {
-    /// Takes the next step.
-    pub fn push(&mut self, step: Step) {
-        match step {
-            Step::Operation(operation) => {
-                self.operations.push(operation);
-                self.starts.push(self.moves.len());
-            }
-            Step::Move(next) => self.moves.push(next),
-        }
     }
 }

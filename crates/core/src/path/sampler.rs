@@ -1,7 +1,7 @@
 //! Moves as points: near enough to the arc, and no farther apart than a step.
 //!
 //! A chord over the angle `phi` of a circle of radius `r` leaves it by `r (1 - cos(phi / 2))`; pieces of a move are
-//! equal. The tool axis turns evenly from the one of the move before to its own.
+//! equal. The tool axis turns evenly from the one of the move before to its own; so does the spin, the shorter way round.
 
 use std::f64::consts::TAU;
 
@@ -25,6 +25,8 @@ pub struct PathPoint {
     pub at: Point3<f64>,
     /// The tool, from the tip towards the spindle, if the program tells it.
     pub axis: Option<Unit<Vector3<f64>>>,
+    /// How the tool is turned about its axis, rad, if the program tells it.
+    pub spin: Option<f64>,
     /// Where the tip is going.
     pub direction: Unit<Vector3<f64>>,
     /// Distance along all cutting moves before, m.
@@ -48,6 +50,7 @@ pub struct Sampler {
 struct Stands {
     at: Point3<f64>,
     axis: Option<Unit<Vector3<f64>>>,
+    spin: Option<f64>,
     /// Whether the last move was a cut that ended here: its end is a point already.
     cutting: bool,
 }
@@ -78,12 +81,13 @@ impl Sampler {
     /// each piece; of a rapid nothing. The first move of a program says where the tip stands and has no points.
     pub fn points(&mut self, next: &Move, mut out: impl FnMut(PathPoint)) {
         let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
+        let spin = next.spin.or(self.stands.and_then(|stands| stands.spin));
         if let Some(from) = self.stands.filter(|_| next.pace.cuts()) {
             let way = Way::of(&from, next, axis);
             let pieces = way.pieces(&self.sampling);
             if pieces == 0 {
                 // A move to where the tip stands: nothing is cut, and no direction is told.
-                self.stands = Some(Stands { axis, ..from });
+                self.stands = Some(Stands { axis, spin, ..from });
                 return;
             }
             for piece in usize::from(from.cutting)..=pieces {
@@ -91,6 +95,7 @@ impl Sampler {
                 out(PathPoint {
                     at: way.at(part),
                     axis: way.axis(part),
+                    spin: spin.map(|spin| spun(from.spin, spin, part)),
                     direction: way.direction(part),
                     along: self.along + way.length * part,
                     pace: next.pace,
@@ -102,9 +107,16 @@ impl Sampler {
         self.stands = Some(Stands {
             at: next.end,
             axis,
+            spin,
             cutting: next.pace.cuts() && self.stands.is_some(),
         });
     }
+}
+
+/// The spin on the way from the one before to `to`, the shorter way round, rad.
+fn spun(from: Option<f64>, to: f64, part: f64) -> f64 {
+    let by = to - from.unwrap_or(to);
+    to - (by - TAU * (by / TAU).round()) * (1.0 - part)
 }
 
 /// One move, laid out.
@@ -228,6 +240,7 @@ mod tests {
         Move {
             end: end.into(),
             axis: None,
+            spin: None,
             course,
             pace: Pace::Feed(0.01),
             line: 1,
@@ -368,5 +381,34 @@ mod tests {
         let points = points(FINE, &moves);
         assert_eq!(points.len(), 3);
         assert!(points.iter().all(|p| p.direction == Vector3::x_axis()));
+    }
+
+    #[test]
+    fn the_spin_turns_evenly_the_shorter_way_and_stays_where_nothing_is_told() {
+        let spun = |deg: Option<f64>, at: Move| Move {
+            spin: deg.map(f64::to_radians),
+            ..at
+        };
+        let moves = [
+            spun(Some(350.0), start([0.0; 3])),
+            spun(Some(10.0), cut([4e-3, 0.0, 0.0], Course::Line)),
+            spun(None, cut([5e-3, 0.0, 0.0], Course::Line)),
+        ];
+        let sampling = Sampling {
+            chord_error: 1e-5,
+            step: 1e-3,
+        };
+        let told: Vec<f64> = points(sampling, &moves)
+            .iter()
+            .map(|point| point.spin.unwrap().to_degrees())
+            .collect();
+        // From 350 deg on to 370 deg, told as 10.
+        let expected = [-10.0, -5.0, 0.0, 5.0, 10.0, 10.0];
+        assert_eq!(told.len(), expected.len());
+        for (told, expected) in told.iter().zip(expected) {
+            assert!((told - expected).abs() < 1e-12, "{told} and {expected}");
+        }
+        let silent = [start([0.0; 3]), cut([4e-3, 0.0, 0.0], Course::Line)];
+        assert!(points(sampling, &silent).iter().all(|point| point.spin.is_none()));
     }
 }

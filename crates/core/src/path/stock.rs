@@ -43,6 +43,7 @@ use super::sampler::PathPoint;
 #[derive(Clone, Debug)]
 pub struct Stock {
     low: Point3<f64>,
+    high: Point3<f64>,
     /// Cells along x and y.
     cells: [usize; 2],
     /// Sides of a cell, m.
@@ -166,6 +167,7 @@ impl Stock {
         let (columns, rows) = (along(0) as usize, along(1) as usize);
         Ok(Stock {
             low,
+            high,
             cells: [columns, rows],
             sides: [size.x / columns as f64, size.y / rows as f64],
             heights: vec![size.z as f32; columns * rows],
@@ -212,6 +214,11 @@ impl Stock {
     /// Path z (m) up to which material stands in the cell over `at` (m, path x and y); `None` beside the box.
     pub fn top_at(&self, at: Point2<f64>) -> Option<f64> {
         self.cell_at(at).map(|(_, height)| self.low.z + f64::from(height))
+    }
+
+    /// Two corners of the box, the lower one first; m.
+    pub fn corners(&self) -> [Point3<f64>; 2] {
+        [self.low, self.high]
     }
 
     /// The longer side of a cell, m: not above the pitch that was asked for.

@@ -1,18 +1,7 @@
 //! Cutter locations: APT-CL or CLDATA as SolidWorks CAM writes it, and the CLSF of Siemens NX.
 //!
-//! | word | meaning |
-//! |---|---|
-//! | `UNIT/MM`, `UNITS/INCH` | unit of all lengths |
-//! | `GOTO/x,y,z[,i,j,k]` | the tip goes there; the tool from the tip towards the spindle |
-//! | `CIRCLE/x,y,z,i,j,k,...` | the next GOTO ends an arc about this axis, by the right hand |
-//! | `RAPID` | the next GOTO is one |
-//! | `FROM`, `GOHOME` | as a GOTO in rapid |
-//! | `FEDRAT/v,MMPM`, `FEDRAT/MMPM,v` | feed; also `IPM`, and `MMPR`, `IPR` with the speed of the spindle |
-//! | `SPINDL/n,RPM,CLW` | speed of the spindle; `CCLW`, `OFF` |
-//! | `LOAD/TOOL,n`, `CUTTER/d,r,...`, `TLDATA/MILL,d,r,...` | tool, diameter, corner radius |
-//! | `CYCLE/DRILL,...` ... `CYCLE/OFF` | each GOTO is a hole, see `cycle` |
-//! | `TRNTYP/WORLD`, `CSYS/` 12 numbers | GOTO holds world coordinates, whatever the local system |
-//! | `MSYS/origin,x axis,y axis` | the system that GOTO counts in |
+//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`; `tests/words.rs` tries
+//! each.
 //!
 //! The two dialects differ where a GOTO leaves the tool axis out: SolidWorks means 0,0,1, NX the one before. They are
 //! known by `CSYS`, `TRNTYP` and by `TOOL PATH`, `TLDATA`, `MSYS`. The path is in world coordinates (SolidWorks), in

@@ -1,18 +1,8 @@
 //! A path as a table: one row a point, the unit of each column in its name.
 //!
-//! | column | meaning | unit |
-//! |---|---|---|
-//! | `x_mm`, `y_mm`, `z_mm` | where the tip goes, on a straight line | `_mm`, `_m`, `_in` |
-//! | `i`, `j`, `k` | the tool, from the tip towards the spindle; empty: as in the row before | length 1 |
-//! | `feed_mm_min` | how fast; empty or missing: not told | `_mm_min`, `_mm_s`, `_m_s`, `_in_min` |
-//! | `rapid` | `1`, `true`, `yes`: as fast as it can, not cutting | |
-//! | `spindle_rpm` | speed of the spindle, clockwise positive; empty: not told | |
-//! | `axial_depth_mm`, `radial_depth_mm` | how deep the cutter is on the way to this point; both or neither | as the point |
-//! | `op` | the operation; empty: as in the row before | |
-//! | `note` | for people | |
-//!
-//! The first row says where the tip stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma
-//! is read too. Lines that begin with `#` and empty ones are passed over.
+//! The columns stand in `docs/guide/tool-path-words.md`; `tests/words.rs` tries each. The first row says where the tip
+//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
+//! `#` and empty ones are passed over.
 
 use std::f64::consts::TAU;
 use std::io::BufRead;
@@ -48,6 +38,7 @@ pub struct Summary {
 enum Column {
     Point(usize, f64),
     Axis(usize),
+    Spin(f64),
     Feed(f64),
     Rapid,
     Spindle,
@@ -72,6 +63,8 @@ fn known() -> Vec<(String, Column)> {
         ("j", Column::Axis(1)),
         ("k", Column::Axis(2)),
         ("rapid", Column::Rapid),
+        ("spin_deg", Column::Spin(1_f64.to_radians())),
+        ("spin_rad", Column::Spin(1.0)),
         ("spindle_rpm", Column::Spindle),
         ("op", Column::Operation),
         ("note", Column::Note),
@@ -167,6 +160,7 @@ struct Table {
 struct Row {
     point: [Option<f64>; 3],
     axis: [Option<f64>; 3],
+    spin: Option<f64>,
     feed: Option<f64>,
     rapid: bool,
     spindle: Option<f64>,
@@ -321,6 +315,7 @@ impl Table {
         out(Step::Move(Move {
             end,
             axis,
+            spin: row.spin,
             course: Course::Line,
             pace: match (row.rapid, row.feed) {
                 (true, _) => Pace::Rapid,
@@ -355,6 +350,7 @@ impl Row {
             _ if cell.text.is_empty() => {}
             Column::Point(axis, factor) => self.point[axis] = Some(number(cell, separator)? * factor),
             Column::Axis(axis) => self.axis[axis] = Some(number(cell, separator)?),
+            Column::Spin(factor) => self.spin = Some(number(cell, separator)? * factor),
             Column::Spindle => self.spindle = Some(number(cell, separator)? * TAU / 60.0),
             Column::Feed(factor) => self.feed = Some(above(cell, separator, false)? * factor),
             Column::AxialDepth(factor) => self.depths[0] = Some(above(cell, separator, true)? * factor),
@@ -448,6 +444,7 @@ fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
             "speeds",
             "`feed_mm_min`, `feed_mm_s`, `feed_m_s` or `feed_in_min`".to_owned(),
         )),
+        "spin" => Some(("angles", "`spin_deg` or `spin_rad`".to_owned())),
         "spindle" | "s" | "rpm" => Some(("speeds", "`spindle_rpm`".to_owned())),
         "axial_depth" | "radial_depth" => Some(("lengths", format!("`{name}_mm`"))),
         _ => None,

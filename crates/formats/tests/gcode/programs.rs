@@ -4,18 +4,36 @@ use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
-use armill_core::path::{Arc, Course, Move, Pace, Program};
+use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{
     self, Options, Rotaries, Rotary, Summary, Tool, ToolTable, Warning, interpret,
 };
 
+/// The steps of a program, kept.
+#[derive(Debug, Default)]
+struct Program {
+    operations: Vec<Operation>,
+    moves: Vec<Move>,
+    /// Of each operation the index of its first move.
+    starts: Vec<usize>,
+}
+
 fn read(program: &str, options: &Options<'_>) -> Result<(Program, Summary), Problems> {
     let mut path = Program::default();
-    let summary = gcode::read("p.ngc", &mut program.as_bytes(), options, &mut |step| {
-        path.push(step);
-    })?;
+    let summary = gcode::read(
+        "p.ngc",
+        &mut program.as_bytes(),
+        options,
+        &mut |step| match step {
+            Step::Operation(operation) => {
+                path.operations.push(operation);
+                path.starts.push(path.moves.len());
+            }
+            Step::Move(next) => path.moves.push(next),
+        },
+    )?;
     Ok((path, summary))
 }
 

@@ -20,11 +20,13 @@ pub use program::{FeatureResult, OperationResult, ProgramResult, WorstPoint};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
+use armill_core::load::CuttingLaw;
 use armill_core::map::PlaneMap;
 use armill_formats::robot::Source;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::file::cut::Cut;
 use crate::file::resolve::{Ask, Sheet, Study, Subject};
 use crate::parts::left_out;
 use crate::run::Found;
@@ -167,6 +169,19 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     }
 }
 
+/// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind `material:`.
+pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
+    let sources = match cut.cutting.law {
+        CuttingLaw::Mechanistic(_) => cut.material.mechanistic_sources(),
+        CuttingLaw::Kienzle(_) => cut.material.kienzle_sources(),
+    };
+    let of_material = |source: &Source| Source {
+        key: format!("material:{}", source.key),
+        ..source.clone()
+    };
+    sources.into_iter().map(of_material).collect()
+}
+
 fn sources(study: &Study) -> Vec<Source> {
     let own = |key: &str, place: &str| Source {
         key: key.to_owned(),
@@ -182,6 +197,15 @@ fn sources(study: &Study) -> Vec<Source> {
             .map(|of_study| own("compliance", &of_study.source)),
     );
     sources.extend(study.load_source.iter().map(|source| own("load", source)));
+    let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
+        Subject::Program(program) => program.cut.as_ref(),
+        _ => None,
+    });
+    for source in cuts.flat_map(sources_of_cut) {
+        if !sources.contains(&source) {
+            sources.push(source);
+        }
+    }
     sources
 }
 
@@ -216,6 +240,7 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             path.name, path.outside_joint_limits, path.points, path.branch
         ));
     }
+    warnings.extend(paths.iter().flat_map(program::warnings));
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());
     warnings

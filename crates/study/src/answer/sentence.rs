@@ -71,11 +71,19 @@ fn of_path(study: &Study, path: &PathResult) -> String {
             path.name, path.branch
         );
     };
+    let (where_to, circle, line) = match &path.program {
+        None => ("in the plane", "the circle", String::new()),
+        Some(program) => {
+            let line = program.worst_points.first().map(|worst| worst.line);
+            let line = line.map_or(String::new(), |line| format!(" (line {line})"));
+            ("across its axis", "a circle", line)
+        }
+    };
     let roundness = path.roundness_um.map_or(String::new(), |r| {
-        format!(" and makes the circle {} µm out of round", micrometres(r))
+        format!(" and makes {circle} {} µm out of round", micrometres(r))
     });
     format!(
-        "{}, branch {}: the tool deviates up to {} ± {} µm in the plane{roundness}, mostly by {}; {:.1} % of the path holds {} µm.",
+        "{}, branch {}: the tool deviates up to {} ± {} µm {where_to}{line}{roundness}, mostly by {}; {:.1} % of the path holds {} µm.",
         path.name,
         path.branch,
         micrometres(worst.in_plane_um),

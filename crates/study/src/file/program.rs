@@ -114,6 +114,8 @@ pub enum SpinName {
     Fixed,
     /// With the feed.
     AlongFeed,
+    /// As the program tells at each point: column `spin_deg` of a CSV.
+    Given,
 }
 
 /// A stretch of the program that makes a feature.
@@ -319,6 +321,15 @@ pub(super) fn read(
         places.problem("program.file", message, "rapids alone cut nothing");
         return Ok(None);
     }
+    if table.spin == Some(SpinName::Given)
+        && let Some(silent) = cut_up.points.iter().find(|point| point.spin.is_none())
+    {
+        let message = format!("{shown}: line {} tells no spin", silent.line);
+        let hint =
+            "a CSV tells it in a column `spin_deg`; for other programs: spin = \"fixed\" or \"along-feed\"";
+        places.problem("program.spin", message, hint);
+        return Ok(None);
+    }
     let base_from_part = setting.plane.base_from_part;
     let part_from_path = table
         .part_from_path_mm_deg
@@ -332,6 +343,7 @@ pub(super) fn read(
         spin: match table.spin {
             None | Some(SpinName::Fixed) => Spin::Fixed(spin),
             Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
+            Some(SpinName::Given) => Spin::Given(spin),
         },
     };
     let mut setting = setting;

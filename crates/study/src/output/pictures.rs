@@ -135,7 +135,10 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
     let Some((index, _)) = map.answers.worst() else {
         return Vec::new();
     };
-    let bars = vec![share_bar("largest", worst), share_bar("least", best)];
+    let bars = [("largest", worst), ("least", best)].map(|(which, point)| {
+        let [x, y, z] = point.xyz_mm;
+        share_bar(&format!("{which} ({x:.0}, {y:.0}, {z:.0}) mm"), point)
+    });
     let slug = super::slug(&told.name);
     vec![
         Picture {
@@ -147,8 +150,8 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
             svg: shares(
                 study,
                 &format!("{}: which joint is to blame", told.name),
-                setting,
-                bars,
+                (setting, "share of in-plane deviation (µm)"),
+                bars.to_vec(),
             ),
         },
         ellipse(study, setting, &slug, &map.answers, index),
@@ -167,10 +170,7 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
 
 pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     ShareBar {
-        label: format!(
-            "{label} ({:.0}, {:.0}, {:.0}) mm",
-            point.xyz_mm[0], point.xyz_mm[1], point.xyz_mm[2]
-        ),
+        label: label.to_owned(),
         shares_um: point.joint_share_um.clone(),
         share_uncertainty_um: Vec::new(),
         total_um: Some(point.in_plane_um),
@@ -178,11 +178,16 @@ pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     }
 }
 
-pub(super) fn shares(study: &Study, title: &str, setting: &Setting, bars: Vec<ShareBar>) -> String {
+pub(super) fn shares(
+    study: &Study,
+    title: &str,
+    (setting, quantity): (&Setting, &str),
+    bars: Vec<ShareBar>,
+) -> String {
     let picture = ShareBars {
         title: title.to_owned(),
         subtitle: subtitle(setting),
-        quantity: "share of in-plane deviation (µm)".to_owned(),
+        quantity: quantity.to_owned(),
         parts: setting.model.sharer_names(study.robot.robot.joints()),
         bars,
         ..ShareBars::default()

@@ -15,7 +15,9 @@ use crate::run::ProgramFound;
 /// Points that a chart shows at most: of a longer path each stands for the largest deviations of those around it.
 const MOST_POINTS: usize = 1200;
 /// Points that the arm's picture has of the path at most.
-const MOST_IN_SPACE: usize = 20_000;
+const MOST_IN_SPACE: usize = 8_000;
+/// Marks nearer to each other than this part of the width would hide each other's numbers.
+const APART: f64 = 0.025;
 
 /// The pictures of a program.
 pub(super) fn pictures(
@@ -60,7 +62,7 @@ pub(super) fn pictures(
             shares(
                 study,
                 &format!("{}: which joint is to blame", told.name),
-                &ask.setting,
+                (&drawing.setting(), "share of deviation across the tool (µm)"),
                 bars.collect(),
             ),
         ));
@@ -85,12 +87,17 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    /// What a reader must know beside the title.
-    fn subtitle(&self) -> String {
-        subtitle(&Setting {
+    /// The setting with the branch that was followed.
+    fn setting(&self) -> Setting {
+        Setting {
             choice: self.found.answer.choice,
             ..self.ask.setting.clone()
-        })
+        }
+    }
+
+    /// What a reader must know beside the title.
+    fn subtitle(&self) -> String {
+        subtitle(&self.setting())
     }
 
     fn in_plane_um(&self, index: usize) -> f64 {
@@ -111,13 +118,27 @@ impl Drawing<'_> {
                 |i: &usize| points[*i].line == line && (points[*i].along * 1e3 - along_mm).abs() < 1e-6;
             (0..points.len()).find(same)
         };
-        let marker = |(i, worst): (usize, &WorstPoint)| {
-            place(worst.line, worst.along_mm).map(|index| Marker {
-                at_mm: at(index),
-                label: (i + 1).to_string(),
-                kind: MarkerKind::Point,
-            })
-        };
+        let [low, high] = self.ask.track.corners();
+        let apart_mm = APART * (high.x - low.x).max(high.y - low.y) * 1e3;
+        let mut markers: Vec<Marker> = Vec::new();
+        for (i, worst) in worst.iter().enumerate() {
+            let Some(at_mm) = place(worst.line, worst.along_mm).map(at) else {
+                continue;
+            };
+            // Points above each other have one mark.
+            let near = |other: &&mut Marker| {
+                let [x, y] = other.at_mm;
+                (x - at_mm[0]).hypot(y - at_mm[1]) < apart_mm
+            };
+            match markers.iter_mut().find(near) {
+                Some(other) => other.label += &format!(", {}", i + 1),
+                None => markers.push(Marker {
+                    at_mm,
+                    label: (i + 1).to_string(),
+                    kind: MarkerKind::Point,
+                }),
+            }
+        }
         let picture = TrackMap {
             title: self.told.name.clone(),
             subtitle: self.subtitle(),
@@ -128,7 +149,7 @@ impl Drawing<'_> {
             quantity: "deviation across the tool (µm)".to_owned(),
             limit_um: Some(self.ask.setting.limit * 1e6),
             stretches,
-            markers: worst.iter().enumerate().filter_map(marker).collect(),
+            markers,
             ..TrackMap::default()
         };
         picture.to_svg()

@@ -32,6 +32,7 @@ fn arriving(at: Point3<f64>, direction: Vector3<f64>) -> PathPoint {
     PathPoint {
         at,
         axis: Some(Vector3::z_axis()),
+        spin: None,
         direction: Unit::new_normalize(direction),
         along: 0.0,
         pace: Pace::Feed(0.01),

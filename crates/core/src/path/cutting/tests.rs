@@ -25,6 +25,7 @@ fn point(direction: [f64; 3], pace: Pace) -> PathPoint {
     PathPoint {
         at: Point3::origin(),
         axis: None,
+        spin: None,
         direction: Unit::new_normalize(direction.into()),
         along: 0.0,
         pace,
@@ -146,6 +147,7 @@ fn pocket() -> Vec<PathPoint> {
     let to = |x: f64, y: f64, pace| Move {
         end: Point3::new(x, y, -1e-3),
         axis: None,
+        spin: None,
         course: Course::Line,
         pace,
         line: 1,

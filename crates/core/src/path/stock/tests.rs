@@ -17,6 +17,7 @@ fn arriving(before: Point3<f64>, at: Point3<f64>) -> PathPoint {
     PathPoint {
         at,
         axis: None,
+        spin: None,
         direction: Unit::try_new(at - before, 0.0).unwrap_or(Vector3::x_axis()),
         along: 0.0,
         pace: Pace::Untold,

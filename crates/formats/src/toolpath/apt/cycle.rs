@@ -11,8 +11,8 @@
 //! | `DWELL,t` | wait at the bottom: no move |
 //!
 //! Pecks count from RAPTO; after each the tip goes back there and down again in rapid. What is cut is the same if a
-//! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2; others are refused, since what they do depends on
-//! the machine.
+//! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2, and BORE, REAM and TAP, which cut on the way down as DRILL does; others are
+//! refused, since what they do depends on the machine.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Course, Move, Pace};
@@ -55,9 +55,16 @@ impl Interpreter<'_> {
             // Opens the list of holes, and chooses how to go between them: the cycle itself follows.
             "INIT" | "CLEAR" => self.ignore(statement),
             "DRILL" | "DEEP" | "DEEP2" => self.drill(statement, &kind),
+            "BORE" | "REAM" | "TAP" => {
+                self.warn(
+                    statement,
+                    format!("CYCLE/{kind} is followed as DRILL: up in rapid, whatever the spindle does"),
+                );
+                self.drill(statement, &kind);
+            }
             _ => {
                 let message = format!("the cycle `{kind}` is not understood");
-                let hint = "understood are DRILL, DEEP and DEEP2; let the CAM system write others as GOTO";
+                let hint = "understood are DRILL, DEEP, DEEP2, BORE, REAM and TAP; let the CAM system write others as GOTO";
                 let span = statement
                     .parameters()
                     .next()
@@ -141,6 +148,7 @@ impl Interpreter<'_> {
             let next = Move {
                 end: top + up.into_inner() * height,
                 axis,
+                spin: None,
                 course: Course::Line,
                 pace,
                 line: statement.line(),

@@ -88,6 +88,7 @@ impl Interpreter<'_> {
             Move {
                 end,
                 axis,
+                spin: None,
                 course,
                 pace,
                 line,

@@ -277,8 +277,8 @@ fn cycles_that_are_not_understood_are_refused() {
     let head = "UNIT/MM\nTRNTYP/WORLD\n";
     for (text, part) in [
         (
-            "CYCLE/TAP,FEDTO,5.,RAPTO,3.",
-            "3:7: the cycle `TAP` is not understood",
+            "CYCLE/MILL,FEDTO,5.,RAPTO,3.",
+            "3:7: the cycle `MILL` is not understood",
         ),
         ("CYCLE/DRILL,RAPTO,3.", "the cycle DRILL has no FEDTO"),
         ("CYCLE/DRILL,FEDTO,5.", "has no RAPTO"),
@@ -498,5 +498,17 @@ fn no_text_makes_it_panic() {
         "\u{1a}",
     ] {
         let _ = steps(text, &Wanted::default());
+    }
+}
+
+#[test]
+fn words_that_are_passed_over_or_refused_stand_in_the_guide() {
+    let page = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/guide/tool-path-words.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    for word in words::IGNORED.iter().chain(words::REFUSED) {
+        let told = [" ", "/", "`"]
+            .iter()
+            .any(|end| page.contains(&format!("`{word}{end}")));
+        assert!(told, "{word}");
     }
 }

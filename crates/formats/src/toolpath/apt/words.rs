@@ -10,13 +10,13 @@ use super::statement::Statement;
 use super::{Dialect, LengthUnit};
 
 /// Words that say nothing about where the tip goes and how fast.
-const IGNORED: &[&str] = &[
-    "CHECK", "CLAMP", "CLEARP", "COOLNT", "CUTCOM", "DELAY", "DISPLY", "INTOL", "LETTER", "MACHIN", "MODE",
-    "MULTAX", "OPSKIP", "OPSTOP", "OUTTOL", "PAINT", "PPFUN", "PPRINT", "REMARK", "RETRCT", "SAFETY",
-    "SELECT", "SELCTL", "SEQNO", "SETUP", "STOP", "THREAD", "TITLES", "TMARK", "TOLER", "UNLOAD",
+pub(super) const IGNORED: &[&str] = &[
+    "AUXFUN", "CHECK", "CLAMP", "CLEARP", "COOLNT", "CUTCOM", "DELAY", "DISPLY", "INTOL", "LETTER", "MACHIN",
+    "MODE", "MULTAX", "OPSKIP", "OPSTOP", "OUTTOL", "PAINT", "PPFUN", "PPRINT", "PREFUN", "REMARK", "RETRCT",
+    "SAFETY", "SELECT", "SELCTL", "SEQNO", "SETUP", "STOP", "THREAD", "TITLES", "TMARK", "TOLER", "UNLOAD",
 ];
 /// Words that move the tip, or the points themselves, in a way that is not understood here.
-const REFUSED: &[&str] = &[
+pub(super) const REFUSED: &[&str] = &[
     "ARCDAT", "CALL", "CNTRL", "COPY", "GO", "GOBACK", "GOCLER", "GODLTA", "GODOWN", "GOFWD", "GOLFT",
     "GORGT", "GOUP", "INDEX", "INDIRP", "INDIRV", "KNOT", "MACRO", "MIRROR", "MOVETO", "NURBS", "POLYGO",
     "REFSYS", "SPLINE", "TLLFT", "TLON", "TLRGT", "TRACUT", "TRANS",

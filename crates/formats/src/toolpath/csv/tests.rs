@@ -147,3 +147,24 @@ fn no_text_makes_it_panic() {
         assert!(steps(text).is_err(), "{text}");
     }
 }
+
+#[test]
+fn the_spin_is_told_in_degrees_or_radians_and_an_empty_cell_tells_none() {
+    let found = moves("x_mm,y_mm,z_mm,spin_deg\n0,0,0,-90\n1,0,0,\n");
+    assert_eq!(
+        [found[0].spin, found[1].spin],
+        [Some(-std::f64::consts::FRAC_PI_2), None]
+    );
+    let found = moves("x_mm,y_mm,z_mm,spin_rad\n0,0,0,0.25\n");
+    assert_eq!(found[0].spin, Some(0.25));
+    let wrong = problems("x_mm,y_mm,z_mm,spin\n0,0,0,1\n");
+    assert!(
+        wrong.contains("without unit") && wrong.contains("`spin_deg`"),
+        "{wrong}"
+    );
+    let twice = problems("x_mm,y_mm,z_mm,spin_deg,spin_rad\n0,0,0,1,1\n");
+    assert!(
+        twice.contains("`spin_rad` tells what `spin_deg` tells"),
+        "{twice}"
+    );
+}

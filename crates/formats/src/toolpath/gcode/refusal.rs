@@ -156,7 +156,7 @@ impl Refusal {
             Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in blocks of their own",
             Refusal::WordAmbiguous(_) | Refusal::AxesTwice(..) => "write the codes on separate lines",
             Refusal::UnknownCode(_) => {
-                "see the table of codes in the guide; take the block out if it moves nothing"
+                "the guide has a page of words (tool-path-words.md); take the block out if it moves nothing"
             }
             Refusal::NoFeed(_) => "give F before the first cut",
             Refusal::NoInverseTime(_) => {
@@ -176,10 +176,12 @@ impl Refusal {
             Refusal::SubroutineUnknown(_) => "define it before its call, or give its file",
             Refusal::RotaryCut { .. } => {
                 "post-process with tool-centre control (G43.4, M428, TRAORI, M128), so that X Y Z are the tip in the \
-                 frame of the part"
+                 frame of the part; and say what the rotary axes turn: rotaries = \"table-ac\", \"table-bc\", \"head-ca\" or \
+                 \"head-cb\""
             }
             Refusal::RotariesUnknown { .. } => {
-                "say which rotary axes turn the table and which the head, such as xyzac"
+                "say what the rotary axes turn: rotaries = \"table-ac\" (A tilts the table that carries C), \"table-bc\", \
+                 \"head-ca\" (C carries the head that A tilts) or \"head-cb\""
             }
             Refusal::SystemUnknown(..) => {
                 "give the offsets with G10 L2 or as parameters #5221 and on, or split the program"

@@ -364,6 +364,7 @@ impl<'a> Tracer<'a> {
         let next = Move {
             end: q,
             axis,
+            spin: None,
             course,
             pace,
             line,

@@ -1,0 +1,209 @@
+//! The cut that forces come from: material with its coefficients, cutter, depths, feed and spindle, largest forces.
+
+use std::f64::consts::TAU;
+
+use armill_core::load::{Cutter, CuttingLaw, Estimate, Hand, Immersion};
+use armill_report::html::Input;
+
+use super::cells::input;
+use super::inputs::{THE_STUDY, place};
+use crate::answer::{StudyAnswer, sources_of_cut};
+use crate::file::cut::Cut;
+use crate::file::program::ProgramAsk;
+use crate::file::resolve::{Study, Subject};
+
+/// The rows of every cut of the study; of equal ones the first. Where several differ each row names its program.
+pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
+    let mut told: Vec<(&str, &ProgramAsk, &Cut)> = Vec::new();
+    for ask in &study.asks {
+        let Subject::Program(program) = &ask.subject else {
+            continue;
+        };
+        if let Some(cut) = &program.cut
+            && told.iter().all(|(_, _, other)| other.cutting != cut.cutting)
+        {
+            told.push((&ask.name, program, cut));
+        }
+    }
+    let several = told.len() > 1;
+    let of = |(name, program, cut): (&str, &ProgramAsk, &Cut)| {
+        let mut rows = of_cut(answer, (name, program), cut);
+        if several {
+            for row in &mut rows {
+                row.name = format!("{name}: {}", row.name);
+            }
+        }
+        rows
+    };
+    told.into_iter().flat_map(of).collect()
+}
+
+fn of_cut(answer: &StudyAnswer, (name, program): (&str, &ProgramAsk), cut: &Cut) -> Vec<Input> {
+    let sources = sources_of_cut(cut);
+    let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
+    let of_material = places.join("; ");
+    let mut rows = vec![input("material", cut.material.name.clone(), "", &of_material)];
+    rows.extend(coefficients(&cut.cutting.law, &of_material));
+    let study = |name: &str, value: String, unit: &str| input(name, value, unit, THE_STUDY);
+    rows.push(study("cutter", cutter(&cut.cutting.cutter), ""));
+    rows.push(study("axial depth", plain(cut.cutting.depth * 1e3), "mm"));
+    let (radial, unit) = match cut.cutting.immersion {
+        Immersion::Slot => ("whole diameter, a slot".to_owned(), ""),
+        Immersion::Up(depth) => (format!("{}, up-milling", plain(depth * 1e3)), "mm"),
+        Immersion::Down(depth) => (format!("{}, down-milling", plain(depth * 1e3)), "mm"),
+        Immersion::Centred(depth) => (format!("{}, centred", plain(depth * 1e3)), "mm"),
+    };
+    rows.push(study("radial depth", radial, unit));
+    let told = |value: Option<f64>| {
+        value.map_or_else(
+            || "as the program tells".to_owned(),
+            |value| format!("{}, where the program tells none", plain(value)),
+        )
+    };
+    let unit = |value: Option<f64>, unit: &'static str| value.map_or("", |_| unit);
+    let feed = cut.cutting.feed;
+    rows.push(study("feed", told(feed.map(|v| v * 60e3)), unit(feed, "mm/min")));
+    let spindle = cut.cutting.spindle;
+    let rpm = told(spindle.map(|v| v * 60.0 / TAU));
+    rows.push(study("spindle", rpm, unit(spindle, "rev/min")));
+    if let Some(stock) = &cut.stock {
+        let [from, to] = stock.corners().map(|corner| {
+            let [x, y, z] = [corner.x, corner.y, corner.z].map(|metres| plain(metres * 1e3));
+            format!("({x}, {y}, {z})")
+        });
+        let cell = plain(stock.pitch() * 1e3);
+        rows.push(study("stock", format!("{from} to {to}, cells of {cell}"), "mm"));
+    }
+    let told = answer.paths.iter().find(|path| path.name == name);
+    let forces = told.and_then(|path| path.program.as_ref()?.largest_mean_and_peak_n);
+    if let Some([mean, peak]) = forces {
+        let u = mean * program.setting.doubt.relative;
+        let computed = "computed from the rows above";
+        rows.push(input(
+            "largest mean force of a revolution",
+            format!("{mean:.1} ± {u:.1}"),
+            "N",
+            computed,
+        ));
+        rows.push(input(
+            "largest force within a revolution",
+            format!("{peak:.1}"),
+            "N",
+            computed,
+        ));
+    }
+    rows
+}
+
+fn coefficients(law: &CuttingLaw, source: &str) -> Vec<Input> {
+    let row = |name: &str, estimate: Estimate, per: f64, unit: &str| {
+        let value = format!(
+            "{} ± {}",
+            plain(estimate.value / per),
+            plain(estimate.standard_uncertainty / per)
+        );
+        input(name, value, unit, source)
+    };
+    match law {
+        CuttingLaw::Mechanistic(law) => {
+            let of = |(i, name): (usize, &&str)| {
+                let estimate = Estimate {
+                    value: law.coefficients()[i],
+                    standard_uncertainty: law.covariance()[(i, i)].max(0.0).sqrt(),
+                };
+                let (per, unit) = if i < 3 { (1e6, "N/mm²") } else { (1e3, "N/mm") };
+                row(name, estimate, per, unit)
+            };
+            MECHANISTIC.iter().enumerate().map(of).collect()
+        }
+        CuttingLaw::Kienzle(law) => {
+            let values = law.values();
+            let ratio = |name: &str, estimate| {
+                let mut row = row(name, estimate, 1.0, "");
+                THE_STUDY_OR_ASSUMED.clone_into(&mut row.source);
+                row
+            };
+            vec![
+                row("specific force kc1.1", values.specific_force, 1e6, "N/mm²"),
+                row("exponent mc", values.exponent, 1.0, ""),
+                ratio("radial over cutting force", values.radial_ratio),
+                ratio("axial over cutting force", values.axial_ratio),
+            ]
+        }
+    }
+}
+
+/// Names of the mechanistic coefficients, in the order of the core.
+const MECHANISTIC: [&str; 6] = [
+    "tangential, of the chip (Ktc)",
+    "radial, of the chip (Krc)",
+    "axial, of the chip (Kac)",
+    "tangential, of the edge (Kte)",
+    "radial, of the edge (Kre)",
+    "axial, of the edge (Kae)",
+];
+/// No source of a material tells these.
+const THE_STUDY_OR_ASSUMED: &str = "the study; assumed by armill where it says nothing";
+
+fn cutter(cutter: &Cutter) -> String {
+    let mut parts = vec![format!("{} mm", plain(cutter.diameter() * 1e3))];
+    let corner = cutter.corner_radius();
+    if corner >= cutter.radius() {
+        parts.push("ball nose".to_owned());
+    } else if corner > 0.0 {
+        parts.push(format!("corner radius {} mm", plain(corner * 1e3)));
+    }
+    parts.push(match cutter.flutes() {
+        1 => "1 flute".to_owned(),
+        flutes => format!("{flutes} flutes"),
+    });
+    let hand = match cutter.hand() {
+        Hand::Right => "right-hand",
+        Hand::Left => "left-hand",
+    };
+    parts.push(format!("{hand} helix {} deg", plain(cutter.helix().to_degrees())));
+    if cutter.rake() != 0.0 {
+        parts.push(format!("rake {} deg", plain(cutter.rake().to_degrees())));
+    }
+    if cutter.runout().offset > 0.0 {
+        parts.push(format!("runout {} µm", plain(cutter.runout().offset * 1e6)));
+    }
+    parts.join(", ")
+}
+
+/// Four digits, and no zeros behind them.
+fn plain(value: f64) -> String {
+    let digits = if value == 0.0 {
+        0
+    } else {
+        (3 - value.abs().log10().floor() as i32).clamp(0, 9)
+    };
+    let rounded = format!("{value:.*}", digits as usize);
+    if rounded.contains('.') {
+        rounded.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        rounded
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_and_no_zeros_behind_them() {
+        let told = [0.0, 6.000000001, 0.25, 1012.595, 189.3, 12.3456, 9000.0, 10.0].map(plain);
+        assert_eq!(told, ["0", "6", "0.25", "1013", "189.3", "12.35", "9000", "10"]);
+    }
+
+    #[test]
+    fn a_cutter_is_told_in_the_words_of_its_catalogue() {
+        let told = |made: Result<Cutter, _>| made.map(|made| cutter(&made)).unwrap_or_default();
+        assert_eq!(
+            told(Cutter::flat(6e-3, 2).and_then(|c| c.with_helix(30_f64.to_radians(), Hand::Right))),
+            "6 mm, 2 flutes, right-hand helix 30 deg"
+        );
+        assert!(told(Cutter::ball(8e-3, 4)).starts_with("8 mm, ball nose, 4 flutes"));
+        assert!(told(Cutter::bull_nose(8e-3, 1e-3, 1)).starts_with("8 mm, corner radius 1 mm, 1 flute,"));
+    }
+}

@@ -1,0 +1,90 @@
+//! The numbers that went into the result, each with its source.
+
+use armill_report::html::Input;
+
+use super::cells::input;
+use super::cut;
+use crate::answer::{SettingAnswer, StudyAnswer};
+use crate::file::resolve::Study;
+
+/// Robot and compliances, load or cut, tolerance, tool, stiffness model.
+pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
+    let mut inputs = robot(study, answer);
+    let settings = answer
+        .maps
+        .iter()
+        .map(|map| &map.setting)
+        .chain(answer.paths.iter().map(|path| &path.setting));
+    let first = settings.into_iter().next();
+    inputs.extend(first.into_iter().flat_map(|setting| forces(study, setting)));
+    inputs.extend(cut::rows(study, answer));
+    inputs.extend(first.into_iter().flat_map(|setting| others(answer, setting)));
+    inputs
+}
+
+/// What and where a source is, by its key; the key itself where nobody lists it.
+pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
+    let found = answer.sources.iter().find(|source| source.key == key);
+    found.map_or_else(
+        || key.to_owned(),
+        |source| format!("{} ({})", source.what, source.place),
+    )
+}
+
+fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
+    let first = study.robot.joints.first();
+    let chain = first.and_then(|joint| joint.source.clone()).unwrap_or_default();
+    let mut inputs = vec![input(
+        "robot",
+        format!("{} ({})", answer.robot.title, answer.robot.name),
+        "",
+        &place(answer, &chain),
+    )];
+    for joint in &answer.robot.joints {
+        let value = format!(
+            "{:.3e} ± {:.1e}",
+            joint.compliance_rad_per_n_m, joint.compliance_u_rad_per_n_m
+        );
+        let assumed = if answer.robot.compliance_assumed {
+            ", assumed"
+        } else {
+            ""
+        };
+        let name = format!("compliance of joint {}{assumed}", joint.name);
+        let source = place(answer, &joint.compliance_source);
+        inputs.push(input(&name, value, "rad/(N m)", &source));
+    }
+    inputs
+}
+
+fn forces(study: &Study, setting: &SettingAnswer) -> Vec<Input> {
+    let source = study.load_source.as_deref().unwrap_or(THE_STUDY);
+    let force = |(i, force): (usize, &[f64; 3])| {
+        let value = format!("({}, {}, {})", force[0], force[1], force[2]);
+        input(&format!("force on the tool, case {}", i + 1), value, "N", source)
+    };
+    setting.cases_n.iter().enumerate().map(force).collect()
+}
+
+/// Source of what the user says.
+pub(super) const THE_STUDY: &str = "the study";
+
+fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
+    let programs_alone = answer.maps.is_empty() && answer.paths.iter().all(|path| path.program.is_some());
+    let tolerance = if programs_alone {
+        "tolerance, across the tool"
+    } else {
+        "tolerance, in plane"
+    };
+    vec![
+        input(tolerance, format!("{}", setting.limit_um), "µm", THE_STUDY),
+        input(
+            "tool centre point from the flange",
+            format!("{:.1}", setting.tool_length_mm),
+            "mm",
+            THE_STUDY,
+        ),
+        input("stiffness model", setting.model.join("; "), "", "robot and study"),
+        input("heights count from", setting.base.clone(), "", THE_STUDY),
+    ]
+}

@@ -1,0 +1,34 @@
+//! Boxes: a row a box.
+
+use armill_report::html::Table;
+
+use super::cells::{COUNT, columns, percent};
+use crate::answer::StudyAnswer;
+
+pub(super) fn table(answer: &StudyAnswer) -> Table {
+    Table {
+        caption: "Each point within stands for one cell of the pitch.".to_owned(),
+        columns: columns(&[
+            ("box", ""),
+            ("branch", ""),
+            ("within the limit", "%"),
+            ("… and inside joint limits", "%"),
+            ("volume within", "dm³"),
+            ("points", COUNT),
+        ]),
+        rows: answer
+            .volumes
+            .iter()
+            .map(|volume| {
+                vec![
+                    volume.name.clone(),
+                    volume.branch.clone(),
+                    percent(volume.fraction_within),
+                    percent(volume.fraction_within_and_inside_joint_limits),
+                    format!("{:.1}", volume.volume_within_mm3 * 1e-6),
+                    volume.point_counts.iter().product::<usize>().to_string(),
+                ]
+            })
+            .collect(),
+    }
+}
