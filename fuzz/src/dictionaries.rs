@@ -104,6 +104,12 @@ pub const GCODE: &[&str] = &[
     "1e308", "99999999999999999999", ";", "/",
 ];
 
+/// Words of a tool table.
+#[rustfmt::skip]
+pub const TOOL_TABLE: &[&str] = &[
+    "T1 ", "P1 ", "X1", "Y1", "Z0.5", "A1", "B1", "C1", "U1", "V1", "W1", "D0.25", "I1", "J1", "Q9", ";", "\n", "T4294967295", "nan", "inf", "1e308", "1e999", "-0",
+];
+
 /// Words of cutter locations.
 #[rustfmt::skip]
 pub const APT: &[&str] = &[

@@ -120,6 +120,14 @@ pub fn gcode() -> Vec<Vec<u8>> {
     ])
 }
 
+/// Every word; remarks.
+pub fn tool_tables() -> Vec<Vec<u8>> {
+    seeds(&[
+        "T1 P1 X0 Y0 Z0.5 A1 B2 C3 U4 V5 W6 D0.25 I10 J20 Q0 ;first\n\n; none\nt32 p2 x-1 q2\n",
+        "T1 Z+0.511 D0.125\r\nT2 Z0.1 D-0.0625\r\n",
+    ])
+}
+
 /// Both dialects, cycles, arcs, planes.
 pub fn apt() -> Vec<Vec<u8>> {
     seeds(&[

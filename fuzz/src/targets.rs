@@ -49,6 +49,7 @@ pub const TARGETS: &[Target] = &[
     target("load-tests", verdicts::load_tests, fixtures::load_tests, &["csv"], words::LOAD_TESTS),
     target("pendant", verdicts::pendant, fixtures::pendant, &[], words::PENDANT),
     target("gcode", verdicts::gcode, fixtures::gcode, &["ngc", "nc"], words::GCODE),
+    target("tool-table", verdicts::tool_table, fixtures::tool_tables, &["tbl"], words::TOOL_TABLE),
     target("apt", verdicts::apt, fixtures::apt, &["apt"], words::APT),
     target("path-csv", verdicts::path_csv, fixtures::path_csv, &[], words::PATH_CSV),
     target("program", verdicts::program, fixtures::program, &["ngc", "apt"], words::GCODE),

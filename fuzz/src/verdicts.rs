@@ -139,6 +139,21 @@ pub fn gcode(bytes: &[u8]) {
     }
 }
 
+/// A tool table, in the unit of the machine.
+pub fn tool_table(bytes: &[u8]) {
+    let text = String::from_utf8_lossy(bytes);
+    match gcode::ToolTable::read("tool.tbl", &text, LengthUnit::Inch) {
+        Err(problems) => refused(&problems),
+        Ok(table) => {
+            for (number, tool) in &table.tools {
+                let lengths = tool.offset.iter().chain([&tool.diameter]);
+                assert!(lengths.into_iter().all(|value| value.is_finite()), "T{number}");
+                assert!(tool.orientation <= 9, "T{number}");
+            }
+        }
+    }
+}
+
 /// Cutter locations.
 pub fn apt(bytes: &[u8]) {
     let wanted = apt::Wanted {

@@ -232,15 +232,15 @@ struct Disc {
     begins: f64,
 }
 
-/// What stands before a strip of the front.
-#[derive(Clone, Copy, PartialEq)]
-enum Sight {
-    /// No cell of the strip is passed over anew.
-    Unseen,
-    Air,
-    /// Up to this path z, m.
-    Material(f64),
-}
+/// What stands before a strip of the front: path z of the top of the material, m, or one of two values below any. So
+/// the greatest of what is seen in a strip is what counts.
+type Sight = f64;
+
+/// No material stands there.
+const AIR: Sight = f64::MIN;
+
+/// No cell of the strip is passed over anew.
+const UNSEEN: Sight = f64::NEG_INFINITY;
 
 /// A strip that is engaged.
 #[derive(Clone, Copy)]
@@ -267,25 +267,25 @@ impl Stock {
             .clamp(8.0, MOST_STRIPS);
         let width = 2.0 * radius / count;
         let mut strips: Vec<Option<Strip>> = vec![None; count as usize];
-        let mut sights = vec![Sight::Unseen; strips.len()];
+        let mut sights = vec![UNSEEN; strips.len()];
         for disc in self.discs(heading, cutter) {
-            sights.fill(Sight::Unseen);
-            self.look(heading, feed, &disc, |y, sight| {
-                let index = ((y + radius) / width) as usize;
-                if let Some(seen) = sights.get_mut(index) {
-                    *seen = seen.with(sight);
-                }
-            });
             // Beyond the disc its strips say nothing.
             let beyond = ((radius - disc.outer_radius) / width).round() as usize;
             let within = beyond..strips.len().saturating_sub(beyond);
-            let (Some(sights), Some(strips)) = (sights.get_mut(within.clone()), strips.get_mut(within))
-            else {
+            let Some(strips) = strips.get_mut(within.clone()) else {
                 continue;
             };
+            sights.fill(UNSEEN);
+            self.look(heading, feed, &disc, |y, sight| {
+                let index = ((y + radius) / width) as u32;
+                if let Some(seen) = sights.get_mut(index as usize) {
+                    *seen = if sight > *seen { sight } else { *seen };
+                }
+            });
+            let sights = &mut sights[within];
             take_after_neighbours(sights);
-            for (strip, sight) in strips.iter_mut().zip(sights) {
-                if let Sight::Material(top) = *sight {
+            for (strip, &mut top) in strips.iter_mut().zip(sights) {
+                if top > AIR {
                     let lower = strip.get_or_insert(Strip {
                         top,
                         begins: disc.begins,
@@ -349,10 +349,10 @@ impl Stock {
     /// stands there above the disc.
     fn look(&self, heading: &Heading, feed: Vector2<f64>, disc: &Disc, mut out: impl FnMut(f64, Sight)) {
         let left = Vector2::new(-feed.y, feed.x);
-        let pitch = self.pitch();
+        let (pitch, radius) = (self.pitch(), disc.radius);
         let window = WINDOW_PITCHES * pitch;
         let first: Point2<f64> = heading.at.xy() - feed * heading.step.min(window);
-        let (radius, inside) = (disc.radius, disc.radius * (1.0 - RIM));
+        let inside_squared = (radius * (1.0 - RIM)).powi(2);
         // Two places a pitch along the arc, on two arcs between the first and the last.
         let count = (2.0 * PI * radius / pitch).ceil().clamp(8.0, MOST_STRIPS);
         let (turn_sin, turn_cos) = (PI / count).sin_cos();
@@ -364,15 +364,16 @@ impl Stock {
                 let (centre, height) = self.cell_at(at).unwrap_or((at, 0.0));
                 let off = centre - first;
                 let (x, y) = (off.dot(&feed), off.dot(&left));
-                let passed_before = x <= 0.0 || x * x + y * y <= radius * radius;
-                let too_far = x > window && (x - window).powi(2) + y * y >= inside * inside;
-                if y.abs() >= inside || passed_before || too_far {
+                let ahead = if x > window { x - window } else { 0.0 };
+                // All of it at once: what a place comes to is hard to guess, and a wrong guess takes longer.
+                let passed_before = (x <= 0.0) | (x * x + y * y <= radius * radius);
+                if passed_before | (ahead * ahead + y * y >= inside_squared) {
                     continue;
                 }
                 let height = f64::from(height);
                 let top = self.bottom() + height;
                 let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
-                out(y, if stands { Sight::Material(top) } else { Sight::Air });
+                out(y, if stands { top } else { AIR });
             }
             (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
         }
@@ -416,27 +417,14 @@ impl Stock {
     }
 }
 
-impl Sight {
-    /// Both seen in one strip: material is what counts, the highest of it.
-    fn with(self, other: Sight) -> Sight {
-        match (self, other) {
-            (Sight::Material(one), Sight::Material(two)) => Sight::Material(one.max(two)),
-            (Sight::Material(_), _) => self,
-            (_, Sight::Material(_)) => other,
-            (Sight::Unseen, _) => other,
-            (Sight::Air, _) => self,
-        }
-    }
-}
-
 /// Strips without a cell see what the nearest strip sees that has one; the left one of two as near.
 fn take_after_neighbours(sights: &mut [Sight]) {
     let mut known: Option<usize> = None;
     for index in 0..=sights.len() {
-        if sights.get(index) == Some(&Sight::Unseen) {
+        let next = sights.get(index).copied();
+        if next == Some(UNSEEN) {
             continue;
         }
-        let next = sights.get(index).copied();
         let before = known.map(|known| sights[known]);
         let first = known.map_or(0, |known| known + 1);
         let gap = index - first;
@@ -446,7 +434,7 @@ fn take_after_neighbours(sights: &mut [Sight]) {
             } else {
                 next.or(before)
             };
-            *sight = nearer.unwrap_or(Sight::Unseen);
+            *sight = nearer.unwrap_or(UNSEEN);
         }
         known = Some(index);
     }

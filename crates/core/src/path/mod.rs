@@ -2,7 +2,7 @@
 //!
 //! [`shape`]: circles and lines on a workpiece plane. [`program`]: what a tool path program tells, move after move.
 //! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned.
-//! [`cutter_profile`], [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`]: what that pushes with. [`roundness`](mod@roundness) and
+//! [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`]: what that pushes with. [`roundness`](mod@roundness) and
 //! [`feature`]: the circle, line, plane or hole that comes out.
 
 pub mod bite;
@@ -15,6 +15,7 @@ pub mod roundness;
 pub mod sampler;
 pub mod shape;
 pub mod stock;
+mod sweep;
 
 pub use bite::{Bite, BiteKind, Milling};
 pub use cutter_profile::CutterProfile;

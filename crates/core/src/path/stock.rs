@@ -1,43 +1,39 @@
 //! The stock as a height map: what is left of a box after the tool has passed.
 //!
-//! Every cell of a grid across the path's z keeps how high the material stands at its centre. A step of the tool from
-//! `p0` to `p1` lowers each cell to the lowest point of the body that passes over it:
+//! Every cell of a grid across the path's z keeps how high the material stands at its centre. A step of the tool lowers
+//! each cell to the lowest point of the body that passes over it:
 //!
 //! ```text
-//! H <- min(H, min over t in [0, L] of  z0 + m t + z(rho(t))),    rho(t) = sqrt((a - t)^2 + b^2) <= R
+//! H <- min(H, bottom of the step)
 //! V = sum (H before - H after) dx dy
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `H` | height of the material in a cell, counted from the bottom of the box | m |
-//! | `z0`, `m` | path z of the tip at `p0`, rise per distance along the step seen from above | m, - |
-//! | `L`, `t` | length of the step seen from above, distance along it | m |
-//! | `a`, `b` | centre of the cell from `p0`, along the step and across it | m |
-//! | `z(rho)`, `R` | bottom of the cutter ([`CutterProfile`]), its radius | m |
 //! | `V` | removed volume | m^3 |
 //! | `dx`, `dy` | sides of a cell: the pitch, or a little less so that whole cells fill the box | m |
 //!
-//! The minimum over `t` is exact for flat and ball; of a bull nose that climbs or dives it is searched for (it is a
-//! convex function). What comes of the grid: an edge is where it is to half a pitch, and a volume is wrong by at most
-//! the side walls cut times half a pitch, mostly far less. Heights are kept in single precision, to 6e-8 of themselves:
-//! 0.06 um in a metre.
+//! The bottom of a step is exact (`sweep`). What comes of the grid: an edge is where it is to half a pitch, and a volume
+//! is wrong by at most the side walls cut times half a pitch, mostly far less. Heights are kept in single precision, to
+//! 6e-8 of themselves: 0.06 um in a metre.
 //!
-//! Only cells in reach of a step are visited: 1700 for a cutter of 10 mm in cells of 0.25 mm. Flat ones are the fastest;
-//! a ball takes some 7 times as long, a bull nose that climbs or dives some 40 times.
+//! Only cells in reach of a step are visited, row after row: 1300 under a cutter of 10 mm in cells of 0.25 mm. Flat ones
+//! are the fastest; a ball and a bull nose take some three times as long, mostly to look ahead ([`bite`](super::bite)).
 //!
 //! Not modelled: undercuts (one height a cell), tilted tools, the arc between two points (a step is its chord), shank
 //! and holder, wear and deflection of the cutter.
 //!
 //! Source: height maps of stock go back to Van Hook, Real-time shaded NC milling display, Computer Graphics 20(4),
 //! 1986, and to the z-map of Anderson, Detecting and eliminating collisions in NC machining, Computer-Aided Design
-//! 10(4), 1978 \[recalled\]. The minimum over a step is plane geometry \[derived\].
+//! 10(4), 1978 \[recalled\].
 
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::{Point2, Point3};
 
 use super::bite::{Bite, Heading, Removal, bite};
 use super::cutter_profile::CutterProfile;
 use super::sampler::PathPoint;
+use super::sweep::{Row, Sweep};
 
 /// A box of material from which a tool cuts, in the frame of the path.
 #[derive(Clone, Debug)]
@@ -129,10 +125,6 @@ const UPRIGHT: f64 = 1e-3;
 
 /// Steps that go less far than this part of a pitch, seen from above, go straight down or up.
 const STANDING: f64 = 1e-3;
-
-/// Rounds of the search for the lowest point of a bull nose: each leaves 2/3 of the stretch, all of them 1e-5. Either end
-/// is tried as well, and between them the height is level, so that its error goes with the square of that.
-const SEARCH_ROUNDS: usize = 28;
 
 impl Stock {
     /// The box between two corners (m, frame of the path), in cells of at most `pitch` (m).
@@ -238,26 +230,30 @@ impl Stock {
         if !(x >= 0.0 && y >= 0.0) {
             return None;
         }
-        let (column, row) = (x as usize, y as usize);
+        // Not more than 1e8 cells: 32 bits hold their numbers, and turn into a double faster than 64.
+        let (column, row) = (x as u32, y as u32);
         let [columns, rows] = self.cells;
-        if column >= columns || row >= rows {
+        if column as usize >= columns || row as usize >= rows {
             return None;
         }
         let centre = Point2::new(
-            self.low.x + (column as f64 + 0.5) * self.sides[0],
-            self.low.y + (row as f64 + 0.5) * self.sides[1],
+            self.low.x + (f64::from(column) + 0.5) * self.sides[0],
+            self.low.y + (f64::from(row) + 0.5) * self.sides[1],
         );
-        Some((centre, self.heights[row * columns + column]))
+        Some((centre, self.heights[row as usize * columns + column as usize]))
     }
 
     /// Path z of the highest material in the square about `at` that reaches `out` (m) to each side.
     pub(super) fn highest_about(&self, at: Point2<f64>, out: f64) -> f64 {
         let columns = self.cells_between(0, at.x - out, at.x + out);
-        let highest = self.cells_between(1, at.y - out, at.y + out).flat_map(|row| {
+        let mut highest = 0.0_f32;
+        for row in self.cells_between(1, at.y - out, at.y + out) {
             let first = row * self.cells[0];
-            &self.heights[first + columns.start..first + columns.end]
-        });
-        self.low.z + f64::from(highest.fold(0.0_f32, |most, &height| most.max(height)))
+            for &height in &self.heights[first + columns.start..first + columns.end] {
+                highest = if height > highest { height } else { highest };
+            }
+        }
+        self.low.z + f64::from(highest)
     }
 
     /// The cells along axis `k` whose centres may lie between `from` and `to` (m): all of them, clipped to the box.
@@ -275,37 +271,34 @@ impl Stock {
     /// Lowers every cell that the cutter passes over on a straight step.
     fn remove(&mut self, from: Point3<f64>, to: Point3<f64>, cutter: &CutterProfile) -> Removal {
         let sweep = Sweep::of(from, to, cutter, STANDING * self.pitch());
-        // Rounded as heights are: what is not above it cannot be lowered.
-        let lowest = (from.z.min(to.z) - self.low.z).max(0.0) as f32;
-        let (mut volume, mut depth) = (0.0, 0.0_f64);
-        let [lower, upper] = [from.y.min(to.y), from.y.max(to.y)];
-        let radius = cutter.radius();
-        for row in self.cells_between(1, lower - radius, upper + radius) {
+        let (mut volume, mut depth) = (0.0, 0.0_f32);
+        let mut bottoms = Vec::new();
+        let [lower, upper] = sweep.reach_along_y();
+        for row in self.cells_between(1, lower, upper) {
             let y = self.low.y + (row as f64 + 0.5) * self.sides[1];
             let [left, right] = sweep.reach_along_x(y);
             let columns = self.cells_between(0, left, right);
+            let x = self.low.x + (columns.start as f64 + 0.5) * self.sides[0];
+            bottoms.resize(columns.len(), f32::INFINITY);
+            sweep.pass(Row {
+                first: Point3::new(x, y, self.low.z),
+                side: self.sides[0],
+                bottoms: &mut bottoms,
+            });
             let first = row * self.cells[0];
-            for column in columns {
-                let height = &mut self.heights[first + column];
-                if *height <= lowest {
-                    continue;
-                }
-                let x = self.low.x + (column as f64 + 0.5) * self.sides[0];
-                let Some(bottom) = sweep.bottom(Point2::new(x, y)) else {
-                    continue;
-                };
-                let left = (bottom - self.low.z).max(0.0) as f32;
-                if left < *height {
-                    let taken = f64::from(*height - left);
-                    volume += taken;
+            let cells = &mut self.heights[first + columns.start..first + columns.end];
+            for (height, &bottom) in cells.iter_mut().zip(&bottoms) {
+                if bottom < *height {
+                    let taken = *height - bottom;
+                    volume += f64::from(taken);
                     depth = depth.max(taken);
-                    *height = left;
+                    *height = bottom;
                 }
             }
         }
         Removal {
             volume: volume * self.sides[0] * self.sides[1],
-            depth,
+            depth: f64::from(depth),
         }
     }
 }
@@ -322,121 +315,6 @@ fn near(what: &'static str, at: &Point3<f64>) -> Result<(), StockError> {
         }
     }
     Ok(())
-}
-
-/// A cutter on a straight step.
-struct Sweep<'a> {
-    cutter: &'a CutterProfile,
-    from: Point3<f64>,
-    to: Point3<f64>,
-    /// Seen from above; any where the step goes straight down or up.
-    along: Vector2<f64>,
-    /// Seen from above, m.
-    length: f64,
-    /// Rise per distance seen from above.
-    slope: f64,
-}
-
-impl<'a> Sweep<'a> {
-    /// Steps shorter than `standing` (m, seen from above) are taken as straight up or down.
-    fn of(from: Point3<f64>, to: Point3<f64>, cutter: &'a CutterProfile, standing: f64) -> Sweep<'a> {
-        let chord = (to - from).xy();
-        let length = chord.norm();
-        if length <= standing {
-            let foot = Point3::new(to.x, to.y, from.z.min(to.z));
-            return Sweep {
-                cutter,
-                from: foot,
-                to: foot,
-                along: Vector2::x(),
-                length: 0.0,
-                slope: 0.0,
-            };
-        }
-        Sweep {
-            cutter,
-            from,
-            to,
-            along: chord / length,
-            length,
-            slope: (to.z - from.z) / length,
-        }
-    }
-
-    /// Between which x the row at `y` may be passed over; first above second where it is not.
-    fn reach_along_x(&self, y: f64) -> [f64; 2] {
-        let (radius, rise) = (self.cutter.radius(), self.along.y);
-        let off = y - self.from.y;
-        // The stretch of the step no farther than the radius from the row, measured along y.
-        let [mut first, mut last] = [0.0, self.length];
-        if rise.abs() > f64::EPSILON {
-            let (one, other) = ((off - radius) / rise, (off + radius) / rise);
-            first = one.min(other).clamp(0.0, self.length);
-            last = one.max(other).clamp(0.0, self.length);
-        }
-        let (one, other) = (
-            self.from.x + self.along.x * first,
-            self.from.x + self.along.x * last,
-        );
-        [one.min(other) - radius, one.max(other) + radius]
-    }
-
-    /// Path z of the lowest point of the cutter that passes over `at`; `None` where none does.
-    fn bottom(&self, at: Point2<f64>) -> Option<f64> {
-        let out = at - self.from.xy();
-        let (a, b) = (out.dot(&self.along), out.x * self.along.y - out.y * self.along.x);
-        let radius = self.cutter.radius();
-        let half = radius * radius - b * b;
-        if half < 0.0 {
-            return None;
-        }
-        let half = half.sqrt();
-        let (first, last) = ((a - half).max(0.0), (a + half).min(self.length));
-        if first > last {
-            return None;
-        }
-        // Squares cannot overflow: no length is beyond 1e6 m by far. `hypot` would take most of the time.
-        let profile = |t: f64| self.cutter.height(((a - t) * (a - t) + b * b).sqrt());
-        let lowest = if self.slope == 0.0 {
-            a.clamp(first, last)
-        } else if self.cutter.corner_radius() == 0.0 {
-            if self.slope > 0.0 { first } else { last }
-        } else if self.cutter.flat_radius() == 0.0 {
-            // Where the sphere is as steep as the step.
-            (a - self.slope * half / (self.slope * self.slope + 1.0).sqrt()).clamp(first, last)
-        } else {
-            lowest_of_convex(|t| self.slope * t + profile(t), first, last)
-        };
-        // The end is taken from itself: a floor cut twice is then the same to the last bit.
-        let tip = if lowest == self.length {
-            self.to.z
-        } else {
-            self.from.z + self.slope * lowest
-        };
-        Some(tip + profile(lowest))
-    }
-}
-
-/// Where a convex function is lowest between two places, either of them included.
-fn lowest_of_convex(function: impl Fn(f64) -> f64, first: f64, last: f64) -> f64 {
-    let (mut from, mut to) = (first, last);
-    for _ in 0..SEARCH_ROUNDS {
-        let third = (to - from) / 3.0;
-        if function(from + third) <= function(to - third) {
-            to -= third;
-        } else {
-            from += third;
-        }
-    }
-    let middle = 0.5 * (from + to);
-    let better = |one: f64, other: f64| {
-        if function(other) < function(one) {
-            other
-        } else {
-            one
-        }
-    };
-    better(better(middle, first), last)
 }
 
 #[cfg(test)]

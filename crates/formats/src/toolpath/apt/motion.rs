@@ -1,8 +1,8 @@
 //! GOTO and CIRCLE as lines and arcs.
 //!
 //! An arc turns by the right hand about its axis `n`, from where the tip stands (`a` from the centre, across the axis)
-//! to the next GOTO (`b`): `sweep = atan2(n . (a x b), a . b)`, between 0 and a full turn; where both are the same
-//! point it is a full turn.
+//! to the next GOTO (`b`): `sweep = atan2(n . (a x b), a . b)`, between 0 and a full turn; where both are in the same
+//! direction from the centre it is a full turn.
 
 use std::f64::consts::TAU;
 
@@ -265,9 +265,12 @@ impl Interpreter<'_> {
             self.tell(statement, statement.parameters_span(), message, hint);
             return None;
         }
-        let angle = match (b - a).norm() <= SAME_POINT {
+        let turned = circle.axis.dot(&a.cross(&b)).atan2(a.dot(&b));
+        // Along the circle, for radii may differ by what rounding gives.
+        let ends_where_it_began = turned.abs() * most <= SAME_POINT;
+        let angle = match ends_where_it_began {
             true => TAU,
-            false => circle.axis.dot(&a.cross(&b)).atan2(a.dot(&b)).rem_euclid(TAU),
+            false => turned.rem_euclid(TAU),
         };
         let sweep = match circle.turns {
             None => angle,
@@ -287,7 +290,7 @@ impl Interpreter<'_> {
                 sweep
             }
         };
-        if (b - a).norm() <= SAME_POINT {
+        if ends_where_it_began {
             self.summary.full_turns += 1;
         }
         Some(Arc {

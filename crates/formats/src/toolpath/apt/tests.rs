@@ -136,6 +136,14 @@ fn full_turns_small_arcs_and_large_arcs_follow_the_right_hand() {
 }
 
 #[test]
+fn an_arc_whose_ends_differ_in_radius_alone_is_a_full_turn() {
+    // Found by fuzzing: the angle between the ends was 0.
+    let text = "UNIT/MM\nGOTO/109.75,59.5,-7.\nCIRCLE/59.5,59.5,-7.,0,0,1.\nGOTO/109.76,59.5,-7.\n";
+    let (summary, _, moves) = read_all(text);
+    assert_eq!((arc(&moves[1]).sweep, summary.full_turns), (TAU, 1));
+}
+
+#[test]
 fn the_sweep_turns_the_start_into_the_end_about_any_axis() {
     for seed in 0..50 {
         let part = |k: f64| (f64::from(seed) * k).sin();
