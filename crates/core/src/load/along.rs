@@ -11,10 +11,12 @@ use crate::spatial::Wrench;
 pub enum PathLoad {
     /// The same cases everywhere, told in their frame.
     Cases(LoadCases),
-    /// Each point has wrenches of its own, told in the feed frame: so many a point, point after point.
+    /// Each point has wrenches of its own: so many a point, point after point.
     OfEach {
         /// Wrenches a point.
         cases: usize,
+        /// Axes that they are told in.
+        frame: LoadFrame,
         /// All of them.
         wrenches: Vec<Wrench>,
     },
@@ -39,7 +41,11 @@ impl PathLoad {
     ) {
         let (told, axes) = match self {
             PathLoad::Cases(load) => (&load.cases[..], load.frame),
-            PathLoad::OfEach { cases, wrenches } => (&wrenches[index * cases..][..*cases], LoadFrame::Feed),
+            PathLoad::OfEach {
+                cases,
+                frame,
+                wrenches,
+            } => (&wrenches[index * cases..][..*cases], *frame),
         };
         let turned = match axes {
             LoadFrame::Base => Rotation3::identity(),

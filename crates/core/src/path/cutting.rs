@@ -14,7 +14,9 @@ use nalgebra::{Matrix3, Vector3};
 use super::placing::Placing;
 use super::program::{Operation, Pace};
 use super::sampler::PathPoint;
-use crate::load::{Advance, Cutter, CuttingError, CuttingForce, CuttingLaw, Immersion, PathLoad, Process};
+use crate::load::{
+    Advance, Cutter, CuttingError, CuttingForce, CuttingLaw, Immersion, LoadFrame, PathLoad, Process,
+};
 use crate::spatial::Wrench;
 
 /// What cuts, and how, where the program does not tell.
@@ -149,7 +151,11 @@ impl Cutting {
             largest = [largest[0].max(mean.norm()), largest[1].max(greatest.norm())];
         }
         Ok(CuttingForces {
-            load: PathLoad::OfEach { cases, wrenches },
+            load: PathLoad::OfEach {
+                cases,
+                frame: LoadFrame::Feed,
+                wrenches,
+            },
             largest,
             relative_uncertainty,
             without_force,
