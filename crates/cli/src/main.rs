@@ -24,6 +24,7 @@ fn main() -> ExitCode {
         Command::Robots(robots) => command::robots::run(robots),
         Command::Pose(pose) => command::pose::run(pose),
         Command::Identify(identify) => command::identify::run(identify),
+        Command::Forces(forces) => command::forces::run(forces),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {
