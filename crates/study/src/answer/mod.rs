@@ -4,6 +4,7 @@
 //! max_in_plane_um, roundness_um` are a public contract.
 
 mod map;
+mod measured;
 mod path;
 mod point;
 mod program;
@@ -12,6 +13,7 @@ mod statement;
 mod volume;
 
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
+pub use measured::MeasuredResult;
 pub use path::PathResult;
 pub use point::{PointAnswer, SettingAnswer};
 pub use program::{FeatureResult, OperationResult, ProgramResult, WorstPoint};
@@ -213,6 +215,12 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             "{}: {} of {} points stand outside joint limits in the branch {}.",
             path.name, path.outside_joint_limits, path.points, path.branch
         ));
+    }
+    for ask in &study.asks {
+        if let Subject::Program(program) = &ask.subject {
+            let unsure = program.measured.as_ref().and_then(|measured| measured.warning());
+            warnings.extend(unsure.map(|warning| format!("{}: {warning}.", ask.name)));
+        }
     }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());

@@ -10,6 +10,7 @@ use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 use serde::Serialize;
 
+use super::measured::{self, MeasuredResult};
 use super::path::{PathResult, joint_ranges};
 use super::point::{PointAnswer, SettingAnswer, tidy};
 use crate::file::program::ProgramAsk;
@@ -47,6 +48,8 @@ pub struct ProgramResult {
     pub points_without_force: usize,
     /// Largest mean and largest greatest force along the program, where they were computed from the cut.
     pub largest_mean_and_peak_n: Option<[f64; 2]>,
+    /// The record that the forces come from; none where they were not measured.
+    pub measured: Option<MeasuredResult>,
     /// What was passed over in the program, or taken for granted.
     pub notes: Vec<String>,
     /// Where a joint jumps from one point to the next.
@@ -179,6 +182,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             material: ask.cut.as_ref().map(|cut| cut.material.name.clone()),
             points_without_force: ask.without_force,
             largest_mean_and_peak_n: ask.largest,
+            measured: ask.measured.as_deref().map(MeasuredResult::of),
             notes: told.notes(),
             jumps: told.jumps(),
         }),
@@ -214,6 +218,12 @@ impl Told<'_> {
             );
             notes.extend(cut.remarks.iter().cloned());
         }
+        notes.extend(
+            self.ask
+                .measured
+                .iter()
+                .flat_map(|measured| measured::notes(measured)),
+        );
         notes
     }
 

@@ -8,7 +8,8 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
-use armill_core::nalgebra::Vector3;
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::path::clock::begins;
 use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
@@ -17,6 +18,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::cut::Cut;
+use super::measured::{self, Course, MeasuredForces, MeasuredTable};
 use super::places::Places;
 use super::quantities::{pose_mm_deg, positive};
 use super::resolve::Setting;
@@ -54,6 +56,8 @@ pub struct ProgramTable {
     /// Stretches of the program that make a feature.
     #[serde(default)]
     pub feature: Vec<FeatureTable>,
+    /// Measured forces: the load of this program.
+    pub measured: Option<MeasuredTable>,
 }
 
 /// Unit of lengths.
@@ -186,6 +190,8 @@ pub struct ProgramAsk {
     pub largest: Option<[f64; 2]>,
     /// Points whose cut has no force: plunges and steep dives.
     pub without_force: usize,
+    /// The record that the forces come from.
+    pub measured: Option<Box<MeasuredForces>>,
 }
 
 /// What pushes on the tool along a program.
@@ -194,14 +200,15 @@ pub(super) enum Pushes {
     Cases(LoadCases),
     /// What the cut needs.
     Cut(Box<Cut>),
+    /// What was measured; the cut predicts it where that is asked for.
+    Measured(Option<Box<Cut>>),
 }
 
 impl ProgramAsk {
     /// Points that follow on each other without a rapid between them.
     pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let points = &self.track.points;
-        let begins = |i: &usize| *i == 0 || points[*i].along <= points[*i - 1].along;
-        let starts: Vec<usize> = (0..points.len()).filter(begins).collect();
+        let starts: Vec<usize> = (0..points.len()).filter(|i| begins(points, *i)).collect();
         let ends: Vec<usize> = starts.iter().skip(1).copied().chain([points.len()]).collect();
         starts.into_iter().zip(ends).map(|(start, end)| start..end)
     }
@@ -318,7 +325,27 @@ pub(super) fn read(
         },
     };
     let mut setting = setting;
+    let mut measured = None;
     let (load, cut, largest, without_force) = match pushes {
+        Pushes::Measured(cut) => {
+            let Some(told) = &table.measured else {
+                return Ok(None);
+            };
+            let course = Course {
+                points: &cut_up.points,
+                operations: &cut_up.operations,
+                rapids: &cut_up.rapids,
+                placing: &placing,
+                base_from_part: &base_from_part,
+            };
+            let found = measured::along(places, told, folder, &course, cut.as_deref())?;
+            let Some((load, forces)) = found else {
+                return Ok(None);
+            };
+            setting.doubt.relative = told.u_percent.unwrap_or(0.0) / 100.0;
+            measured = Some(Box::new(forces));
+            (load, None, None, 0)
+        }
         Pushes::Cases(load) => (PathLoad::Cases(load), None, None, 0),
         Pushes::Cut(cut) => match cut.cutting.along(&cut_up.points, &cut_up.operations, &placing) {
             Ok(forces) => {
@@ -354,6 +381,7 @@ pub(super) fn read(
         cut,
         largest,
         without_force,
+        measured,
         setting,
     }))
 }
@@ -375,6 +403,11 @@ struct CutUp {
     moves: usize,
     time: f64,
     too_many: bool,
+    /// Length of the rapid before each stretch of cuts, m.
+    rapids: Vec<f64>,
+    /// Length of the rapids since the last cut, m.
+    since: f64,
+    stands: Option<Point3<f64>>,
 }
 
 impl CutUp {
@@ -386,6 +419,9 @@ impl CutUp {
             moves: 0,
             time: 0.0,
             too_many: false,
+            rapids: Vec::new(),
+            since: 0.0,
+            stands: None,
         }
     }
 
@@ -399,6 +435,7 @@ impl CutUp {
                     return;
                 }
                 let before = self.points.last().map_or(0.0, |point| point.along);
+                let first = self.points.len();
                 self.sampler.points(&next, |point| self.points.push(point));
                 let length = self.points.last().map_or(0.0, |point| point.along) - before;
                 if let Pace::Feed(speed) = next.pace
@@ -406,6 +443,15 @@ impl CutUp {
                 {
                     self.time += length / speed;
                 }
+                if !next.pace.cuts() {
+                    self.since += self.stands.map_or(0.0, |from| (next.end - from).norm());
+                } else if first < self.points.len() {
+                    if begins(&self.points, first) {
+                        self.rapids.push(self.since);
+                    }
+                    self.since = 0.0;
+                }
+                self.stands = Some(next.end);
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What is in a record, in numbers: before and after it was treated.
 
+use armill_core::load::Record;
 use armill_core::load::record::drift::Drift;
-use armill_core::load::{ActsOn, Record};
 use armill_core::nalgebra::Vector3;
 use serde::Serialize;
 
@@ -164,13 +164,5 @@ pub fn answer(file: &str, measured: &Measured, treatment: &Treatment, treated: &
             largest_mean_n: largest(&mut turns.iter().map(|turn| turn.mean.norm())),
             largest_n: largest(&mut turns.iter().map(|turn| turn.strongest.norm())),
         }),
-    }
-}
-
-/// What the force acts on, as a study calls it.
-pub(crate) fn acts_on_word(acts_on: ActsOn) -> &'static str {
-    match acts_on {
-        ActsOn::Tool => "tool",
-        ActsOn::Part => "part",
     }
 }

@@ -27,12 +27,7 @@ const PNG_SCALE: f64 = 2.0;
 /// The folder or a file cannot be written.
 pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
     prepare(out)?;
-    let svg = plot(
-        ("measured force".to_owned(), subtitle(answer)),
-        &treated.before,
-        treated,
-    )
-    .to_svg();
+    let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
     let mut files = vec![("forces.csv", csv::write(&forces(treated)?))];
     if let Some(turns) = &treated.turns {
         files.push(("revolutions.csv", csv::write(&turns_table(turns)?)));
@@ -49,7 +44,7 @@ pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &Path) -> Result<Vec
 }
 
 /// What was done, for the second line of a picture.
-pub(crate) fn subtitle(answer: &ForcesAnswer) -> String {
+fn subtitle(answer: &ForcesAnswer) -> String {
     let mut parts = vec![format!("{}, {} Hz", answer.file, Short(answer.rate_hz))];
     parts.push(
         if answer.drift.is_some() {
@@ -72,8 +67,9 @@ impl std::fmt::Display for Short {
     }
 }
 
-/// The picture of a record: `before` as it was measured, in the axes of what became of it.
-pub(crate) fn plot((title, subtitle): (String, String), before: &Record, treated: &Treated) -> ForcePlot {
+/// The picture of a record.
+pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> ForcePlot {
+    let before = &treated.before;
     let span_s = [before.begin(), before.end()];
     let envelope = |record: &Record, value: fn(&Vector3<f64>) -> f64| {
         let samples = record.time().iter().zip(record.force());

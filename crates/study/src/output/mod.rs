@@ -72,8 +72,8 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 8] = [
-    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
+const PICTURES: [&str; 9] = [
+    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "forces",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.
