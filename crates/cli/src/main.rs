@@ -25,6 +25,7 @@ fn main() -> ExitCode {
         Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
         Command::Identify(identify) => command::identify::run(identify),
+        Command::Forces(forces) => command::forces::run(forces),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

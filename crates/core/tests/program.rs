@@ -255,6 +255,35 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
 }
 
 #[test]
+fn wrenches_of_each_point_may_be_told_in_any_frame() {
+    let robot = arms::mh12();
+    let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
+    for frame in [LoadFrame::Base, LoadFrame::Part, LoadFrame::Feed] {
+        let given = cases(frame);
+        let PathLoad::Cases(told) = &given else {
+            unreachable!()
+        };
+        let count = track().points.len();
+        let each = PathLoad::OfEach {
+            cases: told.cases.len(),
+            frame,
+            wrenches: told
+                .cases
+                .iter()
+                .copied()
+                .cycle()
+                .take(count * told.cases.len())
+                .collect(),
+        };
+        let [each, given] =
+            [each, given].map(|load| followed(&robot, StiffnessModel::DRIVES, choice, load).answers);
+        for i in 0..count {
+            assert_eq!(each.deviations_at(i), given.deviations_at(i), "{frame:?}");
+        }
+    }
+}
+
+#[test]
 fn each_point_may_have_a_wrench_of_its_own() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
@@ -271,6 +300,7 @@ fn each_point_may_have_a_wrench_of_its_own() {
     };
     let own = PathLoad::OfEach {
         cases: 1,
+        frame: LoadFrame::Feed,
         wrenches: (0..count).map(scaled).collect(),
     };
     let (own, same) = (

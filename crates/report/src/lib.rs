@@ -10,6 +10,7 @@
 //! | how does that change with distance or tilt? | [`Sheet`] |
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
+//! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
@@ -19,6 +20,7 @@ mod map;
 mod region;
 mod sheet;
 
+mod force_plot;
 mod path_plot;
 mod polar_plot;
 mod process_map;
@@ -55,6 +57,7 @@ pub use arm::{ArmDrawing, ArmJoint, Posture, View};
 pub use colour::ColourScale;
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
+pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use grid::{Grid, PointState};
 pub use map::{DeviationMap, Marker, MarkerKind, Overlay};
 pub use path_plot::{PathPlot, Series};

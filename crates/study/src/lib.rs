@@ -2,7 +2,7 @@
 //!
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`pose`] answers for a single pose,
-//! [`pendant`] compares a robot file with what its pendant shows.
+//! [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known.
 //!
@@ -12,6 +12,7 @@ pub mod answer;
 pub mod compliance_class;
 pub mod error;
 pub mod file;
+pub mod forces;
 pub mod identify;
 pub mod library;
 pub mod output;

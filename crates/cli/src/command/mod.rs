@@ -2,6 +2,7 @@
 
 pub(crate) mod check;
 pub(crate) mod completions;
+pub(crate) mod forces;
 pub(crate) mod identify;
 pub(crate) mod materials;
 pub(crate) mod new;

@@ -14,10 +14,12 @@ use crate::spatial::Wrench;
 pub enum PathLoad {
     /// The same cases everywhere, told in their frame.
     Cases(LoadCases),
-    /// Each point has wrenches of its own, told in the feed frame: so many a point, point after point.
+    /// Each point has wrenches of its own: so many a point, point after point.
     OfEach {
         /// Wrenches a point.
         cases: usize,
+        /// Axes that they are told in.
+        frame: LoadFrame,
         /// All of them.
         wrenches: Vec<Wrench>,
     },
@@ -86,7 +88,11 @@ impl PathLoad {
         let of_cut;
         let (told, axes) = match self {
             PathLoad::Cases(load) => (&load.cases[..], load.frame),
-            PathLoad::OfEach { cases, wrenches } => (&wrenches[index * cases..][..*cases], LoadFrame::Feed),
+            PathLoad::OfEach {
+                cases,
+                frame,
+                wrenches,
+            } => (&wrenches[index * cases..][..*cases], *frame),
             PathLoad::Cuts(cuts) => {
                 let here = &cuts.points[index];
                 of_cut = [here.mean, here.greatest].map(Wrench::from_force);

@@ -1,7 +1,8 @@
 //! A force that was measured over time.
 //!
 //! [`drift`]: what the amplifier adds while nothing is cut. [`low_pass`]: only what is slower than a frequency.
-//! [`revolutions`]: mean and extremes of each turn of the spindle. [`lag`]: by how much it runs behind a prediction.
+//! [`revolutions`]: mean and extremes of each turn of the spindle. [`lag`]: by how much it runs behind a prediction;
+//! [`align`]: the same for long records, coarse first and then finer.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -9,6 +10,7 @@
 //! | `force` | at each instant, axes of the sensor until they are turned | N |
 //! | `moment` | likewise, about the origin of the sensor | N m |
 
+pub mod align;
 pub mod drift;
 pub mod lag;
 pub mod low_pass;
@@ -182,6 +184,27 @@ impl Record {
         self.moment.as_deref()
     }
 
+    /// The force at an instant, on a line between samples; before the first sample and after the last what it is there.
+    pub fn force_at(&self, time: f64) -> Vector3<f64> {
+        let last = self.time.len() - 1;
+        let after = self.time.partition_point(|t| *t <= time);
+        let Some(before) = after.checked_sub(1).filter(|_| after <= last) else {
+            return self.force[after.min(last)];
+        };
+        let part = (time - self.time[before]) / (self.time[after] - self.time[before]);
+        self.force[before] + (self.force[after] - self.force[before]) * part
+    }
+
+    /// The first instant, s.
+    pub fn begin(&self) -> f64 {
+        self.time[0]
+    }
+
+    /// The last instant, s.
+    pub fn end(&self) -> f64 {
+        self.time[self.time.len() - 1]
+    }
+
     /// What the force acts on.
     pub fn acts_on(&self) -> ActsOn {
         self.acts_on
@@ -279,6 +302,23 @@ mod tests {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::FRAC_PI_2);
         let turned = plain(&[0.0, 1.0]).unwrap().turned(&turn);
         assert!((turned.force()[0] - Vector3::new(-2.0, 1.0, 3.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn between_samples_the_force_lies_on_a_line() {
+        let force = [1.0, 3.0, 0.0].map(|x| Vector3::new(x, 0.0, -x));
+        let record = Record::new(vec![0.0, 1.0, 3.0], force.to_vec(), None, ActsOn::Tool).unwrap();
+        for (time, x) in [
+            (-1.0, 1.0),
+            (0.0, 1.0),
+            (0.5, 2.0),
+            (1.0, 3.0),
+            (2.0, 1.5),
+            (3.0, 0.0),
+            (9.0, 0.0),
+        ] {
+            assert_eq!(record.force_at(time), Vector3::new(x, 0.0, -x), "{time}");
+        }
     }
 
     #[test]

@@ -395,7 +395,8 @@ fn begins_with_number(line: &str) -> bool {
     line.starts_with(|c: char| c.is_ascii_digit() || c == '.')
 }
 
-fn is_channels(line: &str) -> bool {
+/// Whether a line names the channels: its first cell is the time.
+pub(super) fn is_channels(line: &str) -> bool {
     let first = line.split(['\t', ';', ',']).next().unwrap_or_default();
     let first = first.trim().trim_matches('"').to_lowercase();
     // `Time:,12:00` is the hour of the measurement.

@@ -2,10 +2,12 @@
 //!
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
 //! - [`csv`]: any other table with a column for each channel.
+//! - [`known`]: either, whichever the file is.
 //!
-//! Both give a [`Record`](armill_core::load::Record) in the axes of the sensor. Whether it acts on the tool or on the part,
+//! All give a [`Record`](armill_core::load::Record) in the axes of the sensor. Whether it acts on the tool or on the part,
 //! and how the sensor stands, no file tells: the caller says it.
 
 mod columns;
 pub mod csv;
 pub mod dynoware;
+pub mod known;

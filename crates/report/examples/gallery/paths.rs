@@ -1,8 +1,8 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, Growth, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series,
-    ShareBar, ShareBars, StiffnessEllipse, VectorField,
+    Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot,
+    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -21,6 +21,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
         ("process_map", process_map().to_svg()),
+        ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
         ("shares_stacked", shares(Arrangement::Stacked).to_svg()),
         ("shares_grouped", shares(Arrangement::Grouped).to_svg()),
@@ -123,6 +124,55 @@ fn path_plot() -> PathPlot {
         series,
         envelope: Some(envelope),
         limit_um: Some(50.0),
+    }
+}
+
+/// Half a million samples of a cut from 1.5 s to 8 s, with drift and the teeth of a cutter.
+fn force_plot() -> ForcePlot {
+    const SPAN_S: [f64; 2] = [0.0, 10.0];
+    const RATE_HZ: f64 = 50_000.0;
+    let cut = |time: f64| f64::from((1.5..8.0).contains(&time) && !(4.0..4.4).contains(&time));
+    let teeth = |time: f64| (time * 1885.0).sin() + 0.4 * (time * 3770.0 + 0.3).sin();
+    let axis = move |axis: usize, time: f64| {
+        let turned = if time < 4.2 { axis } else { (axis + 1) % 2 };
+        let mean = [42.0, -65.0, 18.0][if axis == 2 { 2 } else { turned }];
+        [mean * cut(time), mean * cut(time) * (1.0 + 0.6 * teeth(time))]
+    };
+    let drift = |axis: usize, time: f64| [8.0, -5.0, 3.0][axis] * (0.4 + 0.12 * time);
+    let samples = || (0..500_000).map(|k| f64::from(k) / RATE_HZ);
+    let component = |name: &str, of: usize| ForceTrace {
+        name: name.into(),
+        before: Envelope::of(SPAN_S, samples().map(|t| (t, axis(of, t)[1] + drift(of, t)))),
+        after: Envelope::of(SPAN_S, samples().map(|t| (t, axis(of, t)[0]))),
+    };
+    let size = |treated: bool| {
+        samples().map(move |t| {
+            let sum: f64 = (0..3)
+                .map(|of| match treated {
+                    true => axis(of, t)[0],
+                    false => axis(of, t)[1] + drift(of, t),
+                })
+                .map(|force| force * force)
+                .sum();
+            (t, sum.sqrt())
+        })
+    };
+    ForcePlot {
+        title: "Force on the tool while a groove is milled".into(),
+        subtitle: "groove.txt, 50000 Hz; drift taken off; low-pass 50 Hz".into(),
+        span_s: SPAN_S,
+        traces: vec![
+            component("Fx (N)", 0),
+            component("Fy (N)", 1),
+            component("Fz (N)", 2),
+            ForceTrace {
+                name: "size (N)".into(),
+                before: Envelope::of(SPAN_S, size(false)),
+                after: Envelope::of(SPAN_S, size(true)),
+            },
+        ],
+        air_s: vec![[0.0, 1.3], [8.2, 10.0]],
+        marks_s: vec![(1.5, "first cut begins".into()), (8.0, "last cut ends".into())],
     }
 }
 

@@ -5,6 +5,7 @@
 
 pub(crate) mod limits;
 mod map;
+mod measured;
 mod path;
 mod point;
 mod program;
@@ -14,6 +15,7 @@ mod volume;
 
 pub use limits::{LimitResult, LimitsResult, RestResult, StockResult};
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
+pub use measured::MeasuredResult;
 pub use path::PathResult;
 pub use point::{PointAnswer, SettingAnswer};
 pub use program::{FeatureResult, OperationResult, ProgramResult, WorstPoint};
@@ -241,6 +243,12 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
         ));
     }
     warnings.extend(paths.iter().flat_map(program::warnings));
+    for ask in &study.asks {
+        if let Subject::Program(program) = &ask.subject {
+            let unsure = program.measured.as_ref().and_then(|measured| measured.warning());
+            warnings.extend(unsure.map(|warning| format!("{}: {warning}.", ask.name)));
+        }
+    }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());
     warnings

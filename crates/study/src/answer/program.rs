@@ -11,6 +11,7 @@ use armill_core::workpiece::Plane;
 use serde::Serialize;
 
 use super::limits::{LimitsResult, RestResult, StockResult};
+use super::measured::{self, MeasuredResult};
 use super::path::{PathResult, joint_ranges};
 use super::point::{PointAnswer, SettingAnswer, tidy};
 use crate::file::program::ProgramAsk;
@@ -54,6 +55,8 @@ pub struct ProgramResult {
     pub rest: Option<RestResult>,
     /// What keeps the tolerance everywhere.
     pub limits: Option<LimitsResult>,
+    /// The record that the forces come from; none where they were not measured.
+    pub measured: Option<MeasuredResult>,
     /// What was passed over in the program, or taken for granted.
     pub notes: Vec<String>,
     /// Where a joint jumps from one point to the next.
@@ -192,6 +195,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
                 .map(|met| StockResult::of(&met)),
             rest: found.answer.rested.map(|rested| RestResult::of(ask, &rested)),
             limits: LimitsResult::of(ask, found),
+            measured: ask.measured.as_deref().map(MeasuredResult::of),
             notes: told.notes(),
             jumps: told.jumps(),
         }),
@@ -252,6 +256,12 @@ impl Told<'_> {
             notes.extend(super::limits::notes(self.ask, self.found));
             notes.extend(cut.remarks.iter().cloned());
         }
+        notes.extend(
+            self.ask
+                .measured
+                .iter()
+                .flat_map(|measured| measured::notes(measured)),
+        );
         notes
     }
 

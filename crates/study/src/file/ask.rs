@@ -14,6 +14,7 @@ use armill_formats::robot::RobotDescription;
 
 use super::cut::{self, CutTable};
 use super::format::{AskKind, AskTable, LoadFrameName, LoadTable, PlaneTable, PostureTable, StudyFile};
+use super::measured::SynchroniseName;
 use super::memory;
 use super::places::Places;
 use super::program::{self, Pushes};
@@ -54,7 +55,7 @@ impl Resolver<'_> {
     /// The problems of a file that the ask names.
     pub(super) fn subject(&self, places: &mut Places<'_>) -> Result<Option<Subject>, StudyError> {
         self.refuse_keys_of_other_kinds(places);
-        if self.load().is_none() && self.cut().is_none() {
+        if self.load().is_none() && !self.brings_forces() {
             let hint = "[load] cases_n = [[3, 5, 5]]: force on the tool, x, y, z; along a program [cut] does as well";
             places.problem(
                 "load",
@@ -90,6 +91,7 @@ impl Resolver<'_> {
             return Ok(None);
         };
         let pushes = match (self.cut(), self.load()) {
+            (cut, _) if table.measured.is_some() => self.measured(places, cut),
             (Some(cut), _) => cut::resolve(places, cut).map(|cut| Pushes::Cut(Box::new(cut))),
             (None, Some(load)) => load_cases(places, load).map(Pushes::Cases),
             (None, None) => None,
@@ -110,6 +112,28 @@ impl Resolver<'_> {
         let of_study = self.file.cut.as_ref().filter(|_| self.table.load.is_none());
         let cut = self.table.cut.as_ref().or(of_study);
         cut.filter(|_| self.table.kind == AskKind::Program)
+    }
+
+    /// Whether the forces come with the program: from its cut or as they were measured.
+    fn brings_forces(&self) -> bool {
+        let program = self.table.program.as_ref();
+        let measured = program.is_some_and(|program| program.measured.is_some());
+        self.cut().is_some() || measured && self.table.kind == AskKind::Program
+    }
+
+    /// Measured forces, with the cut if it is to predict them.
+    fn measured(&self, places: &mut Places<'_>, cut: Option<&CutTable>) -> Option<Pushes> {
+        if self.table.load.is_some() {
+            let message = "this program has measured forces and a load";
+            places.problem("load", message, "remove one");
+            return None;
+        }
+        let measured = self.table.program.as_ref()?.measured.as_ref()?;
+        let predicts = measured.synchronise == Some(SynchroniseName::Predicted);
+        match cut.filter(|_| predicts) {
+            Some(cut) => Some(Pushes::Measured(Some(Box::new(cut::resolve(places, cut)?)))),
+            None => Some(Pushes::Measured(None)),
+        }
     }
 
     fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {
@@ -167,8 +191,8 @@ impl Resolver<'_> {
             plane,
             &base_from_counted.unwrap_or_else(Isometry::identity),
         );
-        // The forces of a cut come from the program.
-        let load = self.load().filter(|_| self.cut().is_none());
+        // The forces of a cut, and measured ones, come with the program.
+        let load = self.load().filter(|_| !self.brings_forces());
         let cases = match load {
             Some(load) => load_cases(places, load),
             None => Some(LoadCases {

@@ -6,6 +6,7 @@
 pub mod compliance;
 pub mod cut;
 pub mod format;
+pub mod measured;
 pub mod positioner;
 pub mod program;
 pub mod quantities;

@@ -8,7 +8,8 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
-use armill_core::nalgebra::Vector3;
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::path::clock::begins;
 use armill_core::path::{
     FeatureKind, ForcesTold, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step,
 };
@@ -20,6 +21,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::cut::Cut;
+use super::measured::{self, Course, MeasuredForces, MeasuredTable};
 use super::places::Places;
 use super::quantities::{pose_mm_deg, positive};
 use super::resolve::Setting;
@@ -59,6 +61,8 @@ pub struct ProgramTable {
     /// Stretches of the program that make a feature.
     #[serde(default)]
     pub feature: Vec<FeatureTable>,
+    /// Measured forces: the load of this program.
+    pub measured: Option<MeasuredTable>,
 }
 
 /// Unit of lengths.
@@ -195,6 +199,8 @@ pub struct ProgramAsk {
     pub cut: Option<Cut>,
     /// What is worth telling of its forces.
     pub forces: Option<ForcesTold>,
+    /// The record that the forces come from.
+    pub measured: Option<Box<MeasuredForces>>,
 }
 
 /// What pushes on the tool along a program.
@@ -203,6 +209,8 @@ pub(super) enum Pushes {
     Cases(LoadCases),
     /// What the cut needs.
     Cut(Box<Cut>),
+    /// What was measured; the cut predicts it where that is asked for.
+    Measured(Option<Box<Cut>>),
 }
 
 impl ProgramAsk {
@@ -219,8 +227,7 @@ impl ProgramAsk {
     /// Points that follow on each other without a rapid between them.
     pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
         let points = &self.track.points;
-        let begins = |i: &usize| *i == 0 || points[*i].along <= points[*i - 1].along;
-        let starts: Vec<usize> = (0..points.len()).filter(begins).collect();
+        let starts: Vec<usize> = (0..points.len()).filter(|i| begins(points, *i)).collect();
         let ends: Vec<usize> = starts.iter().skip(1).copied().chain([points.len()]).collect();
         starts.into_iter().zip(ends).map(|(start, end)| start..end)
     }
@@ -347,7 +354,27 @@ pub(super) fn read(
         },
     };
     let mut setting = setting;
+    let mut measured = None;
     let (load, cut, forces) = match pushes {
+        Pushes::Measured(cut) => {
+            let Some(told) = &table.measured else {
+                return Ok(None);
+            };
+            let course = Course {
+                points: &cut_up.points,
+                operations: &cut_up.operations,
+                rapids: &cut_up.rapids,
+                placing: &placing,
+                base_from_part: &base_from_part,
+            };
+            let found = measured::along(places, told, folder, &course, cut.as_deref())?;
+            let Some((load, forces)) = found else {
+                return Ok(None);
+            };
+            setting.doubt.relative = told.u_percent.unwrap_or(0.0) / 100.0;
+            measured = Some(Box::new(forces));
+            (load, None, None)
+        }
         Pushes::Cases(load) => (PathLoad::Cases(load), None, None),
         Pushes::Cut(cut) => {
             let (points, operations) = (&cut_up.points, &cut_up.operations);
@@ -382,6 +409,7 @@ pub(super) fn read(
         features: table.feature.clone(),
         cut,
         forces,
+        measured,
         setting,
     }))
 }
@@ -403,6 +431,11 @@ struct CutUp {
     moves: usize,
     time: f64,
     too_many: bool,
+    /// Length of the rapid before each stretch of cuts, m.
+    rapids: Vec<f64>,
+    /// Length of the rapids since the last cut, m.
+    since: f64,
+    stands: Option<Point3<f64>>,
 }
 
 impl CutUp {
@@ -414,6 +447,9 @@ impl CutUp {
             moves: 0,
             time: 0.0,
             too_many: false,
+            rapids: Vec::new(),
+            since: 0.0,
+            stands: None,
         }
     }
 
@@ -427,6 +463,7 @@ impl CutUp {
                     return;
                 }
                 let before = self.points.last().map_or(0.0, |point| point.along);
+                let first = self.points.len();
                 self.sampler.points(&next, |point| self.points.push(point));
                 let length = self.points.last().map_or(0.0, |point| point.along) - before;
                 if let Pace::Feed(speed) = next.pace
@@ -434,6 +471,15 @@ impl CutUp {
                 {
                     self.time += length / speed;
                 }
+                if !next.pace.cuts() {
+                    self.since += self.stands.map_or(0.0, |from| (next.end - from).norm());
+                } else if first < self.points.len() {
+                    if begins(&self.points, first) {
+                        self.rapids.push(self.since);
+                    }
+                    self.since = 0.0;
+                }
+                self.stands = Some(next.end);
             }
         }
     }

@@ -73,8 +73,8 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 9] = [
-    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "process",
+const PICTURES: [&str; 10] = [
+    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "process", "forces",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.

@@ -1,5 +1,7 @@
 //! Pictures of a tool path program: the path coloured by its deviation, the deviation along it, who is to blame, the arm.
 
+use std::fmt::Write;
+
 use armill_core::map::Parts;
 use armill_core::nalgebra::Point3;
 use armill_report::{ArmDrawing, AxisLabels, Marker, MarkerKind, PathPlot, Series, Stretch, TrackMap, View};
@@ -8,6 +10,8 @@ use super::arm::arm_posture;
 use super::pictures::{GHOSTS, Picture, shares};
 use super::plates::subtitle;
 use crate::answer::{PathResult, ProgramResult, WorstPoint};
+use crate::file::format::LoadFrameName;
+use crate::file::measured::MeasuredForces;
 use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Setting, Study};
 use crate::run::ProgramFound;
@@ -68,6 +72,13 @@ pub(super) fn pictures(
         ));
     }
     pictures.extend(super::limits::picture(&told.name, drawing.subtitle(), ask, found));
+    pictures.extend(ask.measured.as_deref().map(|measured| {
+        picture(
+            "forces",
+            "the measured force on the tool, before and after drift and teeth were taken off.".to_owned(),
+            forces(&told.name, measured),
+        )
+    }));
     let arm = drawing.arm();
     pictures.extend(arm.map(|svg| {
         picture(
@@ -77,6 +88,27 @@ pub(super) fn pictures(
         )
     }));
     pictures
+}
+
+/// The record with begin and end of the program.
+fn forces(name: &str, measured: &MeasuredForces) -> String {
+    let axes = match measured.table.frame {
+        LoadFrameName::Base => "base",
+        LoadFrameName::Part => "part",
+        LoadFrameName::Feed => "feed",
+    };
+    let mut subtitle = format!("{}; force on the tool, {axes} axes", measured.table.file);
+    if let Some(hz) = measured.table.low_pass_hz {
+        let _ = write!(subtitle, "; low-pass {hz} Hz");
+    }
+    let mut plot =
+        crate::forces::output::plot((format!("{name}: measured force"), subtitle), &measured.treated);
+    let [from, to] = measured.program;
+    plot.marks_s = vec![
+        (from, "first cut begins".to_owned()),
+        (to, "last cut ends".to_owned()),
+    ];
+    plot.to_svg()
 }
 
 struct Drawing<'a> {

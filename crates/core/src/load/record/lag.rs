@@ -12,7 +12,8 @@
 //! | `m`, `p` | measured and predicted force | N |
 //! | `r` | likeness, from -1 to 1 | 1 |
 //!
-//! A force that repeats with each tooth fits again one tooth later: the second best peak tells how sure the best is.
+//! A force that repeats with each tooth fits again one tooth later: the second best peak tells how sure the best is. Peaks
+//! of noise beside the best are none: between two peaks the likeness falls.
 
 use nalgebra::Vector3;
 
@@ -42,6 +43,8 @@ impl Lag {
 const MOST_PRODUCTS: f64 = 2e9;
 /// The parts that overlap are at least this share of the shorter record.
 const LEAST_OVERLAP: f64 = 0.5;
+/// Likeness falls by so much between two peaks; noise makes smaller waves on the flanks of one.
+const LEAST_FALL: f64 = 0.01;
 /// Steps of both records are equal within this.
 const STEP_SLACK: f64 = 1e-4;
 
@@ -53,7 +56,11 @@ pub fn by_start(measured: &Record, predicted: &Record, threshold: f64) -> Result
     Ok(start(measured, threshold)? - start(predicted, threshold)?)
 }
 
-fn start(record: &Record, threshold: f64) -> Result<f64, RecordError> {
+/// The instant (s) at which the force is larger than `threshold` N for the first time, on a line between samples.
+///
+/// # Errors
+/// A force that never crosses the threshold, or is above it from the beginning.
+pub fn start(record: &Record, threshold: f64) -> Result<f64, RecordError> {
     let size = |k: usize| record.force[k].norm();
     match (0..record.time.len()).find(|k| size(*k) > threshold) {
         None => Err(RecordError::NoLag("a force never crosses the threshold")),
@@ -72,6 +79,14 @@ fn start(record: &Record, threshold: f64) -> Result<f64, RecordError> {
 /// # Errors
 /// Steps that are not equal within a record or between both; forces that do not change; too many products.
 pub fn by_correlation(measured: &Record, predicted: &Record, most: f64) -> Result<Lag, RecordError> {
+    within(measured, predicted, [-most.abs(), most.abs()])
+}
+
+/// The lag by correlation, searched in a range of seconds.
+///
+/// # Errors
+/// Those of [`by_correlation`].
+pub fn within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -> Result<Lag, RecordError> {
     let (step, other) = (measured.step()?, predicted.step()?);
     if (step - other).abs() > STEP_SLACK * step {
         return Err(RecordError::OtherSteps {
@@ -83,10 +98,7 @@ pub fn by_correlation(measured: &Record, predicted: &Record, most: f64) -> Resul
     let shorter = m.len().min(p.len()) as f64;
     // Lags count from equal times, shifts from equal samples.
     let ahead = (predicted.time[0] - measured.time[0]) / step;
-    let (low, high) = (
-        (ahead - most.abs() / step).ceil(),
-        (ahead + most.abs() / step).floor(),
-    );
+    let (low, high) = ((ahead + from / step).ceil(), (ahead + to / step).floor());
     let products = (high - low + 1.0) * shorter;
     if products.is_nan() || products > MOST_PRODUCTS {
         return Err(RecordError::TooLong {
@@ -113,10 +125,13 @@ pub fn by_correlation(measured: &Record, predicted: &Record, most: f64) -> Resul
             "a force does not change, or the records hardly overlap",
         ));
     };
-    let others = peaks
-        .iter()
-        .filter(|peak| **peak != best)
-        .map(|peak| likenesses[*peak].1);
+    let apart = |peak: usize| {
+        let between = &likenesses[peak.min(best)..=peak.max(best)];
+        let valley = between.iter().map(|(_, r)| *r).fold(f64::INFINITY, f64::min);
+        likenesses[peak].1 - valley >= LEAST_FALL
+    };
+    let others = peaks.iter().filter(|peak| apart(**peak));
+    let others = others.map(|peak| likenesses[*peak].1);
     let (top, height) = parabola(&likenesses, best);
     Ok(Lag {
         seconds: (likenesses[best].0 + top - ahead) * step,

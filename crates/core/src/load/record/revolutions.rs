@@ -22,14 +22,16 @@ const LEAST_SAMPLES: usize = 8;
 pub struct Revolution {
     /// When it begins, s.
     pub start: f64,
+    /// Its middle, s.
+    pub middle: f64,
     /// Mean force, N.
     pub mean: Vector3<f64>,
     /// Least of each component, N.
     pub least: Vector3<f64>,
     /// Most of each component, N.
     pub most: Vector3<f64>,
-    /// The largest size of the force, N.
-    pub strongest: f64,
+    /// The force where it is largest, N.
+    pub strongest: Vector3<f64>,
 }
 
 /// The whole turns of a spindle at `spindle` rad/s, from the first instant on.
@@ -57,7 +59,7 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
         let end = (start + period).min(last);
         let mut sum = Vector3::zeros();
         let (mut at, mut value) = (start, between(record, before, start));
-        let (mut least, mut most, mut strongest) = (value, value, value.norm());
+        let (mut least, mut most, mut strongest) = (value, value, value);
         let mut next = before;
         while next < time.len() && time[next] <= start {
             next += 1;
@@ -70,7 +72,10 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
             };
             sum += (value + here) * (0.5 * (to - at));
             (at, value) = (to, here);
-            (least, most, strongest) = (least.inf(&here), most.sup(&here), strongest.max(here.norm()));
+            (least, most) = (least.inf(&here), most.sup(&here));
+            if here.norm_squared() > strongest.norm_squared() {
+                strongest = here;
+            }
             if !inside {
                 break;
             }
@@ -79,6 +84,7 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
         before = next.saturating_sub(1);
         turns.push(Revolution {
             start,
+            middle: 0.5 * (start + end),
             mean: sum / (end - start),
             least,
             most,
@@ -86,6 +92,23 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
         });
     }
     Ok(turns)
+}
+
+/// The mean force at an instant, on a line between the middles of the turns; before the first middle and after the last
+/// what it is there. `None` without turns.
+pub fn mean_at(turns: &[Revolution], time: f64) -> Option<Vector3<f64>> {
+    let after = turns.partition_point(|turn| turn.middle <= time);
+    let Some((before, next)) = after.checked_sub(1).map(|k| &turns[k]).zip(turns.get(after)) else {
+        return turns.get(after).or(turns.last()).map(|turn| turn.mean);
+    };
+    let part = (time - before.middle) / (next.middle - before.middle);
+    Some(before.mean + (next.mean - before.mean) * part)
+}
+
+/// The turn that an instant lies in, the nearest one beyond the ends; `None` without turns.
+pub fn turn_at(turns: &[Revolution], time: f64) -> Option<&Revolution> {
+    let after = turns.partition_point(|turn| turn.start <= time);
+    turns.get(after.saturating_sub(1))
 }
 
 /// The force at an instant, from the sample at `from` or later, on a line between samples.
@@ -133,7 +156,9 @@ mod tests {
             assert!(turn.most.x <= 70.0 && turn.most.x >= 70.0 - lost(20.0, 1.0));
             assert!(turn.least.y >= -4.0 && turn.least.y <= -4.0 + lost(4.0, 3.0));
             assert_eq!((turn.least.z, turn.most.z), (-7.0, -7.0));
-            assert!(turn.strongest >= turn.mean.norm() && turn.strongest < 71.0);
+            let strongest = turn.strongest.norm();
+            assert!(strongest >= turn.mean.norm() && strongest < 71.0);
+            assert!(strongest >= turn.most.x && turn.strongest.x > 69.0);
         }
     }
 
@@ -152,6 +177,32 @@ mod tests {
         let turns = revolutions(&record(1001, 1000.0, |_| Vector3::x()), -TAU / 0.1).unwrap();
         assert_eq!(turns.len(), 10);
         assert!(turns.iter().all(|turn| (turn.mean - Vector3::x()).norm() < 1e-12));
+    }
+
+    #[test]
+    fn the_mean_of_a_ramp_is_the_ramp_at_every_instant_between_the_middles() {
+        let spindle = TAU / 0.1;
+        let turns = revolutions(
+            &record(1001, 1000.0, |t| Vector3::new(3.0 * t, 0.0, 0.0)),
+            spindle,
+        )
+        .unwrap();
+        for k in 0..=90 {
+            let t = 0.05 + 0.01 * f64::from(k);
+            let mean = mean_at(&turns, 2.0 + t).unwrap();
+            assert!((mean.x - 3.0 * t).abs() < 1e-12, "{t}: {mean}");
+        }
+        for (time, x) in [(0.0, 0.15), (2.01, 0.15), (2.99, 2.85), (9.0, 2.85)] {
+            assert!((mean_at(&turns, time).unwrap().x - x).abs() < 1e-12, "{time}");
+        }
+        let starts = [(0.0, 2.0), (2.05, 2.0), (2.15, 2.1), (9.0, 2.9)];
+        for (time, start) in starts {
+            assert!(
+                (turn_at(&turns, time).unwrap().start - start).abs() < 1e-12,
+                "{time}"
+            );
+        }
+        assert!(mean_at(&[], 0.0).is_none() && turn_at(&[], 0.0).is_none());
     }
 
     #[test]

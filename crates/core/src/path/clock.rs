@@ -1,0 +1,230 @@
+//! When the tip is where: the time along a program, from the first point of its first cut.
+//!
+//! `t[i] = t[i-1] + (s[i] - s[i-1]) / v[i]` along a cut; a rapid between two cuts takes its length over its speed.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `t` | time at a point | s |
+//! | `s` | distance along all cuts | m |
+//! | `v` | feed that the program tells for the piece before a point | m/s |
+//!
+//! Not looked at: the time that a machine takes to gain and lose speed, pauses, tool changes.
+
+use nalgebra::Vector3;
+
+use super::program::Pace;
+use super::sampler::PathPoint;
+use crate::load::{ActsOn, Record, RecordError};
+
+/// When the tip is at each point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clock {
+    time: Vec<f64>,
+    /// First point of each stretch of cuts without a rapid between.
+    starts: Vec<usize>,
+}
+
+/// Speeds that a program does not tell, m/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Speeds {
+    /// Of cuts whose feed is not told.
+    pub feed: Option<f64>,
+    /// Of rapids.
+    pub rapid: Option<f64>,
+}
+
+/// Why the time is not known.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NoTime {
+    /// Nobody tells the feed.
+    #[error("line {line} cuts with a feed that is not told")]
+    NoFeed {
+        /// Line of the program.
+        line: u32,
+    },
+    /// Nobody tells how fast rapids are.
+    #[error("a rapid of {} mm leads to the cut in line {line}, and its speed is not told", .length * 1e3)]
+    NoRapid {
+        /// Line of the cut behind it.
+        line: u32,
+        /// m
+        length: f64,
+    },
+}
+
+/// Whether point `index` is the first behind a rapid, or of all.
+pub fn begins(points: &[PathPoint], index: usize) -> bool {
+    // The start of such a cut is a point of its own: nothing was cut since the point before.
+    index == 0 || points[index].along <= points[index - 1].along
+}
+
+impl Clock {
+    /// The time at `points`; `rapids` are the lengths (m) of what leads to each stretch, in order.
+    ///
+    /// # Errors
+    /// [`NoTime`] at the first point where a speed is wanted that nobody tells.
+    pub fn of(points: &[PathPoint], rapids: &[f64], speeds: Speeds) -> Result<Clock, NoTime> {
+        let (mut time, mut starts) = (Vec::with_capacity(points.len()), Vec::new());
+        let mut now = 0.0;
+        for (index, point) in points.iter().enumerate() {
+            if begins(points, index) {
+                let length = rapids.get(starts.len()).copied().unwrap_or(0.0);
+                if index > 0 && length > 0.0 {
+                    let line = point.line;
+                    let speed = speeds.rapid.filter(|speed| *speed > 0.0);
+                    now += length / speed.ok_or(NoTime::NoRapid { line, length })?;
+                }
+                starts.push(index);
+            } else {
+                let told = match point.pace {
+                    Pace::Feed(speed) => Some(speed),
+                    Pace::Rapid | Pace::Untold => None,
+                };
+                let known = told.filter(|speed| *speed > 0.0).or(speeds.feed);
+                let speed = known.filter(|speed| *speed > 0.0);
+                let speed = speed.ok_or(NoTime::NoFeed { line: point.line })?;
+                now += (point.along - points[index - 1].along) / speed;
+            }
+            time.push(now);
+        }
+        Ok(Clock { time, starts })
+    }
+
+    /// Time at each point, s.
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Time at the last point, s.
+    pub fn duration(&self) -> f64 {
+        self.time.last().copied().unwrap_or(0.0)
+    }
+
+    /// A force told at each point (N) as a record with equal steps of `step` s, begun and ended with `margin` s of
+    /// nothing; no force in rapids.
+    ///
+    /// # Errors
+    /// Fewer than two samples; a force that is not finite.
+    pub fn record(
+        &self,
+        force: impl Fn(usize) -> Vector3<f64>,
+        step: f64,
+        margin: f64,
+    ) -> Result<Record, RecordError> {
+        let lead = (margin / step).ceil();
+        // Counted as a number first: far too many must not overflow.
+        let count = (self.duration() / step).ceil() + 2.0 * lead + 1.0;
+        if !(2.0..=MOST_SAMPLES).contains(&count) {
+            return Err(RecordError::TooShort(count.clamp(0.0, 1.0) as usize));
+        }
+        let instants: Vec<f64> = (0..count as usize).map(|k| (k as f64 - lead) * step).collect();
+        let mut next = 0;
+        let forces = instants.iter().map(|t| {
+            while next < self.time.len() && self.time[next] <= *t {
+                next += 1;
+            }
+            let cutting = next > 0 && next < self.time.len() && self.starts.binary_search(&next).is_err();
+            if !cutting {
+                return Vector3::zeros();
+            }
+            let (before, after) = (self.time[next - 1], self.time[next]);
+            let part = (t - before) / (after - before);
+            force(next - 1) * (1.0 - part) + force(next) * part
+        });
+        let forces = forces.collect();
+        Record::new(instants, forces, None, ActsOn::Tool)
+    }
+}
+
+/// Samples of a record that is made: those of the longest that is read.
+const MOST_SAMPLES: f64 = 5e7;
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point3;
+
+    use super::super::program::{Course, Move};
+    use super::super::sampler::{Sampler, Sampling};
+    use super::*;
+
+    /// 20 mm at 10 mm/s, a rapid of 5 mm, 10 mm at a feed that is not told.
+    fn points() -> Vec<PathPoint> {
+        let mut sampler = Sampler::new(Sampling {
+            chord_error: 1e-5,
+            step: 1e-3,
+        });
+        let to = |x: f64, y: f64, pace| Move {
+            end: Point3::new(x * 1e-3, y * 1e-3, 0.0),
+            axis: None,
+            spin: None,
+            course: Course::Line,
+            pace,
+            line: x as u32 + 1,
+        };
+        let mut points = Vec::new();
+        for next in [
+            to(0.0, 0.0, Pace::Rapid),
+            to(20.0, 0.0, Pace::Feed(0.01)),
+            to(20.0, 5.0, Pace::Rapid),
+            to(10.0, 5.0, Pace::Untold),
+        ] {
+            sampler.points(&next, |point| points.push(point));
+        }
+        points
+    }
+
+    const RAPIDS: [f64; 2] = [0.3, 0.005];
+    const SPEEDS: Speeds = Speeds {
+        feed: Some(0.005),
+        rapid: Some(0.1),
+    };
+
+    #[test]
+    fn cuts_take_their_length_over_the_feed_and_rapids_theirs() {
+        let points = points();
+        let clock = Clock::of(&points, &RAPIDS, SPEEDS).unwrap();
+        // What leads to the first cut is before zero.
+        assert_eq!(clock.time()[0], 0.0);
+        assert!((clock.time()[20] - 2.0).abs() < 1e-12 && begins(&points, 21));
+        assert!((clock.time()[21] - 2.05).abs() < 1e-12);
+        assert!((clock.duration() - 4.05).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_speed_that_nobody_tells_is_missed_where_it_is_wanted_first() {
+        let points = points();
+        let no_rapid = Speeds {
+            rapid: None,
+            ..SPEEDS
+        };
+        let found = Clock::of(&points, &RAPIDS, no_rapid).unwrap_err();
+        assert_eq!(
+            found.to_string(),
+            "a rapid of 5 mm leads to the cut in line 11, and its speed is not told"
+        );
+        let found = Clock::of(&points, &RAPIDS, Speeds { feed: None, ..SPEEDS });
+        assert_eq!(found.unwrap_err(), NoTime::NoFeed { line: 11 });
+        // A rapid to where the tip stands takes no time and no speed.
+        assert!(Clock::of(&points, &[0.0, 0.0], no_rapid).is_ok());
+    }
+
+    #[test]
+    fn a_record_has_the_forces_of_the_points_and_none_in_rapids_and_margins() {
+        let clock = Clock::of(&points(), &RAPIDS, SPEEDS).unwrap();
+        let times = clock.time().to_vec();
+        let record = clock
+            .record(|i| Vector3::x() * (1.0 + times[i]), 0.01, 0.5)
+            .unwrap();
+        assert!((record.begin() + 0.5).abs() < 1e-12 && record.end() >= clock.duration() + 0.5 - 1e-9);
+        for (t, force) in record.time().iter().zip(record.force()) {
+            let cutting = (0.0..2.0).contains(t) || (2.05..4.05).contains(t);
+            // At the ends of a cut rounding decides.
+            if [0.0, 2.0, 2.05, 4.05].iter().any(|end| (t - end).abs() < 1e-9) {
+                continue;
+            }
+            let expected = if cutting { 1.0 + t } else { 0.0 };
+            assert!((force.x - expected).abs() < 1e-9, "{t}: {force}");
+        }
+        assert!(clock.record(|_| Vector3::x(), 1e-12, 0.0).is_err());
+    }
+}

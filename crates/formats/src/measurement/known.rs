@@ -1,0 +1,169 @@
+//! A record of either format: which of both a file is in is seen in its first lines.
+//!
+//! An export of DynoWare has a line that begins with the plain word `Time` or `Zeit`, behind its header; the names of a CSV
+//! end in their units. Whoever tells columns or a sampling rate means a CSV, whoever tells names of channels an export.
+
+use std::io::{BufRead, Cursor, Read};
+
+use armill_core::load::{ActsOn, Record};
+
+use super::{csv, dynoware};
+use crate::document::{Problems, Source};
+
+/// What a file does not tell, or what its channels are called.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wanted {
+    /// Samples a second, of a CSV without column of time.
+    pub rate_hz: Option<f64>,
+    /// The columns in order, of a CSV without header.
+    pub columns: Option<Vec<String>>,
+    /// What the channels of an export are called: three forces, then three moments if there are any.
+    pub channels: Option<Vec<String>>,
+}
+
+/// What a file held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// Its format, for people.
+    pub format: &'static str,
+    /// The records, in order: one, or the cycles of an export; axes of the sensor.
+    pub records: Vec<Record>,
+    /// Columns that were passed over.
+    pub unused: Vec<String>,
+}
+
+/// So much of a file is looked at for its format, in bytes.
+const HEAD_BYTES: u64 = 1 << 16;
+
+/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on.
+///
+/// # Errors
+/// The problems of the file, those of [`dynoware::read`] or [`csv::read`]; names of channels that are not three or six.
+pub fn read(
+    path: &str,
+    mut reader: impl BufRead,
+    acts_on: ActsOn,
+    wanted: &Wanted,
+) -> Result<Known, Problems> {
+    let mut head = Vec::new();
+    let begun = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
+    begun.map_err(|error| whole(path, &format!("cannot read it: {error}"), "is the disk there?"))?;
+    let is_csv = wanted.rate_hz.is_some() || wanted.columns.is_some();
+    let is_export = wanted.channels.is_some() || !is_csv && has_line_of_channels(&head);
+    let reader = Cursor::new(head).chain(reader);
+    if is_export {
+        let channels = match &wanted.channels {
+            None => dynoware::Channels::default(),
+            Some(names) => named(names).ok_or_else(|| {
+                let message = format!("{} names of channels were told", names.len());
+                whole(path, &message, "three forces, or three forces and three moments")
+            })?,
+        };
+        let export = dynoware::read(path, reader, acts_on, &channels)?;
+        return Ok(Known {
+            format: "DynoWare",
+            records: export.cycles,
+            unused: export.unused,
+        });
+    }
+    let wanted = csv::Wanted {
+        acts_on,
+        rate_hz: wanted.rate_hz,
+        columns: wanted.columns.clone(),
+    };
+    let measured = csv::read(path, reader, &wanted)?;
+    Ok(Known {
+        format: "CSV",
+        records: vec![measured.record],
+        unused: measured.unused,
+    })
+}
+
+fn has_line_of_channels(head: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(head);
+    text.lines().any(dynoware::is_channels)
+}
+
+fn named(names: &[String]) -> Option<dynoware::Channels> {
+    let three = |names: &[String]| -> Option<[String; 3]> { names.to_vec().try_into().ok() };
+    let force = three(names.get(..3)?)?;
+    let moment = match names.get(3..)? {
+        [] => dynoware::Channels::default().moment,
+        moments => three(moments)?,
+    };
+    Some(dynoware::Channels { force, moment })
+}
+
+fn whole(path: &str, message: &str, hint: &str) -> Problems {
+    Source::new(path, "")
+        .problem(0..0, message, Some(hint.to_owned()))
+        .into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn known(text: &str, wanted: &Wanted) -> Result<Known, String> {
+        let read = read("f", text.as_bytes(), ActsOn::Tool, wanted);
+        read.map_err(|problems| problems.to_string())
+    }
+
+    const EXPORT: &str =
+        "Date:,today\nTime:,12:00\n\nTime\tFx\tFy\tFz\ns\tN\tkN\tN\n0\t1\t2\t3\n0.1\t4\t5\t6\n";
+    const CSV: &str = "time_s,fx_n,fy_kn,fz_n\n0,1,2,3\n0.1,4,5,6\n";
+
+    #[test]
+    fn the_same_numbers_come_out_of_either_format() {
+        let [export, csv] = [EXPORT, CSV].map(|text| known(text, &Wanted::default()).unwrap());
+        assert_eq!((export.format, csv.format), ("DynoWare", "CSV"));
+        assert_eq!(export.records, csv.records);
+        assert_eq!(csv.records[0].force()[0].y, 2000.0);
+    }
+
+    #[test]
+    fn what_is_told_decides_on_the_format() {
+        let by_hand = Wanted {
+            rate_hz: Some(10.0),
+            columns: Some(["fx_n", "fy_kn", "fz_n"].map(str::to_owned).to_vec()),
+            ..Wanted::default()
+        };
+        let plain = known("1,2,3\n4,5,6\n", &by_hand).unwrap();
+        assert_eq!(
+            plain.records[0].force(),
+            known(CSV, &Wanted::default()).unwrap().records[0].force()
+        );
+        let channels = |names: &[&str]| Wanted {
+            channels: Some(names.iter().map(|name| (*name).to_owned()).collect()),
+            ..Wanted::default()
+        };
+        let renamed = EXPORT.replace("Fx", "Kraft A");
+        let found = known(&renamed, &channels(&["Kraft A", "Fy", "Fz"])).unwrap();
+        assert_eq!(found.records, known(EXPORT, &Wanted::default()).unwrap().records);
+        let told = known(&renamed, &Wanted::default()).unwrap_err();
+        assert!(told.contains("missing channels: `Fx`"), "{told}");
+        let told = known(EXPORT, &channels(&["Fx", "Fy"])).unwrap_err();
+        assert!(told.contains("2 names of channels"), "{told}");
+    }
+
+    #[test]
+    fn commas_between_and_inside_numbers_are_left_to_the_reader_of_exports() {
+        let trap = "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,5,2,25,3,5\n";
+        let found = known(trap, &Wanted::default()).unwrap();
+        assert_eq!(found.records[0].force()[0].x, 1.5);
+        let told = known(&trap.replace("0,1,1,5", "0,1,1"), &Wanted::default()).unwrap_err();
+        assert!(told.contains("which is which cannot be told"), "{told}");
+    }
+
+    #[test]
+    fn what_is_neither_is_told_as_a_table_without_forces() {
+        for text in ["", "\n\n", "a,b\n1,2\n", "\u{0}\u{1}\u{2}"] {
+            assert!(
+                known(text, &Wanted::default())
+                    .unwrap_err()
+                    .contains("time_s,fx_n"),
+                "{text:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,323 @@
+//! Forces over time: each component and the size, as it was measured and as it was treated, with the stretches where
+//! nothing is cut.
+//!
+//! A record has far more samples than a picture has columns of pixels: each column shows the least and the greatest of its
+//! samples, so that no peak is lost and the picture stays small.
+
+use std::fmt::Write;
+
+use crate::axis::{extent, tick_label, ticks};
+use crate::chart::range;
+use crate::colour::{GRID, INK, category};
+use crate::font::{Weight, text_width_px};
+use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::svg::{Rect, Style, Svg, Text, num};
+
+/// Columns of pixels: what a trace is drawn in.
+const COLUMNS: usize = 640;
+/// Height of one chart, and the gap to the next.
+const CHART_PX: f64 = 108.0;
+const GAP_PX: f64 = 14.0;
+/// What was measured, behind what became of it.
+const BEFORE: &str = "#b9b9b9";
+/// A stretch where nothing is cut.
+const AIR: &str = "#e3eef7";
+
+/// Least and greatest value in each column of pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Envelope {
+    columns: Vec<Option<[f64; 2]>>,
+}
+
+impl Envelope {
+    /// Of samples (time, value) in a span of time; what lies outside or is not finite is left out.
+    pub fn of(span_s: [f64; 2], samples: impl IntoIterator<Item = (f64, f64)>) -> Envelope {
+        let mut columns = vec![None; COLUMNS];
+        let length = span_s[1] - span_s[0];
+        for (time, value) in samples {
+            let part = (time - span_s[0]) / length;
+            if !((0.0..=1.0).contains(&part) && value.is_finite()) {
+                continue;
+            }
+            let column = ((part * COLUMNS as f64) as usize).min(COLUMNS - 1);
+            let [low, high] = columns[column].unwrap_or([value, value]);
+            columns[column] = Some([value.min(low), value.max(high)]);
+        }
+        Envelope { columns }
+    }
+
+    fn values(&self) -> impl Iterator<Item = f64> + '_ {
+        self.columns.iter().flatten().flatten().copied()
+    }
+}
+
+/// One component over time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ForceTrace {
+    /// Its name with the unit: `Fx (N)`.
+    pub name: String,
+    /// As it was measured.
+    pub before: Envelope,
+    /// As it was treated.
+    pub after: Envelope,
+}
+
+/// What a plot of forces shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ForcePlot {
+    /// First line, bold.
+    pub title: String,
+    /// Second line: file, sampling rate, what was done.
+    pub subtitle: String,
+    /// The time that is shown, s.
+    pub span_s: [f64; 2],
+    /// One below the other.
+    pub traces: Vec<ForceTrace>,
+    /// Stretches where nothing is cut, s.
+    pub air_s: Vec<[f64; 2]>,
+    /// Instants with their names, s.
+    pub marks_s: Vec<(f64, String)>,
+}
+
+impl ForcePlot {
+    /// The plot as a complete SVG document; no values gives a picture that says so.
+    pub fn to_svg(&self) -> String {
+        let scales: Option<Vec<[f64; 2]>> = self.traces.iter().map(scale).collect();
+        let Some(scales) = scales.filter(|scales| !scales.is_empty() && self.span_s[1] > self.span_s[0])
+        else {
+            return notice(
+                &self.title,
+                &self.subtitle,
+                "There is nothing to draw: the record has no values.",
+            );
+        };
+        let labels = scales.iter().map(|scale| {
+            let (at, step) = force_ticks(scale);
+            let widths = at.iter().map(|v| tick_width_px(*v, step));
+            widths.fold(0.0, f64::max)
+        });
+        let left = BORDER_PX + 32.0 + labels.fold(0.0, f64::max);
+        let width = left + COLUMNS as f64 + BORDER_PX + 8.0;
+        let mut svg = Svg::new();
+        let mut top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
+        if !self.marks_s.is_empty() {
+            top += SMALL_PX + 2.0;
+        }
+        let mut area = Rect {
+            x: left,
+            y: top,
+            w: COLUMNS as f64,
+            h: CHART_PX,
+        };
+        for (index, (trace, scale)) in self.traces.iter().zip(&scales).enumerate() {
+            area.y = top + index as f64 * (CHART_PX + GAP_PX);
+            self.draw_trace(&mut svg, area, trace, (*scale, category(index)));
+        }
+        self.draw_marks(&mut svg, [top, area.bottom()], left);
+        let bottom = self.draw_time(&mut svg, area);
+        let bottom = legend(&mut svg, &self.entries(), [left, bottom + 8.0], COLUMNS as f64);
+        svg.finish(width, bottom + BORDER_PX, &self.title)
+    }
+
+    fn x(&self, time_s: f64, area: &Rect) -> f64 {
+        let part = (time_s - self.span_s[0]) / (self.span_s[1] - self.span_s[0]);
+        area.x + part.clamp(0.0, 1.0) * area.w
+    }
+
+    fn draw_trace(
+        &self,
+        svg: &mut Svg,
+        area: Rect,
+        trace: &ForceTrace,
+        ([low, high], colour): ([f64; 2], &'static str),
+    ) {
+        for [from, to] in &self.air_s {
+            let x = self.x(*from, &area);
+            let air = Rect {
+                x,
+                w: self.x(*to, &area) - x,
+                ..area
+            };
+            svg.rect(air, &Style::fill(AIR));
+        }
+        let y = |value: f64| area.bottom() - (value - low) / (high - low) * area.h;
+        let (at, step) = force_ticks(&[low, high]);
+        for v in at {
+            svg.line([area.x, y(v)], [area.right(), y(v)], &Style::line(GRID, 1.0));
+            svg.line([area.x - 5.0, y(v)], [area.x, y(v)], &Style::line(INK, 1.0));
+            svg.text(
+                [area.x - 8.0, y(v) + 4.0],
+                &tick_label(v, step),
+                &Text::new(SMALL_PX).end(),
+            );
+        }
+        for (envelope, style) in [
+            (&trace.before, Style::line(BEFORE, 1.0)),
+            (&trace.after, Style::line(colour, 1.0)),
+        ] {
+            svg.path(&zigzag(envelope, area.x, &y), &style);
+        }
+        svg.rect(area, &Style::line(INK, 1.0));
+        svg.text(
+            [BORDER_PX + 12.0, area.centre()[1]],
+            &trace.name,
+            &Text::new(BODY_PX).middle().turned(-90.0),
+        );
+    }
+
+    /// Instants as dashed lines through all charts, each with its name above where there is room.
+    fn draw_marks(&self, svg: &mut Svg, [top, bottom]: [f64; 2], left: f64) {
+        let area = Rect {
+            x: left,
+            y: top,
+            w: COLUMNS as f64,
+            h: bottom - top,
+        };
+        let mut taken = f64::NEG_INFINITY;
+        for (time, name) in &self.marks_s {
+            let x = self.x(*time, &area);
+            svg.line([x, top], [x, bottom], &Style::line(INK, 1.0).dashed("4 3"));
+            let half = text_width_px(name, SMALL_PX, Weight::Regular) / 2.0;
+            let at = x.clamp(left + half, (area.right() - half).max(left + half));
+            if at - half > taken {
+                svg.text([at, top - 5.0], name, &Text::new(SMALL_PX).middle());
+                taken = at + half + 6.0;
+            }
+        }
+    }
+
+    fn draw_time(&self, svg: &mut Svg, area: Rect) -> f64 {
+        let (at, step) = ticks(self.span_s[0], self.span_s[1], COLUMNS as f64 / 75.0);
+        let bottom = area.bottom();
+        for v in at {
+            let x = self.x(v, &area);
+            svg.line([x, bottom], [x, bottom + 5.0], &Style::line(INK, 1.0));
+            svg.text(
+                [x, bottom + 17.0],
+                &tick_label(v, step),
+                &Text::new(SMALL_PX).middle(),
+            );
+        }
+        let text = Text::new(BODY_PX).middle();
+        svg.text([area.centre()[0], bottom + 36.0], "time (s)", &text);
+        bottom + 42.0
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let line = |colour: &str| Key::Line(vec![Style::line(colour, 2.4)]);
+        let after = (0..self.traces.len()).map(|k| Style::line(category(k), 2.4));
+        let mut entries = vec![Entry::new(line(BEFORE), "as measured")];
+        entries.extend(
+            after
+                .take(1)
+                .map(|style| Entry::new(Key::Line(vec![style]), "as used")),
+        );
+        if !self.air_s.is_empty() {
+            entries.push(Entry::new(Key::Field(Style::fill(AIR)), "nothing is cut"));
+        }
+        entries
+    }
+}
+
+/// Range of a chart: both traces and zero.
+fn scale(trace: &ForceTrace) -> Option<[f64; 2]> {
+    let values = || trace.before.values().chain(trace.after.values());
+    extent(values())?;
+    range(values().chain([0.0]), 0.05)
+}
+
+fn force_ticks([low, high]: &[f64; 2]) -> (Vec<f64>, f64) {
+    ticks(*low, *high, CHART_PX / 30.0)
+}
+
+fn tick_width_px(value: f64, step: f64) -> f64 {
+    text_width_px(&tick_label(value, step), SMALL_PX, Weight::Regular)
+}
+
+/// Up one column and down the next: a line one pixel wide fills what lies between least and greatest.
+fn zigzag(envelope: &Envelope, left: f64, y: &dyn Fn(f64) -> f64) -> String {
+    let mut data = String::new();
+    let mut upwards = true;
+    for (column, [low, high]) in envelope
+        .columns
+        .iter()
+        .enumerate()
+        .filter_map(|(column, ends)| Some((column, (*ends)?)))
+    {
+        let x = num(left + column as f64 + 0.5);
+        let [first, second] = if upwards { [low, high] } else { [high, low] };
+        let command = if data.is_empty() { 'M' } else { 'L' };
+        // A tenth of a pixel is enough, and shorter.
+        let short = |value: f64| num((y(value) * 10.0).round() / 10.0);
+        let (from, to) = (short(first), short(second));
+        let _ = write!(data, "{command}{x} {from}");
+        if to != from {
+            let _ = write!(data, "V{to}");
+            upwards = !upwards;
+        }
+    }
+    data
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A million samples of a wave, a single one of them ten times as high.
+    fn plot() -> ForcePlot {
+        let samples = |offset: f64| {
+            (0..1_000_000).map(move |k| {
+                let time = f64::from(k) * 1e-5;
+                let peak = if k == 345_678 { 1000.0 } else { 0.0 };
+                (time, 100.0 * (time * 900.0).sin() + peak + offset)
+            })
+        };
+        let trace = |name: &str| ForceTrace {
+            name: name.to_owned(),
+            before: Envelope::of([0.0, 10.0], samples(20.0)),
+            after: Envelope::of([0.0, 10.0], samples(0.0)),
+        };
+        ForcePlot {
+            title: "a record".to_owned(),
+            span_s: [0.0, 10.0],
+            traces: ["Fx (N)", "Fy (N)", "Fz (N)", "size (N)"].map(trace).to_vec(),
+            air_s: vec![[0.0, 1.0], [9.0, 10.0]],
+            marks_s: vec![(1.5, "first cut".to_owned())],
+            ..ForcePlot::default()
+        }
+    }
+
+    #[test]
+    fn a_single_peak_among_a_million_samples_is_seen_and_the_picture_stays_small() {
+        let plot = plot();
+        let highest = plot.traces[0].after.values().fold(0.0, f64::max);
+        assert!(highest > 899.0, "{highest}");
+        let svg = plot.to_svg();
+        // Eight traces of 640 columns, some twelve bytes each.
+        assert!(svg.len() < 150_000, "{}", svg.len());
+        assert_eq!(svg.matches(AIR).count(), 2 * 4 + 1);
+        assert!(svg.contains("first cut") && svg.contains("nothing is cut"));
+    }
+
+    #[test]
+    fn few_samples_are_joined_by_a_line() {
+        let envelope = Envelope::of([0.0, 1.0], [(0.0, 1.0), (0.5, 3.0), (1.0, f64::NAN), (2.0, 9.0)]);
+        assert_eq!(zigzag(&envelope, 0.0, &|v| v), "M0.5 1L320.5 3");
+    }
+
+    #[test]
+    fn a_record_without_values_says_so() {
+        assert!(ForcePlot::default().to_svg().contains("no values"));
+        let empty = ForceTrace {
+            name: "Fx (N)".to_owned(),
+            before: Envelope::of([0.0, 1.0], []),
+            after: Envelope::of([0.0, 0.0], [(0.0, 1.0)]),
+        };
+        let plot = ForcePlot {
+            span_s: [0.0, 1.0],
+            traces: vec![empty],
+            ..ForcePlot::default()
+        };
+        assert!(plot.to_svg().contains("no values"));
+    }
+}

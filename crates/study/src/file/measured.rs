@@ -1,0 +1,416 @@
+//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in it.
+//!
+//! A point that the tip reaches at the time `t` of the program gets the force at `start + t` of the record, as the tool
+//! feels it. Moments are left out: they count from the origin of the sensor, wherever that is.
+
+use std::path::Path;
+
+use armill_core::frame::Isometry;
+use armill_core::load::record::align::align;
+use armill_core::load::record::lag::{self, Lag};
+use armill_core::load::record::revolutions::{mean_at, turn_at};
+use armill_core::load::{ActsOn, LoadFrame, PathLoad, Record, RecordError};
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::path::{Clock, NoTime, Operation, PathPoint, Placing, Speeds};
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+use armill_formats::measurement::known::Wanted;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::cut::Cut;
+use super::format::LoadFrameName;
+use super::places::Places;
+use crate::StudyError;
+use crate::forces::{Air, Measured, Refusal, Treated, Treatment, Unread, read, treat};
+
+/// A record of measured forces.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeasuredTable {
+    /// Its file, relative to the study: a text export of DynoWare, or a CSV.
+    pub file: String,
+    /// What the numbers of the file act on: the tool, or the part as a dynamometer under it feels it.
+    pub acts_on: ActsOnName,
+    /// Axes that the sensor stands along: `base`, `part`, or `feed`.
+    pub frame: LoadFrameName,
+    /// By what angle the sensor is turned about z of that frame; 0 if left out.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub sensor_turned_deg: Option<f64>,
+    /// Stretches where nothing is cut, from when to when; the quietest ones if left out.
+    #[schemars(inner(inner(range(min = -1e9, max = 1e9))))]
+    pub air_s: Option<Vec<[f64; 2]>>,
+    /// Whether drift is taken off; true if left out.
+    pub drift: Option<bool>,
+    /// Slower than this is kept; everything if left out.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub low_pass_hz: Option<f64>,
+    /// Speed of the spindle: forces are then those of whole turns.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub spindle_rpm: Option<f64>,
+    /// What of each turn is the load; its mean if left out.
+    pub value: Option<ValueName>,
+    /// Time in the record at which the first cut of the program begins.
+    #[schemars(range(min = -1e9, max = 1e9))]
+    pub start_s: Option<f64>,
+    /// How that time is found, in place of `start_s`.
+    pub synchronise: Option<SynchroniseName>,
+    /// For `synchronise = "start"`: the first cut begins where the force is larger for the first time.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub threshold_n: Option<f64>,
+    /// Speed of rapids between cuts.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    // unit: mm/min
+    pub rapid_mm_min: Option<f64>,
+    /// Feed where the program does not tell it.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    // unit: mm/min
+    pub feed_mm_min: Option<f64>,
+    /// Standard uncertainty of the size of the force; 0 if left out.
+    #[schemars(range(min = 0.0, max = 1e3))]
+    pub u_percent: Option<f64>,
+    /// Cycle of an export that holds several, from 1.
+    #[schemars(range(min = 1, max = 10000))]
+    pub cycle: Option<u32>,
+    /// Names of three forces, and three moments if there are any, as an export has them; `Fx`, `Fy`, `Fz` if left out.
+    pub channels: Option<Vec<String>>,
+    /// Samples a second, of a CSV without column of time.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub rate_hz: Option<f64>,
+    /// Columns in order, of a CSV without header.
+    pub columns: Option<Vec<String>>,
+}
+
+/// What a measured force acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ActsOnName {
+    /// The tool.
+    Tool,
+    /// The part: the tool feels it with all signs turned.
+    Part,
+}
+
+/// What of each turn of the spindle is the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ValueName {
+    /// The mean; without a spindle speed the force itself.
+    Mean,
+    /// The mean, and as a second case the force of largest size.
+    Extremes,
+}
+
+/// How the begin of the program is found in the record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SynchroniseName {
+    /// Where the force crosses `threshold_n` for the first time.
+    Start,
+    /// Where the record is most like the force that `[cut]` predicts.
+    Predicted,
+}
+
+/// The path that the forces are for.
+pub(super) struct Course<'a> {
+    pub points: &'a [PathPoint],
+    pub operations: &'a [(usize, Operation)],
+    /// Length of the rapid before each stretch, m.
+    pub rapids: &'a [f64],
+    pub placing: &'a Placing,
+    pub base_from_part: &'a Isometry,
+}
+
+/// Measured forces along a program.
+#[derive(Clone, Debug)]
+pub struct MeasuredForces {
+    /// What the study says.
+    pub table: MeasuredTable,
+    /// Format of the file.
+    pub format: &'static str,
+    /// Where drift was seen.
+    pub air: Air,
+    /// The record as the tool feels it, in the axes of the frame, before and after.
+    pub treated: Treated,
+    /// When the first cut of the program begins in the record and when its last one ends, s.
+    pub program: [f64; 2],
+    /// How sure that is, where it was found by a prediction.
+    pub lag: Option<Lag>,
+    /// Largest force of the first case, and of the second, N.
+    pub largest: [f64; 2],
+}
+
+/// A lag that stands out from the second best by less than this may be the wrong one.
+const LOW_CONFIDENCE: f64 = 0.1;
+/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end count.
+const MARGIN: f64 = 0.25;
+const M_S_PER_MM_MIN: f64 = 1e-3 / 60.0;
+
+impl MeasuredForces {
+    /// What a user should know of it before trusting it.
+    pub fn warning(&self) -> Option<String> {
+        let unsure = self.lag.filter(|lag| lag.confidence() < LOW_CONFIDENCE)?;
+        Some(format!(
+            "where the program begins in the record {} is not sure: at {:.4} s it is like the prediction by {:.2}, elsewhere by {:.2}; tell it with `start_s` if it is known",
+            self.table.file,
+            self.program[0],
+            unsure.likeness,
+            unsure.runner_up.unwrap_or(0.0)
+        ))
+    }
+
+    /// Samples between begin and end of the program.
+    pub fn samples(&self) -> usize {
+        let [from, to] = self.program;
+        let time = self.treated.after.time();
+        time.partition_point(|t| *t <= to) - time.partition_point(|t| *t < from)
+    }
+}
+
+/// The forces along a course as a load, and what they come from; `None` where they have problems, told at their places.
+///
+/// # Errors
+/// The problems of the file.
+pub(super) fn along(
+    places: &mut Places<'_>,
+    table: &MeasuredTable,
+    folder: &Path,
+    course: &Course<'_>,
+    cut: Option<&Cut>,
+) -> Result<Option<(PathLoad, MeasuredForces)>, StudyError> {
+    let path = folder.join(&table.file);
+    let shown = path.display().to_string();
+    let acts_on = match table.acts_on {
+        ActsOnName::Tool => ActsOn::Tool,
+        ActsOnName::Part => ActsOn::Part,
+    };
+    let wanted = Wanted {
+        rate_hz: table.rate_hz,
+        columns: table.columns.clone(),
+        channels: table.channels.clone(),
+    };
+    let cycle = table.cycle.map(|cycle| cycle as usize);
+    let found = match read((&shown, &path), acts_on, &wanted, cycle) {
+        Ok(measured) => forces(table, measured, course, cut),
+        Err(Unread::File(problems)) => return Err(problems),
+        Err(Unread::Value(refusal)) => Err(refusal),
+    };
+    Ok(found
+        .map_err(|Refusal { key, message, hint }| {
+            places.problem(&format!("program.measured.{key}"), message, &hint);
+        })
+        .ok())
+}
+
+fn forces(
+    table: &MeasuredTable,
+    measured: Measured,
+    course: &Course<'_>,
+    cut: Option<&Cut>,
+) -> Result<(PathLoad, MeasuredForces), Refusal> {
+    let treatment = Treatment {
+        air: air(table)?,
+        low_pass_hz: table.low_pass_hz,
+        spindle_rpm: table.spindle_rpm,
+    };
+    let turn = table.sensor_turned_deg.unwrap_or(0.0).to_radians();
+    let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
+    let treated = treat(measured.record.on_tool().turned(&turn), &treatment)?;
+    let clock = clock(table, course)?;
+    let record = &treated.after;
+    let [lasts, cuts] = [record.end() - record.begin(), clock.duration()];
+    if cuts > lasts {
+        let message = format!("the record lasts {lasts:.3} s, but the cuts of the program take {cuts:.3} s");
+        let hint = "is it the record of this program, with the feeds and rapids that were driven?";
+        return Err(Refusal::new("file", message, hint));
+    }
+    let (start, lag) = start(table, &treated.after, &clock, course, cut)?;
+    let program = [start, start + cuts];
+    // A step of the record to either side is rounding.
+    let step = lasts / (record.time().len() - 1) as f64;
+    if program[0] < record.begin() - step || program[1] > record.end() + step {
+        let message = format!(
+            "the program goes from {:.3} to {:.3} s of a record from {:.3} to {:.3} s",
+            program[0],
+            program[1],
+            record.begin(),
+            record.end()
+        );
+        let key = if table.start_s.is_some() {
+            "start_s"
+        } else {
+            "synchronise"
+        };
+        return Err(Refusal::new(key, message, "the record holds the whole program"));
+    }
+    let (load, largest) = at_points(table, &treated, &clock, start)?;
+    let forces = MeasuredForces {
+        table: table.clone(),
+        format: measured.format,
+        air: treatment.air,
+        treated,
+        program,
+        lag,
+        largest,
+    };
+    Ok((load, forces))
+}
+
+fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
+    match (&table.air_s, table.drift) {
+        (Some(_), Some(false)) => Err(Refusal::new(
+            "air_s",
+            "air cuts are told, but `drift = false` leaves the drift in",
+            "remove one",
+        )),
+        (None, Some(false)) => Ok(Air::Kept),
+        (Some(stretches), _) => Ok(Air::Told(stretches.clone())),
+        (None, _) => Ok(Air::Found),
+    }
+}
+
+fn clock(table: &MeasuredTable, course: &Course<'_>) -> Result<Clock, Refusal> {
+    let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
+    let speeds = Speeds {
+        feed: speed(table.feed_mm_min),
+        rapid: speed(table.rapid_mm_min),
+    };
+    Clock::of(course.points, course.rapids, speeds).map_err(|error| match error {
+        NoTime::NoFeed { .. } => Refusal::new("feed_mm_min", error.to_string(), "feed_mm_min = 600"),
+        NoTime::NoRapid { .. } => Refusal::new(
+            "rapid_mm_min",
+            error.to_string(),
+            "rapid_mm_min = 6000: how fast the robot was between the cuts",
+        ),
+    })
+}
+
+/// When the first cut begins in the record, s.
+fn start(
+    table: &MeasuredTable,
+    record: &Record,
+    clock: &Clock,
+    course: &Course<'_>,
+    cut: Option<&Cut>,
+) -> Result<(f64, Option<Lag>), Refusal> {
+    let refused = |error: RecordError, hint: &str| Refusal::new("synchronise", error.to_string(), hint);
+    match (table.start_s, table.synchronise) {
+        (Some(_), Some(_)) => Err(Refusal::new(
+            "synchronise",
+            "the begin of the program is told and is to be found",
+            "either `start_s` or `synchronise`",
+        )),
+        (Some(start), None) => Ok((start, None)),
+        (None, None) => Err(Refusal::new(
+            "start_s",
+            "nothing tells when the program begins in the record",
+            "start_s = 1.2, or synchronise = \"start\" or \"predicted\"",
+        )),
+        (None, Some(SynchroniseName::Start)) => {
+            let threshold = table.threshold_n.ok_or_else(|| {
+                let message = "the begin is to be found by a threshold, but there is none";
+                Refusal::new(
+                    "threshold_n",
+                    message,
+                    "threshold_n = 10: above the noise, below the cut",
+                )
+            })?;
+            let start = lag::start(record, threshold);
+            let start = start.map_err(|error| refused(error, "another threshold_n, or start_s"))?;
+            Ok((start, None))
+        }
+        (None, Some(SynchroniseName::Predicted)) => {
+            let cut = cut.ok_or_else(|| {
+                Refusal::new(
+                    "synchronise",
+                    "no `cut` predicts the force",
+                    "[cut] with material, cutter and depths",
+                )
+            })?;
+            let hint = "synchronise = \"start\", or start_s";
+            let force = predicted(table, course, cut)?;
+            let step = record.step().map_err(|error| refused(error, hint))?;
+            let prediction = clock.record(|i| force[i], step, MARGIN * clock.duration());
+            let prediction = prediction.map_err(|error| refused(error, hint))?;
+            let range = [record.begin(), record.end() - clock.duration()];
+            let lag = align(record, &prediction, range).map_err(|error| refused(error, hint))?;
+            // The top of a parabola may lie between samples beyond the last one.
+            let start = lag.seconds.clamp(range[0], range[1].max(range[0]));
+            Ok((start, Some(lag)))
+        }
+    }
+}
+
+/// The mean force of the cut at every point, in the axes that the record is told in.
+fn predicted(table: &MeasuredTable, course: &Course<'_>, cut: &Cut) -> Result<Vec<Vector3<f64>>, Refusal> {
+    let mut stock = cut.stock.clone();
+    let (points, operations) = (course.points, course.operations);
+    let along = cut
+        .cutting
+        .along(points, operations, course.placing, stock.as_mut(), Watch::NONE);
+    let load = along.map_err(|error| {
+        let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+        Refusal::new("synchronise", error.to_string(), hint)
+    })?;
+    let load = PathLoad::Cuts(load.cuts);
+    let part_from_base = course.base_from_part.rotation.inverse();
+    let mut wrenches = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let force = |(index, point): (usize, &PathPoint)| {
+        let base_from_feed = course.placing.base_from_feed(point);
+        load.in_base(index, course.base_from_part, &base_from_feed, &mut wrenches);
+        let in_base = wrenches.first().map_or_else(Vector3::zeros, |mean| mean.force);
+        match frame(table) {
+            LoadFrame::Base => in_base,
+            LoadFrame::Part => part_from_base * in_base,
+            LoadFrame::Feed => base_from_feed.inverse() * in_base,
+        }
+    };
+    Ok(course.points.iter().enumerate().map(force).collect())
+}
+
+fn frame(table: &MeasuredTable) -> LoadFrame {
+    match table.frame {
+        LoadFrameName::Base => LoadFrame::Base,
+        LoadFrameName::Part => LoadFrame::Part,
+        LoadFrameName::Feed => LoadFrame::Feed,
+    }
+}
+
+/// The forces at the points, and the largest of each case, N.
+fn at_points(
+    table: &MeasuredTable,
+    treated: &Treated,
+    clock: &Clock,
+    start: f64,
+) -> Result<(PathLoad, [f64; 2]), Refusal> {
+    let turns = treated.turns.as_deref();
+    let cases = match table.value {
+        None | Some(ValueName::Mean) => 1,
+        Some(ValueName::Extremes) => 2,
+    };
+    if cases == 2 && turns.is_none() {
+        let message = "extremes are those of a turn of the spindle, and its speed is not told";
+        return Err(Refusal::new("value", message, "spindle_rpm = 9000"));
+    }
+    let mut wrenches = Vec::with_capacity(clock.time().len() * cases);
+    let mut largest = [0.0_f64; 2];
+    for time in clock.time().iter().map(|time| start + time) {
+        let mean = turns.and_then(|turns| mean_at(turns, time));
+        let mean = mean.unwrap_or_else(|| treated.after.force_at(time));
+        wrenches.push(Wrench::from_force(mean));
+        largest[0] = largest[0].max(mean.norm());
+        let turn = turns
+            .and_then(|turns| turn_at(turns, time))
+            .filter(|_| cases == 2);
+        if let Some(turn) = turn {
+            wrenches.push(Wrench::from_force(turn.strongest));
+            largest[1] = largest[1].max(turn.strongest.norm());
+        }
+    }
+    let load = PathLoad::OfEach {
+        cases,
+        frame: frame(table),
+        wrenches,
+    };
+    Ok((load, largest))
+}

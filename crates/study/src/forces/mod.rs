@@ -1,0 +1,82 @@
+//! Which force was measured, and what is left of it? A dynamometer's file from its text to the force that a study uses.
+//!
+//! [`treat`]: what is done to a record: drift taken off, low-pass, revolutions of the spindle. [`answer`](mod@answer): what
+//! came of it, in numbers. [`output`]: tables and pictures of it.
+
+pub mod answer;
+pub mod output;
+pub mod treat;
+
+pub use answer::{DriftAnswer, ForcesAnswer, RangeAnswer, SummaryAnswer, answer};
+pub use treat::{Air, Refusal, Treated, Treatment, treat};
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_core::load::{ActsOn, Record};
+use armill_formats::measurement::known::{self, Wanted};
+
+use crate::StudyError;
+
+/// A record as its file has it.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Axes of the sensor.
+    pub record: Record,
+    /// Format of the file.
+    pub format: &'static str,
+    /// Columns that were passed over.
+    pub unused: Vec<String>,
+    /// Which cycle of how many.
+    pub cycle: [usize; 2],
+}
+
+/// Why there is no record: the file is wrong, or what was asked of it.
+#[derive(Debug)]
+pub enum Unread {
+    /// Problems of the file.
+    File(StudyError),
+    /// A value that cannot be.
+    Value(Refusal),
+}
+
+/// Reads the record in `path`; `shown` is what problems call it, `cycle` counts from 1.
+///
+/// # Errors
+/// The file cannot be read; its problems; several cycles and none told, or one that it does not have.
+pub fn read(
+    (shown, path): (&str, &Path),
+    acts_on: ActsOn,
+    wanted: &Wanted,
+    cycle: Option<usize>,
+) -> Result<Measured, Unread> {
+    let file = File::open(path).map_err(|error| {
+        Unread::Value(Refusal::new(
+            "file",
+            format!("cannot read {shown}: {error}"),
+            "a text export of DynoWare, or a CSV with `time_s,fx_n,fy_n,fz_n`",
+        ))
+    })?;
+    let known = known::read(shown, BufReader::new(file), acts_on, wanted);
+    let mut known = known.map_err(|problems| Unread::File(problems.into()))?;
+    let count = known.records.len();
+    let chosen = match (cycle, count) {
+        (None, 1) => 1,
+        (Some(cycle), _) if (1..=count).contains(&cycle) => cycle,
+        (told, _) => {
+            let message = match told {
+                None => format!("{shown} holds {count} cycles"),
+                Some(told) => format!("{shown} holds {count} cycles, not a cycle {told}"),
+            };
+            let hint = format!("choose one, from 1 to {count}");
+            return Err(Unread::Value(Refusal::new("cycle", message, hint)));
+        }
+    };
+    Ok(Measured {
+        record: known.records.swap_remove(chosen - 1),
+        format: known.format,
+        unused: known.unused,
+        cycle: [chosen, count],
+    })
+}

@@ -1,0 +1,157 @@
+//! Tables and pictures of a record.
+
+use std::path::{Path, PathBuf};
+
+use armill_core::load::Record;
+use armill_core::load::record::revolutions::Revolution;
+use armill_core::nalgebra::Vector3;
+use armill_formats::file::write_atomically;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::{Envelope, ForcePlot, ForceTrace};
+
+use super::{ForcesAnswer, Treated};
+use crate::StudyError;
+use crate::output::prepare;
+
+/// Decimals of forces that mean something: a millionth of a newton.
+const FORCE_DECIMALS: u8 = 6;
+/// Decimals of times: nanoseconds.
+const TIME_DECIMALS: u8 = 9;
+/// Pixels that a picture is drawn in for each of its own.
+#[cfg(feature = "png")]
+const PNG_SCALE: f64 = 2.0;
+
+/// Writes tables and picture into the folder `out` and gives their paths.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(answer: &ForcesAnswer, treated: &Treated, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    prepare(out)?;
+    let svg = plot(("measured force".to_owned(), subtitle(answer)), treated).to_svg();
+    let mut files = vec![("forces.csv", csv::write(&forces(treated)?))];
+    if let Some(turns) = &treated.turns {
+        files.push(("revolutions.csv", csv::write(&turns_table(turns)?)));
+    }
+    #[cfg(feature = "png")]
+    files.push(("forces.png", armill_report::raster::png(&svg, PNG_SCALE)?));
+    files.push(("forces.svg", svg.into_bytes()));
+    let mut written = Vec::new();
+    for (name, bytes) in files {
+        write_atomically(out.join(name), &bytes)?;
+        written.push(out.join(name));
+    }
+    Ok(written)
+}
+
+/// What was done, for the second line of a picture.
+fn subtitle(answer: &ForcesAnswer) -> String {
+    let mut parts = vec![format!("{}, {} Hz", answer.file, Short(answer.rate_hz))];
+    parts.push(
+        if answer.drift.is_some() {
+            "drift taken off"
+        } else {
+            "drift left in"
+        }
+        .to_owned(),
+    );
+    parts.extend(answer.low_pass_hz.map(|hz| format!("low-pass {hz} Hz")));
+    parts.join("; ")
+}
+
+/// A number without decimals that say nothing.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", (self.0 * 1e3).round() / 1e3)
+    }
+}
+
+/// The picture of a record.
+pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> ForcePlot {
+    let before = &treated.before;
+    let span_s = [before.begin(), before.end()];
+    let envelope = |record: &Record, value: fn(&Vector3<f64>) -> f64| {
+        let samples = record.time().iter().zip(record.force());
+        Envelope::of(span_s, samples.map(|(time, force)| (*time, value(force))))
+    };
+    let trace = |name: &str, value: fn(&Vector3<f64>) -> f64| ForceTrace {
+        name: name.to_owned(),
+        before: envelope(before, value),
+        after: envelope(&treated.after, value),
+    };
+    ForcePlot {
+        title,
+        subtitle,
+        span_s,
+        traces: vec![
+            trace("Fx (N)", |force| force.x),
+            trace("Fy (N)", |force| force.y),
+            trace("Fz (N)", |force| force.z),
+            trace("size (N)", |force| force.norm()),
+        ],
+        air_s: treated
+            .drift
+            .as_ref()
+            .map_or_else(Vec::new, |drift| drift.through.clone()),
+        marks_s: Vec::new(),
+    }
+}
+
+fn forces(treated: &Treated) -> Result<Table, StudyError> {
+    let mut columns = vec![time("time_s", "instant", treated.before.time().to_vec())];
+    for (suffix, what, record) in [
+        ("n", "as it was treated", &treated.after),
+        ("before_n", "as it was measured", &treated.before),
+    ] {
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            columns.push(force(
+                &format!("f{letter}_{suffix}"),
+                &format!("force along {letter} of the sensor, {what}"),
+                record.force().iter().map(|force| force[axis]).collect(),
+            ));
+        }
+    }
+    Ok(Table::new("forces", columns)?)
+}
+
+fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
+    let starts = turns.iter().map(|turn| turn.start).collect();
+    let mut columns = vec![time("start_s", "when the turn begins", starts)];
+    let groups: [(&str, &str, fn(&Revolution) -> Vector3<f64>); 4] = [
+        ("mean", "mean over the turn", |turn| turn.mean),
+        ("least", "least in the turn", |turn| turn.least),
+        ("most", "most in the turn", |turn| turn.most),
+        ("strongest", "where the size is largest in the turn", |turn| {
+            turn.strongest
+        }),
+    ];
+    for (suffix, what, of) in groups {
+        for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+            columns.push(force(
+                &format!("f{letter}_{suffix}_n"),
+                &format!("force along {letter} of the sensor, {what}"),
+                turns.iter().map(|turn| of(turn)[axis]).collect(),
+            ));
+        }
+    }
+    Ok(Table::new("revolutions", columns)?)
+}
+
+fn time(name: &str, description: &str, values: Vec<f64>) -> Column {
+    column(name, "s", description, (TIME_DECIMALS, values))
+}
+
+fn force(name: &str, description: &str, values: Vec<f64>) -> Column {
+    column(name, "N", description, (FORCE_DECIMALS, values))
+}
+
+fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit: Some(unit.to_owned()),
+        description: description.to_owned(),
+        decimals: Some(decimals),
+        data: ColumnData::Float(values),
+    }
+}
