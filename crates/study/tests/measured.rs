@@ -205,7 +205,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
         (rate + turn * Vector3::new(0.5, 0.2, -0.7)).norm() < 1e-5,
         "{rate}"
     );
-    assert!(ask.cut.is_none() && ask.largest.is_none());
+    assert!(ask.cut.is_none() && ask.forces.is_none());
 }
 
 #[test]
