@@ -244,6 +244,63 @@ fn force_and_tool_rest_and_it_is_told_where_that_matters() {
 }
 
 #[test]
+fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
+    let holes = "G21 G90 G17\nS1000 M3\nG0 X0 Y0 Z10\nG81 X10 Y0 Z-10 R2 F200\nX-10\nG80\nM2\n";
+    let drill = "file = \"holes.ngc\"\nfeature = [{ name = \"first\", kind = \"hole\", lines = [4, 4] }]";
+    let table = "\ndrill = { material = \"steel-low-alloy\", diameter_mm = 6 }";
+    let drilled = told(
+        &format!("{CELL}{}", ask(&format!("{drill}{table}"))),
+        &[("holes.ngc", holes)],
+    );
+    let drilled = drilled.unwrap();
+    let program = drilled.paths[0].program.as_ref().unwrap();
+    let [thrust, _] = program.largest_mean_and_peak_n.unwrap();
+    assert!(thrust > 100.0 && program.material.is_some(), "{thrust}");
+    for words in ["chisel edge", "normal to a lip"] {
+        assert!(program.notes.iter().any(|note| note.contains(words)), "{words}");
+    }
+    assert!(
+        drilled
+            .sources
+            .iter()
+            .any(|source| source.key.starts_with("material:"))
+    );
+    // The same thrust as a case along the tool, and the torque about it as a moment, move the holes as far.
+    let force = format!("load = {{ frame = \"feed\", cases_n = [[0, 0, {thrust}]] }}\n");
+    let pushed = told(&format!("{CELL}{force}{}", ask(drill)), &[("holes.ngc", holes)]).unwrap();
+    let shift = |answer: &StudyAnswer| {
+        answer.paths[0].program.as_ref().unwrap().features[0]
+            .shift_um
+            .unwrap()
+    };
+    let ([x, y, _], [x_pushed, y_pushed, _]) = (shift(&drilled), shift(&pushed));
+    let off = (x - x_pushed).hypot(y - y_pushed);
+    // What the torque, some newton metres, adds.
+    assert!(
+        off > 0.0 && off < 0.3 * x_pushed.hypot(y_pushed),
+        "{x} {y} {x_pushed} {y_pushed}"
+    );
+    for (wrong, words) in [
+        (
+            table.replace("steel-low-alloy", "cheese"),
+            "no material is called `cheese`",
+        ),
+        (
+            table.replace("diameter_mm = 6", "diameter_mm = 0"),
+            "diameter of the drill",
+        ),
+        (
+            format!("{table}\nmeasured = {{ file = \"x.csv\", acts_on = \"tool\", frame = \"feed\" }}"),
+            "x.csv",
+        ),
+    ] {
+        let study = format!("{CELL}{}", ask(&format!("{drill}{wrong}")));
+        let error = told(&study, &[("holes.ngc", holes)]).unwrap_err();
+        assert!(error.contains(words) && error.contains("study.toml:"), "{error}");
+    }
+}
+
+#[test]
 fn kienzle_says_what_it_assumes() {
     let cut = CUT
         .replace("[cut]", "[cut]\nlaw = \"kienzle\"")

@@ -249,12 +249,6 @@ impl Cutting {
     fn process(&self, operation: Option<&Operation>, point: &PathPoint) -> Result<Process, NoForces> {
         let line = point.line;
         let depths = operation.and_then(|operation| operation.depths);
-        let told = operation.and_then(|operation| operation.spindle).map(f64::abs);
-        let spindle = told.filter(|speed| *speed > 0.0).or(self.spindle);
-        let feed = match point.pace {
-            Pace::Feed(feed) if feed > 0.0 => Some(feed),
-            _ => self.feed,
-        };
         let immersion = match (depths, self.immersion) {
             (None, immersion) => immersion,
             (Some(depths), Immersion::Up(_)) => Immersion::Up(depths.radial),
@@ -267,12 +261,32 @@ impl Cutting {
             law: self.law,
             depth: depths.map_or(self.depth, |depths| depths.axial),
             engagement: engagement.map_err(|error| NoForces::Cut { line, error })?,
-            feed: feed.ok_or(NoForces::NoFeed { line })?,
-            spindle: spindle
-                .filter(|speed| *speed > 0.0)
-                .ok_or(NoForces::NoSpindle { line })?,
+            feed: feed_at(point, self.feed)?,
+            spindle: spindle_of(operation, self.spindle, point)?,
         })
     }
+}
+
+/// The feed to a point, m/s: the program's, or this one where it tells none.
+pub(super) fn feed_at(point: &PathPoint, else_this: Option<f64>) -> Result<f64, NoForces> {
+    let line = point.line;
+    match point.pace {
+        Pace::Feed(feed) if feed > 0.0 => Ok(feed),
+        _ => else_this.ok_or(NoForces::NoFeed { line }),
+    }
+}
+
+/// The speed of the spindle at a point, rad/s, whichever way it turns: the operation's, or this one where it tells none.
+pub(super) fn spindle_of(
+    operation: Option<&Operation>,
+    else_this: Option<f64>,
+    point: &PathPoint,
+) -> Result<f64, NoForces> {
+    let line = point.line;
+    let told = operation.and_then(|operation| operation.spindle).map(f64::abs);
+    let turns = |speed: &f64| *speed > 0.0;
+    let speed = told.filter(turns).or(else_this.filter(turns));
+    speed.ok_or(NoForces::NoSpindle { line })
 }
 
 /// What the tool meets at a point.

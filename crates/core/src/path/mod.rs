@@ -2,13 +2,14 @@
 //!
 //! [`shape`]: circles and lines on a workpiece plane. [`program`]: what a tool path program tells, move after move.
 //! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned.
-//! [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`]: what that pushes with; [`clock`]: when. [`roundness`](mod@roundness) and
+//! [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`], [`drilled`]: what that pushes with; [`clock`]: when. [`roundness`](mod@roundness) and
 //! [`feature`]: the circle, line, plane or hole that comes out.
 
 pub mod bite;
 pub mod clock;
 pub mod cutter_profile;
 pub mod cutting;
+pub mod drilled;
 pub mod feature;
 pub mod placing;
 pub mod program;
@@ -22,6 +23,7 @@ pub use bite::{Bite, BiteKind, Milling};
 pub use clock::{Clock, NoTime, Speeds};
 pub use cutter_profile::CutterProfile;
 pub use cutting::{Cutting, CuttingForces, ForcesTold, Greatest, Met, NoForces};
+pub use drilled::Drill;
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step};

@@ -29,6 +29,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::file::cut::Cut;
+use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Ask, Sheet, Study, Subject};
 use crate::parts::left_out;
 use crate::run::Found;
@@ -173,10 +174,13 @@ fn robot_answer(study: &Study) -> RobotAnswer {
 
 /// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind `material:`.
 pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
-    let sources = match cut.cutting.law {
+    told_by(match cut.cutting.law {
         CuttingLaw::Mechanistic(_) => cut.material.mechanistic_sources(),
         CuttingLaw::Kienzle(_) => cut.material.kienzle_sources(),
-    };
+    })
+}
+
+fn told_by(sources: Vec<&Source>) -> Vec<Source> {
     let of_material = |source: &Source| Source {
         key: format!("material:{}", source.key),
         ..source.clone()
@@ -200,10 +204,20 @@ fn sources(study: &Study) -> Vec<Source> {
     );
     sources.extend(study.load_source.iter().map(|source| own("load", source)));
     let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
-        Subject::Program(program) => program.cut.as_ref(),
+        Subject::Program(program) => Some(program),
         _ => None,
     });
-    for source in cuts.flat_map(sources_of_cut) {
+    let of_program = |program: &ProgramAsk| {
+        let cut = program.cut.as_ref().map(sources_of_cut);
+        let drill = || {
+            program
+                .drill
+                .as_ref()
+                .map(|drill| told_by(drill.material.kienzle_sources()))
+        };
+        cut.or_else(drill).unwrap_or_default()
+    };
+    for source in cuts.flat_map(|program| of_program(program)) {
         if !sources.contains(&source) {
             sources.push(source);
         }

@@ -1,19 +1,23 @@
 //! A tool path program in the answer: a path like any other, with what only a program has beside it.
 
+mod feature;
+
+pub use feature::FeatureResult;
+
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Held, evaluate};
 use armill_core::map::Track;
 use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
-use armill_core::path::{Became, Strayed, became};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
+use armill_formats::material::Material;
 use serde::Serialize;
 
 use super::limits::{LimitsResult, RestResult, StockResult};
 use super::measured::{self, MeasuredResult};
 use super::path::{PathResult, joint_ranges};
-use super::point::{PointAnswer, SettingAnswer, tidy};
+use super::point::{PointAnswer, SettingAnswer};
 use crate::file::program::ProgramAsk;
 use crate::file::resolve::{Setting, Study};
 use crate::run::{ProgramFound, question};
@@ -76,36 +80,6 @@ pub struct OperationResult {
     pub points: usize,
     /// Largest in-plane deviation.
     pub max_in_plane_um: Option<f64>,
-}
-
-/// What became of a feature under one load case.
-#[derive(Clone, Debug, Serialize)]
-pub struct FeatureResult {
-    /// Its name.
-    pub name: String,
-    /// `circle`, `line`, `plane` or `hole`.
-    pub kind: &'static str,
-    /// The case, from 1.
-    pub case: usize,
-    /// Points that made it.
-    pub points: usize,
-    /// Circle: radius of the tool's path as programmed.
-    pub radius_mm: Option<f64>,
-    /// Circle: what it became larger by.
-    pub radius_change_um: Option<f64>,
-    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along the
-    /// tool.
-    pub shift_um: Option<[f64; 3]>,
-    /// Circle: peak to valley about the least-squares circle.
-    pub roundness_um: Option<f64>,
-    /// Line: peak to valley across the tool.
-    pub straightness_across_um: Option<f64>,
-    /// Line: peak to valley along the tool.
-    pub straightness_normal_um: Option<f64>,
-    /// Plane: peak to valley.
-    pub flatness_um: Option<f64>,
-    /// Why there is no result.
-    pub missing: Option<&'static str>,
 }
 
 /// A point where the deviation is large, and why.
@@ -186,7 +160,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
             operations: told.operations(),
             features: told.features(),
             worst_points,
-            material: ask.cut.as_ref().map(|cut| cut.material.name.clone()),
+            material: material(ask).map(|material| material.name.clone()),
             points_without_force: found.forces.map_or(0, |forces| forces.without_force),
             largest_mean_and_peak_n: found.forces.map(|forces| [forces.largest_mean, forces.greatest]),
             stock: found
@@ -230,6 +204,12 @@ pub(super) fn warnings(path: &PathResult) -> Vec<String> {
     warnings
 }
 
+/// What is cut or drilled.
+fn material(ask: &ProgramAsk) -> Option<&Material> {
+    let cut = ask.cut.as_ref().map(|cut| &cut.material);
+    cut.or(ask.drill.as_ref().map(|drill| &drill.material))
+}
+
 struct Told<'a> {
     study: &'a Study,
     ask: &'a ProgramAsk,
@@ -258,6 +238,12 @@ impl Told<'_> {
         }
         notes.extend(
             self.ask
+                .drill
+                .iter()
+                .flat_map(|drill| drill.remarks.iter().cloned()),
+        );
+        notes.extend(
+            self.ask
                 .measured
                 .iter()
                 .flat_map(|measured| measured::notes(measured)),
@@ -284,91 +270,6 @@ impl Told<'_> {
         };
         let told = all.iter().enumerate().map(of);
         told.filter(|operation| operation.points > 0).collect()
-    }
-
-    fn features(&self) -> Vec<FeatureResult> {
-        let cases = 0..self.found.answer.answers.case_count;
-        let of = |feature: &crate::file::program::FeatureTable| {
-            let [first, last] = feature.lines;
-            let points = &self.track().points;
-            let within: Vec<usize> = (0..points.len())
-                .filter(|i| (first..=last).contains(&points[*i].line))
-                .collect();
-            cases
-                .clone()
-                .map(|case| self.feature(feature, &within, case))
-                .collect::<Vec<_>>()
-        };
-        self.ask.features.iter().flat_map(of).collect()
-    }
-
-    fn feature(
-        &self,
-        feature: &crate::file::program::FeatureTable,
-        points: &[usize],
-        case: usize,
-    ) -> FeatureResult {
-        let kind = feature.kind.kind();
-        let mut told = FeatureResult {
-            name: feature.name.clone(),
-            kind: feature.kind.word(),
-            case: case + 1,
-            points: points.len(),
-            radius_mm: None,
-            radius_change_um: None,
-            shift_um: None,
-            roundness_um: None,
-            straightness_across_um: None,
-            straightness_normal_um: None,
-            flatness_um: None,
-            missing: None,
-        };
-        let answers = &self.found.answer.answers;
-        if points.iter().any(|i| answers.points[*i].is_err()) {
-            told.missing = Some("not every point of it is reached");
-            return told;
-        }
-        let path_from_base = self.track().placing.base_from_path.inverse();
-        let strayed = |i: &usize| {
-            let point = &self.track().points[*i];
-            Strayed {
-                at: point.at,
-                axis: path_from_base.rotation * self.track().placing.spindle(point),
-                by: path_from_base * answers.deviations_at(*i)[case],
-            }
-        };
-        let strayed: Vec<Strayed> = points.iter().map(strayed).collect();
-        let um = |v: Vector3<f64>| Some(v.map(|c| c * 1e6).into());
-        match became(kind, &strayed) {
-            Some(Became::Circle {
-                radius,
-                radius_change,
-                centre_shift,
-                roundness,
-            }) => {
-                told.radius_mm = Some(tidy(radius * 1e3));
-                told.radius_change_um = Some(radius_change * 1e6);
-                told.shift_um = um(centre_shift);
-                told.roundness_um = Some(roundness * 1e6);
-            }
-            Some(Became::Line {
-                straightness_across,
-                straightness_normal,
-                offset,
-            }) => {
-                told.straightness_across_um = Some(straightness_across * 1e6);
-                told.straightness_normal_um = Some(straightness_normal * 1e6);
-                told.shift_um = um(offset);
-            }
-            Some(Became::Plane { flatness, offset }) => {
-                told.flatness_um = Some(flatness * 1e6);
-                let normal = strayed.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
-                told.shift_um = um(normal * offset);
-            }
-            Some(Became::Hole { shift }) => told.shift_um = um(shift),
-            None => told.missing = Some("its points make no such feature"),
-        }
-        told
     }
 
     /// The worst point, then the worst of what is not near the ones before.

@@ -13,6 +13,7 @@ use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
 use super::cut::{self, CutTable};
+use super::drill;
 use super::format::{AskKind, AskTable, LoadFrameName, LoadTable, PlaneTable, PostureTable, StudyFile};
 use super::measured::SynchroniseName;
 use super::memory;
@@ -92,6 +93,7 @@ impl Resolver<'_> {
         };
         let pushes = match (self.cut(), self.load()) {
             (cut, _) if table.measured.is_some() => self.measured(places, cut),
+            _ if table.drill.is_some() => self.drill(places),
             (Some(cut), _) => cut::resolve(places, cut).map(|cut| Pushes::Cut(Box::new(cut))),
             (None, Some(load)) => load_cases(places, load).map(Pushes::Cases),
             (None, None) => None,
@@ -114,11 +116,11 @@ impl Resolver<'_> {
         cut.filter(|_| self.table.kind == AskKind::Program)
     }
 
-    /// Whether the forces come with the program: from its cut or as they were measured.
+    /// Whether the forces come with the program: from its cut, its drill, or as they were measured.
     fn brings_forces(&self) -> bool {
         let program = self.table.program.as_ref();
-        let measured = program.is_some_and(|program| program.measured.is_some());
-        self.cut().is_some() || measured && self.table.kind == AskKind::Program
+        let brings = program.is_some_and(|program| program.measured.is_some() || program.drill.is_some());
+        self.cut().is_some() || brings && self.table.kind == AskKind::Program
     }
 
     /// Measured forces, with the cut if it is to predict them.
@@ -128,12 +130,30 @@ impl Resolver<'_> {
             places.problem("load", message, "remove one");
             return None;
         }
-        let measured = self.table.program.as_ref()?.measured.as_ref()?;
+        let program = self.table.program.as_ref()?;
+        if program.drill.is_some() {
+            let message = "this program has measured forces and a drill";
+            places.problem("program.drill", message, "remove one");
+            return None;
+        }
+        let measured = program.measured.as_ref()?;
         let predicts = measured.synchronise == Some(SynchroniseName::Predicted);
         match cut.filter(|_| predicts) {
             Some(cut) => Some(Pushes::Measured(Some(Box::new(cut::resolve(places, cut)?)))),
             None => Some(Pushes::Measured(None)),
         }
+    }
+
+    /// The drill, if nothing else pushes.
+    fn drill(&self, places: &mut Places<'_>) -> Option<Pushes> {
+        let program = self.table.program.as_ref()?;
+        if self.table.load.is_some() || self.table.cut.is_some() {
+            let message = "this program has a drill, and a load or a cut";
+            places.problem("program.drill", message, "remove one");
+            return None;
+        }
+        let drill = drill::resolve(places, program.drill.as_ref()?)?;
+        Some(Pushes::Drill(Box::new(drill)))
     }
 
     fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {

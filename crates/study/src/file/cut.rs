@@ -7,7 +7,7 @@ use armill_core::load::{
 };
 use armill_core::nalgebra::Point3;
 use armill_core::path::{Cutting, Greatest, Stock, StockError};
-use armill_formats::material::Material;
+use armill_formats::material::{Material, Together};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -124,7 +124,7 @@ const RADIAL_RATIO: [f64; 2] = [0.3, 0.1];
 const AXIAL_RATIO: [f64; 2] = [0.2, 0.1];
 /// Standard uncertainty of coefficients that one set alone tells: half the scatter among sets of one alloy, whose
 /// Ktc differ by a factor of 2.2.
-const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
+pub(super) const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
 
 /// A cut, worked out, and where its numbers come from.
 #[derive(Clone, Debug)]
@@ -141,7 +141,7 @@ pub struct Cut {
 
 /// The cut of this table; `None` where it has problems.
 pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> {
-    let material = material(places, &table.material);
+    let material = material(places, "cut.material", &table.material);
     let cutter = cutter(&table.cutter)
         .map_err(|error| {
             places.problem(
@@ -212,18 +212,14 @@ fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
         .map(Some)
 }
 
-fn material(places: &mut Places<'_>, name: &str) -> Option<Material> {
+pub(super) fn material(places: &mut Places<'_>, key: &str, name: &str) -> Option<Material> {
     // Those of the library are read by its tests.
     match library::material(name) {
         Some(Ok(material)) => Some(material),
         Some(Err(_)) | None => {
             let names: Vec<&str> = library::MATERIALS.iter().map(|entry| entry.name).collect();
             let message = format!("no material is called `{name}`");
-            places.problem(
-                "cut.material",
-                message,
-                &format!("the library has: {}", names.join(", ")),
-            );
+            places.problem(key, message, &format!("the library has: {}", names.join(", ")));
             None
         }
     }
@@ -304,27 +300,14 @@ fn law(
                     RADIAL_RATIO[0], RADIAL_RATIO[1], AXIAL_RATIO[0], AXIAL_RATIO[1]
                 ));
             }
-            let [mut specific_force, exponent] = together.law;
-            if let Some(fraction) = given.or(one_set(together.sets)) {
-                specific_force.standard_uncertainty = fraction * specific_force.value;
-            }
             if together.sets == 1 && given.is_none() {
                 remarks.push(one_set_remark(&material.name));
             }
-            let ratio = |given: Option<[f64; 2]>, assumed: [f64; 2]| {
-                let [value, standard_uncertainty] = given.unwrap_or(assumed);
-                Estimate {
-                    value,
-                    standard_uncertainty,
-                }
-            };
-            Kienzle::new(KienzleValues {
-                specific_force,
-                exponent,
-                radial_ratio: ratio(table.radial_ratio, RADIAL_RATIO),
-                axial_ratio: ratio(table.axial_ratio, AXIAL_RATIO),
-            })
-            .map(CuttingLaw::Kienzle)
+            let ratios = [
+                table.radial_ratio.unwrap_or(RADIAL_RATIO),
+                table.axial_ratio.unwrap_or(AXIAL_RATIO),
+            ];
+            kienzle(&together, given.or(one_set(together.sets)), ratios).map(CuttingLaw::Kienzle)
         }
     };
     wanted
@@ -332,7 +315,30 @@ fn law(
         .ok()
 }
 
-fn one_set_remark(material: &str) -> String {
+/// Kienzle's law of a material; `relative` in place of the scatter of its sets, and the ratios of radial and axial to
+/// cutting force, each with its standard uncertainty.
+pub(super) fn kienzle(
+    together: &Together<[Estimate; 2]>,
+    relative: Option<f64>,
+    ratios: [[f64; 2]; 2],
+) -> Result<Kienzle, CuttingError> {
+    let [mut specific_force, exponent] = together.law;
+    if let Some(fraction) = relative {
+        specific_force.standard_uncertainty = fraction * specific_force.value;
+    }
+    let [radial_ratio, axial_ratio] = ratios.map(|[value, standard_uncertainty]| Estimate {
+        value,
+        standard_uncertainty,
+    });
+    Kienzle::new(KienzleValues {
+        specific_force,
+        exponent,
+        radial_ratio,
+        axial_ratio,
+    })
+}
+
+pub(super) fn one_set_remark(material: &str) -> String {
     format!(
         "{material}: one set of coefficients alone is known; {:.0} % is taken as its standard uncertainty.",
         RELATIVE_U_OF_ONE_SET * 100.0

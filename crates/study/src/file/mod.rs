@@ -5,6 +5,7 @@
 
 pub mod compliance;
 pub mod cut;
+pub mod drill;
 pub mod format;
 pub mod measured;
 pub mod positioner;

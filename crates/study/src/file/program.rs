@@ -1,5 +1,7 @@
 //! A tool path program of an ask: its file, where it lies on the part, how the tool is turned, how finely it is cut.
 
+mod cut_up;
+
 use std::fs::File;
 use std::io::BufReader;
 use std::ops::Range;
@@ -8,11 +10,9 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
-use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::nalgebra::Vector3;
 use armill_core::path::clock::begins;
-use armill_core::path::{
-    FeatureKind, ForcesTold, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step,
-};
+use armill_core::path::{FeatureKind, ForcesTold, Operation, Placing, Sampling, Spin};
 use armill_core::watch::Watch;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
@@ -20,7 +20,10 @@ use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use cut_up::CutUp;
+
 use super::cut::Cut;
+use super::drill::{DrillCut, DrillTable};
 use super::measured::{self, Course, MeasuredForces, MeasuredTable};
 use super::places::Places;
 use super::quantities::{pose_mm_deg, positive};
@@ -63,6 +66,8 @@ pub struct ProgramTable {
     pub feature: Vec<FeatureTable>,
     /// Measured forces: the load of this program.
     pub measured: Option<MeasuredTable>,
+    /// A drill: its thrust and torque are the load of this program.
+    pub drill: Option<DrillTable>,
 }
 
 /// Unit of lengths.
@@ -197,7 +202,9 @@ pub struct ProgramAsk {
     pub features: Vec<FeatureTable>,
     /// The cut that the forces come from, in place of given cases.
     pub cut: Option<Cut>,
-    /// What is worth telling of its forces.
+    /// The drill, likewise.
+    pub drill: Option<DrillCut>,
+    /// What is worth telling of the forces of either.
     pub forces: Option<ForcesTold>,
     /// The record that the forces come from.
     pub measured: Option<Box<MeasuredForces>>,
@@ -209,6 +216,8 @@ pub(super) enum Pushes {
     Cases(LoadCases),
     /// What the cut needs.
     Cut(Box<Cut>),
+    /// What the drill needs.
+    Drill(Box<DrillCut>),
     /// What was measured; the cut predicts it where that is asked for.
     Measured(Option<Box<Cut>>),
 }
@@ -354,7 +363,8 @@ pub(super) fn read(
         },
     };
     let mut setting = setting;
-    let mut measured = None;
+    let (mut measured, mut drill) = (None, None);
+    let untold = "the program tells feed and spindle, or feed_mm_min and spindle_rpm of the study do";
     let (load, cut, forces) = match pushes {
         Pushes::Measured(cut) => {
             let Some(told) = &table.measured else {
@@ -376,6 +386,17 @@ pub(super) fn read(
             (load, None, None)
         }
         Pushes::Cases(load) => (PathLoad::Cases(load), None, None),
+        Pushes::Drill(of) => match of.drill.along(&cut_up.points, &cut_up.operations, &placing) {
+            Ok((load, told)) => {
+                setting.doubt.relative = told.relative_uncertainty;
+                drill = Some(*of);
+                (load, None, Some(told))
+            }
+            Err(error) => {
+                places.problem("program.file", format!("{shown}: {error}"), untold);
+                return Ok(None);
+            }
+        },
         Pushes::Cut(cut) => {
             let (points, operations) = (&cut_up.points, &cut_up.operations);
             match cut.cutting.along(points, operations, &placing, None, Watch::NONE) {
@@ -384,9 +405,7 @@ pub(super) fn read(
                     (PathLoad::Cuts(found.cuts), Some(*cut), Some(found.told))
                 }
                 Err(error) => {
-                    let hint =
-                        "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
-                    places.problem("program.file", format!("{shown}: {error}"), hint);
+                    places.problem("program.file", format!("{shown}: {error}"), untold);
                     return Ok(None);
                 }
             }
@@ -408,6 +427,7 @@ pub(super) fn read(
         wants_limits: table.limits.unwrap_or(true),
         features: table.feature.clone(),
         cut,
+        drill,
         forces,
         measured,
         setting,
@@ -421,66 +441,4 @@ fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
         places.problem(key, message, BESIDE_STUDY);
     };
     std::fs::read_to_string(path).map_err(tell).ok()
-}
-
-/// A program while it is cut into points.
-struct CutUp {
-    sampler: Sampler,
-    points: Vec<PathPoint>,
-    operations: Vec<(usize, Operation)>,
-    moves: usize,
-    time: f64,
-    too_many: bool,
-    /// Length of the rapid before each stretch of cuts, m.
-    rapids: Vec<f64>,
-    /// Length of the rapids since the last cut, m.
-    since: f64,
-    stands: Option<Point3<f64>>,
-}
-
-impl CutUp {
-    fn new(sampling: Sampling) -> CutUp {
-        CutUp {
-            sampler: Sampler::new(sampling),
-            points: Vec::new(),
-            operations: Vec::new(),
-            moves: 0,
-            time: 0.0,
-            too_many: false,
-            rapids: Vec::new(),
-            since: 0.0,
-            stands: None,
-        }
-    }
-
-    fn take(&mut self, step: Step) {
-        match step {
-            Step::Operation(operation) => self.operations.push((self.points.len(), operation)),
-            Step::Move(next) => {
-                self.moves += 1;
-                if self.points.len().saturating_add(self.sampler.count(&next)) > MOST_POINTS {
-                    self.too_many = true;
-                    return;
-                }
-                let before = self.points.last().map_or(0.0, |point| point.along);
-                let first = self.points.len();
-                self.sampler.points(&next, |point| self.points.push(point));
-                let length = self.points.last().map_or(0.0, |point| point.along) - before;
-                if let Pace::Feed(speed) = next.pace
-                    && speed > 0.0
-                {
-                    self.time += length / speed;
-                }
-                if !next.pace.cuts() {
-                    self.since += self.stands.map_or(0.0, |from| (next.end - from).norm());
-                } else if first < self.points.len() {
-                    if begins(&self.points, first) {
-                        self.rapids.push(self.since);
-                    }
-                    self.since = 0.0;
-                }
-                self.stands = Some(next.end);
-            }
-        }
-    }
 }
