@@ -33,6 +33,7 @@ pub struct LimitsResult {
 #[derive(Clone, Debug, Serialize)]
 pub struct LimitResult {
     /// How much.
+    // unit: the one told beside it
     pub value: f64,
     /// Its unit.
     pub unit: &'static str,

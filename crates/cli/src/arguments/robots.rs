@@ -1,0 +1,112 @@
+//! What can be typed behind `armill robots`.
+
+use std::path::PathBuf;
+
+use armill_formats::robot::format::Format;
+use clap::{Args, Subcommand};
+
+#[derive(Debug, Args)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  armill robots
+  armill robots yaskawa/mh12
+  armill robots my-arm.urdf --drawing arm.svg
+  armill robots import my-arm.urdf --out my-arm.toml
+  armill robots check --help"
+)]
+pub(crate) struct RobotsArguments {
+    #[command(subcommand)]
+    pub action: Option<RobotsAction>,
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
+    pub name: Option<String>,
+    /// Write a drawing of the arm to this file (.svg, .png)
+    #[arg(long, value_name = "FILE", requires = "name")]
+    pub drawing: Option<PathBuf>,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum RobotsAction {
+    /// Make a robot file of armill from a URDF, xacro, OPW file, DH table or chain
+    Import(ImportArguments),
+    /// Compare a robot file with poses read from its pendant, and say which sign, zero or base differs
+    Check(RobotsCheckArguments),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The format follows from the ending: .urdf, .xacro, .xml; .yaml (OPW parameters); .dh, .csv (Denavit-Hartenberg table);
+.chain, .fsf (elementary motions). The file made says in comments what was assumed and what is missing.
+
+Examples:
+  armill robots import kr120.urdf --out kr120.toml
+  armill robots import m20ia_macro.xacro --tip tool0 --out m20ia.toml
+  armill robots import opw_parameters_mh12.yaml > mh12.toml
+  armill robots import table.txt --format dh --out arm.toml --force")]
+pub(crate) struct ImportArguments {
+    /// Robot file of another format
+    pub file: PathBuf,
+    /// Link of a URDF or xacro that is the flange (the end with the most moving joints if left out)
+    #[arg(long, value_name = "LINK")]
+    pub tip: Option<String>,
+    /// Format: urdf, xacro, opw, dh, chain (by ending and content if left out)
+    #[arg(long, value_name = "NAME")]
+    pub format: Option<Format>,
+    /// Robot file to make (printed on stdout if left out)
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Overwrite the file if it is there
+    #[arg(long, requires = "out")]
+    pub force: bool,
+    /// Print what was made as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+A reading is joint positions, then the pose that the pendant shows with them: X,Y,Z in mm and the orientation
+kuka A,B,C; fanuc W,P,R; yaskawa and staubli Rx,Ry,Rz (deg); abb q1,q2,q3,q4; ur rotation vector (rad).
+Read two or three poses with every joint well away from 0 and 90 deg, base and world frame of the robot, tool 0.
+
+Examples:
+  armill robots check yaskawa/mh12 --convention yaskawa --pose \"10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09\"")]
+pub(crate) struct RobotsCheckArguments {
+    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
+    pub robot: String,
+    /// What the pendant shows: joints = pose; give it once a reading
+    #[arg(
+        long,
+        value_name = "J1,... = X,Y,Z,...",
+        required = true,
+        allow_hyphen_values = true
+    )]
+    pub pose: Vec<String>,
+    /// Whose pendant: kuka, abb, fanuc, yaskawa, staubli, ur
+    #[arg(long, value_name = "MAKER")]
+    pub convention: String,
+    /// Flange to TCP that the pendant had active
+    #[arg(
+        long,
+        value_name = "X,Y,Z[,RX,RY,RZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub tool_mm: Option<Vec<f64>>,
+    /// Frame that the pendant is believed to count from
+    #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
+    pub base: String,
+    /// Distance within which a reading agrees
+    #[arg(long, value_name = "D", default_value_t = 1.0, allow_hyphen_values = true)]
+    pub within_mm: f64,
+    /// Angle within which a reading agrees
+    #[arg(long, value_name = "A", default_value_t = 0.1, allow_hyphen_values = true)]
+    pub within_deg: f64,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
