@@ -165,13 +165,8 @@ fn material(places: &mut Places<'_>, name: &str) -> Option<Material> {
     match library::material(name) {
         Some(Ok(material)) => Some(material),
         Some(Err(_)) | None => {
-            let names: Vec<&str> = library::MATERIALS.iter().map(|entry| entry.name).collect();
             let message = format!("no material is called `{name}`");
-            places.problem(
-                "cut.material",
-                message,
-                &format!("the library has: {}", names.join(", ")),
-            );
+            places.problem("cut.material", message, &library::hint_of_material(name));
             None
         }
     }

@@ -9,8 +9,11 @@ use armill_core::frame::Isometry;
 use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{FeatureKind, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step};
+use armill_core::path::{
+    FeatureKind, NoForces, Operation, Pace, PathPoint, Placing, Sampler, Sampling, Spin, Step,
+};
 use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
 use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
@@ -30,6 +33,8 @@ pub struct ProgramTable {
     pub file: String,
     /// Unit of lengths where the file does not tell.
     pub unit: Option<UnitName>,
+    /// Whose cutter locations (APT, CLSF) these are, where the file does not show it.
+    pub dialect: Option<DialectName>,
     /// What the rotary words of G-code turn.
     pub rotaries: Option<RotariesName>,
     /// Tool table of the machine that the G-code is for, as LinuxCNC writes it, relative to the study.
@@ -64,6 +69,16 @@ pub enum UnitName {
     Mm,
     /// Inch.
     Inch,
+}
+
+/// Whose cutter locations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DialectName {
+    /// Siemens NX: a GOTO without tool axis keeps the one before.
+    Nx,
+    /// SolidWorks CAM: a GOTO without tool axis means 0,0,1.
+    SolidWorks,
 }
 
 /// What rotary words turn, from the frame of the machine outwards.
@@ -246,6 +261,11 @@ pub(super) fn read(
         return Ok(None);
     };
     let path = folder.join(&table.file);
+    if path.is_dir() {
+        let message = format!("{} is a folder", path.display());
+        places.problem("program.file", message, "name the file in it");
+        return Ok(None);
+    }
     let file = match File::open(&path) {
         Ok(file) => file,
         Err(error) => {
@@ -281,6 +301,10 @@ pub(super) fn read(
     };
     let wanted = Wanted {
         unit,
+        dialect: table.dialect.map(|dialect| match dialect {
+            DialectName::Nx => Dialect::Nx,
+            DialectName::SolidWorks => Dialect::SolidWorks,
+        }),
         rotaries: table.rotaries.map(RotariesName::rotaries),
         tools,
         subroutines: Some(&subroutine),
@@ -313,6 +337,9 @@ pub(super) fn read(
         places.problem("program.spin", message, hint);
         return Ok(None);
     }
+    if !features_have_points(places, table, &cut_up.points) {
+        return Ok(None);
+    }
     let base_from_part = setting.plane.base_from_part;
     let part_from_path = table
         .part_from_path_mm_deg
@@ -343,7 +370,12 @@ pub(super) fn read(
                 )
             }
             Err(error) => {
-                let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+                let hint = match error {
+                    NoForces::Cut { .. } => {
+                        "depths are those of the program, or cut.axial_depth_mm and cut.radial_depth_mm"
+                    }
+                    _ => "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do",
+                };
                 places.problem("program.file", format!("{shown}: {error}"), hint);
                 return Ok(None);
             }
@@ -368,6 +400,24 @@ pub(super) fn read(
         without_force,
         setting,
     }))
+}
+
+/// Whether every feature has points of the program; tells those that have none.
+fn features_have_points(places: &mut Places<'_>, table: &ProgramTable, points: &[PathPoint]) -> bool {
+    let mut all = true;
+    for (index, feature) in table.feature.iter().enumerate() {
+        let [first, last] = feature.lines;
+        if points.iter().any(|point| (first..=last).contains(&point.line)) {
+            continue;
+        }
+        all = false;
+        let lines = || points.iter().map(|point| point.line);
+        let (low, high) = (lines().min().unwrap_or(0), lines().max().unwrap_or(0));
+        let message = format!("`{}`: no cut stands in lines {first} to {last}", feature.name);
+        let hint = format!("the cuts of the program stand in lines {low} to {high}");
+        places.problem(&format!("program.feature[{index}].lines"), message, &hint);
+    }
+    all
 }
 
 /// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.
