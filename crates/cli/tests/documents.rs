@@ -97,6 +97,7 @@ fn guide_runs() {
         "robot-file",
         "results",
         "tool-path",
+        "tool-path-words",
         "material-file",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
@@ -108,7 +109,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 8, "name the new page in `guide_runs`");
+    assert_eq!(pages, 9, "name the new page in `guide_runs`");
 }
 
 #[test]
