@@ -9,7 +9,7 @@ fn every_material_has_a_line_with_its_laws_and_sets() {
     let said = Cell::new().armill(&["materials"]).fine();
     assert_eq!(said.out.lines().count(), 42);
     for line in said.out.lines() {
-        assert!(line.chars().count() <= 120, "{line}");
+        assert!(line.chars().count() <= 140, "{line}");
         assert!(
             line.contains("mechanistic (") || line.contains("kienzle ("),
             "{line}"

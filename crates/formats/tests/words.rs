@@ -129,7 +129,7 @@ fn every_code_that_is_known_stands_on_the_page() {
 fn apt(program: &str) -> Result<(apt::Summary, Vec<Step>), Problems> {
     let mut steps = Vec::new();
     let wanted = apt::Wanted {
-        dialect: Some(apt::Dialect::Nx),
+        dialect: Some(apt::Dialect::SolidWorks),
         ..apt::Wanted::default()
     };
     let summary = apt::read("p.cls", program.as_bytes(), &wanted, &mut |step| steps.push(step))?;

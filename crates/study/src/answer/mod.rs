@@ -3,6 +3,7 @@
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
 
+mod cautions;
 mod map;
 mod path;
 mod point;
@@ -238,7 +239,7 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             path.name, path.outside_joint_limits, path.points, path.branch
         ));
     }
-    warnings.extend(paths.iter().flat_map(program::warnings));
+    warnings.extend(paths.iter().flat_map(cautions::of_program));
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());
     warnings
