@@ -97,6 +97,7 @@ fn guide_runs() {
         "robot-file",
         "results",
         "tool-path",
+        "tool-path-words",
         "material-file",
         "measured-forces",
     ] {

@@ -9,7 +9,7 @@ fn every_material_has_a_line_with_its_laws_and_sets() {
     let said = Cell::new().armill(&["materials"]).fine();
     assert_eq!(said.out.lines().count(), 42);
     for line in said.out.lines() {
-        assert!(line.chars().count() <= 120, "{line}");
+        assert!(line.chars().count() <= 140, "{line}");
         assert!(
             line.contains("mechanistic (") || line.contains("kienzle ("),
             "{line}"
@@ -42,14 +42,7 @@ fn every_material_has_a_line_with_its_laws_and_sets() {
 fn a_material_is_shown_with_every_set_and_what_is_used() {
     let cell = Cell::new();
     let said = cell.armill(&["materials", "aluminium-7075-t6"]).fine();
-    for words in [
-        "Ktc",
-        "767.01",
-        "951.365",
-        "1319.41",
-        "1012.595 ± 281.24",
-        "Sources:",
-    ] {
+    for words in ["Ktc", "767.01", "951.365", "1319.41", "1013 ± 281.2", "Sources:"] {
         assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
     }
     let shown = cell
@@ -61,7 +54,8 @@ fn a_material_is_shown_with_every_set_and_what_is_used() {
     assert_eq!(number(&used["sets"]), 3.0);
     assert!((number(&used["ktc_n_per_mm2"]) - 1012.595).abs() < 1e-9);
     assert!((number(&used["spread_ktc_n_per_mm2"]) - 281.24).abs() < 0.01);
-    assert_eq!(shown["mechanistic"].as_array().unwrap().len(), 3);
+    // A fourth set lacks its axial coefficients.
+    assert_eq!(shown["mechanistic"].as_array().unwrap().len(), 4);
     let source = shown["mechanistic"][0]["source"].as_str().unwrap();
     let sources = shown["sources"].as_array().unwrap();
     assert!(sources.iter().any(|told| told["key"] == source));

@@ -136,16 +136,17 @@ pub fn material(name: &str) -> Option<Result<Material, Problems>> {
 pub fn find_material(name: &str) -> Result<Material, StudyError> {
     let found = material(name).ok_or_else(|| {
         let message = format!("no material of the library is called `{name}`");
-        let like = spelt_like(MATERIALS, &name.to_lowercase());
-        StudyError::value(
-            message,
-            like.map_or_else(
-                || "`armill materials` lists all".to_owned(),
-                |like| format!("did you mean `{like}`? `armill materials` lists all"),
-            ),
-        )
+        StudyError::value(message, hint_of_material(name))
     })?;
     Ok(found?)
+}
+
+/// What to try where no material is called `name`.
+pub(crate) fn hint_of_material(name: &str) -> String {
+    spelt_like(MATERIALS, &name.to_lowercase()).map_or_else(
+        || "`armill materials` lists all".to_owned(),
+        |like| format!("did you mean `{like}`? `armill materials` lists all"),
+    )
 }
 
 /// The name of the robot library that is most like `name`, if any is.

@@ -408,6 +408,24 @@ fn what_is_wrong_is_told_at_its_place() {
             RING,
             &["lines 5 to 2"],
         ),
+        (
+            format!(
+                "{CELL}{LOAD}{}",
+                ask("file = \"ring.ngc\"\nfeature = [{ name = \"a\", kind = \"line\", lines = [8, 9] }]")
+            ),
+            RING,
+            &["`a`: no cut stands in lines 8 to 9", "lines 5 to 5"],
+        ),
+        (
+            format!("{CELL}{LOAD}{}", ask("file = \".\"")),
+            RING,
+            &["is a folder"],
+        ),
+        (
+            format!("{CELL}{LOAD}{ring}"),
+            "G21\nG1 X1\0\n",
+            &["ring.ngc", "not text"],
+        ),
         (format!("{CELL}{ring}"), RING, &["no `load`"]),
         (
             format!("{CELL}{slow}{ring}"),
@@ -417,7 +435,10 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!("{CELL}{}{ring}", CUT.replace("6082-t6", "6082")),
             RING,
-            &["no material is called `aluminium-6082`", "aluminium-6082-t6"],
+            &[
+                "no material is called `aluminium-6082`",
+                "did you mean `aluminium-6082-t6`?",
+            ],
         ),
         (
             format!(
@@ -454,7 +475,10 @@ fn what_is_wrong_is_told_at_its_place() {
                 CUT.replace("radial_depth_mm = 3", "radial_depth_mm = 30")
             ),
             RING,
-            &["radial depth", "line 5"],
+            &[
+                "radial depth of cut is 30 mm: must be above 0 and at most 10 mm",
+                "line 5",
+            ],
         ),
         (
             format!("{CELL}load = {{ frame = \"feed\", cases_n = [[1, 0, 0]] }}\n[[ask]]\nkind = \"map\"\n"),

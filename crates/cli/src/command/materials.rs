@@ -35,13 +35,16 @@ fn table(found: &[(&str, Material)]) -> String {
         width(|(_, found)| found.name.chars().count()),
     );
     let line = |(name, found): &(&str, Material)| {
-        let laws = laws(found).map(|(law, sets)| match sets {
+        let mut laws = laws(found).map(|(law, sets)| match sets {
             0 => String::new(),
             1 => format!("{law} (1 set)"),
             sets => format!("{law} ({sets} sets)"),
         });
+        if laws[0].is_empty() && !found.mechanistic.is_empty() {
+            laws[0] = "mechanistic (no whole set)".to_owned();
+        }
         let line = format!(
-            "{name:name_width$}  {:title_width$}  {:<21}  {}",
+            "{name:name_width$}  {:title_width$}  {:<26}  {}",
             found.name, laws[0], laws[1]
         );
         line.trim_end().to_owned()
@@ -157,12 +160,21 @@ fn used_title(sets: usize) -> String {
     }
 }
 
-/// Mean and standard deviation of one set among the others; of a single set that is not known.
+/// Mean and standard deviation of one set among the others, in four digits; of a single set that is not known.
 fn with_spread(sets: usize, mean: f64, u: f64) -> String {
     match sets {
         1 => plain(mean),
-        _ => format!("{} ± {}", plain(mean), plain(u)),
+        _ => format!("{} ± {}", four_digits(mean), four_digits(u)),
     }
+}
+
+fn four_digits(value: f64) -> String {
+    let unit = 10_f64.powf(value.abs().log10().floor() - 3.0);
+    plain(if unit > 0.0 {
+        (value / unit).round() * unit
+    } else {
+        value
+    })
 }
 
 /// How many sets, and what stands for them: mean and standard deviation of each coefficient, in the units of the file.

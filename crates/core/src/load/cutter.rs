@@ -339,6 +339,6 @@ mod tests {
             angle: 0.0,
         };
         let error = flat.with_runout(far).unwrap_err().to_string();
-        assert_eq!(error, "runout is 0.02 m: must be between 0 and 0.005 m");
+        assert_eq!(error, "runout is 20 mm: must be between 0 mm and 5 mm");
     }
 }

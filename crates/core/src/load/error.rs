@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum CuttingError {
     /// A quantity outside what it can be.
-    #[error("{what} is {value} {unit}: must be between {least} and {most} {unit}")]
+    #[error("{what} is {}: must be {}", told(*.value, .unit), allowed([*.least, *.most], .unit))]
     OutOfRange {
         /// Which quantity.
         what: &'static str,
@@ -38,6 +38,32 @@ pub enum CuttingError {
     Withdrawal,
 }
 
+/// A number with its unit: lengths in mm, as people tell them; without what rounding leaves behind the ninth decimal.
+fn told(value: f64, unit: &str) -> String {
+    let (value, unit) = match unit {
+        "m" => (value * 1e3, "mm"),
+        _ => (value, unit),
+    };
+    let rounded = (value * 1e9).round() / 1e9;
+    let shown = if rounded == 0.0 || rounded.abs() > 1e15 {
+        value
+    } else {
+        rounded
+    };
+    format!("{shown} {unit}").trim_end().to_owned()
+}
+
+/// A range in words: its ends, or the one that means something.
+fn allowed([least, most]: [f64; 2], unit: &str) -> String {
+    let most_told = told(most, unit);
+    match (least == f64::MIN_POSITIVE, most == f64::MAX) {
+        (true, true) => "above 0".to_owned(),
+        (true, false) => format!("above 0 and at most {most_told}"),
+        (false, true) => format!("at least {}", told(least, unit)),
+        (false, false) => format!("between {} and {most_told}", told(least, unit)),
+    }
+}
+
 /// `value` if it lies between `least` and `most`.
 pub(super) fn within(
     what: &'static str,
@@ -58,4 +84,26 @@ pub(super) fn within(
         });
     }
     Ok(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_told_in_millimetres_and_by_the_ends_that_mean_something() {
+        let told = |value, ends, unit| within("depth", value, ends, unit).unwrap_err().to_string();
+        assert_eq!(
+            told(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
+            "depth is 9 mm: must be above 0 and at most 6 mm"
+        );
+        assert_eq!(
+            told(0.0, [f64::MIN_POSITIVE, f64::MAX], "rad/s"),
+            "depth is 0 rad/s: must be above 0"
+        );
+        assert_eq!(
+            told(20e-3, [0.0, 5e-3], "m"),
+            "depth is 20 mm: must be between 0 mm and 5 mm"
+        );
+    }
 }

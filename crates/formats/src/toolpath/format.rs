@@ -111,6 +111,12 @@ impl Format {
                 Some(hint.to_owned()),
             )))
         };
+        if text.contains('\0') {
+            return refused(
+                "this is not text".to_owned(),
+                "save it as UTF-8 text; cutter locations in binary are not read",
+            );
+        }
         let text = text.trim_start_matches('\u{feff}');
         let lines = || {
             text.split(['\n', '\r'])

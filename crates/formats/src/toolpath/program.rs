@@ -16,6 +16,8 @@ use crate::document::Problems;
 pub struct Wanted<'a> {
     /// The unit of lengths.
     pub unit: Option<LengthUnit>,
+    /// Cutter locations: whose they are, where they do not show it.
+    pub dialect: Option<apt::Dialect>,
     /// G-code: how rotary axes turn tool and part.
     pub rotaries: Option<Rotaries>,
     /// G-code: the tools of the machine.
@@ -75,7 +77,7 @@ fn of_apt(
 ) -> Result<Vec<String>, Problems> {
     let wanted = apt::Wanted {
         unit: wanted.unit,
-        dialect: None,
+        dialect: wanted.dialect,
     };
     let summary = apt::read(path, reader, &wanted, out)?;
     let ignored = summary.ignored.iter().map(|(word, noted)| {

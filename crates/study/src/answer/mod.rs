@@ -3,6 +3,7 @@
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
 
+mod cautions;
 pub(crate) mod limits;
 mod map;
 mod measured;
@@ -256,7 +257,7 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             path.name, path.outside_joint_limits, path.points, path.branch
         ));
     }
-    warnings.extend(paths.iter().flat_map(program::warnings));
+    warnings.extend(paths.iter().flat_map(cautions::of_program));
     for ask in &study.asks {
         if let Subject::Program(program) = &ask.subject {
             let unsure = program.measured.as_ref().and_then(|measured| measured.warning());

@@ -217,9 +217,8 @@ pub(super) fn material(places: &mut Places<'_>, key: &str, name: &str) -> Option
     match library::material(name) {
         Some(Ok(material)) => Some(material),
         Some(Err(_)) | None => {
-            let names: Vec<&str> = library::MATERIALS.iter().map(|entry| entry.name).collect();
             let message = format!("no material is called `{name}`");
-            places.problem(key, message, &format!("the library has: {}", names.join(", ")));
+            places.problem(key, message, &library::hint_of_material(name));
             None
         }
     }

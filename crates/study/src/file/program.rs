@@ -12,9 +12,10 @@ use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::clock::begins;
-use armill_core::path::{FeatureKind, ForcesTold, Operation, Placing, Sampling, Spin};
+use armill_core::path::{FeatureKind, ForcesTold, NoForces, Operation, PathPoint, Placing, Sampling, Spin};
 use armill_core::watch::Watch;
 use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
 use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
@@ -38,6 +39,8 @@ pub struct ProgramTable {
     pub file: String,
     /// Unit of lengths where the file does not tell.
     pub unit: Option<UnitName>,
+    /// Whose cutter locations (APT, CLSF) these are, where the file does not show it.
+    pub dialect: Option<DialectName>,
     /// What the rotary words of G-code turn.
     pub rotaries: Option<RotariesName>,
     /// Tool table of the machine that the G-code is for, as LinuxCNC writes it, relative to the study.
@@ -78,6 +81,16 @@ pub enum UnitName {
     Mm,
     /// Inch.
     Inch,
+}
+
+/// Whose cutter locations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum DialectName {
+    /// Siemens NX: a GOTO without tool axis keeps the one before.
+    Nx,
+    /// SolidWorks CAM: a GOTO without tool axis means 0,0,1.
+    SolidWorks,
 }
 
 /// What rotary words turn, from the frame of the machine outwards.
@@ -279,6 +292,11 @@ pub(super) fn read(
         return Ok(None);
     };
     let path = folder.join(&table.file);
+    if path.is_dir() {
+        let message = format!("{} is a folder", path.display());
+        places.problem("program.file", message, "name the file in it");
+        return Ok(None);
+    }
     let file = match File::open(&path) {
         Ok(file) => file,
         Err(error) => {
@@ -314,6 +332,10 @@ pub(super) fn read(
     };
     let wanted = Wanted {
         unit,
+        dialect: table.dialect.map(|dialect| match dialect {
+            DialectName::Nx => Dialect::Nx,
+            DialectName::SolidWorks => Dialect::SolidWorks,
+        }),
         rotaries: table.rotaries.map(RotariesName::rotaries),
         tools,
         subroutines: Some(&subroutine),
@@ -346,6 +368,9 @@ pub(super) fn read(
         places.problem("program.spin", message, hint);
         return Ok(None);
     }
+    if !features_have_points(places, table, &cut_up.points) {
+        return Ok(None);
+    }
     let base_from_part = setting.plane.base_from_part;
     let part_from_path = table
         .part_from_path_mm_deg
@@ -364,7 +389,6 @@ pub(super) fn read(
     };
     let mut setting = setting;
     let (mut measured, mut drill) = (None, None);
-    let untold = "the program tells feed and spindle, or feed_mm_min and spindle_rpm of the study do";
     let (load, cut, forces) = match pushes {
         Pushes::Measured(cut) => {
             let Some(told) = &table.measured else {
@@ -393,7 +417,7 @@ pub(super) fn read(
                 (load, None, Some(told))
             }
             Err(error) => {
-                places.problem("program.file", format!("{shown}: {error}"), untold);
+                places.problem("program.file", format!("{shown}: {error}"), why_no_forces(&error, "the program tells feed and spindle, or program.drill with feed_mm_min and spindle_rpm"));
                 return Ok(None);
             }
         },
@@ -405,7 +429,14 @@ pub(super) fn read(
                     (PathLoad::Cuts(found.cuts), Some(*cut), Some(found.told))
                 }
                 Err(error) => {
-                    places.problem("program.file", format!("{shown}: {error}"), untold);
+                    places.problem(
+                        "program.file",
+                        format!("{shown}: {error}"),
+                        why_no_forces(
+                            &error,
+                            "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do",
+                        ),
+                    );
                     return Ok(None);
                 }
             }
@@ -432,6 +463,34 @@ pub(super) fn read(
         measured,
         setting,
     }))
+}
+
+/// Whether every feature has points of the program; tells those that have none.
+fn features_have_points(places: &mut Places<'_>, table: &ProgramTable, points: &[PathPoint]) -> bool {
+    let mut all = true;
+    for (index, feature) in table.feature.iter().enumerate() {
+        let [first, last] = feature.lines;
+        if points.iter().any(|point| (first..=last).contains(&point.line)) {
+            continue;
+        }
+        all = false;
+        let lines = || points.iter().map(|point| point.line);
+        let (low, high) = (lines().min().unwrap_or(0), lines().max().unwrap_or(0));
+        let message = format!("`{}`: no cut stands in lines {first} to {last}", feature.name);
+        let hint = format!("the cuts of the program stand in lines {low} to {high}");
+        places.problem(&format!("program.feature[{index}].lines"), message, &hint);
+    }
+    all
+}
+
+/// What to do where there are no forces along a program.
+fn why_no_forces(error: &NoForces, untold: &'static str) -> &'static str {
+    match error {
+        NoForces::Cut { .. } => {
+            "depths are those of the program, or cut.axial_depth_mm and cut.radial_depth_mm"
+        }
+        _ => untold,
+    }
 }
 
 /// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.

@@ -60,7 +60,7 @@ impl Interpreter<'_> {
                     statement,
                     format!("CYCLE/{kind} is followed as DRILL: up in rapid, whatever the spindle does"),
                 );
-                self.drill(statement, &kind);
+                self.drill(statement, "DRILL");
             }
             _ => {
                 let message = format!("the cycle `{kind}` is not understood");

@@ -180,7 +180,7 @@ impl<'a> Interpreter<'a> {
         if self.summary.unit.is_none() && !self.unit_asked {
             self.unit_asked = true;
             let message = "a length, but nothing before it tells the unit of this file";
-            let hint = "say whether it is in mm or inch (option `unit`), or add the line `UNITS/MM` at its beginning";
+            let hint = "say whether it is in mm or inch (unit = \"mm\" or \"inch\"), or add the line `UNITS/MM` at its beginning";
             self.tell(statement, statement.parameters_span(), message, hint);
         }
         self.summary.unit.unwrap_or(LengthUnit::Millimetre).metres()
@@ -199,7 +199,7 @@ impl<'a> Interpreter<'a> {
                     statement,
                     statement.word_span(),
                     message,
-                    "say which dialect this file is in (option `dialect`)",
+                    "say whose it is: dialect = \"nx\" or \"solidworks\"",
                 );
             }
             Some(_) => {}

@@ -207,7 +207,7 @@ impl Interpreter<'_> {
             (None, Some(Dialect::SolidWorks)) => self.axis = Some(Vector3::z_axis()),
             (None, None) if self.axis.is_some() => {
                 let message = "no tool axis here, but one before: is it the same, or 0,0,1?";
-                let hint = "say which dialect this file is in (option `dialect`): NX keeps the axis, SolidWorks means 0,0,1";
+                let hint = "dialect = \"nx\" keeps the axis, dialect = \"solidworks\" means 0,0,1";
                 self.tell(statement, statement.parameters_span(), message, hint);
                 self.axis = None;
             }

@@ -294,9 +294,14 @@ impl Interpreter<'_> {
         match statement.word_at(0).as_str() {
             "MILL" => self.cutter(statement, 1),
             "DRILL" => {
-                // What follows the diameter of a drill are its point and its length.
-                self.cutter(statement, 1);
-                self.cutter[1] = None;
+                // What follows the diameter of a drill are its point and its length; a kind may stand before it.
+                let kind = statement.word_at(1);
+                let at = if kind.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                    2
+                } else {
+                    1
+                };
+                self.drill_of(statement, at);
             }
             kind => {
                 self.cutter = [None; 2];
@@ -306,6 +311,30 @@ impl Interpreter<'_> {
                     format!("TLDATA of a `{kind}`: its diameter is not known"),
                 );
             }
+        }
+    }
+
+    /// A tool of the diameter that parameter `at` tells, without corner.
+    fn drill_of(&mut self, statement: &Statement, at: usize) {
+        let Some(parameter) = statement.parameters().nth(at) else {
+            let hint = "`TLDATA/DRILL,6.,118.`";
+            return self.tell(
+                statement,
+                statement.word_span(),
+                "the diameter of the drill is missing",
+                hint,
+            );
+        };
+        match self.number(statement, &parameter) {
+            Some(diameter) if diameter < 0.0 => {
+                let message = format!("a drill of diameter {diameter}");
+                self.tell(statement, parameter.span, message, "the diameter comes first");
+            }
+            Some(diameter) => {
+                self.cutter = [Some(diameter), None];
+                self.begin_operation(statement);
+            }
+            None => {}
         }
     }
 

@@ -19,8 +19,17 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     inputs.extend(first.into_iter().flat_map(|setting| forces(study, setting)));
     inputs.extend(cut::rows(study, answer));
     inputs.extend(first.into_iter().flat_map(|setting| others(answer, setting)));
+    for index in (1..inputs.len()).rev() {
+        if inputs[index].source.len() > LONG && inputs[index].source == inputs[index - 1].source {
+            AS_ABOVE.clone_into(&mut inputs[index].source);
+        }
+    }
     inputs
 }
+
+/// A source longer than this stands once, not in every row below each other.
+const LONG: usize = 40;
+const AS_ABOVE: &str = "as above";
 
 /// What and where a source is, by its key; the key itself where nobody lists it.
 pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
