@@ -15,9 +15,7 @@ use std::hint::black_box;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::Question;
-use armill_core::load::{
-    Cutter, CuttingLaw, Hand, Immersion, LoadCases, LoadFrame, Mechanistic, PathLoad,
-};
+use armill_core::load::{Cutter, CuttingLaw, Hand, Immersion, LoadCases, LoadFrame, Mechanistic, PathLoad};
 use armill_core::map::{Track, along_program};
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
 use armill_core::path::{Cutting, Greatest, Pace, PathPoint, Placing, Spin, Step};
@@ -60,7 +58,8 @@ impl Paths {
     /// The zigzag of the workload.
     pub fn zigzag() -> Paths {
         let mut gcode = String::from("G21 G90 G94\nG0 X-200 Y-125 Z5\nF1200\n");
-        let mut apt = String::from("UNIT/MM\nSPINDL/6000,RPM,CLW\nRAPID\nGOTO/-200,-125,5\nFEDRAT/1200,MMPM\n");
+        let mut apt =
+            String::from("UNIT/MM\nSPINDL/6000,RPM,CLW\nRAPID\nGOTO/-200,-125,5\nFEDRAT/1200,MMPM\n");
         let mut csv = String::from("x_mm,y_mm,z_mm,feed_mm_min\n");
         let mut points = Vec::with_capacity(POINTS);
         let mut before = place(0);
@@ -103,7 +102,11 @@ impl Paths {
 /// Point `k` of the zigzag, mm.
 fn place(k: usize) -> Point3<f64> {
     let (line, along) = (k / LINE, k % LINE);
-    let along = if line.is_multiple_of(2) { along } else { LINE - 1 - along };
+    let along = if line.is_multiple_of(2) {
+        along
+    } else {
+        LINE - 1 - along
+    };
     Point3::new(
         PITCH_MM[0] * along as f64 - 200.0,
         PITCH_MM[1] * line as f64 - 125.0,
@@ -127,7 +130,8 @@ fn placing() -> Placing {
 fn cutting() -> Cutting {
     let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
     let law = Mechanistic::new(shear, Vector3::zeros()).expect("coefficients of a metal");
-    let cutter = Cutter::flat(16e-3, 4).and_then(|cutter| cutter.with_helix(45_f64.to_radians(), Hand::Right));
+    let cutter =
+        Cutter::flat(16e-3, 4).and_then(|cutter| cutter.with_helix(45_f64.to_radians(), Hand::Right));
     Cutting {
         cutter: cutter.expect("an end mill of a catalogue"),
         law: CuttingLaw::Mechanistic(law),
