@@ -37,7 +37,7 @@ fn main() -> ExitCode {
     };
     let (start, mut steps) = (Instant::now(), 0_u64);
     let read = program::read(kind.path(), BufReader::new(&mut text), &wanted, &mut |_| {
-        steps += 1
+        steps += 1;
     });
     let seconds = start.elapsed().as_secs_f64();
     let said = match read {
