@@ -1,5 +1,6 @@
-//! `armill-bench FOLDER [--quick]`: writes the workload into FOLDER for peers in other languages, checks that all
-//! candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`.
+//! `armill-bench FOLDER [--quick] [--paths]`: writes the workload into FOLDER for peers in other languages, checks that
+//! all candidates agree, times them in turn, and prints a row for each; called by `cargo xtask bench`. With `--paths` the
+//! rows of tool path programs alone, beside the yardstick.
 
 // Rows go to stdout, what is going on to stderr.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -12,6 +13,7 @@ use std::{env, fs};
 use armill_bench::armill::{Arm, ONE_POSTURE, candidates as of_armill, isometry};
 use armill_bench::clock::{Candidate, rates, row};
 use armill_bench::lanes::{self, Places};
+use armill_bench::paths::{self, Paths};
 use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
 use armill_bench::workload::{COUNT, Pose, poses};
 use armill_bench::{agreement, files, kinds, peers, yardstick};
@@ -28,15 +30,14 @@ const BLOCK: usize = 256;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    let (folder, quick) = match arguments.as_slice() {
-        [folder] => (folder, false),
-        [folder, option] if option == "--quick" => (folder, true),
-        _ => {
-            eprintln!("usage: armill-bench FOLDER [--quick]");
-            return ExitCode::from(2);
-        }
+    let asked = |name: &str| arguments.iter().skip(1).any(|argument| argument == name);
+    let known = |argument: &String| ["--quick", "--paths"].contains(&argument.as_str());
+    let (Some(folder), true) = (arguments.first(), arguments.iter().skip(1).all(known)) else {
+        eprintln!("usage: armill-bench FOLDER [--quick] [--paths]");
+        return ExitCode::from(2);
     };
-    match run(Path::new(folder), if quick { QUICK_ROUNDS } else { ROUNDS }) {
+    let rounds = if asked("--quick") { QUICK_ROUNDS } else { ROUNDS };
+    match run(Path::new(folder), rounds, asked("--paths")) {
         Ok(()) => ExitCode::SUCCESS,
         Err(problem) => {
             eprintln!("{problem}");
@@ -45,7 +46,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(folder: &Path, rounds: usize) -> Result<(), String> {
+fn run(folder: &Path, rounds: usize, only_paths: bool) -> Result<(), String> {
     let (arm, poses) = (Arm::mh12(), poses(COUNT));
     fs::create_dir_all(folder)
         .and_then(|()| files::write(folder, &poses))
@@ -62,13 +63,18 @@ fn run(folder: &Path, rounds: usize) -> Result<(), String> {
     let isometries: Vec<_> = poses.iter().map(isometry).collect();
     let (double, single) = (Places::of(&poses), Places::of(&poses));
 
-    let others = kinds::others();
+    let (others, zigzag) = (kinds::others(), Paths::zigzag());
     let mut all = of_yardstick(&poses, &angles, &pools[1]);
     let question = arm.question(ONE_POSTURE);
-    all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
-    all.extend(of_armill(&arm, &isometries, &pools));
-    all.extend(kinds::candidates(&others, &pools[0]));
-    all.extend(peers::candidates(&poses));
+    if !only_paths {
+        all.extend(lanes::candidates(&question, &double, &single, &pools[1]));
+        all.extend(of_armill(&arm, &isometries, &pools));
+        all.extend(kinds::candidates(&others, &pools[0]));
+    }
+    all.extend(paths::candidates(&arm, &zigzag));
+    if !only_paths {
+        all.extend(peers::candidates(&poses));
+    }
     let rates = rates(&mut all, rounds);
     for (candidate, rate) in all.iter().zip(&rates) {
         println!("{}", row(candidate, rate));

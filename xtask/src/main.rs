@@ -9,6 +9,7 @@ mod audit;
 mod bench;
 mod command;
 mod fuzz;
+mod scale;
 mod test;
 mod tidy;
 mod validate;
@@ -55,6 +56,11 @@ const CHORES: &[Chore] = &[
         name: "fuzz",
         about: fuzz::ABOUT,
         run: fuzz::run,
+    },
+    Chore {
+        name: "scale",
+        about: scale::ABOUT,
+        run: scale::run,
     },
     Chore {
         name: "audit",

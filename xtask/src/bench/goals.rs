@@ -1,4 +1,5 @@
-//! The goals: how many times another's rate armill must reach. A goal shows once both sides were measured.
+//! The goals: how many times another's rate armill must reach, and where nobody else does the work, how long it may
+//! take. A goal shows once all of it was measured.
 
 use super::row::{Row, digits};
 
@@ -104,6 +105,57 @@ const GOALS: &[Goal] = &[
     },
 ];
 
+/// A goal that nobody else is measured against: a million points on one thread.
+struct Wait {
+    text: &'static str,
+    ours: Side,
+    most_s: f64,
+}
+
+const fn path(text: &'static str, who: &'static str, work: &'static str, most_s: f64) -> Wait {
+    Wait {
+        text,
+        ours: side(who, who, work),
+        most_s,
+    }
+}
+
+const PROGRAM: &str = "armill, tool path program";
+
+const WAITS: &[Wait] = &[
+    path("G-code of short straight cuts read", PROGRAM, "G-code read", 10.0),
+    path("APT of GOTOs read", PROGRAM, "APT read", 10.0),
+    path("a path in CSV read", PROGRAM, "CSV path read", 10.0),
+    path(
+        "deviation along a path, a load case in the feed frame",
+        "armill along_program",
+        "along a path",
+        2.0,
+    ),
+];
+
+/// What a million points took, as a Markdown table; empty if none was measured.
+pub fn waits(rows: &[Row]) -> String {
+    let mut lines = String::new();
+    for wait in WAITS {
+        // Rates are in millions a second.
+        let Some(seconds) = wait.ours.rate(rows).map(|rate| 1.0 / rate) else {
+            continue;
+        };
+        let verdict = if seconds <= wait.most_s { "held" } else { "missed" };
+        lines += &format!(
+            "| {} | {} | {} | {verdict} |\n",
+            wait.text,
+            digits(seconds),
+            digits(wait.most_s)
+        );
+    }
+    if lines.is_empty() {
+        return lines;
+    }
+    format!("| a million points | seconds | at most | |\n|---|--:|--:|---|\n{lines}")
+}
+
 /// The goals of which both sides stand in `rows`, as a Markdown table; empty if there is none.
 pub fn table(rows: &[Row]) -> String {
     let mut lines = String::new();
@@ -173,6 +225,23 @@ mod tests {
         );
         let both = table(&rows(&["armill lanes f64\tdev\t1\t200.0", avx2]));
         assert!(both.contains("| 0.500 | 0.400 | 0.500 | beyond |"), "{both}");
+    }
+
+    #[test]
+    fn a_wait_is_what_a_million_points_take() {
+        let slow = "armill along_program\talong a path\t1\t0.4";
+        let other = "armill along_program\talong a path, cutting forces\t1\t4.0";
+        assert_eq!(waits(&rows(&[other])), "");
+        let table = waits(&rows(&[
+            other,
+            slow,
+            "armill, tool path program\tAPT read\t1\t0.5",
+        ]));
+        assert!(table.contains("| 2.50 | 2.00 | missed |"), "{table}");
+        assert!(
+            table.contains("| APT of GOTOs read | 2.00 | 10.0 | held |"),
+            "{table}"
+        );
     }
 
     #[test]

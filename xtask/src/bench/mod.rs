@@ -19,7 +19,8 @@ use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
 /// What `--help` says.
-pub const ABOUT: &str = "Times armill and its peers: [--quick] [--only rust] | --instructions [--record].";
+pub const ABOUT: &str =
+    "Times armill and its peers: [--quick] [--only rust|paths] | --instructions [--record].";
 
 /// The page that a full run writes.
 const PAGE: &str = "docs/performance.md";
@@ -32,9 +33,18 @@ const TARGET: &str = "target/bench";
 #[derive(Debug, Default, PartialEq)]
 struct Options {
     quick: bool,
-    only_rust: bool,
+    only: Option<Only>,
     instructions: bool,
     record: bool,
+}
+
+/// What a run is kept to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Only {
+    /// armill and the peers in Rust.
+    Rust,
+    /// Tool paths, beside the yardstick.
+    Paths,
 }
 
 /// What a run found.
@@ -48,7 +58,7 @@ struct Found {
 /// Runs all benchmarks and writes the page, or prints it alone if the run was not a full one.
 pub fn run(arguments: &[String]) -> ExitCode {
     let Some(options) = options(arguments) else {
-        eprintln!("usage: cargo xtask bench [--quick] [--only rust] | --instructions [--record]");
+        eprintln!("usage: cargo xtask bench [--quick] [--only rust|paths] | --instructions [--record]");
         return ExitCode::from(COULD_NOT_RUN);
     };
     if options.instructions {
@@ -69,7 +79,13 @@ fn options(arguments: &[String]) -> Option<Options> {
     while let Some(argument) = arguments.next() {
         match argument {
             "--quick" => options.quick = true,
-            "--only" if arguments.next() == Some("rust") => options.only_rust = true,
+            "--only" => {
+                options.only = match arguments.next() {
+                    Some("rust") => Some(Only::Rust),
+                    Some("paths") => Some(Only::Paths),
+                    _ => return None,
+                }
+            }
             "--instructions" => options.instructions = true,
             "--record" => options.record = true,
             _ => return None,
@@ -81,10 +97,9 @@ fn options(arguments: &[String]) -> Option<Options> {
 /// Rows of all who could be had.
 fn measured(options: &Options) -> Result<Found, String> {
     let mut found = Found::default();
-    let venv = if options.only_rust {
-        Err("left out by --only rust".to_owned())
-    } else {
-        peers::virtual_environment()
+    let venv = match options.only {
+        Some(_) => Err("left out by --only".to_owned()),
+        None => peers::virtual_environment(),
     };
     rust(options, &mut found)?;
     match venv {
@@ -116,6 +131,9 @@ fn rust(options: &Options, found: &mut Found) -> Result<(), String> {
             .push("ik-geo: its dependency nlopt needs cmake to build".to_owned());
     }
     command.args(["--", WORKLOAD]);
+    if options.only == Some(Only::Paths) {
+        command.arg("--paths");
+    }
     found.read(&output(options.quicken(&mut command))?);
     Ok(())
 }
@@ -143,7 +161,7 @@ fn output(command: &mut Command) -> Result<String, String> {
 fn publish(options: &Options, found: &Found) -> Result<(), String> {
     let page = page::page(&found.rows, &found.skipped, &machine::lines());
     println!("{page}");
-    if options.quick || options.only_rust {
+    if options.quick || options.only.is_some() {
         eprintln!("{PAGE} is left as it is: only a full run writes it");
         return Ok(());
     }
@@ -183,7 +201,9 @@ mod tests {
     #[test]
     fn options_are_understood_and_unknown_ones_refused() {
         let both = asked("--quick --only rust");
-        assert!(both.is_some_and(|options| options.quick && options.only_rust));
+        assert!(both.is_some_and(|options| options.quick && options.only == Some(Only::Rust)));
+        let paths = asked("--only paths");
+        assert!(paths.is_some_and(|options| options.only == Some(Only::Paths)));
         assert_eq!(asked(""), Some(Options::default()));
         assert_eq!(asked("--only python"), None);
         assert_eq!(asked("--record"), None);

@@ -42,6 +42,10 @@ pub fn page(rows: &[Row], skipped: &[String], machine: &[String]) -> String {
     if !goals.is_empty() {
         page += &format!("\n## Goals\n\nRatios of rates in this run.\n\n{goals}");
     }
+    let waits = goals::waits(rows);
+    if !waits.is_empty() {
+        page += &format!("\n## Tool paths\n\nOn one thread; no other program does this work.\n\n{waits}");
+    }
     if !skipped.is_empty() {
         page += &format!("\n## Not measured\n\n{}", list(skipped));
     }

@@ -1,7 +1,8 @@
 //! What libFuzzer says of a run: how much was tried, how much was reached, where a finding lies.
 
 /// The heading over all rows.
-pub const HEADING: &str = "target        verdict   executions   per s   edges   features   inputs\n";
+pub const HEADING: &str =
+    "target        verdict   executions   per s   edges   features   inputs   most MiB\n";
 
 /// What a run came to.
 #[derive(Debug, Default, PartialEq)]
@@ -16,6 +17,8 @@ pub struct Said {
     features: u64,
     /// Inputs kept since each reached something new.
     inputs: u64,
+    /// Most memory that the run took.
+    most_mib: u64,
 }
 
 impl Said {
@@ -28,6 +31,9 @@ impl Said {
         let Some(progress) = line.strip_prefix('#') else {
             if let Some(total) = line.strip_prefix("stat::number_of_executed_units:") {
                 self.executions = total.trim().parse().unwrap_or(self.executions);
+            }
+            if let Some(most) = line.strip_prefix("stat::peak_rss_mb:") {
+                self.most_mib = most.trim().parse().unwrap_or(self.most_mib);
             }
             // Of the three warnings none matters: they miss functions of sanitizers.
             let talk = [
@@ -66,13 +72,14 @@ impl Said {
     /// One line for a person.
     pub fn row(&self, target: &str) -> String {
         format!(
-            "{target:<14}{:<10}{:>10}{:>8}{:>8}{:>11}{:>9}\n",
+            "{target:<14}{:<10}{:>10}{:>8}{:>8}{:>11}{:>9}{:>11}\n",
             if self.passed { "ok" } else { "FOUND" },
             self.executions,
             self.per_second,
             self.edges,
             self.features,
-            self.inputs
+            self.inputs,
+            self.most_mib
         )
     }
 }
@@ -93,8 +100,9 @@ mod tests {
         assert!(!said.hear("#8\tNEW    cov: 2 ft: 3 corp: 2/10b lim: 4 exec/s: 0 rss: 30Mb L: 4/4 MS: 1 X-"));
         assert!(said.hear("#524288\tDONE   cov: 310 ft: 1200 corp: 45/2Kb lim: 64 exec/s: 9000 rss: 40Mb"));
         assert!(!said.hear("stat::number_of_executed_units: 524290"));
+        assert!(!said.hear("stat::peak_rss_mb:              41"));
         let row = said.row("dh");
-        for number in ["524290", "9000", " 310", "1200", " 45"] {
+        for number in ["524290", "9000", " 310", "1200", " 45", " 41"] {
             assert!(row.contains(number), "{row}");
         }
         assert_eq!(

@@ -271,13 +271,15 @@ fn holes_expand_into_moves() {
     );
 }
 
+/// The messages of a program.
+fn say(program: &str) -> Vec<String> {
+    let mut said = calls(program);
+    said.retain(|call| call.starts_with("MESSAGE"));
+    said
+}
+
 #[test]
 fn flow_goes_where_it_is_told() {
-    let say = |program: &str| -> Vec<String> {
-        let mut said = calls(program);
-        said.retain(|call| call.starts_with("MESSAGE"));
-        said
-    };
     let number = |value: &str| format!("MESSAGE(\"{value}.000000\")");
     for (program, expected) in [
         (
@@ -310,6 +312,20 @@ fn flow_goes_where_it_is_told() {
             assert_eq!(said, expected, "{program}");
         }
     }
+}
+
+#[test]
+fn numbered_subroutines_behind_the_end_come_in_any_order_and_the_next_of_two_counts() {
+    let behind = "O9\n(debug,1)\nM99\nO8\n(debug,2)\nM99\nO9\n(debug,3)\nM99\n";
+    assert_eq!(
+        say(&format!("M98 P8\nM98 P9\nG4 P0\nM98 P8\nM2\n{behind}")),
+        ["2", "1", "2"].map(|value| format!("MESSAGE(\"{value}\")"))
+    );
+    // Without M99 a subroutine goes on to the end of the file.
+    assert_eq!(
+        say("M98 P8\nM2\nO8\n(debug,1)\nO9\n(debug,2)\n"),
+        ["1", "2"].map(|value| format!("MESSAGE(\"{value}\")"))
+    );
 }
 
 #[test]

@@ -17,6 +17,7 @@ use super::messages;
 use super::options::{Options, Warnings};
 use super::parameters::{self, Parameters};
 use super::refusal::{Fault, Refusal};
+use super::subroutines::Labels;
 
 /// Problems told of one program.
 pub const MOST_FAULTS: usize = 100;
@@ -54,6 +55,7 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
         block: Block::new(),
         clean: Clean::default(),
         subroutines: BTreeMap::new(),
+        labels: Labels::default(),
         kept_bytes: 0,
         repeated: 0,
         repeated_until_fault: 0,
@@ -77,6 +79,7 @@ pub(super) struct Interpreter<'a> {
     block: Block,
     pub clean: Clean,
     pub subroutines: BTreeMap<String, Rc<Body>>,
+    pub labels: Labels,
     kept_bytes: usize,
     pub repeated: usize,
     /// The same when the first line was refused.
@@ -182,6 +185,21 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Counts a line that is kept for what begins at `start`; none when there are too many, told there.
+    pub fn keep(&mut self, line: &Line, start: &Line) -> Option<()> {
+        self.kept_bytes += line.text.len() + size_of::<Line>();
+        if self.kept_bytes <= MOST_KEPT_BYTES {
+            return Some(());
+        }
+        let refusal = Refusal::TooMuch {
+            what: "bytes of subroutines and loops",
+            limit: MOST_KEPT_BYTES,
+        };
+        self.fault(start, refusal, 0..start.text.len());
+        self.stopped = true;
+        None
+    }
+
     /// Keeps lines from one that begins a subroutine, branch or loop to the one that ends it.
     pub fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
         let begins = first.keyword;
@@ -201,17 +219,7 @@ impl Interpreter<'_> {
                     return None;
                 }
             }
-            self.kept_bytes += line.text.len() + size_of::<Line>();
-            if self.kept_bytes > MOST_KEPT_BYTES {
-                let limit = MOST_KEPT_BYTES;
-                let refusal = Refusal::TooMuch {
-                    what: "bytes of subroutines and loops",
-                    limit,
-                };
-                self.fault(&start, refusal, 0..start.text.len());
-                self.stopped = true;
-                return None;
-            }
+            self.keep(line, &start)?;
             let word = match self.o_word_of(line) {
                 Ok(word) => word,
                 Err(()) => {

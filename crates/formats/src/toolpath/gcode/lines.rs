@@ -19,11 +19,20 @@ pub(super) struct Line {
     pub file: Option<Rc<str>>,
 }
 
+impl Line {
+    /// What it takes to keep it.
+    fn bytes(&self) -> usize {
+        self.text.len() + size_of::<Line>()
+    }
+}
+
 /// The lines of a program still to come.
 pub(super) struct Lines<'r> {
     reader: &'r mut dyn BufRead,
     /// Read already while something was looked for.
     ahead: VecDeque<Line>,
+    /// Bytes that these take.
+    ahead_bytes: usize,
     number: u32,
     offset: usize,
     file: Option<Rc<str>>,
@@ -35,6 +44,7 @@ impl<'r> Lines<'r> {
         Lines {
             reader,
             ahead: VecDeque::new(),
+            ahead_bytes: 0,
             number: 0,
             offset: 0,
             file,
@@ -44,6 +54,7 @@ impl<'r> Lines<'r> {
     /// The next line; false at the end.
     pub fn next(&mut self, line: &mut Line) -> io::Result<bool> {
         if let Some(next) = self.ahead.pop_front() {
+            self.ahead_bytes -= next.bytes();
             *line = next;
             return Ok(true);
         }
@@ -92,10 +103,9 @@ impl<'r> Lines<'r> {
 
     /// All lines still to come, at most so many bytes; they still come.
     pub fn look_ahead(&mut self, most_bytes: usize) -> io::Result<&VecDeque<Line>> {
-        let mut bytes: usize = self.ahead.iter().map(|line| line.text.len()).sum();
         let mut line = Line::default();
-        while bytes < most_bytes && self.read(&mut line)? {
-            bytes += line.text.len() + size_of::<Line>();
+        while self.ahead_bytes < most_bytes && self.read(&mut line)? {
+            self.ahead_bytes += line.bytes();
             self.ahead.push_back(std::mem::take(&mut line));
         }
         Ok(&self.ahead)

@@ -1,11 +1,28 @@
 //! Subroutines: of the program, of other files, and those of M98 behind the end of the program.
 
+use std::collections::BTreeMap;
 use std::rc::Rc;
 
 use super::flow::{Body, Keyword};
 use super::interpreter::{Interpreter, Left, MOST_KEPT_BYTES};
 use super::lines::{Line, Lines};
 use super::refusal::Refusal;
+
+/// Where labels of M98 stand in lines that were looked at ahead: no line is looked at twice for them.
+#[derive(Debug, Default)]
+pub(super) struct Labels {
+    /// Lines of each, in order.
+    lines: BTreeMap<String, Vec<u32>>,
+    /// The last line that was looked at.
+    seen: u32,
+}
+
+impl Labels {
+    /// How many of the lines from `next` on were looked at.
+    fn unseen(&self, next: u32) -> usize {
+        (self.seen + 1).saturating_sub(next) as usize
+    }
+}
 
 impl Interpreter<'_> {
     /// A subroutine of the program or of another file.
@@ -36,26 +53,35 @@ impl Interpreter<'_> {
         self.subroutines.get(name).cloned()
     }
 
-    /// A subroutine of M98 that stands farther on, behind the end of the program.
-    fn ahead(&mut self, name: &str, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
-        let coming: Vec<Line> = lines.look_ahead(MOST_KEPT_BYTES).ok()?.iter().cloned().collect();
-        let mut body: Option<Body> = None;
-        for line in coming {
-            let word = self.o_word_of(&line).ok().flatten();
-            let begins = word
-                .as_ref()
-                .is_some_and(|word| word.keyword == Keyword::Label && word.label == name);
+    /// A subroutine of M98 that stands farther on, behind the end of the program; `call` is the line that wants it.
+    fn ahead(&mut self, name: &str, call: &Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
+        let coming = lines.look_ahead(MOST_KEPT_BYTES).ok()?;
+        let next = coming.front()?.number;
+        for line in coming.range(self.labels.unseen(next)..) {
+            if let Ok(Some(word)) = self.o_word_of(line)
+                && word.keyword == Keyword::Label
+            {
+                self.labels.lines.entry(word.label).or_default().push(line.number);
+            }
+            self.labels.seen = line.number;
+        }
+        let label = *self
+            .labels
+            .lines
+            .get(name)?
+            .iter()
+            .find(|label| **label >= next)?;
+        let mut body = Body::default();
+        for line in coming.range((label - next) as usize + 1..) {
+            self.keep(line, call)?;
+            let word = self.o_word_of(line).ok().flatten();
             let ends = self.clean.text.windows(3).any(|three| three == b"m99");
-            if let Some(body) = &mut body {
-                body.push(line, word);
-                if ends {
-                    break;
-                }
-            } else if begins {
-                body = Some(Body::default());
+            body.push(line.clone(), word);
+            if ends {
+                break;
             }
         }
-        let body = self.linked(body?)?;
+        let body = self.linked(body)?;
         self.subroutines.insert(name.to_owned(), body.clone());
         Some(body)
     }
@@ -69,11 +95,13 @@ impl Interpreter<'_> {
     ) -> Left {
         let name = number.to_string();
         let body = match (self.subroutine(&name), lines) {
-            (None, Some(lines)) => self.ahead(&name, lines),
+            (None, Some(lines)) => self.ahead(&name, line, lines),
             (body, _) => body,
         };
         let Some(body) = body else {
-            self.fault(line, Refusal::SubroutineUnknown(name), 0..line.text.len());
+            if !self.stopped {
+                self.fault(line, Refusal::SubroutineUnknown(name), 0..line.text.len());
+            }
             return Left::AtEnd;
         };
         for _ in 0..times {
