@@ -56,11 +56,24 @@ fn a_record_is_told_before_and_after_whatever_its_format() {
     for (file, format) in [("r.csv", "CSV"), ("r.txt", "DynoWare")] {
         let (code, out, err) = armill(
             folder.path(),
-            &["forces", file, "--air-s", "0,0.9", "--air-s", "2.1,3", "--spindle-rpm", "3000", "--json"],
+            &[
+                "forces",
+                file,
+                "--air-s",
+                "0,0.9",
+                "--air-s",
+                "2.1,3",
+                "--spindle-rpm",
+                "3000",
+                "--json",
+            ],
         );
         assert_eq!(code, 0, "{err}");
         let told: Value = serde_json::from_str(&out).unwrap();
-        assert_eq!((&told["format"], &told["samples"]), (&format.into(), &3000.into()));
+        assert_eq!(
+            (&told["format"], &told["samples"]),
+            (&format.into(), &3000.into())
+        );
         let number = |value: &Value, expected: f64, slack: f64| {
             let found = value.as_f64().unwrap();
             assert!((found - expected).abs() <= slack, "{value} for {expected}");
@@ -82,7 +95,10 @@ fn quiet_stretches_are_found_and_said_so() {
     let folder = folder();
     let (code, out, err) = armill(folder.path(), &["forces", "r.csv"]);
     assert_eq!(code, 0, "{err}");
-    assert!(out.contains("found as the quietest") && out.contains("(5.000, 0.000, 0.000) N"), "{out}");
+    assert!(
+        out.contains("found as the quietest") && out.contains("(5.000, 0.000, 0.000) N"),
+        "{out}"
+    );
     let (_, out, _) = armill(folder.path(), &["forces", "r.csv", "--no-drift"]);
     assert!(out.contains("left in") && out.contains("37.00"), "{out}");
 }
@@ -92,7 +108,16 @@ fn tables_and_pictures_come_out_and_can_be_read_again() {
     let folder = folder();
     let (code, _, err) = armill(
         folder.path(),
-        &["forces", "r.txt", "--low-pass-hz", "20", "--spindle-rpm", "3000", "--out", "o"],
+        &[
+            "forces",
+            "r.txt",
+            "--low-pass-hz",
+            "20",
+            "--spindle-rpm",
+            "3000",
+            "--out",
+            "o",
+        ],
     );
     assert_eq!(code, 0, "{err}");
     for file in ["forces.csv", "revolutions.csv", "forces.svg", "forces.png"] {
@@ -111,7 +136,10 @@ fn tables_and_pictures_come_out_and_can_be_read_again() {
 fn what_is_wrong_is_told_with_its_place_and_a_hint() {
     let folder = folder();
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-    write("trap.txt", "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,2,25,3,5\n");
+    write(
+        "trap.txt",
+        "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,2,25,3,5\n",
+    );
     write("volts.txt", &record('\t', EXPORT).replace("\tN\t", "\tV\t"));
     write("no-unit.csv", &record(',', CSV).replace("fy_n", "fy"));
     write("two.txt", &record('\t', EXPORT).repeat(2));
@@ -120,11 +148,17 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         (&["trap.txt"], &["trap.txt:4:1", "which is which cannot be told"]),
         (&["volts.txt"], &["volts.txt:3", "`V` is no unit"]),
         (&["no-unit.csv"], &["no-unit.csv:1", "missing columns: `Fy`"]),
-        (&["two.txt", "--no-drift"], &["--cycle", "holds 2 cycles", "from 1 to 2"]),
+        (
+            &["two.txt", "--no-drift"],
+            &["--cycle", "holds 2 cycles", "from 1 to 2"],
+        ),
         (&["r.txt", "--cycle", "0"], &["not a cycle 0"]),
         (&["r.csv", "--air-s", "0"], &["--air-s", "`0` is no stretch"]),
         (&["r.csv", "--air-s", "0,1,2"], &["is no stretch"]),
-        (&["r.csv", "--air-s", "8,9"], &["--air-s", "0 samples", "to 2.999 s"]),
+        (
+            &["r.csv", "--air-s", "8,9"],
+            &["--air-s", "0 samples", "to 2.999 s"],
+        ),
         (&["r.csv", "--air-s", "1,0"], &["no length"]),
         (&["r.csv", "--low-pass-hz", "500"], &["--low-pass-hz", "500 Hz"]),
         (&["r.csv", "--low-pass-hz", "nan"], &["--low-pass-hz", "NaN Hz"]),

@@ -1,8 +1,8 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot, RadialSeries, Series, ShareBar,
-    ShareBars, StiffnessEllipse, VectorField,
+    Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot,
+    RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
