@@ -146,7 +146,7 @@ impl Witness {
     /// The largest difference of deviations at points that are at least `apart` s from every jump of the force, as part
     /// of the largest deviation; those of `sign` times the cut are expected.
     fn differs(&self, found: &ProgramAnswer, case: usize, apart: f64, sign: f64) -> f64 {
-        let largest = self.deviations.iter().map(|d| d.norm()).fold(0.0, f64::max);
+        let largest = self.deviations.iter().map(Vector3::norm).fold(0.0, f64::max);
         let far = |i: &usize| {
             let jumps = [0.0, 4.0, 4.2, 8.0, 8.5, CUTS_S];
             jumps.iter().all(|jump| (self.times[*i] - jump).abs() > apart)
@@ -197,7 +197,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
         "{}",
         measured.samples_used
     );
-    let largest = witness.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let largest = witness.forces.iter().map(Vector3::norm).fold(0.0, f64::max);
     assert!((measured.largest_n - largest).abs() < 1e-3 * largest);
     // Told on the tool in base axes: the sensor's turned and with the other sign.
     let rate = Vector3::from(measured.drift.unwrap().rate_n_per_s);
@@ -211,7 +211,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
 #[test]
 fn a_prediction_finds_a_noisy_record_to_a_sample() {
     let witness = Witness::new();
-    let largest = witness.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let largest = witness.forces.iter().map(Vector3::norm).fold(0.0, f64::max);
     let noise = 0.2 * largest;
     let record = witness.record((20.0, 1000.0, 5.4321), |force, time, k| {
         force + wild_vector(k) * noise + Vector3::new(3.0, 2.0, 1.0) + Vector3::x() * (0.1 * time)
