@@ -34,14 +34,19 @@ impl Envelope {
     pub fn of(span_s: [f64; 2], samples: impl IntoIterator<Item = (f64, f64)>) -> Envelope {
         let mut columns = vec![None; COLUMNS];
         let length = span_s[1] - span_s[0];
+        let mut last: Option<(usize, f64)> = None;
         for (time, value) in samples {
             let part = (time - span_s[0]) / length;
             if !((0.0..=1.0).contains(&part) && value.is_finite()) {
                 continue;
             }
             let column = ((part * COLUMNS as f64) as usize).min(COLUMNS - 1);
-            let [low, high] = columns[column].unwrap_or([value, value]);
+            // The line from the column before enters at its last value.
+            let enters = last.filter(|(before, _)| before + 1 == column);
+            let begin = enters.map_or(value, |(_, value)| value);
+            let [low, high] = columns[column].unwrap_or([begin, begin]);
             columns[column] = Some([value.min(low), value.max(high)]);
+            last = Some((column, value));
         }
         Envelope { columns }
     }
@@ -297,6 +302,14 @@ mod tests {
         assert!(svg.len() < 150_000, "{}", svg.len());
         assert_eq!(svg.matches(AIR).count(), 2 * 4 + 1);
         assert!(svg.contains("first cut") && svg.contains("nothing is cut"));
+    }
+
+    #[test]
+    fn a_step_between_two_columns_is_drawn_as_one() {
+        let samples = (0..1280).map(|k| (f64::from(k) / 1280.0, f64::from(k >= 640)));
+        let envelope = Envelope::of([0.0, 1.0], samples);
+        let wide = |column: &usize| envelope.columns[*column].is_some_and(|[low, high]| low < high);
+        assert_eq!((0..COLUMNS).filter(wide).collect::<Vec<_>>(), [320]);
     }
 
     #[test]

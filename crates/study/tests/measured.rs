@@ -146,7 +146,7 @@ impl Witness {
     /// The largest difference of deviations at points that are at least `apart` s from every jump of the force, as part
     /// of the largest deviation; those of `sign` times the cut are expected.
     fn differs(&self, found: &ProgramAnswer, case: usize, apart: f64, sign: f64) -> f64 {
-        let largest = self.deviations.iter().map(|d| d.norm()).fold(0.0, f64::max);
+        let largest = self.deviations.iter().map(Vector3::norm).fold(0.0, f64::max);
         let far = |i: &usize| {
             let jumps = [0.0, 4.0, 4.2, 8.0, 8.5, CUTS_S];
             jumps.iter().all(|jump| (self.times[*i] - jump).abs() > apart)
@@ -197,7 +197,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
         "{}",
         measured.samples_used
     );
-    let largest = witness.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let largest = witness.forces.iter().map(Vector3::norm).fold(0.0, f64::max);
     assert!((measured.largest_n - largest).abs() < 1e-3 * largest);
     // Told on the tool in base axes: the sensor's turned and with the other sign.
     let rate = Vector3::from(measured.drift.unwrap().rate_n_per_s);
@@ -211,7 +211,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
 #[test]
 fn a_prediction_finds_a_noisy_record_to_a_sample() {
     let witness = Witness::new();
-    let largest = witness.forces.iter().map(|f| f.norm()).fold(0.0, f64::max);
+    let largest = witness.forces.iter().map(Vector3::norm).fold(0.0, f64::max);
     let noise = 0.2 * largest;
     let record = witness.record((20.0, 1000.0, 5.4321), |force, time, k| {
         force + wild_vector(k) * noise + Vector3::new(3.0, 2.0, 1.0) + Vector3::x() * (0.1 * time)
@@ -227,10 +227,10 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
         "{measured:?}"
     );
     assert!(!answer.warnings.iter().any(|warning| warning.contains("not sure")));
-    // The filter leaves sqrt(2 x 10 / 1000) of the noise (0.12 of the force a component), here three times that; it
-    // remembers some tenths of a second.
+    // Of noise of 0.2 of the force (all components together) the filter leaves sqrt(2 x 10 / 1000), here three times that;
+    // the arm is up to twice as soft across the force as along it. The filter remembers some tenths of a second.
     let differs = witness.differs(program(&ran).1, 0, 0.15, 1.0);
-    assert!(differs < 3.0 * 0.12 * (0.02_f64).sqrt(), "{differs}");
+    assert!(differs < 2.0 * 3.0 * 0.2 * (0.02_f64).sqrt(), "{differs}");
 }
 
 #[test]
@@ -317,10 +317,10 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
     let differs = witness.differs(found, 0, 0.02, 1.0);
     assert!(differs < 1e-3, "{differs}");
     // The highest of ten samples lies within 18 deg of the crest: 1.5 down to 1.475.
-    let largest = witness.deviations.iter().map(|d| d.norm()).fold(0.0, f64::max);
-    for i in (5..35).chain(50..75) {
+    // Away from the corner at point 40 and the rapid behind point 60.
+    for i in (5..35).chain(45..57).chain(65..78) {
         let ratio = found.answers.deviations_at(i)[1].norm() / witness.deviations[i].norm();
-        assert!((1.45..1.51).contains(&ratio), "{i}: {ratio} of {largest}");
+        assert!((1.45..1.51).contains(&ratio), "{i}: {ratio}");
     }
     assert!((ask.setting.doubt.relative - 0.2).abs() < 1e-15);
     let (answer, measured) = told(&ran);
@@ -413,7 +413,7 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!("{base}{axes}{start}").replace("rapid_mm_min = 6000", ""),
             &good,
-            &["a rapid of 50 mm", "line 10", "rapid_mm_min = 6000"],
+            &["a rapid of 50.0 mm", "line 10", "rapid_mm_min = 6000"],
         ),
         (
             format!("{base}{axes}{start}value = \"extremes\"\n"),
@@ -461,12 +461,12 @@ fn what_is_wrong_is_told_at_its_place() {
 #[test]
 fn a_prediction_needs_its_cut_and_a_program_its_feed() {
     let folder = tempfile::tempdir().unwrap();
-    let slow = PROGRAM.replace(" F600", "").replace(" F300", "");
-    fs::write(folder.path().join("part.ngc"), slow.replace("G21", "G21 F0")).unwrap();
+    let silent = "x_mm,y_mm,z_mm\n0,0,0\n40,0,0\n40,20,0\n";
+    fs::write(folder.path().join("part.csv"), silent).unwrap();
     let witness = Witness::new();
     let good = witness.record((13.0, 100.0, START_S), |force, _, _| force);
     fs::write(folder.path().join("record.csv"), good).unwrap();
-    let ask = "\n[[ask]]\nkind = \"program\"\n[ask.program]\nfile = \"part.ngc\"\n";
+    let ask = "\n[[ask]]\nkind = \"program\"\n[ask.program]\nfile = \"part.csv\"\n";
     let axes = "drift = false\nacts_on = \"tool\"\nframe = \"base\"\n";
     let told = |last: &str| {
         let text = format!("{CELL}{ask}{MEASURED}{axes}{last}\n");
@@ -480,6 +480,6 @@ fn a_prediction_needs_its_cut_and_a_program_its_feed() {
         message.contains("feed") && message.contains("feed_mm_min = 600"),
         "{message}"
     );
-    // 80 mm at 10 mm/s and the rapid: the record is long enough.
+    // 60 mm at 10 mm/s: the record is long enough.
     assert_eq!(told("start_s = 1\nfeed_mm_min = 600"), Ok(()));
 }

@@ -43,7 +43,7 @@ pub enum NoTime {
         line: u32,
     },
     /// Nobody tells how fast rapids are.
-    #[error("a rapid of {} mm leads to the cut in line {line}, and its speed is not told", .length * 1e3)]
+    #[error("a rapid of {:.1} mm leads to the cut in line {line}, and its speed is not told", .length * 1e3)]
     NoRapid {
         /// Line of the cut behind it.
         line: u32,
@@ -147,7 +147,7 @@ mod tests {
     use super::super::sampler::{Sampler, Sampling};
     use super::*;
 
-    /// 20 mm at 10 mm/s, a rapid of 5 mm, 10 mm at a feed that is not told.
+    /// 20 mm at 10 mm/s, a rapid of 5.0 mm, 10 mm at a feed that is not told.
     fn points() -> Vec<PathPoint> {
         let mut sampler = Sampler::new(Sampling {
             chord_error: 1e-5,
@@ -200,7 +200,7 @@ mod tests {
         let found = Clock::of(&points, &RAPIDS, no_rapid).unwrap_err();
         assert_eq!(
             found.to_string(),
-            "a rapid of 5 mm leads to the cut in line 11, and its speed is not told"
+            "a rapid of 5.0 mm leads to the cut in line 11, and its speed is not told"
         );
         let found = Clock::of(&points, &RAPIDS, Speeds { feed: None, ..SPEEDS });
         assert_eq!(found.unwrap_err(), NoTime::NoFeed { line: 11 });

@@ -30,6 +30,7 @@ pub struct MeasuredResult {
     /// How the begin was found: `told`, `start` or `predicted`.
     pub synchronised: &'static str,
     /// How like the prediction the record is there, to 1; none without prediction.
+    // unit: 1
     pub likeness: Option<f64>,
     /// From 0 to 1: how far that likeness stands out from the second best.
     pub confidence: Option<f64>,

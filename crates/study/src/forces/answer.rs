@@ -74,10 +74,13 @@ pub struct SummaryAnswer {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RangeAnswer {
     /// Over all samples.
+    // unit: that of the name it stands under
     pub mean: f64,
     /// The least.
+    // unit: that of the name it stands under
     pub least: f64,
     /// The greatest.
+    // unit: that of the name it stands under
     pub greatest: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Which force was measured, and what is left of it? A dynamometer's file from its text to the force that a study uses.
 //!
-//! [`treat`]: what is done to a record: drift taken off, low-pass, revolutions of the spindle. [`answer`](mod@answer): what
+//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle. [`answer`](mod@answer): what
 //! came of it, in numbers. [`output`]: tables and pictures of it.
 
 pub mod answer;

@@ -55,6 +55,11 @@ fn subtitle(answer: &ForcesAnswer) -> String {
         .to_owned(),
     );
     parts.extend(answer.low_pass_hz.map(|hz| format!("low-pass {hz} Hz")));
+    parts.extend(
+        answer
+            .spindle_rpm
+            .map(|rpm| format!("means of turns at {rpm} rpm")),
+    );
     parts.join("; ")
 }
 
@@ -75,10 +80,18 @@ pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> Fo
         let samples = record.time().iter().zip(record.force());
         Envelope::of(span_s, samples.map(|(time, force)| (*time, value(force))))
     };
+    // Where turns were counted, their means are what is used.
+    let after = |value: fn(&Vector3<f64>) -> f64| match &treated.turns {
+        Some(turns) => {
+            let means = turns.iter().map(|turn| (turn.middle, value(&turn.mean)));
+            Envelope::of(span_s, means)
+        }
+        None => envelope(&treated.after, value),
+    };
     let trace = |name: &str, value: fn(&Vector3<f64>) -> f64| ForceTrace {
         name: name.to_owned(),
         before: envelope(before, value),
-        after: envelope(&treated.after, value),
+        after: after(value),
     };
     ForcePlot {
         title,
@@ -88,7 +101,7 @@ pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> Fo
             trace("Fx (N)", |force| force.x),
             trace("Fy (N)", |force| force.y),
             trace("Fz (N)", |force| force.z),
-            trace("size (N)", |force| force.norm()),
+            trace("size (N)", Vector3::norm),
         ],
         air_s: treated
             .drift
@@ -115,10 +128,13 @@ fn forces(treated: &Treated) -> Result<Table, StudyError> {
     Ok(Table::new("forces", columns)?)
 }
 
+/// A force of a turn.
+type OfTurn = fn(&Revolution) -> Vector3<f64>;
+
 fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
     let starts = turns.iter().map(|turn| turn.start).collect();
     let mut columns = vec![time("start_s", "when the turn begins", starts)];
-    let groups: [(&str, &str, fn(&Revolution) -> Vector3<f64>); 4] = [
+    let groups: [(&str, &str, OfTurn); 4] = [
         ("mean", "mean over the turn", |turn| turn.mean),
         ("least", "least in the turn", |turn| turn.least),
         ("most", "most in the turn", |turn| turn.most),

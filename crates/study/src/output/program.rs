@@ -101,6 +101,9 @@ fn forces(name: &str, measured: &MeasuredForces) -> String {
     if let Some(hz) = measured.table.low_pass_hz {
         let _ = write!(subtitle, "; low-pass {hz} Hz");
     }
+    if let Some(rpm) = measured.table.spindle_rpm {
+        let _ = write!(subtitle, "; means of turns at {rpm} rpm");
+    }
     let mut plot =
         crate::forces::output::plot((format!("{name}: measured force"), subtitle), &measured.treated);
     let [from, to] = measured.program;
