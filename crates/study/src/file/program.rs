@@ -1,6 +1,9 @@
 //! A tool path program of an ask: its file, where it lies on the part, how the tool is turned, how finely it is cut.
 
 mod cut_up;
+mod feature;
+
+pub use feature::{FeatureName, FeatureTable};
 
 use std::fs::File;
 use std::io::BufReader;
@@ -12,7 +15,7 @@ use armill_core::load::{LoadCases, PathLoad};
 use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::clock::begins;
-use armill_core::path::{FeatureKind, ForcesTold, NoForces, Operation, PathPoint, Placing, Sampling, Spin};
+use armill_core::path::{ForcesTold, NoForces, Operation, Placing, Sampling, Spin};
 use armill_core::watch::Watch;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
@@ -22,6 +25,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use cut_up::CutUp;
+use feature::features_have_points;
 
 use super::cut::Cut;
 use super::drill::{DrillCut, DrillTable};
@@ -138,54 +142,6 @@ pub enum SpinName {
     AlongFeed,
     /// As the program tells at each point: column `spin_deg` of a CSV.
     Given,
-}
-
-/// A stretch of the program that makes a feature.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct FeatureTable {
-    /// Its name.
-    pub name: String,
-    /// What it is to be.
-    pub kind: FeatureName,
-    /// First and last line of the program that cut it.
-    pub lines: [u32; 2],
-}
-
-/// What a feature is to be.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum FeatureName {
-    /// Radius, centre, roundness.
-    Circle,
-    /// Straightness.
-    Line,
-    /// Flatness.
-    Plane,
-    /// Position.
-    Hole,
-}
-
-impl FeatureName {
-    /// As the study calls it.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            FeatureName::Circle => "circle",
-            FeatureName::Line => "line",
-            FeatureName::Plane => "plane",
-            FeatureName::Hole => "hole",
-        }
-    }
-
-    /// As the core knows it.
-    pub(crate) fn kind(self) -> FeatureKind {
-        match self {
-            FeatureName::Circle => FeatureKind::Circle,
-            FeatureName::Line => FeatureKind::Line,
-            FeatureName::Plane => FeatureKind::Plane,
-            FeatureName::Hole => FeatureKind::Hole,
-        }
-    }
 }
 
 /// A program that was read and cut into points.
@@ -463,24 +419,6 @@ pub(super) fn read(
         measured,
         setting,
     }))
-}
-
-/// Whether every feature has points of the program; tells those that have none.
-fn features_have_points(places: &mut Places<'_>, table: &ProgramTable, points: &[PathPoint]) -> bool {
-    let mut all = true;
-    for (index, feature) in table.feature.iter().enumerate() {
-        let [first, last] = feature.lines;
-        if points.iter().any(|point| (first..=last).contains(&point.line)) {
-            continue;
-        }
-        all = false;
-        let lines = || points.iter().map(|point| point.line);
-        let (low, high) = (lines().min().unwrap_or(0), lines().max().unwrap_or(0));
-        let message = format!("`{}`: no cut stands in lines {first} to {last}", feature.name);
-        let hint = format!("the cuts of the program stand in lines {low} to {high}");
-        places.problem(&format!("program.feature[{index}].lines"), message, &hint);
-    }
-    all
 }
 
 /// What to do where there are no forces along a program.

@@ -1,0 +1,78 @@
+//! Stretches of a program that make a feature, as a study marks them.
+
+use armill_core::path::{FeatureKind, PathPoint};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::ProgramTable;
+use crate::file::places::Places;
+
+/// A stretch of the program that makes a feature.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureTable {
+    /// Its name.
+    pub name: String,
+    /// What it is to be.
+    pub kind: FeatureName,
+    /// First and last line of the program that cut it.
+    pub lines: [u32; 2],
+}
+
+/// What a feature is to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum FeatureName {
+    /// Radius, centre, roundness.
+    Circle,
+    /// Straightness.
+    Line,
+    /// Flatness.
+    Plane,
+    /// Position.
+    Hole,
+}
+
+impl FeatureName {
+    /// As the study calls it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            FeatureName::Circle => "circle",
+            FeatureName::Line => "line",
+            FeatureName::Plane => "plane",
+            FeatureName::Hole => "hole",
+        }
+    }
+
+    /// As the core knows it.
+    pub(crate) fn kind(self) -> FeatureKind {
+        match self {
+            FeatureName::Circle => FeatureKind::Circle,
+            FeatureName::Line => FeatureKind::Line,
+            FeatureName::Plane => FeatureKind::Plane,
+            FeatureName::Hole => FeatureKind::Hole,
+        }
+    }
+}
+
+/// Whether every feature has points of the program; tells those that have none.
+pub(super) fn features_have_points(
+    places: &mut Places<'_>,
+    table: &ProgramTable,
+    points: &[PathPoint],
+) -> bool {
+    let mut all = true;
+    for (index, feature) in table.feature.iter().enumerate() {
+        let [first, last] = feature.lines;
+        if points.iter().any(|point| (first..=last).contains(&point.line)) {
+            continue;
+        }
+        all = false;
+        let lines = || points.iter().map(|point| point.line);
+        let (low, high) = (lines().min().unwrap_or(0), lines().max().unwrap_or(0));
+        let message = format!("`{}`: no cut stands in lines {first} to {last}", feature.name);
+        let hint = format!("the cuts of the program stand in lines {low} to {high}");
+        places.problem(&format!("program.feature[{index}].lines"), message, &hint);
+    }
+    all
+}
