@@ -73,6 +73,7 @@ impl Paths {
             points.push(PathPoint {
                 at: at * 1e-3,
                 axis: None,
+                spin: None,
                 direction: Unit::try_new(at - before, 0.0).unwrap_or(Vector3::x_axis()),
                 along: k as f64 * 1e-3,
                 pace: Pace::Feed(FEED),
@@ -89,11 +90,10 @@ impl Paths {
     }
 
     /// A track of it before the arm.
-    fn track(&self, load: PathLoad) -> Track {
+    fn track(&self) -> Track {
         Track {
             points: self.points.clone(),
             placing: placing(),
-            load,
             base_from_part: placing().base_from_path,
         }
     }
@@ -182,28 +182,30 @@ fn readers(paths: &Paths) -> Vec<Candidate<'_>> {
 fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill along_program";
     let push = Wrench::from_force(Vector3::new(-150.0, 36.0, 14.0));
-    let track = paths.track(PathLoad::Cases(LoadCases {
+    let load = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Feed,
         cases: vec![push],
-    }));
+    });
+    let track = paths.track();
+    let of_cut = track.clone();
     let question = Question {
         cases: &[],
         ..arm.question(ONE_POSTURE)
     };
     let along = move || {
-        let answer = along_program(&question, &track, Watch::NONE).expect("nobody cancels");
+        let answer = along_program(&question, &track, load.clone(), Watch::NONE).expect("nobody cancels");
         assert_eq!(answer.answers.held().count(), POINTS);
         black_box(answer);
     };
     let cutting = cutting();
     let along_cut = move || {
-        let forces = cutting.along(&paths.points, &[], &placing());
-        let track = paths.track(forces.expect("feed and spindle are told").load);
-        black_box(along_program(&question, &track, Watch::NONE)).ok();
+        let forces = cutting.along(&of_cut.points, &[], &of_cut.placing, None, Watch::NONE);
+        let load = PathLoad::Cuts(forces.expect("feed and spindle are told").cuts);
+        black_box(along_program(&question, &of_cut, load, Watch::NONE)).ok();
     };
     vec![
         Candidate::new(WHO, ALONG, POINTS, along).note("MH12, one load case in the feed frame, one posture"),
         Candidate::new(WHO, ALONG_CUT, POINTS, along_cut)
-            .note("the same under the mean force of a flat end mill, mechanistic"),
+            .note("the same under the mean force of a flat end mill, mechanistic, at rest with the tool"),
     ]
 }

@@ -291,7 +291,7 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
         ),
         (
             format!("{table}\nmeasured = {{ file = \"x.csv\", acts_on = \"tool\", frame = \"feed\" }}"),
-            "x.csv",
+            "measured forces and a drill",
         ),
     ] {
         let study = format!("{CELL}{}", ask(&format!("{drill}{wrong}")));
