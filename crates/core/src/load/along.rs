@@ -30,8 +30,8 @@ pub enum PathLoad {
 /// What is cut along a path, and what that pushes with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CutsAlong {
-    /// The tool.
-    pub cutter: Cutter,
+    /// The tools.
+    pub cutters: Vec<Cutter>,
     /// Force of a chip.
     pub law: CuttingLaw,
     /// Whether the greatest force of a revolution is a second load case.
@@ -43,6 +43,8 @@ pub struct CutsAlong {
 /// The cut at a point, as drawn; forces in the feed frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutHere {
+    /// Which of the tools.
+    pub cutter: usize,
     /// What is cut; `None` in the air, and where no force is known.
     pub cut: Option<Cut>,
     /// Mean force over a revolution, N.
@@ -54,6 +56,7 @@ pub struct CutHere {
 impl CutHere {
     /// Nothing is cut.
     pub const NOTHING: CutHere = CutHere {
+        cutter: 0,
         cut: None,
         mean: Vector3::new(0.0, 0.0, 0.0),
         greatest: Vector3::new(0.0, 0.0, 0.0),

@@ -137,6 +137,19 @@ impl Cutter {
         })
     }
 
+    /// The same tool with another `diameter` and `corner_radius` (m).
+    ///
+    /// # Errors
+    /// As [`Cutter::bull_nose`].
+    pub fn of_size(&self, diameter: f64, corner_radius: f64) -> Result<Cutter, CuttingError> {
+        let sized = Cutter::bull_nose(diameter, corner_radius, self.flutes)?;
+        Ok(Cutter {
+            diameter: sized.diameter,
+            corner_radius: sized.corner_radius,
+            ..*self
+        })
+    }
+
     /// The same with flutes that wind by `helix` (rad, not negative).
     ///
     /// # Errors

@@ -108,6 +108,11 @@ impl Straying {
         }
     }
 
+    /// The tool from here on.
+    pub fn hold(&mut self, cutter: Cutter) {
+        self.cutter = cutter;
+    }
+
     /// Where `cut` and a tip that yields so (feed frame) rest; `drawn` is the force of the path as drawn.
     pub fn rest(&mut self, cut: &Cut, drawn: Vector3<f64>, tip: &TipYield) -> Rest {
         let stiff = strays(tip, drawn);
@@ -160,7 +165,7 @@ impl Straying {
             None => Some(Vector3::zeros()),
             Some(cut) => {
                 let milling = Milling::new(self.cutter, self.law, cut).ok()?;
-                Some(milling.mean().force)
+                Some(milling.mean_force())
             }
         }
     }

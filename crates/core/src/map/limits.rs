@@ -239,9 +239,10 @@ struct Varied {
 impl Varied {
     fn of(cuts: &CutsAlong, index: usize, tip: TipYield, limit: f64) -> Option<Varied> {
         let here = cuts.points[index];
+        let cutter = cuts.cutters[here.cutter];
         Some(Varied {
-            straying: Straying::new(cuts.cutter, cuts.law),
-            cutter_radius: cuts.cutter.radius(),
+            straying: Straying::new(cutter, cuts.law),
+            cutter_radius: cutter.radius(),
             cut: here.cut?,
             here,
             with_greatest: cuts.with_greatest,
@@ -354,7 +355,7 @@ fn sheet(
         deciding.extend(tips.at(index).and_then(|tip| Varied::of(cuts, index, tip, limit)));
     }
     let drawn = |of: fn(&Cut) -> f64| deciding.iter().map(|here| of(&here.cut)).fold(0.0, f64::max);
-    let diameter = cuts.cutter.diameter();
+    let diameter = 2.0 * deciding.iter().map(|here| here.cutter_radius).fold(0.0, f64::max);
     let reach = |drawn: f64, least: f64, most: f64| (BEYOND * drawn.max(least)).min(most);
     let steps = |most: f64| {
         (1..=SHEET)

@@ -178,7 +178,7 @@ impl Resting<'_> {
     fn new(track: &Track, cuts: CutsAlong) -> Resting<'_> {
         Resting {
             track,
-            straying: Straying::new(cuts.cutter, cuts.law),
+            straying: Straying::new(cuts.cutters[0], cuts.law),
             cuts,
             rested: Rested::default(),
         }
@@ -197,6 +197,7 @@ impl Resting<'_> {
                 self.rested.largest_if_drawn = self.rested.largest_if_drawn.max(in_plane);
             }
             if let Some(cut) = here.cut {
+                self.straying.hold(self.cuts.cutters[here.cutter]);
                 let rest = self.straying.rest(&cut, here.mean, &tip);
                 [here.mean, here.greatest] = here.under(rest.force);
                 if !rest.settled {

@@ -2,7 +2,7 @@
 //!
 //! The mean over a revolution; where it is asked for also the greatest. An arm whose modes lie at some
 //! 10 Hz does not follow the teeth: the mean moves it, and what the greatest force would move it if it stood still is a
-//! bound. Feed and spindle are those of the program, where it tells them; depths too.
+//! bound. Feed, spindle, depths and the size of the tool are those of the program, where it tells them.
 //!
 //! What the tool meets comes from the [`stock`](super::stock), as far as the tool stands upright in it; else the
 //! engagement is the same everywhere. The greatest force is searched for once for each cut, on the level; on a ramp it is
@@ -164,6 +164,8 @@ impl Cutting {
         let mut largest: Option<Process> = None;
         let mut peaks = Peaks::default();
         let mut stock = stock.map(|stock| InStock::of(stock, &self.cutter)).transpose()?;
+        let mut cutters = vec![self.cutter];
+        let mut cutter = 0;
         let mut operation = operations.iter().peekable();
         let mut of_operation = None;
         for (index, point) in points.iter().enumerate() {
@@ -175,12 +177,23 @@ impl Cutting {
             }
             while let Some((_, next)) = operation.next_if(|(first, _)| *first <= index) {
                 of_operation = Some(next);
+                let held = self.held_in(next)?;
+                cutter = cutters
+                    .iter()
+                    .position(|known| *known == held)
+                    .unwrap_or(cutters.len());
+                if cutter == cutters.len() {
+                    cutters.push(held);
+                }
+                if let Some(stock) = &mut stock {
+                    stock.profile = profile_of(&held, next.line)?;
+                }
             }
             let no_cut = |error| NoForces::Cut {
                 line: point.line,
                 error,
             };
-            let mut process = self.process(of_operation, point)?;
+            let mut process = self.process(cutters[cutter], of_operation, point)?;
             let mut is_of_stock = false;
             if let (Some(stock), Some(met)) = (&mut stock, &mut told.met) {
                 let before = index.checked_sub(1).map(|before| &points[before]);
@@ -190,10 +203,8 @@ impl Cutting {
                         cuts.push(CutHere::NOTHING);
                         continue;
                     }
-                    Meets::Strip(strip, depth) => {
-                        process.engagement =
-                            Engagement::strip(strip, self.cutter.diameter()).map_err(no_cut)?;
-                        process.depth = depth;
+                    Meets::Strip(engagement, depth) => {
+                        (process.engagement, process.depth) = (engagement, depth);
                         is_of_stock = true;
                     }
                 }
@@ -224,6 +235,7 @@ impl Cutting {
                 told.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
             }
             cuts.push(CutHere {
+                cutter,
                 cut: Some(*milling.cut()),
                 mean: mean.force,
                 greatest,
@@ -236,7 +248,7 @@ impl Cutting {
         }
         Ok(CuttingForces {
             cuts: CutsAlong {
-                cutter: self.cutter,
+                cutters,
                 law: self.law,
                 with_greatest: self.greatest == Greatest::SecondCase,
                 points: cuts,
@@ -245,8 +257,26 @@ impl Cutting {
         })
     }
 
+    /// The cutter, in the size that an operation tells.
+    fn held_in(&self, operation: &Operation) -> Result<Cutter, NoForces> {
+        let Some(diameter) = operation.diameter else {
+            return Ok(self.cutter);
+        };
+        // A ball stays a ball where no corner is told.
+        let alike = self.cutter.corner_radius() / self.cutter.diameter() * diameter;
+        let corner = operation.corner_radius.unwrap_or(alike).min(diameter / 2.0);
+        let line = operation.line;
+        let sized = self.cutter.of_size(diameter, corner);
+        sized.map_err(|error| NoForces::Cut { line, error })
+    }
+
     /// The process of an operation at a point.
-    fn process(&self, operation: Option<&Operation>, point: &PathPoint) -> Result<Process, NoForces> {
+    fn process(
+        &self,
+        cutter: Cutter,
+        operation: Option<&Operation>,
+        point: &PathPoint,
+    ) -> Result<Process, NoForces> {
         let line = point.line;
         let depths = operation.and_then(|operation| operation.depths);
         let immersion = match (depths, self.immersion) {
@@ -255,9 +285,9 @@ impl Cutting {
             (Some(depths), Immersion::Down(_)) => Immersion::Down(depths.radial),
             (Some(depths), Immersion::Centred(_) | Immersion::Slot) => Immersion::Centred(depths.radial),
         };
-        let engagement = Engagement::of(immersion, self.cutter.diameter());
+        let engagement = Engagement::of(immersion, cutter.diameter());
         Ok(Process {
-            cutter: self.cutter,
+            cutter,
             law: self.law,
             depth: depths.map_or(self.depth, |depths| depths.axial),
             engagement: engagement.map_err(|error| NoForces::Cut { line, error })?,
@@ -289,14 +319,19 @@ pub(super) fn spindle_of(
     speed.ok_or(NoForces::NoSpindle { line })
 }
 
+fn profile_of(cutter: &Cutter, line: u32) -> Result<CutterProfile, NoForces> {
+    CutterProfile::new(cutter.diameter(), cutter.corner_radius())
+        .map_err(|error| NoForces::Stock { line, error })
+}
+
 /// What the tool meets at a point.
 enum Meets {
     /// What the cut of the study says.
     AsTold,
     /// Nothing.
     Nothing,
-    /// A strip (right and left edge, m, to the left of the axis) this deep (m).
-    Strip([f64; 2], f64),
+    /// A strip this deep (m).
+    Strip(Engagement, f64),
 }
 
 /// A cutter on its way through a stock.
@@ -307,11 +342,8 @@ struct InStock<'a> {
 
 impl<'a> InStock<'a> {
     fn of(stock: &'a mut Stock, cutter: &Cutter) -> Result<InStock<'a>, NoForces> {
-        let profile = CutterProfile::new(cutter.diameter(), cutter.corner_radius());
-        Ok(InStock {
-            stock,
-            profile: profile.map_err(|error| NoForces::Stock { line: 0, error })?,
-        })
+        let profile = profile_of(cutter, 1)?;
+        Ok(InStock { stock, profile })
     }
 
     /// What the tool meets on its way to `point` from the point `before`, where it cut before.
@@ -342,24 +374,26 @@ impl<'a> InStock<'a> {
             }
         };
         met.removed += bite.volume;
-        Ok(match bite.kind {
-            BiteKind::Air => {
-                met.in_air += 1;
-                Meets::Nothing
-            }
-            // The force of a dive is not known, whatever it bites into.
-            BiteKind::Plunge => Meets::AsTold,
-            BiteKind::Slot | BiteKind::Side(_) => {
-                met.slots += usize::from(bite.kind == BiteKind::Slot);
-                met.largest_depth = met.largest_depth.max(bite.axial_depth);
-                met.largest_width = met.largest_width.max(bite.radial_depth);
-                Meets::Strip(self.strip(&bite), bite.axial_depth)
-            }
-        })
+        // The force of a dive is not known, whatever it bites into.
+        if bite.kind == BiteKind::Plunge {
+            return Ok(Meets::AsTold);
+        }
+        let Some(strip) = self.strip(&bite) else {
+            met.in_air += 1;
+            return Ok(Meets::Nothing);
+        };
+        met.slots += usize::from(bite.kind == BiteKind::Slot);
+        met.largest_depth = met.largest_depth.max(bite.axial_depth);
+        met.largest_width = met.largest_width.max(bite.radial_depth);
+        Ok(Meets::Strip(strip, bite.axial_depth))
     }
 
-    /// Its edges: one that reaches the rim at its own height goes on beyond it.
-    fn strip(&self, bite: &Bite) -> [f64; 2] {
+    /// What it bites into; `None` in the air, or if that has no width. A strip that reaches the rim at its own height goes
+    /// on beyond it.
+    fn strip(&self, bite: &Bite) -> Option<Engagement> {
+        if bite.kind == BiteKind::Air {
+            return None;
+        }
         let radius = self.profile.radius();
         let right = if bite.exit >= std::f64::consts::PI {
             -radius
@@ -367,18 +401,28 @@ impl<'a> InStock<'a> {
             bite.right
         };
         let left = if bite.entry <= 0.0 { radius } else { bite.left };
-        [right, left]
+        Engagement::strip([right, left], 2.0 * radius).ok()
     }
 }
 
 /// Greatest forces over the size of the mean one, on the level, of the cuts that were asked for.
 #[derive(Default)]
-struct Peaks(BTreeMap<[u64; 5], Vector3<f64>>);
+struct Peaks(BTreeMap<[u64; 7], Vector3<f64>>);
 
 impl Peaks {
     fn over_mean(&mut self, process: &Process) -> Result<Vector3<f64>, CuttingError> {
         let [right, left] = process.engagement.edges();
-        let key = [process.depth, right, left, process.feed, process.spindle].map(f64::to_bits);
+        let size = [process.cutter.diameter(), process.cutter.corner_radius()];
+        let key = [
+            size[0],
+            size[1],
+            process.depth,
+            right,
+            left,
+            process.feed,
+            process.spindle,
+        ]
+        .map(f64::to_bits);
         if let Some(known) = self.0.get(&key) {
             return Ok(*known);
         }

@@ -141,9 +141,35 @@ impl RestResult {
     }
 }
 
+/// Diameters of tools that differ by more than this part are told.
+const OTHER_DIAMETER: f64 = 0.01;
+
+/// Tools of the program of another size than the cutter of the study.
+fn other_tools(ask: &ProgramAsk) -> Option<String> {
+    let cutter_mm = ask.cut.as_ref()?.cutting.cutter.diameter() * 1e3;
+    let mut others: Vec<String> = Vec::new();
+    for (_, operation) in &ask.operations {
+        let Some(diameter_mm) = operation.diameter.map(|diameter| diameter * 1e3) else {
+            continue;
+        };
+        let told = format!("{} mm", tidy(diameter_mm));
+        if (diameter_mm / cutter_mm - 1.0).abs() > OTHER_DIAMETER && !others.contains(&told) {
+            others.push(told);
+        }
+    }
+    (!others.is_empty()).then(|| {
+        format!(
+            "the program tells tools of {}: they cut with that size, and with all else of the cutter of {} mm that the study \
+             tells",
+            others.join(", "),
+            tidy(cutter_mm)
+        )
+    })
+}
+
 /// What a user should know of the engagement and of how the force gave way.
 pub(super) fn notes(ask: &ProgramAsk, found: &ProgramFound) -> Vec<String> {
-    let mut notes = Vec::new();
+    let mut notes: Vec<String> = other_tools(ask).into_iter().collect();
     match found.forces.and_then(|forces| forces.met) {
         None => notes.push(
             "forces are those of the same engagement everywhere: what earlier passes took away is not looked at; \

@@ -440,3 +440,13 @@ fn a_covariance_is_the_same_for_each_tooth_by_itself() {
     let (round, off) = (of(flat()), of(off_centre(20e-6)));
     assert!((round - off).norm() < 1e-5 * round.norm());
 }
+
+#[test]
+fn the_force_alone_is_the_force_of_the_mean() {
+    let tools = [Cutter::flat(16.0 * MM, 4), Cutter::ball(16.0 * MM, 4)].map(Result::unwrap);
+    let laws = [mechanistic(WITH_EDGE), kienzle(800e6, 0.25, [0.0; 4])];
+    for (tool, law) in tools.into_iter().flat_map(|tool| laws.map(|law| (tool, law))) {
+        let milling = Milling::new(tool, law, cut(Immersion::Up(5.0 * MM))).unwrap();
+        assert_eq!(milling.mean_force(), milling.mean().force);
+    }
+}

@@ -234,3 +234,54 @@ fn long_work_can_be_stopped() {
     let stopped = cutting().along(&pocket(), &[], &placing(), None, watch);
     assert_eq!(stopped, Err(NoForces::Cancelled));
 }
+
+#[test]
+fn the_tool_of_the_program_cuts_in_its_own_size() {
+    let feed = Pace::Feed(40e-3);
+    let points = [point([1.0, 0.0, 0.0], feed), point([1.0, 0.0, 0.0], feed)];
+    let wide = Operation {
+        diameter: Some(20e-3),
+        ..Operation::default()
+    };
+    let found = along(&cutting(), &points, &[(1, wide)], None).unwrap();
+    let of_20 = Cutting {
+        cutter: cutting().cutter.of_size(20e-3, 0.0).unwrap(),
+        ..cutting()
+    };
+    let alone = along(&of_20, &points, &[], None).unwrap();
+    assert_eq!(found.cuts.points[1].mean, alone.cuts.points[1].mean);
+    assert_ne!(found.cuts.points[0].mean, alone.cuts.points[0].mean);
+    assert_eq!(found.cuts.cutters[found.cuts.points[1].cutter].diameter(), 20e-3);
+    let none = Operation {
+        diameter: Some(1e-9),
+        line: 9,
+        ..Operation::default()
+    };
+    let error = along(&cutting(), &points, &[(1, none)], None)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.starts_with("line 9: ") && error.contains("diameter"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_bite_without_width_is_air() {
+    // Along a wall that was cut to a hair: the strip that is left is thinner than the map tells.
+    let corners = [Point3::new(-40e-3, 8e-3, -10e-3), Point3::new(40e-3, 40e-3, 0.0)];
+    let mut stock = Stock::new(corners, 0.25e-3).unwrap();
+    let points: Vec<PathPoint> = (0..40)
+        .map(|k| PathPoint {
+            at: Point3::new(f64::from(k) * 1e-3 - 20e-3, 1e-6, -1e-3),
+            along: f64::from(k) * 1e-3,
+            ..point([1.0, 0.0, 0.0], Pace::Untold)
+        })
+        .collect();
+    let found = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
+    let met = found.told.met.unwrap();
+    assert!(
+        met.in_air + met.slots <= 40 && met.largest_width < 1e-3,
+        "{met:?}"
+    );
+}
