@@ -199,7 +199,7 @@ fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
     };
     let cutting = cutting();
     let along_cut = move || {
-        let forces = cutting.along(&of_cut.points, &[], &of_cut.placing, None, Watch::NONE);
+        let forces = cutting.along((&of_cut.points, &[]), &of_cut.placing, None, Watch::NONE);
         let load = PathLoad::Cuts(forces.expect("feed and spindle are told").cuts);
         black_box(along_program(&question, &of_cut, load, Watch::NONE)).ok();
     };

@@ -109,9 +109,9 @@ impl Runner<'_> {
             Some(cut) if let Some(stock) = &cut.stock => {
                 let (points, placing) = (&ask.track.points, &ask.track.placing);
                 let mut stock = stock.clone();
-                let found = cut
-                    .cutting
-                    .along(points, &ask.operations, placing, Some(&mut stock), self.watch);
+                let found =
+                    cut.cutting
+                        .along((points, &ask.operations), placing, Some(&mut stock), self.watch);
                 let found = found.map_err(|error| match error {
                     NoForces::Cancelled => StudyError::Cancelled(Cancelled),
                     error => StudyError::value(

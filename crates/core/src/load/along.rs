@@ -11,6 +11,7 @@ use crate::spatial::Wrench;
 
 /// What pushes on the tool at the points of a path.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(clippy::large_enum_variant, reason = "there is one for a whole path")]
 pub enum PathLoad {
     /// The same cases everywhere, told in their frame.
     Cases(LoadCases),

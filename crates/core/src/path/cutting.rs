@@ -150,8 +150,7 @@ impl Cutting {
     /// [`NoForces`] at the first point where the cut is not known or cannot be, or if the watch says so.
     pub fn along(
         &self,
-        points: &[PathPoint],
-        operations: &[(usize, Operation)],
+        (points, operations): (&[PathPoint], &[(usize, Operation)]),
         placing: &Placing,
         stock: Option<&mut Stock>,
         watch: Watch<'_>,

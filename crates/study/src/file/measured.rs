@@ -347,7 +347,7 @@ fn predicted(table: &MeasuredTable, course: &Course<'_>, cut: &Cut) -> Result<Ve
     let (points, operations) = (course.points, course.operations);
     let along = cut
         .cutting
-        .along(points, operations, course.placing, stock.as_mut(), Watch::NONE);
+        .along((points, operations), course.placing, stock.as_mut(), Watch::NONE);
     let load = along.map_err(|error| {
         let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
         Refusal::new("synchronise", error.to_string(), hint)

@@ -379,7 +379,10 @@ pub(super) fn read(
         },
         Pushes::Cut(cut) => {
             let (points, operations) = (&cut_up.points, &cut_up.operations);
-            match cut.cutting.along(points, operations, &placing, None, Watch::NONE) {
+            match cut
+                .cutting
+                .along((points, operations), &placing, None, Watch::NONE)
+            {
                 Ok(found) => {
                     setting.doubt.relative = found.told.relative_uncertainty;
                     (PathLoad::Cuts(found.cuts), Some(*cut), Some(found.told))

@@ -48,7 +48,7 @@ fn along(
     operations: &[(usize, Operation)],
     stock: Option<&mut Stock>,
 ) -> Result<CuttingForces, NoForces> {
-    cutting.along(points, operations, &placing(), stock, Watch::NONE)
+    cutting.along((points, operations), &placing(), stock, Watch::NONE)
 }
 
 fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operation)]) -> Vec<Vector3<f64>> {
@@ -231,7 +231,7 @@ fn long_work_can_be_stopped() {
         cancel: &cancel,
         ..Watch::NONE
     };
-    let stopped = cutting().along(&pocket(), &[], &placing(), None, watch);
+    let stopped = cutting().along((&pocket(), &[]), &placing(), None, watch);
     assert_eq!(stopped, Err(NoForces::Cancelled));
 }
 
