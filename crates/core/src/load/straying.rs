@@ -17,7 +17,7 @@
 //! the drawing; what an earlier pass left by straying itself is not looked at.
 //!
 //! `s` is sought by Broyden's method, from where the tool rested a point before: on a path one or two forces a point are
-//! enough. Where the tool rests is told to [`CLOSE`] of the deviation. It does not rest where straying into the part
+//! enough. Where the tool rests is told to 1e-5 of the deviation. It does not rest where straying into the part
 //! pushes it farther in than it strayed: `s` then lies opposite to where the force of the drawn path pushes, no cut
 //! begins so, and [`Rest::settled`] says no.
 //!
