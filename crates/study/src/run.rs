@@ -6,7 +6,8 @@ use armill_core::map::{
     PathAnswer, PlaneMap, ProgramAnswer, ProgramLimits, VolumeMap, along_path, along_program, plane_map,
     program_limits, volume_map,
 };
-use armill_core::path::{ForcesTold, NoForces};
+use armill_core::nalgebra::Point3;
+use armill_core::path::{ForcesTold, NoForces, Stock};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::watch::{Cancelled, Watch};
 
@@ -71,6 +72,24 @@ pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
     study.asks.iter().map(|ask| runner.find(ask)).collect()
 }
 
+const BESIDE_STOCK: &str = "is the stock where the program cuts?";
+
+/// A program that misses its stock would hold any tolerance.
+fn nothing_cut(ask: &ProgramAsk, stock: &Stock) -> StudyError {
+    let mm = |corners: [Point3<f64>; 2]| {
+        let [low, high] =
+            corners.map(|at| format!("({:.1}, {:.1}, {:.1})", at.x * 1e3, at.y * 1e3, at.z * 1e3));
+        format!("{low} to {high} mm")
+    };
+    let message = format!(
+        "{}: the program cuts nothing of its stock: the cuts go from {}, the stock from {}",
+        ask.file,
+        mm(ask.track.corners()),
+        mm(stock.corners())
+    );
+    StudyError::value(message, BESIDE_STOCK)
+}
+
 struct Runner<'a> {
     robot: &'a Robot,
     compliance: &'a [JointCompliance],
@@ -114,11 +133,11 @@ impl Runner<'_> {
                         .along((points, &ask.operations), placing, Some(&mut stock), self.watch);
                 let found = found.map_err(|error| match error {
                     NoForces::Cancelled => StudyError::Cancelled(Cancelled),
-                    error => StudyError::value(
-                        format!("{}: {error}", ask.file),
-                        "is the stock where the program cuts?",
-                    ),
+                    error => StudyError::value(format!("{}: {error}", ask.file), BESIDE_STOCK),
                 })?;
+                if found.cuts.points.iter().all(|here| here.cut.is_none()) {
+                    return Err(nothing_cut(ask, &stock));
+                }
                 (PathLoad::Cuts(found.cuts), Some(found.told))
             }
             _ => (ask.load.clone(), ask.forces),

@@ -201,6 +201,26 @@ fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
 }
 
 #[test]
+fn a_program_that_misses_its_stock_is_refused_and_not_praised() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("step.ngc"), STEP_OVER).unwrap();
+    let far = STOCK
+        .replace("[-40, -40, -20]", "[100, 100, -20]")
+        .replace("[40, 40, 0]", "[200, 200, 0]");
+    let text = format!("{CELL}{CUT}{far}{}", ask("file = \"step.ngc\""));
+    let study = read("study.toml", folder.path(), text.as_bytes()).unwrap();
+    let error = run(&study, Watch::NONE).unwrap_err().to_string();
+    for words in [
+        "step.ngc",
+        "cuts nothing of its stock",
+        "(-60.0, 0.0, -1.0)",
+        "(200.0, 200.0, 0.0) mm",
+    ] {
+        assert!(error.contains(words), "no `{words}` in {error}");
+    }
+}
+
+#[test]
 fn what_keeps_the_tolerance_is_told_and_holds_when_it_is_cut() {
     let path = of_cut(CUT);
     let limits = path.program.as_ref().unwrap().limits.as_ref().unwrap();
