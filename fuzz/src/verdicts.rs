@@ -125,12 +125,14 @@ pub fn pendant(bytes: &[u8]) {
     }
 }
 
+/// Endless loops end soon enough to try others.
+const MOST_REPEATED_LINES: usize = 20_000;
+
 /// G-code of a machine with a tilting table.
 pub fn gcode(bytes: &[u8]) {
     let options = gcode::Options {
         rotaries: Some(gcode::Rotaries::table_ac()),
-        // Endless loops end soon enough to try others.
-        most_repeated_lines: Some(20_000),
+        most_repeated_lines: Some(MOST_REPEATED_LINES),
         ..gcode::Options::default()
     };
     let mut reader = bytes;
@@ -174,7 +176,11 @@ pub fn path_csv(bytes: &[u8]) {
 
 /// A tool path program whose format is to be found out.
 pub fn program(bytes: &[u8]) {
-    if let Err(problems) = program::read("part", bytes, &program::Wanted::default(), &mut told) {
+    let wanted = program::Wanted {
+        most_repeated_lines: Some(MOST_REPEATED_LINES),
+        ..program::Wanted::default()
+    };
+    if let Err(problems) = program::read("part", bytes, &wanted, &mut told) {
         refused(&problems);
     }
 }

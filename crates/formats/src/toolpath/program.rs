@@ -24,6 +24,8 @@ pub struct Wanted<'a> {
     pub tools: Option<ToolTable>,
     /// G-code: subroutines that are not in the program.
     pub subroutines: Option<Lookup<'a>>,
+    /// G-code: most lines of loops and subroutines; see [`gcode::Options`].
+    pub most_repeated_lines: Option<usize>,
 }
 
 /// What a program held beside its steps.
@@ -102,6 +104,7 @@ fn of_gcode(
         rotaries: wanted.rotaries.clone(),
         tools: wanted.tools.clone(),
         subroutines: wanted.subroutines,
+        most_repeated_lines: wanted.most_repeated_lines,
         ..gcode::Options::default()
     };
     let summary = gcode::read(path, &mut reader, &options, out)?;

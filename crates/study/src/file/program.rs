@@ -295,6 +295,7 @@ pub(super) fn read(
         rotaries: table.rotaries.map(RotariesName::rotaries),
         tools,
         subroutines: Some(&subroutine),
+        ..Wanted::default()
     };
     let mut cut_up = CutUp::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
