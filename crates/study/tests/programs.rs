@@ -261,6 +261,13 @@ fn force_and_tool_rest_and_it_is_told_where_that_matters() {
         .any(|note| note.contains("strays so far"));
     assert_eq!(noted, (ratio - 1.0).abs() > 0.05, "{ratio}");
     assert!((ratio - 1.0).abs() > 1e-4, "{ratio}");
+    // A right-hand helix draws the soft arm into a slot: a sixth more than the force as drawn would make.
+    let slot = of_cut(&format!("{CUT}{STOCK}")).program.unwrap();
+    assert!(
+        slot.notes.iter().any(|note| note.contains("strays so far")),
+        "{:?}",
+        slot.rest
+    );
 }
 
 #[test]

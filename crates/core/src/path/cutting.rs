@@ -62,7 +62,7 @@ pub struct CuttingForces {
     pub told: ForcesTold,
 }
 
-/// Forces along a path in a few numbers.
+/// Forces along a path in a few numbers, of the cuts as drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ForcesTold {
     /// Largest mean force along the path, N.
@@ -258,7 +258,7 @@ impl Cutting {
 
     /// The cutter, in the size that an operation tells.
     fn held_in(&self, operation: &Operation) -> Result<Cutter, NoForces> {
-        let Some(diameter) = operation.diameter else {
+        let Some(diameter) = operation.diameter.filter(|diameter| *diameter > 0.0) else {
             return Ok(self.cutter);
         };
         // A ball stays a ball where no corner is told.

@@ -51,7 +51,7 @@ pub struct ProgramResult {
     pub material: Option<String>,
     /// Points whose cut has no force: plunges and steep dives, where the bottom of the cutter is not modelled.
     pub points_without_force: usize,
-    /// Largest mean and largest greatest force along the program, where they were computed from the cut.
+    /// Largest mean and largest greatest force along the program, of the cut as drawn, where they were computed from it.
     pub largest_mean_and_peak_n: Option<[f64; 2]>,
     /// What the tool met in the stock, where the study tells one.
     pub stock: Option<StockResult>,

@@ -205,6 +205,7 @@ fn in_a_stock_the_cut_begins_in_the_air_is_a_slot_and_then_a_step_over() {
         down[0]
     );
     let share = |mean: Vector3<f64>, greatest: Vector3<f64>| greatest.norm() / mean.norm();
+    // Both strips differ by as little, and cuts alike to a fiftieth of the diameter share their greatest force.
     assert!((share(back.mean, back.greatest) / share(down[0], down[1]) - 1.0).abs() < 0.05);
 }
 
@@ -267,21 +268,31 @@ fn the_tool_of_the_program_cuts_in_its_own_size() {
 }
 
 #[test]
-fn a_bite_without_width_is_air() {
-    // Along a wall that was cut to a hair: the strip that is left is thinner than the map tells.
+fn a_bite_without_width_is_no_strip_and_one_that_reaches_the_rim_goes_on_beyond_it() {
     let corners = [Point3::new(-40e-3, 8e-3, -10e-3), Point3::new(40e-3, 40e-3, 0.0)];
-    let mut stock = Stock::new(corners, 0.25e-3).unwrap();
-    let points: Vec<PathPoint> = (0..40)
-        .map(|k| PathPoint {
-            at: Point3::new(f64::from(k) * 1e-3 - 20e-3, 1e-6, -1e-3),
-            along: f64::from(k) * 1e-3,
-            ..point([1.0, 0.0, 0.0], Pace::Untold)
-        })
-        .collect();
-    let found = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
-    let met = found.told.met.unwrap();
-    assert!(
-        met.in_air + met.slots <= 40 && met.largest_width < 1e-3,
-        "{met:?}"
-    );
+    let mut stock = Stock::new(corners, 1e-3).unwrap();
+    let stock = InStock::of(&mut stock, &cutting().cutter).unwrap();
+    // A ball that meets material at 3 mm from its axis, on its left up to there.
+    let bite = |kind, right: f64| Bite {
+        kind,
+        entry: 0.0,
+        exit: (right / 3e-3).acos(),
+        arcs: 1,
+        axial_depth: 1e-3,
+        left: 3e-3,
+        right,
+        radial_depth: 3e-3 - right,
+        volume: 0.0,
+    };
+    let side = BiteKind::Side(crate::path::Milling::Up);
+    let strip = stock.strip(&bite(side, 1e-3)).unwrap();
+    assert_eq!(strip.edges(), [1e-3, 8e-3]);
+    assert_eq!(stock.strip(&bite(BiteKind::Air, 1e-3)), None);
+    let at_the_rim = Bite {
+        left: 8e-3,
+        right: 8e-3,
+        exit: 0.0,
+        ..bite(side, 1e-3)
+    };
+    assert_eq!(stock.strip(&at_the_rim), None);
 }
