@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Loaded, Question, at_joints, evaluate};
+use armill_core::kernel::{BranchChoice, Question, at_joints, evaluate};
 use armill_core::load::Doubt;
 use armill_core::map::plane_map;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
@@ -54,11 +54,13 @@ impl Arm {
     /// The question of the workload.
     pub fn question(&self, choice: BranchChoice) -> Question<'_> {
         Question {
-            robot: &self.robot,
-            compliance: self.compliance(),
-            model: StiffnessModel::DRIVES,
+            arm: armill_core::source::Arm {
+                robot: &self.robot,
+                compliance: self.compliance(),
+                model: StiffnessModel::DRIVES,
+                flange_from_tool: &self.tool,
+            },
             doubt: Doubt::NONE,
-            flange_from_tool: &self.tool,
             home: None,
             cases: &self.cases,
             normal: Unit::new_unchecked(NORMAL.into()),
@@ -199,15 +201,14 @@ fn known_joints<'a>(arm: &'a Arm, one_thread: &'a ThreadPool) -> Candidate<'a> {
         .map(|k| ((k / 6 + 1) as f64 * 2.399_963 * ((k % 6) as f64 + 1.0)).sin())
         .collect();
     let run = move || {
-        let loaded = Loaded {
+        let held = armill_core::source::Arm {
             robot: &arm.robot,
             compliance: arm.compliance(),
             model: StiffnessModel::DRIVES,
             flange_from_tool: &arm.tool,
-            cases: &arm.cases,
         };
         one_thread
-            .install(|| black_box(at_joints(&loaded, &joints, Watch::NONE)))
+            .install(|| black_box(at_joints(&held, &arm.cases, &joints, Watch::NONE)))
             .ok();
     };
     Candidate::new("armill at_joints", DEV_AT, FEW, run)

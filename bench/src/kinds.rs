@@ -124,14 +124,16 @@ impl Other {
         let map = |(name, choice, pitch)| {
             let grid = Grid::within([0.15, 0.15], pitch);
             let question = Question {
-                robot: &self.robot,
-                compliance: self.robot.compliance().unwrap_or_default(),
-                flange_from_tool: &self.tool,
+                arm: armill_core::source::Arm {
+                    robot: &self.robot,
+                    compliance: self.robot.compliance().unwrap_or_default(),
+                    model: StiffnessModel::DRIVES,
+                    flange_from_tool: &self.tool,
+                },
                 home: None,
                 cases: &self.cases,
                 normal: Unit::new_unchecked(NORMAL.into()),
                 choice,
-                model: StiffnessModel::DRIVES,
                 doubt: Doubt::NONE,
             };
             Candidate::new(self.who, name, grid.len(), move || {

@@ -65,11 +65,16 @@ pub fn predict(posture: &Posture, joints: &[JointCompliance], wrench: &Wrench) -
 pub fn predict_in_full(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
     let mut standing = Standing::new(*arm);
     standing.stand(q);
-    let elastic = standing.elastic(wrench)?;
-    let gravity = standing.gravity()?;
     Ok(Deviation {
-        twist: gravity.map_or(elastic, |gravity| elastic + gravity),
+        twist: deviation_of(&mut standing, wrench)?,
         joint_shares: standing.shares(),
         covariance: standing.covariance(),
     })
+}
+
+/// The sources in their row: what they add up to where the arm stands.
+pub(crate) fn deviation_of(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<Twist, Unstable> {
+    let elastic = standing.elastic(wrench)?;
+    let gravity = standing.gravity()?;
+    Ok(gravity.map_or(elastic, |gravity| elastic + gravity))
 }

@@ -15,7 +15,7 @@ use armill_core::predict::predict;
 use armill_core::robot::inverse::{Finder, Inverse, SphericalWrist, ToolAt, Wanted, posture_at, postures};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Posture, Robot, Singularity, Unreachable};
-use armill_core::source::StiffnessModel;
+use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use arms::other::{self, DhRow};
@@ -699,11 +699,13 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
         Wrench::from_force(Vector3::new(-20.0, 4.0, 1.0)),
     ];
     let question = Question {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        flange_from_tool: &tool,
+        arm: Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: StiffnessModel::DRIVES,
+            flange_from_tool: &tool,
+        },
         home: None,
-        model: StiffnessModel::DRIVES,
         doubt: Doubt::NONE,
         cases: &cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
@@ -746,14 +748,14 @@ fn the_kernel_agrees_with_predict_for_every_kind_and_any_number_of_threads() {
                 assert_eq!(answers.deviations, again.deviations);
                 let mut checked = 0;
                 for (i, held) in answers.held() {
-                    let posture = posture_at(&robot, answers.joints_at(i), question.flange_from_tool);
+                    let posture = posture_at(&robot, answers.joints_at(i), question.arm.flange_from_tool);
                     let away = posture.base_from_tool.translation.vector - poses[i].translation.vector;
                     assert!(away.norm() < 1e-9, "{}", robot.name());
                     if held.singularity.is_none() {
                         assert_eq!(posture.name, held.name);
                     }
                     for (case, wrench) in question.cases.iter().enumerate() {
-                        let witness = predict(&posture, question.compliance, wrench).twist.linear;
+                        let witness = predict(&posture, question.arm.compliance, wrench).twist.linear;
                         let away = answers.deviations_at(i)[case] - witness;
                         // The pose is held to 1e-9 m and rad: so are the screws, relative to a metre.
                         assert!(away.norm() < 1e-8 * witness.norm());

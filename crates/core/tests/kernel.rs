@@ -8,13 +8,13 @@ use std::fmt::Debug;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::lanes::{Arrays, Backend, Batch, Envelopes, Poses, Precision, flag};
-use armill_core::kernel::{AT_LIMIT, BranchChoice, Loaded, Question, at_joints, evaluate};
+use armill_core::kernel::{AT_LIMIT, BranchChoice, Question, at_joints, evaluate};
 use armill_core::load::Doubt;
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Motion, Posture, Robot};
-use armill_core::source::StiffnessModel;
+use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Plane, Split};
@@ -64,11 +64,13 @@ fn cases(count: usize) -> Vec<Wrench> {
 fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
     let tool = arms::bent_tool();
     then(&Question {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        model: StiffnessModel::DRIVES,
+        arm: Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: StiffnessModel::DRIVES,
+            flange_from_tool: &tool,
+        },
         doubt: Doubt::NONE,
-        flange_from_tool: &tool,
         home: None,
         cases,
         normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
@@ -78,7 +80,7 @@ fn ask<T>(robot: &Robot, cases: &[Wrench], choice: BranchChoice, then: impl FnOn
 
 /// Lanes for the arm of `question`.
 fn batch<T: Precision>(question: &Question<'_>, backend: Backend) -> Batch<T> {
-    Batch::new(question, question.robot.ortho_parallel().unwrap(), backend)
+    Batch::new(question, question.arm.robot.ortho_parallel().unwrap(), backend)
 }
 
 /// Random postures of `robot`.
@@ -143,7 +145,7 @@ fn worst_difference<T: Precision>(
             let splits: Vec<Split> = question
                 .cases
                 .iter()
-                .map(|wrench| predict(posture, question.compliance, wrench).twist.linear)
+                .map(|wrench| predict(posture, question.arm.compliance, wrench).twist.linear)
                 .map(|deviation| Split::of(&deviation, question.normal))
                 .collect();
             let of = |get: fn(&Split) -> f64| splits.iter().map(get).fold(0.0, f64::max);
@@ -210,7 +212,7 @@ fn joint_limits_by_cosines_agree_with_joint_positions() {
             let mut outside = 0;
             for (i, posture) in found.iter().enumerate() {
                 let tool = ToolAt {
-                    flange_from_tool: question.flange_from_tool,
+                    flange_from_tool: question.arm.flange_from_tool,
                     near: None,
                     home: None,
                 };
@@ -253,7 +255,7 @@ fn compliances_agree_with_the_sum_over_screws() {
                     if posture.name.branch() != Some(branch) || flags & NEAR_SINGULAR != 0 {
                         continue;
                     }
-                    let c = compliance_at_tool(&posture.screws, question.compliance);
+                    let c = compliance_at_tool(&posture.screws, question.arm.compliance);
                     let mut at = 0;
                     for row in 0..6 {
                         for column in row..6 {
@@ -279,7 +281,7 @@ fn joint_positions_of_all_branches_agree_with_the_closed_form() {
             batch::<f64>(question, Backend::fastest()).joints(&soa.poses(), &mut out);
             for (i, posture) in found.iter().enumerate() {
                 let tool = ToolAt {
-                    flange_from_tool: question.flange_from_tool,
+                    flange_from_tool: question.arm.flange_from_tool,
                     near: None,
                     home: None,
                 };
@@ -462,14 +464,14 @@ fn whole_answers_agree_with_predict_and_add_up() {
                 let answers = evaluate(question, found.len(), pose, Watch::NONE).unwrap();
                 let mut checked = 0;
                 for (i, held) in answers.held().filter(|(_, held)| held.singularity.is_none()) {
-                    let posture = posture_at(&robot, answers.joints_at(i), question.flange_from_tool);
+                    let posture = posture_at(&robot, answers.joints_at(i), question.arm.flange_from_tool);
                     assert_eq!(posture.name, held.name);
                     let moved = posture.base_from_tool.translation.vector
                         - found[i].base_from_tool.translation.vector;
                     assert!(moved.norm() < 1e-12, "{moved:?}");
                     let (mut normal, mut full): (f64, f64) = (0.0, 0.0);
                     for (case, wrench) in question.cases.iter().enumerate() {
-                        let witness = predict(&posture, question.compliance, wrench);
+                        let witness = predict(&posture, question.arm.compliance, wrench);
                         let away = answers.deviations_at(i)[case] - witness.twist.linear;
                         assert!(away.norm() < 1e-12 * witness.twist.linear.norm());
                         let split = Split::of(&witness.twist.linear, question.normal);
@@ -554,17 +556,16 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
         7
     ];
     let (tool, cases) = (arms::bent_tool(), cases(5));
-    let loaded = Loaded {
+    let held = Arm {
         robot: &robot,
         compliance: &compliance,
         model: StiffnessModel::DRIVES,
         flange_from_tool: &tool,
-        cases: &cases,
     };
     let mut stream = Stream(3);
     let q: Vec<f64> = (0..7 * 1000).map(|_| 4.0 * stream.next() - 2.0).collect();
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    let out = one_thread.install(|| at_joints(&loaded, &q, Watch::NONE).unwrap());
+    let out = one_thread.install(|| at_joints(&held, &cases, &q, Watch::NONE).unwrap());
     for (i, q) in q.chunks(7).enumerate() {
         let posture = posture_at(&robot, q, &tool);
         assert_eq!(posture.base_from_tool, out.base_from_tool[i]);
@@ -574,6 +575,6 @@ fn any_chain_at_known_joint_positions_agrees_with_predict() {
             assert!((out.deviations[5 * i + case] - witness).norm() < 1e-15 * witness.norm() * 10.0);
         }
     }
-    let again = at_joints(&loaded, &q, Watch::NONE).unwrap();
+    let again = at_joints(&held, &cases, &q, Watch::NONE).unwrap();
     assert_eq!(again.deviations, out.deviations);
 }

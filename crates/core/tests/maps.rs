@@ -15,7 +15,7 @@ use armill_core::path::Shape;
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{JointCompliance, Robot, Unreachable};
-use armill_core::source::StiffnessModel;
+use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::{Grid, Plane, Split};
@@ -33,11 +33,13 @@ fn cases() -> Vec<Wrench> {
 fn ask<T>(robot: &Robot, plane: &Plane, choice: BranchChoice, then: impl FnOnce(&Question<'_>) -> T) -> T {
     let (tool, cases) = (Isometry::translation(0.0, 0.0, 0.1), cases());
     then(&Question {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        model: StiffnessModel::DRIVES,
+        arm: Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: StiffnessModel::DRIVES,
+            flange_from_tool: &tool,
+        },
         doubt: Doubt::NONE,
-        flange_from_tool: &tool,
         home: None,
         cases: &cases,
         normal: plane.normal(),
@@ -71,12 +73,14 @@ fn probability_and_sure_region_are_those_of_arms_with_drawn_compliances() {
     for cases in [&cases()[..1], &cases()] {
         let map_of = |compliance: &[JointCompliance]| {
             let question = Question {
-                robot: &robot,
+                arm: Arm {
+                    robot: &robot,
+                    compliance,
+                    model: StiffnessModel::DRIVES,
+                    flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
+                },
                 home: None,
-                compliance,
-                model: StiffnessModel::DRIVES,
                 doubt: Doubt::NONE,
-                flange_from_tool: &Isometry::translation(0.0, 0.0, 0.1),
                 cases,
                 normal: plane.normal(),
                 choice: branch("front elbow-up"),
@@ -145,11 +149,13 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
         .iter()
         .map(|doubt| {
             let question = Question {
-                robot: &robot,
+                arm: Arm {
+                    robot: &robot,
+                    compliance: &compliance,
+                    model: StiffnessModel::DRIVES,
+                    flange_from_tool: &tool,
+                },
                 home: None,
-                compliance: &compliance,
-                model: StiffnessModel::DRIVES,
-                flange_from_tool: &tool,
                 cases: one,
                 doubt: *doubt,
                 normal: plane.normal(),

@@ -94,10 +94,12 @@ fn question<'a>(
     choice: BranchChoice,
 ) -> Question<'a> {
     Question {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        model,
-        flange_from_tool: tool,
+        arm: Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model,
+            flange_from_tool: tool,
+        },
         home: None,
         cases: &[],
         doubt: Doubt::NONE,

@@ -5,7 +5,7 @@ mod arms;
 
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::kernel::{BranchChoice, Loaded, Question, at_joints, evaluate};
+use armill_core::kernel::{BranchChoice, Question, at_joints, evaluate};
 use armill_core::load::Doubt;
 use armill_core::nalgebra::{
     DMatrix, Isometry3, IsometryMatrix3, Matrix6, Point3, Unit, UnitQuaternion, Vector3,
@@ -610,12 +610,14 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         BranchChoice::Of("front elbow-up".parse().unwrap()),
     ] {
         let question = Question {
-            robot: &robot,
+            arm: Arm {
+                robot: &robot,
+                compliance: robot.compliance().unwrap(),
+                model: &model,
+                flange_from_tool: &tool,
+            },
             home: None,
-            compliance: robot.compliance().unwrap(),
-            model: &model,
             doubt: Doubt::NONE,
-            flange_from_tool: &tool,
             cases: &cases,
             normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
             choice,
@@ -646,14 +648,13 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
             );
             assert!(point.in_plane_uncertainty > 0.0);
         }
-        let loaded = Loaded {
+        let held = Arm {
             robot: &robot,
             compliance: robot.compliance().unwrap(),
             model: &model,
             flange_from_tool: &tool,
-            cases: &cases,
         };
-        let known = at_joints(&loaded, &all.joints, Watch::NONE).unwrap();
+        let known = at_joints(&held, &cases, &all.joints, Watch::NONE).unwrap();
         assert_eq!(known.screws.len(), 12 * 100);
         for (i, _) in all.held() {
             assert!(known.rests[i]);
@@ -673,12 +674,14 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
     };
     let cases = [Wrench::from_force(Vector3::new(0.0, 0.0, -1e6))];
     let question = Question {
-        robot: &robot,
+        arm: Arm {
+            robot: &robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        },
         home: None,
-        compliance: robot.compliance().unwrap(),
-        model: &model,
         doubt: Doubt::NONE,
-        flange_from_tool: &tool,
         cases: &cases,
         normal: Vector3::z_axis(),
         choice: BranchChoice::Of("front elbow-up".parse().unwrap()),
@@ -687,13 +690,12 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
     let found = evaluate(&question, 1, pose, Watch::NONE).unwrap();
     assert_eq!(found.points[0].as_ref().unwrap_err().reason(), "unstable");
     assert!(found.deviations.iter().all(|d| *d == Vector3::zeros()));
-    let loaded = Loaded {
+    let held = Arm {
         robot: &robot,
         compliance: robot.compliance().unwrap(),
         model: &model,
         flange_from_tool: &tool,
-        cases: &cases,
     };
-    let known = at_joints(&loaded, &[0.1; 6], Watch::NONE).unwrap();
+    let known = at_joints(&held, &cases, &[0.1; 6], Watch::NONE).unwrap();
     assert_eq!((known.rests[0], known.deviations[0]), (false, Vector3::zeros()));
 }

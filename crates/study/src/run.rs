@@ -9,6 +9,7 @@ use armill_core::map::{
 use armill_core::nalgebra::Point3;
 use armill_core::path::{ForcesTold, NoForces, Stock};
 use armill_core::robot::{JointCompliance, Robot};
+use armill_core::source::Arm;
 use armill_core::watch::{Cancelled, Watch};
 
 use crate::error::StudyError;
@@ -176,10 +177,12 @@ pub(crate) fn question<'q>(
     setting: &'q Setting,
 ) -> Question<'q> {
     Question {
-        robot,
-        compliance,
-        model: &setting.model,
-        flange_from_tool: &setting.flange_from_tool,
+        arm: Arm {
+            robot,
+            compliance,
+            model: &setting.model,
+            flange_from_tool: &setting.flange_from_tool,
+        },
         home: setting.home.as_deref(),
         cases: &setting.cases,
         doubt: setting.doubt,

@@ -64,8 +64,8 @@ pub struct Answers {
 
 impl Answers {
     pub(super) fn empty(question: &Question<'_>, count: usize) -> Answers {
-        let (joint_count, case_count) = (question.robot.joints().len(), question.cases.len());
-        let share_count = question.model.sharers(joint_count).len();
+        let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
+        let share_count = question.arm.model.sharers(joint_count).len();
         Answers {
             points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
             joints: vec![0.0; count * joint_count],

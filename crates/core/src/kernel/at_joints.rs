@@ -7,31 +7,16 @@ use nalgebra::Vector3;
 use rayon::prelude::*;
 
 use crate::frame::Isometry;
+use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
-use crate::robot::{JointCompliance, Robot};
-use crate::source::{Arm, Standing, StiffnessModel, Unstable, elastic};
+use crate::source::{Arm, Standing, Unstable, elastic};
 use crate::spatial::{Twist, Wrench};
 use crate::watch::{Cancelled, Watch};
 
 /// Points in a block: enough to make the hand-over cheap, few enough to cancel soon.
 const BLOCK: usize = 256;
-
-/// A robot that holds a tool under load.
-#[derive(Clone, Copy, Debug)]
-pub struct Loaded<'a> {
-    /// The robot; any chain.
-    pub robot: &'a Robot,
-    /// Compliance of each of its joints.
-    pub compliance: &'a [JointCompliance],
-    /// What else yields and weighs; [`StiffnessModel::DRIVES`] for nothing.
-    pub model: &'a StiffnessModel,
-    /// Flange to tool centre point.
-    pub flange_from_tool: &'a Isometry,
-    /// Load cases on the tool at the TCP, base basis; at least one.
-    pub cases: &'a [Wrench],
-}
 
 /// What comes out at each joint position.
 #[derive(Clone, Debug)]
@@ -46,38 +31,43 @@ pub struct AtJoints {
     pub rests: Vec<bool>,
 }
 
-/// Tool, screws and deviations at the joint positions `joints` (rad, m; as many a point as joints, one point after the
-/// other).
+/// Tool, screws and deviations of `arm`, any chain, at the joint positions `joints` (rad, m; as many a point as joints,
+/// one point after the other) under each of `cases`, wrenches on the tool at the TCP, base basis.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
 ///
 /// # Panics
 /// If `joints` is no whole number of points, or there are not as many compliances as joints.
-pub fn at_joints(loaded: &Loaded<'_>, joints: &[f64], watch: Watch<'_>) -> Result<AtJoints, Cancelled> {
-    let (dof, cases) = (loaded.robot.joints().len(), loaded.cases.len());
+pub fn at_joints(
+    arm: &Arm<'_>,
+    cases: &[Wrench],
+    joints: &[f64],
+    watch: Watch<'_>,
+) -> Result<AtJoints, Cancelled> {
+    let (dof, case_count) = (arm.robot.joints().len(), cases.len());
     assert_eq!(
         joints.len() % dof,
         0,
         "joint positions for a whole number of points"
     );
-    assert_eq!(loaded.compliance.len(), dof, "one compliance a joint");
+    assert_eq!(arm.compliance.len(), dof, "one compliance a joint");
     let count = joints.len() / dof;
-    let yields = dof + loaded.model.structure.springs.len();
+    let yields = dof + arm.model.structure.springs.len();
     let mut out = AtJoints {
         base_from_tool: vec![Isometry::identity(); count],
         screws: vec![Twist::ZERO; count * yields],
-        deviations: vec![Vector3::zeros(); count * cases],
+        deviations: vec![Vector3::zeros(); count * case_count],
         rests: vec![true; count],
     };
     joints
         .par_chunks(BLOCK * dof)
         .zip(out.base_from_tool.par_chunks_mut(BLOCK))
         .zip(out.screws.par_chunks_mut(BLOCK * yields))
-        .zip(out.deviations.par_chunks_mut(BLOCK * cases))
+        .zip(out.deviations.par_chunks_mut(BLOCK * case_count))
         .zip(out.rests.par_chunks_mut(BLOCK))
         .try_for_each_init(
-            || Room::new(loaded),
+            || Room::new(arm),
             |room, ((((joints, tools), screws), deviations), rests)| {
                 if watch.is_cancelled() {
                     return Err(Cancelled);
@@ -86,12 +76,12 @@ pub fn at_joints(loaded: &Loaded<'_>, joints: &[f64], watch: Watch<'_>) -> Resul
                     .chunks(dof)
                     .zip(tools.iter_mut())
                     .zip(screws.chunks_mut(yields))
-                    .zip(deviations.chunks_mut(cases))
+                    .zip(deviations.chunks_mut(case_count))
                     .zip(rests.iter_mut());
                 for ((((q, tool), screws), deviations), rests) in points {
-                    forward_into(loaded.robot, q, &mut room.frames);
-                    *tool = tool_on(&room.frames, loaded.flange_from_tool);
-                    *rests = room.deviate(loaded, (q, tool), screws, deviations).is_ok();
+                    forward_into(arm.robot, q, &mut room.frames);
+                    *tool = tool_on(&room.frames, arm.flange_from_tool);
+                    *rests = room.deviate((q, tool), cases, screws, deviations).is_ok();
                 }
                 (watch.finished)(joints.len() / dof);
                 Ok(())
@@ -102,54 +92,48 @@ pub fn at_joints(loaded: &Loaded<'_>, joints: &[f64], watch: Watch<'_>) -> Resul
 
 /// Room for one point, one a thread.
 struct Room<'a> {
+    arm: Arm<'a>,
     frames: Frames,
     /// Where more than drives yields.
     standing: Option<Standing<'a>>,
 }
 
 impl<'a> Room<'a> {
-    fn new(loaded: &Loaded<'a>) -> Room<'a> {
-        let arm = Arm {
-            robot: loaded.robot,
-            compliance: loaded.compliance,
-            model: loaded.model,
-            flange_from_tool: loaded.flange_from_tool,
-        };
+    fn new(arm: &Arm<'a>) -> Room<'a> {
         Room {
-            frames: Frames::for_robot(loaded.robot),
-            standing: (!loaded.model.is_drives_alone()).then(|| Standing::new(arm)),
+            arm: *arm,
+            frames: Frames::for_robot(arm.robot),
+            standing: (!arm.model.is_drives_alone()).then(|| Standing::new(*arm)),
         }
     }
 
     /// Screws and deviations in the frames that stand here.
     fn deviate(
         &mut self,
-        loaded: &Loaded<'_>,
         (q, tool): (&[f64], &Isometry),
+        cases: &[Wrench],
         screws: &mut [Twist],
         deviations: &mut [Vector3<f64>],
     ) -> Result<(), Unstable> {
         let tcp = tool.translation.vector.into();
         let Some(standing) = &mut self.standing else {
-            screws_into(loaded.robot, &self.frames, &tcp, screws);
-            for (deviation, wrench) in deviations.iter_mut().zip(loaded.cases) {
-                *deviation = elastic::displacement(screws, loaded.compliance, wrench);
+            screws_into(self.arm.robot, &self.frames, &tcp, screws);
+            for (deviation, wrench) in deviations.iter_mut().zip(cases) {
+                *deviation = elastic::displacement(screws, self.arm.compliance, wrench);
             }
             return Ok(());
         };
         standing.stand_in(q, &self.frames, &tcp);
         screws.copy_from_slice(standing.screws());
-        let loads = deviations.iter_mut().zip(loaded.cases);
-        let found = loads.map(|(deviation, wrench)| {
-            let elastic = standing.elastic(wrench)?.linear;
-            let gravity = standing.gravity()?;
-            *deviation = gravity.map_or(elastic, |gravity| elastic + gravity.linear);
-            Ok(())
-        });
-        let all: Result<(), Unstable> = found.collect();
-        if all.is_err() {
-            deviations.fill(Vector3::zeros());
+        for (i, wrench) in cases.iter().enumerate() {
+            match deviation_of(standing, wrench) {
+                Ok(deviation) => deviations[i] = deviation.linear,
+                Err(unstable) => {
+                    deviations.fill(Vector3::zeros());
+                    return Err(unstable);
+                }
+            }
         }
-        all
+        Ok(())
     }
 }

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 use super::answer::Held;
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
+use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{PostureName, Seat, Unreachable};
@@ -38,14 +39,14 @@ pub(super) struct General<'q> {
 
 impl<'q> General<'q> {
     pub(super) fn new(question: &Question<'q>) -> General<'q> {
-        let (joints, cases) = (question.robot.joints().len(), question.cases.len());
-        let sharers = question.model.sharers(joints);
+        let (joints, cases) = (question.arm.robot.joints().len(), question.cases.len());
+        let sharers = question.arm.model.sharers(joints);
         General {
-            tool_from_flange: question.flange_from_tool.inverse(),
-            finder: Finder::new(question.robot),
+            tool_from_flange: question.arm.flange_from_tool.inverse(),
+            finder: Finder::new(question.arm.robot),
             candidates: Vec::new(),
-            frames: Frames::for_robot(question.robot),
-            standing: Standing::new(question.held_by()),
+            frames: Frames::for_robot(question.arm.robot),
+            standing: Standing::new(question.arm),
             joints: vec![0.0; joints],
             deviations: vec![Vector3::zeros(); cases],
             shares: vec![0.0; sharers.len()],
@@ -84,7 +85,7 @@ impl<'q> General<'q> {
             BranchChoice::Best => {
                 let found = self.finder.all(&wanted)?;
                 self.candidates.clear();
-                if question.model.is_drives_alone() && question.robot.inverse().flips_are_alike() {
+                if question.arm.model.is_drives_alone() && question.arm.robot.inverse().flips_are_alike() {
                     let pairs = found.chunk_by(|a, b| differ_in_flip(a.name, b.name));
                     self.candidates
                         .extend(pairs.filter_map(|pair| roomiest(question, pair)).cloned());
@@ -146,7 +147,7 @@ impl<'q> General<'q> {
         found: &Found,
     ) -> Result<Held, Unreachable> {
         self.joints.copy_from_slice(&found.joints);
-        forward_into(question.robot, &found.joints, &mut self.frames);
+        forward_into(question.arm.robot, &found.joints, &mut self.frames);
         let tcp = base_from_tool.translation.vector.into();
         self.standing.stand_in(&found.joints, &self.frames, &tcp);
         let (limit_joint, limit_margin) = limit_margin(question, &found.joints);
@@ -163,9 +164,7 @@ impl<'q> General<'q> {
         };
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
-            let elastic = self.standing.elastic(wrench).map_err(unstable)?.linear;
-            let gravity = self.standing.gravity().map_err(unstable)?;
-            let deviation = gravity.map_or(elastic, |gravity| elastic + gravity.linear);
+            let deviation = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
             self.deviations[case] = deviation;
             let split = Split::of(&deviation, question.normal);
             if split.in_plane > held.in_plane {
@@ -218,7 +217,7 @@ impl<'q> General<'q> {
 fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found> {
     let mut roomiest: Option<(f64, &Found)> = None;
     for one in found {
-        let robot = question.robot;
+        let robot = question.arm.robot;
         let room = (0..one.joints.len())
             .filter(|joint| !robot.slides(*joint))
             .filter_map(|joint| Some(robot.joints()[joint].limits?.margin(one.joints[joint])))
@@ -238,5 +237,9 @@ fn differ_in_flip(a: PostureName, b: PostureName) -> bool {
 
 /// The joint nearest to (or farthest outside) its limits, and its margin; infinite without limits.
 fn limit_margin(question: &Question<'_>, joints: &[f64]) -> (usize, f64) {
-    question.robot.limit_margin(joints).unwrap_or((0, f64::INFINITY))
+    question
+        .arm
+        .robot
+        .limit_margin(joints)
+        .unwrap_or((0, f64::INFINITY))
 }

@@ -44,7 +44,7 @@ pub fn evaluate_loaded(
         doubt: Doubt::NONE,
         ..*question
     };
-    let (joint_count, case_count) = (question.robot.joints().len(), question.cases.len());
+    let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
     let mut answers = Answers {
         points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
         joints: vec![0.0; count * joint_count],
@@ -58,7 +58,7 @@ pub fn evaluate_loaded(
         answers: &mut answers,
         wrenches: vec![Wrench::from_force(Vector3::zeros()); case_count],
     };
-    if question.model.is_affine() {
+    if question.arm.model.is_affine() {
         rows.by_unit_loads(&question, stop, load, watch)?;
     } else {
         rows.one_by_one(&question, stop, load, watch)?;
@@ -88,7 +88,7 @@ impl Rows<'_> {
         let (count, joint_count) = (self.answers.points.len(), self.answers.joint_count);
         let mut solver = Solver::new(&asked, Order::AlongPath);
         let mut under_units = vec![Vector3::zeros(); BLOCK * units.len()];
-        let mut shares = vec![0.0; BLOCK * question.model.sharers(joint_count).len()];
+        let mut shares = vec![0.0; BLOCK * question.arm.model.sharers(joint_count).len()];
         for first in (0..count).step_by(BLOCK) {
             let here = first..(first + BLOCK).min(count);
             let size = here.len();
@@ -128,7 +128,7 @@ impl Rows<'_> {
     ) -> Result<(), Cancelled> {
         let mut general = General::new(question);
         let (joint_count, case_count) = (self.answers.joint_count, self.answers.case_count);
-        let mut shares = vec![0.0; question.model.sharers(joint_count).len()];
+        let mut shares = vec![0.0; question.arm.model.sharers(joint_count).len()];
         let mut before: Option<Vec<f64>> = None;
         for index in 0..self.answers.points.len() {
             if watch.is_cancelled() {

@@ -19,7 +19,7 @@ mod question;
 mod solver;
 
 pub use answer::{AT_LIMIT, Answers, Held};
-pub use at_joints::{AtJoints, Loaded, at_joints};
+pub use at_joints::{AtJoints, at_joints};
 pub use loaded::{Stop, evaluate_loaded};
 pub use question::{BranchChoice, Question};
 

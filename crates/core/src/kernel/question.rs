@@ -2,11 +2,9 @@
 
 use nalgebra::{Unit, Vector3};
 
-use crate::frame::Isometry;
 use crate::load::Doubt;
-use crate::robot::joint::JointCompliance;
-use crate::robot::{BranchPattern, Robot};
-use crate::source::{Arm, StiffnessModel};
+use crate::robot::BranchPattern;
+use crate::source::Arm;
 use crate::spatial::Wrench;
 
 /// Which posture stands for a point.
@@ -23,14 +21,8 @@ pub enum BranchChoice {
 /// One question for many tool poses.
 #[derive(Clone, Copy, Debug)]
 pub struct Question<'a> {
-    /// The robot.
-    pub robot: &'a Robot,
-    /// Compliance of each of its joints.
-    pub compliance: &'a [JointCompliance],
-    /// What else yields and weighs; [`StiffnessModel::DRIVES`] for nothing. Lanes answer for drives alone.
-    pub model: &'a StiffnessModel,
-    /// Flange to tool centre point.
-    pub flange_from_tool: &'a Isometry,
+    /// The arm and its tool, with all that yields and weighs. Lanes answer for drives alone.
+    pub arm: Arm<'a>,
     /// Joint positions where a rail or a joint to spare stands, and that further joints to spare are drawn to; without,
     /// the middle of their ranges.
     pub home: Option<&'a [f64]>,
@@ -42,16 +34,4 @@ pub struct Question<'a> {
     pub normal: Unit<Vector3<f64>>,
     /// Which posture stands for a point.
     pub choice: BranchChoice,
-}
-
-impl<'a> Question<'a> {
-    /// The arm that is asked, with all that yields and weighs in it.
-    pub fn held_by(&self) -> Arm<'a> {
-        Arm {
-            robot: self.robot,
-            compliance: self.compliance,
-            model: self.model,
-            flange_from_tool: self.flange_from_tool,
-        }
-    }
 }

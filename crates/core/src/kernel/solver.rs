@@ -49,8 +49,8 @@ impl<'q> Solver<'q> {
         Solver {
             question,
             order,
-            lanes: (question.model.is_drives_alone() && question.doubt.is_none())
-                .then(|| question.robot.ortho_parallel())
+            lanes: (question.arm.model.is_drives_alone() && question.doubt.is_none())
+                .then(|| question.arm.robot.ortho_parallel())
                 .flatten()
                 .map(|arm| Points::new(question, arm)),
             general: General::new(question),

@@ -110,7 +110,7 @@ pub fn program_limits(
     limit: f64,
     watch: Watch<'_>,
 ) -> Result<Option<ProgramLimits>, Cancelled> {
-    if !question.model.is_affine() {
+    if !question.arm.model.is_affine() {
         return Ok(None);
     }
     let cuts = match &found.load {
@@ -118,7 +118,7 @@ pub fn program_limits(
         _ => None,
     };
     let mut tips = Tips {
-        standing: Standing::new(question.held_by()),
+        standing: Standing::new(question.arm),
         track,
         found,
     };

@@ -136,12 +136,12 @@ pub fn along_program(
             |i, tip, out| resting.load(i, tip, out),
             watch,
         )?;
-        count_turns(question.robot, track, &mut answers);
+        count_turns(question.arm.robot, track, &mut answers);
         return Ok(ProgramAnswer {
             choice,
             answers,
             load: PathLoad::Cuts(resting.cuts),
-            rested: question.model.is_affine().then_some(resting.rested),
+            rested: question.arm.model.is_affine().then_some(resting.rested),
         });
     }
     let mut answers = evaluate_loaded(
@@ -151,7 +151,7 @@ pub fn along_program(
         |i, _, out| track.wrenches(&load, i, out),
         watch,
     )?;
-    count_turns(question.robot, track, &mut answers);
+    count_turns(question.arm.robot, track, &mut answers);
     Ok(ProgramAnswer {
         choice,
         answers,
@@ -227,7 +227,7 @@ fn chosen(
         .into_iter()
         .filter(|branch| pattern.matches(*branch))
         .collect();
-    if !question.robot.inverse().has_branches() || open.len() < 2 {
+    if !question.arm.robot.inverse().has_branches() || open.len() < 2 {
         return Ok(BranchChoice::Of(pattern));
     }
     let quiet = Watch {

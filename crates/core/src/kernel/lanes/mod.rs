@@ -26,9 +26,11 @@
 //! # let robot = Robot::new("mh12", motions, joints)?.with_compliance(compliance)?;
 //! # let (tool, cases) = (Isometry::identity(), [Wrench::from_force(Vector3::new(3.0, 5.0, 5.0))]);
 //! # let question = Question {
-//! #     robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool, home: None,
-//! #     model: armill_core::source::StiffnessModel::DRIVES, doubt: armill_core::load::Doubt::NONE,
-//! #     cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
+//! #     arm: armill_core::source::Arm {
+//! #         robot: &robot, compliance: robot.compliance().unwrap(), flange_from_tool: &tool,
+//! #         model: armill_core::source::StiffnessModel::DRIVES,
+//! #     },
+//! #     home: None, doubt: armill_core::load::Doubt::NONE, cases: &cases, normal: -Vector3::x_axis(), choice: BranchChoice::Best,
 //! # };
 //! // Three points of a vertical plate, the tool held along base x.
 //! let (x, y, z) = ([0.9, 0.9, 3.0], [0.0, 0.1, 0.0], [0.8, 0.8, 0.8]);

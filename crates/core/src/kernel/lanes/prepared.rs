@@ -27,7 +27,7 @@ pub(super) struct Prepared {
 
 impl Prepared {
     pub fn new(question: &Question<'_>, arm: &OrthoParallel) -> Prepared {
-        let arm = Arm::new(question.robot, arm, question.flange_from_tool);
+        let arm = Arm::new(question.arm.robot, arm, question.arm.flange_from_tool);
         let turn = |v: Vector3<f64>| arm.arm_from_base * v;
         let cases: Vec<[Vector3<f64>; 2]> = question
             .cases
@@ -37,7 +37,7 @@ impl Prepared {
         let normal = turn(question.normal.into_inner());
         let first = across(&normal);
         let of = |get: fn(&crate::robot::JointCompliance) -> f64| {
-            std::array::from_fn(|i| question.compliance.get(i).map_or(0.0, get))
+            std::array::from_fn(|i| question.arm.compliance.get(i).map_or(0.0, get))
         };
         Prepared {
             turned: arm.arm_from_base_rotation() != Matrix3::identity(),
