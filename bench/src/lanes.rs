@@ -165,7 +165,11 @@ fn on_threads<'a>(
 
 /// Lanes for the arm of `question`.
 fn batch<T: Precision>(question: &Question<'_>, backend: Backend) -> Batch<T> {
-    let arm = question.arm.robot.ortho_parallel().expect("MH12 has a closed form");
+    let arm = question
+        .arm
+        .robot
+        .ortho_parallel()
+        .expect("MH12 has a closed form");
     Batch::new(question, arm, backend)
 }
 

@@ -16,9 +16,9 @@ use std::hint::black_box;
 use armill_core::frame::Isometry;
 use armill_core::kernel::Question;
 use armill_core::load::{Cutter, CuttingLaw, Hand, Immersion, LoadCases, LoadFrame, Mechanistic, PathLoad};
-use armill_core::map::{Track, along_program};
+use armill_core::map::along_path;
 use armill_core::nalgebra::{Matrix3, Point3, Rotation3, Unit, UnitQuaternion, Vector3};
-use armill_core::path::{Cutting, Greatest, Pace, PathPoint, Placing, Spin, Step};
+use armill_core::path::{Cutting, Greatest, Pace, PathPoint, Placing, SampledPath, Spin, Step, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_formats::toolpath::{apt, csv, gcode};
@@ -92,7 +92,10 @@ impl Paths {
     /// A track of it before the arm.
     fn track(&self) -> Track {
         Track {
-            points: self.points.clone(),
+            path: SampledPath {
+                points: self.points.clone(),
+                ..SampledPath::default()
+            },
             placing: placing(),
             base_from_part: placing().base_from_path,
         }
@@ -180,7 +183,7 @@ fn readers(paths: &Paths) -> Vec<Candidate<'_>> {
 }
 
 fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
-    const WHO: &str = "armill along_program";
+    const WHO: &str = "armill along_path";
     let push = Wrench::from_force(Vector3::new(-150.0, 36.0, 14.0));
     let load = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Feed,
@@ -193,15 +196,15 @@ fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
         ..arm.question(ONE_POSTURE)
     };
     let along = move || {
-        let answer = along_program(&question, &track, load.clone(), Watch::NONE).expect("nobody cancels");
+        let answer = along_path(&question, &track, load.clone(), Watch::NONE).expect("nobody cancels");
         assert_eq!(answer.answers.held().count(), POINTS);
         black_box(answer);
     };
     let cutting = cutting();
     let along_cut = move || {
-        let forces = cutting.along((&of_cut.points, &[]), &of_cut.placing, None, Watch::NONE);
+        let forces = cutting.along((&of_cut.path.points, &[]), &of_cut.placing, None, Watch::NONE);
         let load = PathLoad::Cuts(forces.expect("feed and spindle are told").cuts);
-        black_box(along_program(&question, &of_cut, load, Watch::NONE)).ok();
+        black_box(along_path(&question, &of_cut, load, Watch::NONE)).ok();
     };
     vec![
         Candidate::new(WHO, ALONG, POINTS, along).note("MH12, one load case in the feed frame, one posture"),

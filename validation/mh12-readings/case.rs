@@ -1,6 +1,6 @@
 //! The paper's groove under every reading of what the paper leaves open. See README.md.
 
-use armill_study::answer::PathResult;
+use armill_study::answer::PathAnswer;
 
 use crate::check::{Check, Gap, worst, worst_difference};
 use crate::studies::{answer_to, path};
@@ -145,7 +145,7 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
-fn deviations(reading: &Reading, path: &PathResult) -> Check {
+fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
     let away = |found: Option<f64>, printed: f64| found.unwrap_or(f64::NAN) - printed;
     let (least, greatest) = reading.in_plane;
     let gaps = [
@@ -168,7 +168,7 @@ fn deviations(reading: &Reading, path: &PathResult) -> Check {
     Check::printed(format!("{}: {told}", reading.name), WITNESS, gap, 3)
 }
 
-fn is_inside(path: &PathResult) -> bool {
+fn is_inside(path: &PathAnswer) -> bool {
     path.outside_joint_limits == 0
 }
 

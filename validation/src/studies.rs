@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
-use armill_study::answer::{PathResult, StudyAnswer, answer};
+use armill_study::answer::{PathAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::read;
 use armill_study::run::run;
 
@@ -18,7 +18,7 @@ pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
 }
 
 /// The path of this name.
-pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathResult {
+pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathAnswer {
     answer
         .paths
         .iter()

@@ -8,10 +8,12 @@ mod arms;
 use armill_core::compliance::compliance_at_tool;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{BranchChoice, Question, evaluate, evaluate_in_order};
-use armill_core::load::{Doubt, LoadFrame};
-use armill_core::map::{BoxGrid, Counts, along_path, plane_map, probability_within, volume_map};
+use armill_core::load::{Doubt, LoadCases, LoadFrame, PathLoad};
+use armill_core::map::{
+    BoxGrid, Counts, along_path, plane_map, probability_within, radial_deviations, volume_map,
+};
 use armill_core::nalgebra::{Point2, Point3, Vector2, Vector3};
-use armill_core::path::Shape;
+use armill_core::path::{Placing, Shape, Track};
 use armill_core::predict::predict;
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::{JointCompliance, Robot, Unreachable};
@@ -364,25 +366,74 @@ fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
         centre: Point2::origin(),
         radius: 0.1,
     };
-    let path = ask(&robot, &plane, branch("front elbow-up"), |q| {
-        along_path(q, plane, &circle, 0.01, Watch::NONE).unwrap()
+    let track = Track {
+        path: circle.sampled(0.01),
+        placing: Placing::on_plane(&plane),
+        base_from_part: plane.base_from_part,
+    };
+    let load = PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: cases(),
     });
-    assert_eq!(path.radial.len(), 4);
-    for (case, radial) in path.radial.iter().enumerate() {
+    let path = ask(&robot, &plane, branch("front elbow-up"), |q| {
+        along_path(q, &track, load, Watch::NONE).unwrap()
+    });
+    let radial = radial_deviations(&track, &path.answers, Point2::origin());
+    assert_eq!(radial.len(), 4);
+    for (case, radial) in radial.iter().enumerate() {
         // Peak to valley about any centre is at least that about the best, and at most the radial range.
         let range = radial.outward.iter().copied().fold(f64::MIN, f64::max)
             - radial.outward.iter().copied().fold(f64::MAX, f64::min);
         assert!(radial.roundness.peak_to_valley < range, "case {case}");
-        let mean = (0..path.samples.len())
-            .map(|i| path.deviation_in_part(i, case).xy())
+        let mean = (0..track.len())
+            .map(|i| plane.in_part(&path.answers.deviations_at(i)[case]).xy())
             .sum::<Vector2<f64>>()
-            / path.samples.len() as f64;
+            / track.len() as f64;
         // The centre follows the mean deviation, up to the second harmonic's share (half a micrometre here).
         assert!(
-            (radial.roundness.centre.coords - mean).norm() < 0.3 * mean.norm(),
+            (radial.centre_shift - mean).norm() < 0.3 * mean.norm(),
             "case {case}"
         );
     }
+    // A load that is the same everywhere is answered with shares; turned with the feed it is not.
+    assert_eq!(path.answers.share_count, 6);
+}
+
+#[test]
+fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
+    let robot = arms::mh12();
+    let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.3);
+    let track = Track {
+        path: Shape::rectangle(Point2::origin(), Vector2::new(0.2, 0.1)).sampled(0.01),
+        placing: Placing::on_plane(&plane),
+        base_from_part: plane.base_from_part,
+    };
+    let of_each = PathLoad::OfEach {
+        cases: 4,
+        frame: LoadFrame::Base,
+        wrenches: (0..track.len()).flat_map(|_| cases()).collect(),
+    };
+    let steady = PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: cases(),
+    });
+    let [steady, of_each] = [steady, of_each].map(|load| {
+        ask(&robot, &plane, branch("front elbow-up"), |q| {
+            along_path(q, &track, load, Watch::NONE).unwrap().answers
+        })
+    });
+    assert_eq!((steady.share_count, of_each.share_count), (6, 0));
+    for ((i, steady), (_, of_each)) in steady.held().zip(of_each.held()) {
+        assert!(
+            (steady.in_plane - of_each.in_plane).abs() < 1e-12 * steady.in_plane,
+            "{i}"
+        );
+        assert_eq!(
+            (steady.name, steady.deciding_case),
+            (of_each.name, of_each.deciding_case)
+        );
+    }
+    assert_eq!(steady.joints, of_each.joints);
 }
 
 #[test]

@@ -10,11 +10,11 @@ use armill_core::kernel::{BranchChoice, Question};
 use armill_core::load::{
     Cutter, CuttingLaw, Doubt, Immersion, LoadCases, LoadFrame, Mechanistic, Milling, PathLoad,
 };
-use armill_core::map::{
-    CutLimits, Permitted, ProgramAnswer, ProgramLimits, Track, along_program, program_limits,
-};
+use armill_core::map::{AlongPath, CutLimits, Permitted, ProgramLimits, along_path, program_limits};
 use armill_core::nalgebra::{Point3, Unit, Vector2, Vector3};
-use armill_core::path::{Arc, Course, Cutting, Greatest, Move, Pace, Placing, Sampler, Sampling, Spin};
+use armill_core::path::{
+    Arc, Course, Cutting, Greatest, Move, Pace, PathBuilder, Placing, Sampling, Spin, Step, Track,
+};
 use armill_core::predict::predict_in_full;
 use armill_core::robot::{BranchPattern, JointCompliance, Mass, Robot, Seat, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
@@ -56,13 +56,13 @@ fn track() -> Track {
         chord_error: 1e-5,
         step: 2e-3,
     };
-    let (mut sampler, mut points) = (Sampler::new(sampling), Vec::new());
+    let mut builder = PathBuilder::new(sampling, 100_000);
     for next in moves() {
-        sampler.points(&next, |point| points.push(point));
+        builder.take(Step::Move(next));
     }
     let base_from_part = Isometry::new(Vector3::new(0.9, 0.1, 0.6), Vector3::new(0.1, -0.4, 0.3));
     Track {
-        points,
+        path: builder.finish().unwrap(),
         placing: Placing {
             base_from_path: base_from_part,
             axis: Vector3::z_axis(),
@@ -108,10 +108,10 @@ fn question<'a>(
     }
 }
 
-fn followed(robot: &Robot, model: &StiffnessModel, choice: BranchChoice, load: PathLoad) -> ProgramAnswer {
+fn followed(robot: &Robot, model: &StiffnessModel, choice: BranchChoice, load: PathLoad) -> AlongPath {
     let tool = arms::bent_tool();
     let question = question(robot, model, &tool, choice);
-    along_program(&question, &track(), load, Watch::NONE).unwrap()
+    along_path(&question, &track(), load, Watch::NONE).unwrap()
 }
 
 /// Every point against [`predict_in_full`] at its joint positions, with wrenches turned here.
@@ -130,7 +130,7 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
     let track = track();
     assert!(found.answers.points.len() > 200);
     for (i, held) in found.answers.held() {
-        let point = &track.points[i];
+        let point = &track.path.points[i];
         let part = track.base_from_part.rotation;
         let z = part * point.axis.map_or(Vector3::z(), Unit::into_inner);
         let feed = part * point.direction.into_inner();
@@ -251,7 +251,7 @@ fn parts_seen_from_the_path_add_up_to_the_whole() {
     for (i, held) in found.answers.held() {
         let deviation = found.answers.deviations_at(i)[held.deciding_case];
         let (parts, whole) = (track.parts(i, &deviation), deviation.norm());
-        assert!((parts.along.hypot(parts.cross).hypot(parts.normal) - whole).abs() < 1e-12 * whole);
+        assert!((parts.along.hypot(parts.cross).hypot(parts.axial) - whole).abs() < 1e-12 * whole);
         assert!((parts.along.hypot(parts.cross) - held.in_plane).abs() < 1e-10 * whole);
     }
 }
@@ -265,7 +265,7 @@ fn wrenches_of_each_point_may_be_told_in_any_frame() {
         let PathLoad::Cases(told) = &given else {
             unreachable!()
         };
-        let count = track().points.len();
+        let count = track().path.points.len();
         let each = PathLoad::OfEach {
             cases: told.cases.len(),
             frame,
@@ -289,7 +289,7 @@ fn wrenches_of_each_point_may_be_told_in_any_frame() {
 fn each_point_may_have_a_wrench_of_its_own() {
     let robot = arms::mh12();
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
-    let count = track().points.len();
+    let count = track().path.points.len();
     let PathLoad::Cases(told) = cases(LoadFrame::Feed) else {
         unreachable!()
     };
@@ -331,7 +331,7 @@ fn cutting() -> Cutting {
 const SPINDLE: f64 = 8000.0 * TAU / 60.0;
 
 fn cut_along(cutting: &Cutting, track: &Track) -> PathLoad {
-    let forces = cutting.along((&track.points, &[]), &track.placing, None, Watch::NONE);
+    let forces = cutting.along((&track.path.points, &[]), &track.placing, None, Watch::NONE);
     PathLoad::Cuts(forces.unwrap().cuts)
 }
 
@@ -480,7 +480,7 @@ fn where_a_tool_cuts_the_force_is_that_of_the_cut_of_the_tool_that_strayed() {
     for (i, _) in found.answers.held() {
         let (here, before) = (&at_rest.points[i], &drawn.points[i]);
         let parts = track.parts(i, &found.answers.deviations_at(i)[0]);
-        let strayed = Vector2::new(parts.cross, parts.normal);
+        let strayed = Vector2::new(parts.cross, parts.axial);
         let Some(cut) = before.cut else {
             assert_eq!(here.mean, Vector3::zeros());
             continue;
@@ -512,7 +512,7 @@ fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
         let tool = Isometry::translation(0.0, 0.0, 0.2);
         let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
         let question = question(&robot, StiffnessModel::DRIVES, &tool, choice);
-        let found = along_program(&question, &track, cases(LoadFrame::Feed), Watch::NONE)
+        let found = along_path(&question, &track, cases(LoadFrame::Feed), Watch::NONE)
             .unwrap()
             .answers;
         let (mut range, mut steps) = ((f64::MAX, f64::MIN), 0);
@@ -523,7 +523,7 @@ fn joints_go_on_past_half_a_turn_as_far_as_their_limits_let_them() {
             assert!(held.limit_joint == joint && (held.limit_margin - margin).abs() < 1e-12);
             assert!(held.within_limits(), "point {i}");
             let smooth = |i: usize| {
-                let [before, here] = [&track.points[i - 1], &track.points[i]];
+                let [before, here] = [&track.path.points[i - 1], &track.path.points[i]];
                 here.along > before.along && before.direction.angle(&here.direction) < 0.1
             };
             if i > 0 && smooth(i) {

@@ -1,46 +1,89 @@
 //! Runs a study: every ask through the core.
 
-use armill_core::kernel::Question;
+use armill_core::frame::Isometry;
+use armill_core::kernel::{Answers, Question, evaluate};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    PathAnswer, PlaneMap, ProgramAnswer, ProgramLimits, VolumeMap, along_path, along_program, plane_map,
-    program_limits, volume_map,
+    AlongPath, Jump, PlaneMap, ProgramLimits, RadialDeviation, VolumeMap, along_path, jumps, plane_map,
+    program_limits, radial_deviations, volume_map, worst_points,
 };
-use armill_core::nalgebra::Point3;
-use armill_core::path::{ForcesTold, NoForces, Stock};
+use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use armill_core::path::{ForcesTold, NoForces, Shape, Stock};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::source::Arm;
+use armill_core::spatial::Wrench;
 use armill_core::watch::{Cancelled, Watch};
+use armill_core::workpiece::Plane;
 
 use crate::error::StudyError;
-use crate::file::program::ProgramAsk;
+use crate::file::path::PathAsk;
 use crate::file::resolve::{Ask, Setting, Sheet, Study, Subject};
 
-/// What came out of one ask.
+/// One ask, done.
 #[derive(Clone, Debug)]
-pub enum Found {
-    /// One plane.
-    Map(PlaneMap),
-    /// Several planes, in the order asked.
-    Sections(Vec<PlaneMap>),
-    /// A box of points.
-    Volume(VolumeMap),
-    /// A path.
-    Path(PathAnswer),
-    /// A tool path program.
-    Program(Box<ProgramFound>),
+pub struct Done<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// What came out.
+    pub found: Found<'a>,
 }
 
-/// What came out along a program.
+/// What came out of one ask, beside what was asked.
 #[derive(Clone, Debug)]
-pub struct ProgramFound {
+pub enum Found<'a> {
+    /// One plane.
+    Map(&'a Sheet, PlaneMap),
+    /// Several planes, in the order asked.
+    Sections(Vec<Section<'a>>),
+    /// A box of points.
+    Volume(&'a Setting, VolumeMap),
+    /// A path.
+    Path(&'a PathAsk, Box<PathFound>),
+}
+
+/// One plane of a series.
+#[derive(Clone, Debug)]
+pub struct Section<'a> {
+    /// What tells it from the others.
+    pub label: &'a str,
+    /// What was asked.
+    pub sheet: &'a Sheet,
+    /// What came out.
+    pub map: PlaneMap,
+}
+
+/// What came out along a path.
+#[derive(Clone, Debug)]
+pub struct PathFound {
     /// Its deviation.
-    pub answer: ProgramAnswer,
-    /// What is worth telling of its forces, where a cut makes them.
+    pub along: AlongPath,
+    /// Where it is worst, worst first, each from another part of the path.
+    pub worst: Vec<InFull>,
+    /// Where the arm jumps, as many as are told and one more.
+    pub jumps: Vec<Jump>,
+    /// On a circle that is a shape: what becomes of it under each load case.
+    pub radial: Vec<RadialDeviation>,
+    /// What is worth telling of its forces, where a cut or drill makes them.
     pub forces: Option<ForcesTold>,
     /// What keeps the tolerance, where that was asked and can be told.
     pub limits: Option<ProgramLimits>,
 }
+
+/// One point of a path, asked with shares and uncertainty on a plane across the tool.
+#[derive(Clone, Debug)]
+pub struct InFull {
+    /// Which point.
+    pub index: usize,
+    /// How it was asked.
+    pub setting: Setting,
+    /// The answer, alone.
+    pub answers: Answers,
+}
+
+/// Points told as worst at most.
+const WORST: usize = 5;
+/// Jumps told at most.
+pub(crate) const MOST_JUMPS: usize = 10;
 
 /// How many points the study asks for.
 pub fn point_count(study: &Study) -> usize {
@@ -48,18 +91,17 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Map(sheet) => sheet.grid.len(),
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
-        Subject::Path(_, shape, step) => (shape.length() / step).ceil() as usize,
         // A stock is cut in a pass of its own.
-        Subject::Program(program) => program.track.points.len() * if program.has_stock() { 2 } else { 1 },
+        Subject::Path(path) => path.track.len() * if path.has_stock() { 2 } else { 1 },
     };
     study.asks.iter().map(of).sum()
 }
 
-/// The answers to all asks of the study, in its order, on the threads of the current rayon pool.
+/// All asks of the study, done in its order on the threads of the current rayon pool.
 ///
 /// # Errors
-/// Cancelled by the watch; a robot without compliance.
-pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
+/// Cancelled by the watch; a robot without compliance; a path that misses its stock.
+pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, StudyError> {
     let robot = &study.robot.robot;
     let compliance = robot.compliance().ok_or_else(|| {
         let message = format!("robot `{}` has no joint compliance", robot.name());
@@ -70,13 +112,20 @@ pub fn run(study: &Study, watch: Watch<'_>) -> Result<Vec<Found>, StudyError> {
         compliance,
         watch,
     };
-    study.asks.iter().map(|ask| runner.find(ask)).collect()
+    let done = |ask: &'a Ask| {
+        let found = runner.find(ask)?;
+        Ok(Done {
+            name: &ask.name,
+            found,
+        })
+    };
+    study.asks.iter().map(done).collect()
 }
 
 const BESIDE_STOCK: &str = "is the stock where the program cuts?";
 
-/// A program that misses its stock would hold any tolerance.
-fn nothing_cut(ask: &ProgramAsk, stock: &Stock) -> StudyError {
+/// A path that misses its stock would hold any tolerance.
+fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
     let mm = |corners: [Point3<f64>; 2]| {
         let [low, high] =
             corners.map(|at| format!("({:.1}, {:.1}, {:.1})", at.x * 1e3, at.y * 1e3, at.z * 1e3));
@@ -84,8 +133,8 @@ fn nothing_cut(ask: &ProgramAsk, stock: &Stock) -> StudyError {
     };
     let message = format!(
         "{}: the program cuts nothing of its stock: the cuts go from {}, the stock from {}",
-        ask.file,
-        mm(ask.track.corners()),
+        ask.shown(),
+        mm(ask.track.path.corners()),
         mm(stock.corners())
     );
     StudyError::value(message, BESIDE_STOCK)
@@ -98,65 +147,21 @@ struct Runner<'a> {
 }
 
 impl Runner<'_> {
-    fn find(&self, ask: &Ask) -> Result<Found, StudyError> {
+    fn find<'s>(&self, ask: &'s Ask) -> Result<Found<'s>, StudyError> {
         Ok(match &ask.subject {
-            Subject::Map(sheet) => Found::Map(self.map(sheet)?),
-            Subject::Sections(sections) => Found::Sections(
-                sections
-                    .iter()
-                    .map(|(_, sheet)| self.map(sheet))
-                    .collect::<Result<_, _>>()?,
-            ),
-            Subject::Volume(setting, grid) => Found::Volume(volume_map(
-                &self.question(setting),
-                setting.plane,
-                *grid,
-                self.watch,
-            )?),
-            Subject::Path(setting, shape, step) => Found::Path(along_path(
-                &self.question(setting),
-                setting.plane,
-                shape,
-                *step,
-                self.watch,
-            )?),
-            Subject::Program(program) => Found::Program(Box::new(self.program(program)?)),
-        })
-    }
-
-    fn program(&self, ask: &ProgramAsk) -> Result<ProgramFound, StudyError> {
-        let (load, forces) = match &ask.cut {
-            Some(cut) if let Some(stock) = &cut.stock => {
-                let (points, placing) = (&ask.track.points, &ask.track.placing);
-                let mut stock = stock.clone();
-                let found =
-                    cut.cutting
-                        .along((points, &ask.operations), placing, Some(&mut stock), self.watch);
-                let found = found.map_err(|error| match error {
-                    NoForces::Cancelled => StudyError::Cancelled(Cancelled),
-                    error => StudyError::value(format!("{}: {error}", ask.file), BESIDE_STOCK),
-                })?;
-                if found.cuts.points.iter().all(|here| here.cut.is_none()) {
-                    return Err(nothing_cut(ask, &stock));
-                }
-                (PathLoad::Cuts(found.cuts), Some(found.told))
+            Subject::Map(sheet) => Found::Map(sheet, self.map(sheet)?),
+            Subject::Sections(sections) => {
+                let section = |(label, sheet): &'s (String, Sheet)| {
+                    let map = self.map(sheet)?;
+                    Ok(Section { label, sheet, map })
+                };
+                Found::Sections(sections.iter().map(section).collect::<Result<_, StudyError>>()?)
             }
-            _ => (ask.load.clone(), ask.forces),
-        };
-        let question = self.question(&ask.setting);
-        let answer = along_program(&question, &ask.track, load, self.watch)?;
-        let question = Question {
-            choice: answer.choice,
-            ..question
-        };
-        let limits = match ask.tells_limits() {
-            true => program_limits(&question, &ask.track, &answer, ask.setting.limit, self.watch)?,
-            false => None,
-        };
-        Ok(ProgramFound {
-            answer,
-            forces,
-            limits,
+            Subject::Volume(setting, grid) => {
+                let question = self.question(setting);
+                Found::Volume(setting, volume_map(&question, setting.plane, *grid, self.watch)?)
+            }
+            Subject::Path(path) => Found::Path(path, Box::new(self.path(path)?)),
         })
     }
 
@@ -165,28 +170,96 @@ impl Runner<'_> {
         Ok(plane_map(&question, sheet.setting.plane, sheet.grid, self.watch)?)
     }
 
-    fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
-        question(self.robot, self.compliance, setting)
+    fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
+        let (load, forces) = self.pushed(ask)?;
+        let question = self.question(&ask.setting);
+        let along = along_path(&question, &ask.track, load, self.watch)?;
+        let question = Question {
+            choice: along.choice,
+            ..question
+        };
+        let limits = match ask.tells_limits() {
+            true => program_limits(&question, &ask.track, &along, ask.setting.limit, self.watch)?,
+            false => None,
+        };
+        let worst = worst_points(&ask.track, &along.answers, WORST);
+        Ok(PathFound {
+            worst: worst
+                .into_iter()
+                .map(|index| self.in_full(ask, &along, index))
+                .collect::<Result<_, Cancelled>>()?,
+            jumps: jumps(self.robot, &ask.track.path, &along.answers)
+                .take(MOST_JUMPS + 1)
+                .collect(),
+            radial: match ask.shape() {
+                Some(Shape::Circle { centre, .. }) => radial_deviations(&ask.track, &along.answers, *centre),
+                _ => Vec::new(),
+            },
+            along,
+            forces,
+            limits,
+        })
     }
-}
 
-/// What is asked of every point of this setting.
-pub(crate) fn question<'q>(
-    robot: &'q Robot,
-    compliance: &'q [JointCompliance],
-    setting: &'q Setting,
-) -> Question<'q> {
-    Question {
-        arm: Arm {
-            robot,
-            compliance,
-            model: &setting.model,
-            flange_from_tool: &setting.flange_from_tool,
-        },
-        home: setting.home.as_deref(),
-        cases: &setting.cases,
-        doubt: setting.doubt,
-        normal: setting.plane.normal(),
-        choice: setting.choice,
+    /// What pushes along a path: of a cut in a stock what the tool meets there.
+    fn pushed(&self, ask: &PathAsk) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
+        let in_stock = ask.cut.as_ref().and_then(|cut| Some((cut, cut.stock.clone()?)));
+        let Some((cut, mut stock)) = in_stock else {
+            return Ok((ask.load.clone(), ask.forces));
+        };
+        let (path, placing) = (&ask.track.path, &ask.track.placing);
+        let points = (&path.points[..], &path.operations[..]);
+        let found = cut.cutting.along(points, placing, Some(&mut stock), self.watch);
+        let found = found.map_err(|error| match error {
+            NoForces::Cancelled => StudyError::Cancelled(Cancelled),
+            error => StudyError::value(format!("{}: {error}", ask.shown()), BESIDE_STOCK),
+        })?;
+        if found.cuts.points.iter().all(|here| here.cut.is_none()) {
+            return Err(nothing_cut(ask, &stock));
+        }
+        Ok((PathLoad::Cuts(found.cuts), Some(found.told)))
+    }
+
+    fn in_full(&self, ask: &PathAsk, along: &AlongPath, index: usize) -> Result<InFull, Cancelled> {
+        let mut cases = vec![Wrench::from_force(Vector3::zeros()); along.answers.case_count];
+        ask.track.wrenches(&along.load, index, &mut cases);
+        let stop = ask.track.stop(index);
+        let across = Plane {
+            base_from_part: Isometry::from_parts(
+                Translation3::from(stop.base_from_tool.translation.vector),
+                UnitQuaternion::from_rotation_matrix(&ask.track.base_from_feed(index)),
+            ),
+        };
+        let setting = Setting {
+            plane: across,
+            tilt: None,
+            cases,
+            choice: along.choice,
+            // The arm stands as it does on the path, whatever its joints to spare.
+            home: Some(along.answers.joints_at(index).to_vec()),
+            ..ask.setting.clone()
+        };
+        let answers = evaluate(&self.question(&setting), 1, |_| stop.base_from_tool, Watch::NONE)?;
+        Ok(InFull {
+            index,
+            setting,
+            answers,
+        })
+    }
+
+    fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
+        Question {
+            arm: Arm {
+                robot: self.robot,
+                compliance: self.compliance,
+                model: &setting.model,
+                flange_from_tool: &setting.flange_from_tool,
+            },
+            home: setting.home.as_deref(),
+            cases: &setting.cases,
+            doubt: setting.doubt,
+            normal: setting.plane.normal(),
+            choice: setting.choice,
+        }
     }
 }

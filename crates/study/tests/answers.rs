@@ -10,7 +10,7 @@ use armill_core::watch::Watch;
 use armill_study::answer::{MapAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::{Study, read};
 use armill_study::output::{Wanted, write};
-use armill_study::run::{Found, point_count, run};
+use armill_study::run::{Done, Found, point_count, run};
 use armill_study::{ErrorKind, StudyError, library};
 
 /// 9 x 9 points in front of an MH12; tables can be appended.
@@ -33,7 +33,7 @@ fn plate_with(asks: &str) -> Study {
     study(&format!("{PLATE}{asks}"))
 }
 
-fn found(study: &Study) -> Vec<Found> {
+fn found(study: &Study) -> Vec<Done<'_>> {
     run(study, Watch::NONE).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -190,7 +190,7 @@ fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
          [[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 200, 200], step_mm = 50 }\n",
     );
     let found = found(&study);
-    let (Found::Map(map), Found::Volume(volume)) = (&found[0], &found[1]) else {
+    let (Found::Map(_, map), Found::Volume(_, volume)) = (&found[0].found, &found[1].found) else {
         panic!("a map and a volume")
     };
     assert_eq!(volume.grid.counts, [3, 9, 9]);
@@ -228,13 +228,14 @@ fn a_path_agrees_with_the_map_where_they_meet() {
          [[ask]]\nkind = \"path\"\nname = \"row\"\nline = { from_mm = [-200, 50], to_mm = [200, 50] }\nstep_mm = 50\n",
     );
     let found = found(&study);
-    let (Found::Map(map), Found::Path(path)) = (&found[0], &found[1]) else {
+    let (Found::Map(_, map), Found::Path(ask, path)) = (&found[0].found, &found[1].found) else {
         panic!("a map and a path")
     };
-    assert_eq!(path.samples.len(), 9);
-    for (sample, on_path) in path.samples.iter().zip(&path.answers.points) {
+    let points = &ask.track.path.points;
+    assert_eq!(points.len(), 9);
+    for (sample, on_path) in points.iter().zip(&path.along.answers.points) {
         let same = (0..map.grid.len())
-            .find(|i| (map.grid.point(*i) - sample.at).norm() < 1e-9)
+            .find(|i| (map.grid.point(*i) - sample.at.xy()).norm() < 1e-9)
             .unwrap();
         let (a, b) = (map.answers.points[same].unwrap(), on_path.unwrap());
         assert!((a.in_plane - b.in_plane).abs() < SAME, "{}", sample.at);
@@ -247,12 +248,13 @@ fn a_circle_starts_at_plus_y_and_turns_towards_z() {
         "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle = { centre_mm = [50, 100], radius_mm = 40 }\n",
     );
     let found = found(&study);
-    let Found::Path(path) = &found[0] else {
+    let Found::Path(ask, _) = &found[0].found else {
         panic!("a path")
     };
-    let in_plane = |i: usize| [-path.samples[i].at.x * 1e3, path.samples[i].at.y * 1e3];
-    let quarter = path.samples.len() / 4;
-    assert_eq!(path.samples.len() % 4, 0);
+    let points = &ask.track.path.points;
+    let in_plane = |i: usize| [-points[i].at.x * 1e3, points[i].at.y * 1e3];
+    let quarter = points.len() / 4;
+    assert_eq!(points.len() % 4, 0);
     for (index, expected) in [(0, [90.0, 100.0]), (quarter, [50.0, 140.0])] {
         let [y, z] = in_plane(index);
         assert!(
@@ -358,7 +360,7 @@ fn the_best_posture_is_inside_limits_and_never_worse_than_a_named_one_that_is() 
     let maps: Vec<_> = found
         .iter()
         .map(|found| {
-            if let Found::Map(map) = found {
+            if let Found::Map(_, map) = &found.found {
                 map
             } else {
                 panic!("a map")

@@ -8,13 +8,13 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::fs;
 
-use armill_core::map::ProgramAnswer;
+use armill_core::map::AlongPath;
 use armill_core::nalgebra::{Rotation3, Vector3};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
-use armill_study::answer::{MeasuredResult, StudyAnswer, answer};
-use armill_study::file::program::ProgramAsk;
-use armill_study::file::resolve::{Study, Subject, read};
+use armill_study::answer::{MeasuredAnswer, StudyAnswer, answer};
+use armill_study::file::path::PathAsk;
+use armill_study::file::resolve::{Study, read};
 use armill_study::run::{Found, run};
 
 /// A horizontal plate in front of an MH12.
@@ -38,50 +38,42 @@ const PROGRAM: &str = "G21 G90 G17\nS9000 M3\nG0 X0 Y0 Z10\nG0 Z0\nG1 X40 F600\n
 const CUTS_S: f64 = 10.5;
 
 /// A study with this program and whatever its ask has beside.
-fn study(beside: &str, record: &str) -> Result<(Study, Vec<Found>), String> {
+fn study(beside: &str, record: &str) -> Result<Study, String> {
     study_of(PROGRAM, beside, record)
 }
 
-fn study_of(program: &str, beside: &str, record: &str) -> Result<(Study, Vec<Found>), String> {
+fn study_of(program: &str, beside: &str, record: &str) -> Result<Study, String> {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("part.ngc"), program).unwrap();
     fs::write(folder.path().join("record.csv"), record).unwrap();
     let text = format!(
-        "{CELL}{CUT}\n[[ask]]\nkind = \"program\"\nname = \"part\"\n[ask.program]\nfile = \"part.ngc\"\n{beside}"
+        "{CELL}{CUT}\n[[ask]]\nkind = \"path\"\nname = \"part\"\n[ask.program]\nfile = \"part.ngc\"\n{beside}"
     );
-    let study = read("study.toml", folder.path(), text.as_bytes()).map_err(|error| error.to_string())?;
-    let found = run(&study, Watch::NONE).unwrap();
-    Ok((study, found))
+    read("study.toml", folder.path(), text.as_bytes()).map_err(|error| error.to_string())
 }
 
-fn program((study, found): &(Study, Vec<Found>)) -> (&ProgramAsk, &ProgramAnswer) {
-    match (&study.asks[0].subject, &found[0]) {
-        (Subject::Program(ask), Found::Program(found)) => (ask, &found.answer),
-        _ => panic!("no program"),
+fn program(study: &Study) -> (&PathAsk, AlongPath) {
+    match run(study, Watch::NONE).unwrap().remove(0).found {
+        Found::Path(ask, found) => (ask, found.along),
+        _ => panic!("no path"),
     }
 }
 
-fn told((study, found): &(Study, Vec<Found>)) -> (StudyAnswer, MeasuredResult) {
-    let answer = answer(study, found);
-    let measured = answer.paths[0]
-        .program
-        .as_ref()
-        .unwrap()
-        .measured
-        .clone()
-        .unwrap();
+fn told(study: &Study) -> (StudyAnswer, MeasuredAnswer) {
+    let answer = answer(study, &run(study, Watch::NONE).unwrap());
+    let measured = answer.paths[0].measured.clone().unwrap();
     (answer, measured)
 }
 
 /// When the tip is at each point, told from the text of the program.
-fn times(ask: &ProgramAsk) -> Vec<f64> {
+fn times(ask: &PathAsk) -> Vec<f64> {
     let time = |point: &armill_core::path::PathPoint| match point.line {
         5 => point.along / 0.01,
         6 => 4.0 + (point.along - 0.04) / 0.005,
         10 => 8.5 + (point.along - 0.06) / 0.01,
         line => panic!("line {line}"),
     };
-    ask.track.points.iter().map(time).collect()
+    ask.track.path.points.iter().map(time).collect()
 }
 
 /// Forces of the cut at the points where tool and cut rest, base axes, and the deviations that they make.
@@ -97,7 +89,7 @@ impl Witness {
     fn new() -> Witness {
         let of_cut = study("", "").unwrap();
         let (ask, found) = program(&of_cut);
-        let count = ask.track.points.len();
+        let count = ask.track.len();
         let force = |i: usize| {
             let mut out = [Wrench::from_force(Vector3::zeros())];
             ask.track.wrenches(&found.load, i, &mut out);
@@ -145,7 +137,7 @@ impl Witness {
 
     /// The largest difference of deviations at points that are at least `apart` s from every jump of the force, as part
     /// of the largest deviation; those of `sign` times the cut are expected.
-    fn differs(&self, found: &ProgramAnswer, case: usize, apart: f64, sign: f64) -> f64 {
+    fn differs(&self, found: &AlongPath, case: usize, apart: f64, sign: f64) -> f64 {
         let largest = self.deviations.iter().map(Vector3::norm).fold(0.0, f64::max);
         let far = |i: &usize| {
             let jumps = [0.0, 4.0, 4.2, 8.0, 8.5, CUTS_S];
@@ -187,7 +179,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
     );
     let ran = study(&beside, &record).unwrap();
     let (ask, found) = program(&ran);
-    let differs = witness.differs(found, 0, 0.002, 1.0);
+    let differs = witness.differs(&found, 0, 0.002, 1.0);
     assert!(differs < EXACT, "{differs}");
     let (_, measured) = told(&ran);
     assert!((measured.lag_s - START_S).abs() < 1e-12 && (measured.end_s - START_S - CUTS_S).abs() < 1e-9);
@@ -229,7 +221,7 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
     assert!(!answer.warnings.iter().any(|warning| warning.contains("not sure")));
     // Of noise of 0.2 of the force (all components together) the filter leaves sqrt(2 x 10 / 1000), here three times that;
     // the arm is up to twice as soft across the force as along it. The filter remembers some tenths of a second.
-    let differs = witness.differs(program(&ran).1, 0, 0.15, 1.0);
+    let differs = witness.differs(&program(&ran).1, 0, 0.15, 1.0);
     assert!(differs < 2.0 * 3.0 * 0.2 * (0.02_f64).sqrt(), "{differs}");
 }
 
@@ -263,7 +255,7 @@ fn the_same_force_may_be_told_in_base_part_or_feed() {
     let in_feed = witness.record((13.0, 1000.0, START_S), feed);
     for (frame, record) in [("part", in_part), ("feed", in_feed)] {
         let ran = study(&format!("{MEASURED}{start}frame = \"{frame}\"\n"), &record).unwrap();
-        let differs = witness.differs(program(&ran).1, 0, 0.002, 1.0);
+        let differs = witness.differs(&program(&ran).1, 0, 0.002, 1.0);
         assert!(differs < EXACT, "{frame}: {differs}");
     }
 }
@@ -275,7 +267,7 @@ fn what_acts_on_the_part_deviates_the_other_way() {
     let beside =
         format!("{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"part\"\nframe = \"base\"\n");
     let ran = study(&beside, &record).unwrap();
-    let differs = witness.differs(program(&ran).1, 0, 0.002, -1.0);
+    let differs = witness.differs(&program(&ran).1, 0, 0.002, -1.0);
     assert!(differs < EXACT, "{differs}");
 }
 
@@ -296,7 +288,7 @@ fn kilonewtons_and_an_export_with_tabs_are_the_same_force() {
         let ran = study(&beside, &text).unwrap();
         assert_eq!(told(&ran).1.format, format);
         // Seven decimals of kN: a thousandth of what is left otherwise.
-        let differs = witness.differs(program(&ran).1, 0, 0.002, 1.0);
+        let differs = witness.differs(&program(&ran).1, 0, 0.002, 1.0);
         assert!(differs < 1e3 * EXACT, "{differs}");
     }
 }
@@ -314,7 +306,7 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
     let (ask, found) = program(&ran);
     assert_eq!(found.answers.case_count, 2);
     // A turn takes 6.7 ms; two waves of ten samples each have no mean.
-    let differs = witness.differs(found, 0, 0.02, 1.0);
+    let differs = witness.differs(&found, 0, 0.02, 1.0);
     assert!(differs < 1e-3, "{differs}");
     // The highest of ten samples lies within 18 deg of the crest: 1.5 down to 1.475.
     // Away from the corner at point 40 and the rapid behind point 60.
@@ -448,7 +440,7 @@ fn what_is_wrong_is_told_at_its_place() {
         (
             format!("{base}{axes}{start}\n[ask.load]\ncases_n = [[1, 2, 3]]\n"),
             &good,
-            &["measured forces and a load"],
+            &["a load and measured forces"],
         ),
     ] {
         let message = study(&beside, record).map(|_| ()).unwrap_err();
@@ -466,7 +458,7 @@ fn a_prediction_needs_its_cut_and_a_program_its_feed() {
     let witness = Witness::new();
     let good = witness.record((13.0, 100.0, START_S), |force, _, _| force);
     fs::write(folder.path().join("record.csv"), good).unwrap();
-    let ask = "\n[[ask]]\nkind = \"program\"\n[ask.program]\nfile = \"part.csv\"\n";
+    let ask = "\n[[ask]]\nkind = \"path\"\n[ask.program]\nfile = \"part.csv\"\n";
     let axes = "drift = false\nacts_on = \"tool\"\nframe = \"base\"\n";
     let told = |last: &str| {
         let text = format!("{CELL}{ask}{MEASURED}{axes}{last}\n");

@@ -45,7 +45,7 @@ fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
 }
 
 fn ask(program: &str) -> String {
-    format!("\n[[ask]]\nkind = \"program\"\nname = \"part\"\n[ask.program]\n{program}\n")
+    format!("\n[[ask]]\nkind = \"path\"\nname = \"part\"\n[ask.program]\n{program}\n")
 }
 
 #[test]
@@ -75,7 +75,7 @@ fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
     // The last point of the program stands on its first: the least-squares circle hardly notices.
     assert!((shape.roundness_um.unwrap() - part.roundness_um.unwrap()).abs() < 0.05);
     let program = part.program.as_ref().unwrap();
-    let ring = &program.features[0];
+    let ring = &part.features[0];
     assert_eq!((ring.kind, ring.points, ring.case), ("circle", 361, 1));
     assert!((ring.radius_mm.unwrap() - 40.0).abs() < 1e-9);
     let shift = shape.circle_cases[0].centre_shift_um;
@@ -85,7 +85,7 @@ fn a_circle_as_program_deviates_as_the_circle_of_a_path() {
         (x + shift[0]).abs() < 0.3 && (y - shift[1]).abs() < 0.3 && z.abs() < 1e-9,
         "{x} {y} {shift:?}"
     );
-    assert!((program.cutting_length_mm - TAU * 40.0).abs() < 1e-6);
+    assert!((part.length_mm - TAU * 40.0).abs() < 1e-6);
     assert!((program.cutting_time_s - TAU * 40.0 / 10.0).abs() < 1e-6);
 }
 
@@ -101,11 +101,10 @@ fn the_worst_point_carries_shares_uncertainty_line_and_cause() {
     assert!((worst.in_plane_um - part.max_in_plane_um.unwrap()).abs() < 1e-9);
     let shares: f64 = worst.joint_share_um.iter().sum();
     assert!((shares - worst.in_plane_um).abs() < 1e-9 && worst.in_plane_u_um > 0.0);
-    let point = &part.program.as_ref().unwrap().worst_points[0];
+    let point = &part.worst_points[0];
     assert_eq!(point.line, 5);
     assert!(point.cause.contains('%'), "{}", point.cause);
-    let [along, cross, _] = point.along_cross_normal_um;
-    assert!((along.hypot(cross) - worst.in_plane_um).abs() < 1e-6);
+    assert!((point.along_um.hypot(point.cross_um) - worst.in_plane_um).abs() < 1e-6);
 }
 
 #[test]
@@ -117,11 +116,15 @@ fn a_load_in_the_feed_frame_turns_with_the_circle() {
         &[("ring.ngc", RING)],
     )
     .unwrap();
-    let program = answer.paths[0].program.as_ref().unwrap();
-    for point in &program.worst_points {
-        assert!(point.along_cross_normal_um[0] < 0.0, "{point:?}");
+    let path = &answer.paths[0];
+    for point in &path.worst_points {
+        assert!(point.along_um < 0.0, "{point:?}");
     }
-    assert!(program.largest_mean_and_peak_n.is_none() && program.material.is_none());
+    assert!(path.cut.is_none());
+    assert_eq!(
+        (path.setting.load_frame, path.setting.cases_n[0]),
+        ("feed", [-20.0, 0.0, 0.0])
+    );
 }
 
 #[test]
@@ -135,8 +138,9 @@ fn forces_come_from_the_cut_and_need_no_load() {
         .unwrap();
         answer.paths[0].clone()
     });
-    let forces = |path: &armill_study::answer::PathResult| {
-        path.program.as_ref().unwrap().largest_mean_and_peak_n.unwrap()
+    let forces = |path: &armill_study::answer::PathAnswer| {
+        let cut = path.cut.as_ref().unwrap();
+        [cut.largest_mean_n, cut.largest_peak_n]
     };
     let ([mean, peak], [twice, _]) = (forces(&one), forces(&two));
     // A mean force goes with the depth; so does what it moves.
@@ -149,12 +153,10 @@ fn forces_come_from_the_cut_and_need_no_load() {
     .unwrap();
     assert!(both.paths[0].max_in_plane_um > one.max_in_plane_um);
     assert_eq!(both.paths[0].worst.as_ref().unwrap().deciding_case, 2);
-    let ratio = two.program.as_ref().unwrap().max_cross_um.unwrap()
-        / one.program.as_ref().unwrap().max_cross_um.unwrap();
+    let ratio = two.max_cross_um.unwrap() / one.max_cross_um.unwrap();
     assert!(ratio > 1.5 && ratio < 2.5, "{ratio}");
-    let program = one.program.as_ref().unwrap();
-    assert!(program.material.as_ref().unwrap().contains("6082"));
-    assert!(program.notes.iter().any(|note| note.contains("same engagement")));
+    assert!(one.cut.as_ref().unwrap().material.contains("6082"));
+    assert!(one.notes.iter().any(|note| note.contains("same engagement")));
     let worst = one.worst.as_ref().unwrap();
     assert!(worst.in_plane_u_um > 0.2 * worst.in_plane_um, "{worst:?}");
 }
@@ -164,7 +166,7 @@ const STEP_OVER: &str =
     "G21 G90 G17\nS9000 M3\nG0 X-60 Y0 Z10\nG0 Z-1\nG1 X30 F600\nG1 Y3\nG1 X-60\nG0 Z10\nM2\n";
 const STOCK: &str = "\nstock = { from_mm = [-40, -40, -20], to_mm = [40, 40, 0] }";
 
-fn of_cut(cut: &str) -> armill_study::answer::PathResult {
+fn of_cut(cut: &str) -> armill_study::answer::PathAnswer {
     let study = format!("{CELL}{cut}{}", ask("file = \"step.ngc\""));
     told(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
 }
@@ -172,8 +174,8 @@ fn of_cut(cut: &str) -> armill_study::answer::PathResult {
 #[test]
 fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
     let with_stock = format!("{CUT}{STOCK}");
-    let program = of_cut(&with_stock).program.unwrap();
-    let stock = program.stock.as_ref().unwrap();
+    let program = of_cut(&with_stock);
+    let stock = program.cut.as_ref().unwrap().stock.as_ref().unwrap();
     // 15 mm to the block, where the rim of the cutter meets it; 20 mm behind it, where nothing is ahead.
     assert!((34..=39).contains(&stock.points_in_air), "{stock:?}");
     assert!((60..=80).contains(&stock.points_in_slot), "{stock:?}");
@@ -184,20 +186,20 @@ fn a_stock_tells_where_the_cutter_is_in_the_air_in_a_slot_and_beside_one() {
         (stock.removed_mm3 / swept - 1.0).abs() < 0.02,
         "{stock:?} {swept}"
     );
-    let note = |program: &armill_study::answer::ProgramResult, words: &str| {
+    let note = |program: &armill_study::answer::PathAnswer, words: &str| {
         program.notes.iter().any(|note| note.contains(words))
     };
     assert!(note(&program, "finds in the stock") && !note(&program, "same engagement"));
     // A slot pushes harder than the cut that the study told.
-    let told = of_cut(CUT).program.unwrap();
-    let mean = |program: &armill_study::answer::ProgramResult| program.largest_mean_and_peak_n.unwrap()[0];
+    let told = of_cut(CUT);
+    let mean = |program: &armill_study::answer::PathAnswer| program.cut.as_ref().unwrap().largest_mean_n;
     assert!(
         mean(&program) > 1.2 * mean(&told),
         "{} {}",
         mean(&program),
         mean(&told)
     );
-    assert!(told.stock.is_none() && note(&told, "same engagement"));
+    assert!(told.cut.as_ref().unwrap().stock.is_none() && note(&told, "same engagement"));
 }
 
 #[test]
@@ -223,7 +225,7 @@ fn a_program_that_misses_its_stock_is_refused_and_not_praised() {
 #[test]
 fn what_keeps_the_tolerance_is_told_and_holds_when_it_is_cut() {
     let path = of_cut(CUT);
-    let limits = path.program.as_ref().unwrap().limits.as_ref().unwrap();
+    let limits = path.limits.as_ref().unwrap();
     let depth = limits.axial_depth.as_ref().unwrap();
     assert_eq!((depth.unit, depth.verdict), ("mm", "up to"));
     let at_limit = of_cut(&CUT.replace("axial_depth_mm = 1", &format!("axial_depth_mm = {}", depth.value)));
@@ -235,11 +237,11 @@ fn what_keeps_the_tolerance_is_told_and_holds_when_it_is_cut() {
     assert_eq!((feed.value, feed.verdict), (0.0, "nothing"));
     let width = limits.radial_depth.as_ref().unwrap();
     assert!(width.value > 0.0 && limits.points > 50);
-    let force = |limit: &Option<armill_study::answer::LimitResult>| limit.as_ref().unwrap().value;
+    let force = |limit: &Option<armill_study::answer::LimitAnswer>| limit.as_ref().unwrap().value;
     assert!(force(&limits.any_direction) <= force(&limits.cross).min(force(&limits.along)) * (1.0 + 1e-9));
     let without = ask("file = \"step.ngc\"\nlimits = false");
     let answer = told(&format!("{CELL}{CUT}{without}"), &[("step.ngc", STEP_OVER)]).unwrap();
-    assert!(answer.paths[0].program.as_ref().unwrap().limits.is_none());
+    assert!(answer.paths[0].limits.is_none());
 }
 
 #[test]
@@ -248,25 +250,19 @@ fn force_and_tool_rest_and_it_is_told_where_that_matters() {
         &CUT.replace("axial_depth_mm = 1", "axial_depth_mm = 0.2")
             .replace("radial_depth_mm = 3", "radial_depth_mm = 0.3"),
     );
-    let rest = deep.program.as_ref().unwrap().rest.as_ref().unwrap();
+    let rest = deep.cut.as_ref().unwrap().rest.as_ref().unwrap();
     assert_eq!((rest.points_unsettled, rest.first_unsettled_line), (0, None));
     let largest = deep.max_in_plane_um.unwrap();
     let ratio = rest.max_in_plane_if_drawn_um / largest;
-    let noted = deep
-        .program
-        .as_ref()
-        .unwrap()
-        .notes
-        .iter()
-        .any(|note| note.contains("strays so far"));
+    let noted = deep.notes.iter().any(|note| note.contains("strays so far"));
     assert_eq!(noted, (ratio - 1.0).abs() > 0.05, "{ratio}");
     assert!((ratio - 1.0).abs() > 1e-4, "{ratio}");
     // A right-hand helix draws the soft arm into a slot: a sixth more than the force as drawn would make.
-    let slot = of_cut(&format!("{CUT}{STOCK}")).program.unwrap();
+    let slot = of_cut(&format!("{CUT}{STOCK}"));
     assert!(
         slot.notes.iter().any(|note| note.contains("strays so far")),
         "{:?}",
-        slot.rest
+        slot.cut
     );
 }
 
@@ -280,9 +276,9 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
         &[("holes.ngc", holes)],
     );
     let drilled = drilled.unwrap();
-    let program = drilled.paths[0].program.as_ref().unwrap();
-    let [thrust, _] = program.largest_mean_and_peak_n.unwrap();
-    assert!(thrust > 100.0 && program.material.is_some(), "{thrust}");
+    let program = &drilled.paths[0];
+    let thrust = program.cut.as_ref().unwrap().largest_mean_n;
+    assert!(thrust > 100.0, "{thrust}");
     for words in ["chisel edge", "normal to a lip"] {
         assert!(program.notes.iter().any(|note| note.contains(words)), "{words}");
     }
@@ -295,11 +291,7 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
     // The same thrust as a case along the tool, and the torque about it as a moment, move the holes as far.
     let force = format!("load = {{ frame = \"feed\", cases_n = [[0, 0, {thrust}]] }}\n");
     let pushed = told(&format!("{CELL}{force}{}", ask(drill)), &[("holes.ngc", holes)]).unwrap();
-    let shift = |answer: &StudyAnswer| {
-        answer.paths[0].program.as_ref().unwrap().features[0]
-            .shift_um
-            .unwrap()
-    };
+    let shift = |answer: &StudyAnswer| answer.paths[0].features[0].shift_um.unwrap();
     let ([x, y, _], [x_pushed, y_pushed, _]) = (shift(&drilled), shift(&pushed));
     let off = (x - x_pushed).hypot(y - y_pushed);
     // What the torque, some newton metres, adds.
@@ -318,7 +310,7 @@ fn a_drill_thrusts_where_it_goes_in_and_moves_the_tool_as_that_force_does() {
         ),
         (
             format!("{table}\nmeasured = {{ file = \"x.csv\", acts_on = \"tool\", frame = \"feed\" }}"),
-            "measured forces and a drill",
+            "a drill and measured forces",
         ),
     ] {
         let study = format!("{CELL}{}", ask(&format!("{drill}{wrong}")));
@@ -337,7 +329,7 @@ fn kienzle_says_what_it_assumes() {
         &[("ring.ngc", RING)],
     )
     .unwrap();
-    let notes = &answer.paths[0].program.as_ref().unwrap().notes;
+    let notes = &answer.paths[0].notes;
     assert!(
         notes
             .iter()

@@ -38,8 +38,8 @@ fn study(text: &str) -> Study {
 }
 
 fn map(study: &Study) -> PlaneMap {
-    match run(study, Watch::NONE).unwrap().remove(0) {
-        Found::Map(map) => map,
+    match run(study, Watch::NONE).unwrap().remove(0).found {
+        Found::Map(_, map) => map,
         _ => panic!("the study asks for one map"),
     }
 }

@@ -9,20 +9,11 @@ use super::answer::{Answers, Held};
 use super::general::General;
 use super::question::Question;
 use super::solver::{BLOCK, Order, Slots, Solver};
-use crate::frame::Isometry;
 use crate::load::{Doubt, TipYield};
+use crate::path::Stop;
 use crate::robot::Unreachable;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
-
-/// A point of a path: where the tool stands, and what its deviation is split on.
-#[derive(Clone, Copy, Debug)]
-pub struct Stop {
-    /// The tool pose.
-    pub base_from_tool: Isometry,
-    /// What counts as normal there, base: the tool axis of a path.
-    pub normal: Unit<Vector3<f64>>,
-}
 
 /// Answers `question` at `count` points one after the other, each under wrenches of its own.
 ///

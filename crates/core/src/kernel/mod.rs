@@ -20,7 +20,7 @@ mod solver;
 
 pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, at_joints};
-pub use loaded::{Stop, evaluate_loaded};
+pub use loaded::evaluate_loaded;
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

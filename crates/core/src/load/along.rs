@@ -81,6 +81,11 @@ impl PathLoad {
         }
     }
 
+    /// Whether it is the same at every point of a path, whatever way that goes.
+    pub fn is_steady(&self) -> bool {
+        matches!(self, PathLoad::Cases(load) if load.frame != LoadFrame::Feed)
+    }
+
     /// Fills in the wrenches at point `index` in base axes; of cuts those of the path as drawn.
     pub fn in_base(
         &self,

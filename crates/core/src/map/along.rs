@@ -1,96 +1,227 @@
-//! Deviation along a path on a plane: vectors of every load case; on a circle the radial part and the
-//! roundness of the circle that comes out.
+//! Deviation along a path: along the track, across it and along the tool, for loads that may turn with the feed.
+//!
+//! A path is followed in one posture: the branch is chosen once, from points spread over the path, so the arm does not
+//! change its elbow in the middle of a part. A load that is the same everywhere, under a tool that never leans, is answered
+//! with shares and uncertainties at every point; any other load point by point without them. Where a tool cuts, force and
+//! deviation come to rest at every point ([`crate::load::straying`]); the branch is chosen under the forces of the path as
+//! drawn.
 
-use nalgebra::{Point2, Vector2, Vector3};
+use nalgebra::Vector3;
 
-use crate::kernel::{Answers, Question, evaluate_in_order};
-use crate::path::{Roundness, Sample, Shape, roundness};
+use super::turns;
+use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
+use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
+use crate::path::Track;
+use crate::robot::{Branch, BranchPattern};
+use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
-use crate::workpiece::Plane;
+
+/// Points of the path that decide on the branch.
+const SPREAD: usize = 400;
 
 /// Answers along a path.
 #[derive(Clone, Debug)]
-pub struct PathAnswer {
-    /// The plane that the path lies on.
-    pub plane: Plane,
-    /// Its points.
-    pub samples: Vec<Sample>,
-    /// What came out at each.
+pub struct AlongPath {
+    /// The branch it was followed in.
+    pub choice: BranchChoice,
+    /// What came out at each point; in-plane is across the tool, normal along it. Shares and uncertainties where the load
+    /// is the same at all points and the tool does not lean ([`Answers::share_count`] is zero otherwise).
     pub answers: Answers,
-    /// On a circle, where every point is reached: radial deviation of each load case.
-    pub radial: Vec<RadialDeviation>,
+    /// What pushed: of cuts the forces at rest, with the cuts as drawn.
+    pub load: PathLoad,
+    /// How force and deviation came to rest; `None` where no tool cuts, or the load changes the arm.
+    pub rested: Option<Rested>,
 }
 
-/// What becomes of a circle under one load case. m.
-#[derive(Clone, Debug)]
-pub struct RadialDeviation {
-    /// Outward part of the deviation at each point.
-    pub outward: Vec<f64>,
-    /// The least-squares circle of the deviated points and their roundness about it.
-    pub roundness: Roundness,
+/// How force and deviation came to rest along a path.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Rested {
+    /// Largest in-plane deviation if the forces did not give way, m.
+    pub largest_if_drawn: f64,
+    /// Points at which they do not rest: the cut draws the tool in.
+    pub unsettled: usize,
+    /// Index of the first of them.
+    pub first_unsettled: Option<usize>,
 }
 
-impl PathAnswer {
-    /// Deviation of load case `case` at point `index` in part axes (m): in-plane x, y, then normal.
-    pub fn deviation_in_part(&self, index: usize, case: usize) -> Vector3<f64> {
-        self.plane.in_part(&self.answers.deviations_at(index)[case])
-    }
-
-    /// The largest roundness of all load cases, m; `None` off circles.
-    pub fn worst_roundness(&self) -> Option<f64> {
-        self.radial
-            .iter()
-            .map(|r| r.roundness.peak_to_valley)
-            .max_by(f64::total_cmp)
-    }
-}
-
-/// The answers along `shape` on `plane`, sampled at most `step` (m) apart.
+/// The answers along `track` under `load`. What `question` says of cases and normal is not looked at; of its doubt, where
+/// uncertainties are told.
+///
+/// Of several branches that match (or of all, for the best one) the arm keeps the one in which it reaches most points
+/// within its limits, judged at some 400 points spread over the path; of equal ones for [`BranchChoice::Best`] the one with
+/// the least of the largest in-plane deviations, otherwise the one with the most room to its limits.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
 pub fn along_path(
     question: &Question<'_>,
-    plane: Plane,
-    shape: &Shape,
-    step: f64,
+    track: &Track,
+    load: PathLoad,
     watch: Watch<'_>,
-) -> Result<PathAnswer, Cancelled> {
-    let samples = shape.sampled(step);
-    let pose = |i: usize| plane.base_from_tool(samples[i].at, 0.0);
-    let answers = evaluate_in_order(question, samples.len(), pose, watch)?;
-    let mut path = PathAnswer {
-        plane,
-        samples,
-        answers,
-        radial: Vec::new(),
+) -> Result<AlongPath, Cancelled> {
+    let mut cases = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let asked = Question {
+        cases: &cases,
+        ..*question
     };
-    if let Shape::Circle { centre, .. } = shape {
-        let cases = 0..question.cases.len();
-        path.radial = cases
-            .filter_map(|case| radial_deviation(&path, *centre, case))
-            .collect();
+    let choice = chosen(&asked, track, &load, watch)?;
+    let steady = track.steady_normal().filter(|_| load.is_steady());
+    if steady.is_some() {
+        track.wrenches(&load, 0, &mut cases);
     }
-    Ok(path)
+    let asked = Question {
+        cases: &cases,
+        choice,
+        normal: steady.unwrap_or(question.normal),
+        ..*question
+    };
+    let (count, stop) = (track.len(), |i| track.stop(i));
+    let (mut answers, load, rested) = match load {
+        load if steady.is_some() => {
+            let answers = evaluate_in_order(&asked, count, |i| stop(i).base_from_tool, watch)?;
+            (answers, load, None)
+        }
+        PathLoad::Cuts(cuts) => {
+            let mut resting = Resting::new(track, cuts);
+            let load = |i, tip: Option<&TipYield>, out: &mut [Wrench]| resting.load(i, tip, out);
+            let answers = evaluate_loaded(&asked, count, stop, load, watch)?;
+            let rested = question.arm.model.is_affine().then_some(resting.rested);
+            (answers, PathLoad::Cuts(resting.cuts), rested)
+        }
+        load => {
+            let of_point = |i, _: Option<&TipYield>, out: &mut [Wrench]| track.wrenches(&load, i, out);
+            let answers = evaluate_loaded(&asked, count, stop, of_point, watch)?;
+            (answers, load, None)
+        }
+    };
+    turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
+    Ok(AlongPath {
+        choice,
+        answers,
+        load,
+        rested,
+    })
 }
 
-fn radial_deviation(path: &PathAnswer, centre: Point2<f64>, case: usize) -> Option<RadialDeviation> {
-    if path.answers.points.iter().any(Result::is_err) {
-        return None;
+/// Cuts whose forces come to rest point after point.
+struct Resting<'a> {
+    track: &'a Track,
+    cuts: CutsAlong,
+    straying: Straying,
+    rested: Rested,
+}
+
+impl Resting<'_> {
+    fn new(track: &Track, cuts: CutsAlong) -> Resting<'_> {
+        Resting {
+            track,
+            straying: Straying::new(cuts.cutters[0], cuts.law),
+            cuts,
+            rested: Rested::default(),
+        }
     }
-    let in_plane = |i: usize| path.deviation_in_part(i, case).xy();
-    let outward = |(i, sample): (usize, &Sample)| {
-        let radial: Vector2<f64> = (sample.at - centre).normalize();
-        radial.dot(&in_plane(i))
+
+    /// Brings the force at point `index` to rest, and fills in its wrenches, base.
+    fn load(&mut self, index: usize, tip: Option<&TipYield>, out: &mut [Wrench]) {
+        let base_from_feed = self.track.base_from_feed(index);
+        let here = &mut self.cuts.points[index];
+        if let Some(tip) = tip {
+            let tip = tip.seen_from(&base_from_feed.inverse());
+            let drawn = [here.mean, here.greatest];
+            for force in &drawn[..out.len().min(drawn.len())] {
+                // In plane is across the tool.
+                let in_plane = tip.under(*force).xy().norm();
+                self.rested.largest_if_drawn = self.rested.largest_if_drawn.max(in_plane);
+            }
+            if let Some(cut) = here.cut {
+                self.straying.hold(self.cuts.cutters[here.cutter]);
+                let rest = self.straying.rest(&cut, here.mean, &tip);
+                [here.mean, here.greatest] = here.under(rest.force);
+                if !rest.settled {
+                    self.rested.unsettled += 1;
+                    self.rested.first_unsettled.get_or_insert(index);
+                }
+            }
+        }
+        for (out, force) in out.iter_mut().zip([here.mean, here.greatest]) {
+            *out = Wrench::from_force(base_from_feed * force);
+        }
+    }
+}
+
+/// The one branch that the whole path is followed in.
+fn chosen(
+    question: &Question<'_>,
+    track: &Track,
+    load: &PathLoad,
+    watch: Watch<'_>,
+) -> Result<BranchChoice, Cancelled> {
+    let pattern = match question.choice {
+        BranchChoice::Of(pattern) => pattern,
+        BranchChoice::Best => BranchPattern::default(),
     };
-    let deviated: Vec<Point2<f64>> = path
-        .samples
-        .iter()
-        .enumerate()
-        .map(|(i, sample)| sample.at + in_plane(i))
+    let open: Vec<Branch> = Branch::ALL
+        .into_iter()
+        .filter(|branch| pattern.matches(*branch))
         .collect();
-    Some(RadialDeviation {
-        outward: path.samples.iter().enumerate().map(outward).collect(),
-        roundness: roundness(&deviated)?,
-    })
+    if !question.arm.robot.inverse().has_branches() || open.len() < 2 {
+        return Ok(BranchChoice::Of(pattern));
+    }
+    let quiet = Watch {
+        finished: &|_| (),
+        ..watch
+    };
+    let stride = track.len().div_ceil(SPREAD).max(1);
+    let count = track.len().div_ceil(stride);
+    let mut best: Option<(Merit, Branch)> = None;
+    for branch in open {
+        let asked = Question {
+            choice: BranchChoice::Of(branch.into()),
+            ..*question
+        };
+        let answers = evaluate_loaded(
+            &asked,
+            count,
+            |i| track.stop(i * stride),
+            |i, _, out| track.wrenches(load, i * stride, out),
+            quiet,
+        )?;
+        let merit = Merit::of(&answers, question.choice);
+        if best.is_none_or(|(before, _)| merit.beats(&before)) {
+            best = Some((merit, branch));
+        }
+    }
+    let branch = best.map_or(pattern, |(_, branch)| branch.into());
+    Ok(BranchChoice::Of(branch))
+}
+
+/// How good a branch is for a path.
+#[derive(Clone, Copy, Debug)]
+struct Merit {
+    within_limits: usize,
+    reached: usize,
+    /// Larger is better.
+    finer: f64,
+}
+
+impl Merit {
+    fn of(answers: &Answers, choice: BranchChoice) -> Merit {
+        let held = || answers.held().map(|(_, held)| held);
+        let margin = held().map(|held| held.limit_margin).fold(f64::INFINITY, f64::min);
+        let largest = held().map(|held| held.in_plane).fold(0.0, f64::max);
+        Merit {
+            within_limits: held().filter(|held| held.within_limits()).count(),
+            reached: held().count(),
+            finer: if choice == BranchChoice::Best {
+                -largest
+            } else {
+                margin
+            },
+        }
+    }
+
+    fn beats(&self, other: &Merit) -> bool {
+        let count = |merit: &Merit| (merit.within_limits, merit.reached);
+        count(self) > count(other) || (count(self) == count(other) && self.finer > other.finer)
+    }
 }

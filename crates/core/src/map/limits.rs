@@ -21,9 +21,10 @@
 
 use nalgebra::{Matrix2x3, Vector3};
 
-use super::program::{ProgramAnswer, Track};
+use super::along::AlongPath;
 use crate::kernel::Question;
 use crate::load::{Cut, CutHere, CutsAlong, PathLoad, Straying, TipYield};
+use crate::path::Track;
 use crate::source::Standing;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -106,7 +107,7 @@ const BEYOND: f64 = 1.6;
 pub fn program_limits(
     question: &Question<'_>,
     track: &Track,
-    found: &ProgramAnswer,
+    found: &AlongPath,
     limit: f64,
     watch: Watch<'_>,
 ) -> Result<Option<ProgramLimits>, Cancelled> {
@@ -169,7 +170,7 @@ impl Permitted {
 }
 
 /// Points spread over those that are reached and cut something, with the worst of all.
-fn asked(found: &ProgramAnswer, cuts: Option<&CutsAlong>) -> Vec<usize> {
+fn asked(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
     let cuts_there = |i: usize| cuts.is_none_or(|cuts| cuts.points[i].cut.is_some());
     let open: Vec<usize> = found
         .answers
@@ -195,7 +196,7 @@ fn asked(found: &ProgramAnswer, cuts: Option<&CutsAlong>) -> Vec<usize> {
 struct Tips<'a> {
     standing: Standing<'a>,
     track: &'a Track,
-    found: &'a ProgramAnswer,
+    found: &'a AlongPath,
 }
 
 impl Tips<'_> {

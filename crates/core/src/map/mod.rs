@@ -1,25 +1,28 @@
 //! Where does the tolerance hold?
 //!
-//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path on a plane, with radial
-//! deviation and roundness on a circle; [`program`]: along a tool path program; [`limits`]: which cut it permits;
-//! [`region`]: the part within a limit, its area, boundary and what fits;
-//! [`certainty`]: how sure that is.
+//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]:
+//! what becomes of a circle; [`worst_points`] and [`jumps`](fn@jumps): where it is worst, and where the arm jumps; [`limits`]: which cut a path permits; [`region`]: the part within a limit, its area, boundary
+//! and what fits; [`certainty`]: how sure that is.
 
 pub mod along;
 pub mod certainty;
 mod inscribed;
+mod jumps;
 pub mod limits;
 mod marching_squares;
 pub mod plane;
-pub mod program;
+pub mod radial;
 pub mod region;
 mod turns;
 pub mod volume;
+mod worst;
 
-pub use along::{PathAnswer, RadialDeviation, along_path};
+pub use along::{AlongPath, Rested, along_path};
 pub use certainty::{COVERAGE, Certainty, probability_within};
+pub use jumps::{Jump, jumps};
 pub use limits::{CutLimits, DepthByFeed, Permitted, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
-pub use program::{Parts, ProgramAnswer, Rested, Track, along_program};
+pub use radial::{RadialDeviation, radial_deviations};
 pub use region::{Region, region_within};
 pub use volume::{BoxGrid, VolumeMap, volume_map};
+pub use worst::worst_points;

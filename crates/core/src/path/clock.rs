@@ -13,7 +13,7 @@
 use nalgebra::Vector3;
 
 use super::program::Pace;
-use super::sampler::PathPoint;
+use super::sampled::SampledPath;
 use crate::load::{ActsOn, Record, RecordError};
 
 /// When the tip is at each point.
@@ -52,23 +52,18 @@ pub enum NoTime {
     },
 }
 
-/// Whether point `index` is the first behind a rapid, or of all.
-pub fn begins(points: &[PathPoint], index: usize) -> bool {
-    // The start of such a cut is a point of its own: nothing was cut since the point before.
-    index == 0 || points[index].along <= points[index - 1].along
-}
-
 impl Clock {
-    /// The time at `points`; `rapids` are the lengths (m) of what leads to each stretch, in order.
+    /// The time at the points of `path`.
     ///
     /// # Errors
     /// [`NoTime`] at the first point where a speed is wanted that nobody tells.
-    pub fn of(points: &[PathPoint], rapids: &[f64], speeds: Speeds) -> Result<Clock, NoTime> {
+    pub fn of(path: &SampledPath, speeds: Speeds) -> Result<Clock, NoTime> {
+        let points = &path.points;
         let (mut time, mut starts) = (Vec::with_capacity(points.len()), Vec::new());
         let mut now = 0.0;
         for (index, point) in points.iter().enumerate() {
-            if begins(points, index) {
-                let length = rapids.get(starts.len()).copied().unwrap_or(0.0);
+            if path.begins(index) {
+                let length = path.rapids.get(starts.len()).copied().unwrap_or(0.0);
                 if index > 0 && length > 0.0 {
                     let line = point.line;
                     let speed = speeds.rapid.filter(|speed| *speed > 0.0);
@@ -148,7 +143,7 @@ mod tests {
     use super::*;
 
     /// 20 mm at 10 mm/s, a rapid of 5.0 mm, 10 mm at a feed that is not told.
-    fn points() -> Vec<PathPoint> {
+    fn path() -> SampledPath {
         let mut sampler = Sampler::new(Sampling {
             chord_error: 1e-5,
             step: 1e-3,
@@ -161,19 +156,21 @@ mod tests {
             pace,
             line: x as u32 + 1,
         };
-        let mut points = Vec::new();
+        let mut path = SampledPath {
+            rapids: vec![0.3, 0.005],
+            ..SampledPath::default()
+        };
         for next in [
             to(0.0, 0.0, Pace::Rapid),
             to(20.0, 0.0, Pace::Feed(0.01)),
             to(20.0, 5.0, Pace::Rapid),
             to(10.0, 5.0, Pace::Untold),
         ] {
-            sampler.points(&next, |point| points.push(point));
+            sampler.points(&next, |point| path.points.push(point));
         }
-        points
+        path
     }
 
-    const RAPIDS: [f64; 2] = [0.3, 0.005];
     const SPEEDS: Speeds = Speeds {
         feed: Some(0.005),
         rapid: Some(0.1),
@@ -181,36 +178,40 @@ mod tests {
 
     #[test]
     fn cuts_take_their_length_over_the_feed_and_rapids_theirs() {
-        let points = points();
-        let clock = Clock::of(&points, &RAPIDS, SPEEDS).unwrap();
+        let path = path();
+        let clock = Clock::of(&path, SPEEDS).unwrap();
         // What leads to the first cut is before zero.
         assert_eq!(clock.time()[0], 0.0);
-        assert!((clock.time()[20] - 2.0).abs() < 1e-12 && begins(&points, 21));
+        assert!((clock.time()[20] - 2.0).abs() < 1e-12 && path.begins(21));
         assert!((clock.time()[21] - 2.05).abs() < 1e-12);
         assert!((clock.duration() - 4.05).abs() < 1e-12);
     }
 
     #[test]
     fn a_speed_that_nobody_tells_is_missed_where_it_is_wanted_first() {
-        let points = points();
+        let path = path();
         let no_rapid = Speeds {
             rapid: None,
             ..SPEEDS
         };
-        let found = Clock::of(&points, &RAPIDS, no_rapid).unwrap_err();
+        let found = Clock::of(&path, no_rapid).unwrap_err();
         assert_eq!(
             found.to_string(),
             "a rapid of 5.0 mm leads to the cut in line 11, and its speed is not told"
         );
-        let found = Clock::of(&points, &RAPIDS, Speeds { feed: None, ..SPEEDS });
+        let found = Clock::of(&path, Speeds { feed: None, ..SPEEDS });
         assert_eq!(found.unwrap_err(), NoTime::NoFeed { line: 11 });
         // A rapid to where the tip stands takes no time and no speed.
-        assert!(Clock::of(&points, &[0.0, 0.0], no_rapid).is_ok());
+        let path = SampledPath {
+            rapids: vec![0.0; 2],
+            ..path
+        };
+        assert!(Clock::of(&path, no_rapid).is_ok());
     }
 
     #[test]
     fn a_record_has_the_forces_of_the_points_and_none_in_rapids_and_margins() {
-        let clock = Clock::of(&points(), &RAPIDS, SPEEDS).unwrap();
+        let clock = Clock::of(&path(), SPEEDS).unwrap();
         let times = clock.time().to_vec();
         let record = clock
             .record(|i| Vector3::x() * (1.0 + times[i]), 0.01, 0.5)

@@ -1,9 +1,10 @@
 //! Which points does the tool pass, and in which direction?
 //!
-//! [`shape`]: circles and lines on a workpiece plane. [`program`]: what a tool path program tells, move after move.
-//! [`sampler`]: those moves as points. [`placing`]: where they lie in the cell and how the tool is turned.
-//! [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the cutter meets on its way; [`cutting`], [`drilled`]: what that pushes with; [`clock`]: when. [`roundness`](mod@roundness) and
-//! [`feature`]: the circle, line, plane or hole that comes out.
+//! [`program`]: what a tool path program tells, move after move. [`sampler`]: those moves as points. [`shape`]: circles and
+//! lines on a workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: where they lie in the cell and
+//! how the tool is turned. [`clock`]: when the tip is where. [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the
+//! cutter meets on its way; [`cutting`], [`drilled`]: what that pushes with. [`roundness`](mod@roundness) and [`feature`]:
+//! the circle, line, plane or hole that comes out.
 
 pub mod bite;
 pub mod clock;
@@ -14,10 +15,12 @@ pub mod feature;
 pub mod placing;
 pub mod program;
 pub mod roundness;
+pub mod sampled;
 pub mod sampler;
 pub mod shape;
 pub mod stock;
 mod sweep;
+pub mod track;
 
 pub use bite::{Bite, BiteKind, Milling};
 pub use clock::{Clock, NoTime, Speeds};
@@ -28,6 +31,8 @@ pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step};
 pub use roundness::{Roundness, roundness};
+pub use sampled::{PathBuilder, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
-pub use shape::{Sample, Shape};
+pub use shape::Shape;
 pub use stock::{Stock, StockError};
+pub use track::{Parts, Stop, Track};

@@ -13,6 +13,7 @@ use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 use super::sampler::PathPoint;
 use crate::frame::{Isometry, tool_orientation};
 use crate::load::Advance;
+use crate::workpiece::Plane;
 
 /// How the tool is turned about its own axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +44,16 @@ pub struct Placing {
 const PLUNGE: f64 = 1e-6;
 
 impl Placing {
+    /// A path drawn on `plane`: path axes are those of the part, the tool stands against the plane's normal, unspun.
+    pub fn on_plane(plane: &Plane) -> Placing {
+        Placing {
+            base_from_path: plane.base_from_part,
+            axis: Vector3::z_axis(),
+            keeps_axis: true,
+            spin: Spin::Fixed(0.0),
+        }
+    }
+
     /// The tool at `point`, from the tip towards the spindle, base.
     pub fn spindle(&self, point: &PathPoint) -> Unit<Vector3<f64>> {
         self.base_from_path.rotation * self.path_spindle(point)
@@ -129,6 +140,18 @@ mod tests {
             keeps_axis: false,
             spin,
         }
+    }
+
+    #[test]
+    fn a_path_on_a_plane_has_the_tool_poses_of_the_plane() {
+        let plane = Plane::tilted(Point3::new(0.9, -0.3, 0.7), 0.6);
+        let point = point(Vector3::x(), None);
+        let point = PathPoint {
+            at: Point3::new(0.1, 0.2, 0.0),
+            ..point
+        };
+        let of_plane = plane.base_from_tool(point.at.xy(), 0.0);
+        assert_eq!(Placing::on_plane(&plane).base_from_tool(&point), of_plane);
     }
 
     #[test]

@@ -5,7 +5,11 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Point2, Point3, Unit, Vector2, Vector3};
+
+use super::program::Pace;
+use super::sampled::SampledPath;
+use super::sampler::PathPoint;
 
 /// A shape on the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,52 +47,66 @@ impl Shape {
         }
     }
 
-    /// Points no farther apart than `step` (m) along the shape, evenly spaced on each piece, corners included.
-    /// A circle is not closed by a second copy of its first point.
-    pub fn sampled(&self, step: f64) -> Vec<Sample> {
-        match self {
-            Shape::Circle { centre, radius } => {
-                let count = pieces(TAU * radius, step).max(3);
-                (0..count)
-                    .map(|i| {
-                        let phi = TAU * i as f64 / count as f64;
-                        let at = centre + Vector2::new(-phi.cos(), phi.sin()) * *radius;
-                        Sample {
-                            at,
-                            along: phi * radius,
-                        }
-                    })
-                    .collect()
-            }
-            Shape::Polyline(corners) => {
-                let mut samples = Vec::new();
-                let mut along = 0.0;
-                for side in corners.windows(2) {
-                    let vector = side[1] - side[0];
-                    let count = pieces(vector.norm(), step);
-                    for i in 0..count {
-                        let t = i as f64 / count as f64;
-                        samples.push(Sample {
-                            at: side[0] + vector * t,
-                            along: along + vector.norm() * t,
-                        });
-                    }
-                    along += vector.norm();
-                }
-                samples.extend(corners.last().map(|last| Sample { at: *last, along }));
-                samples
-            }
+    /// Points no farther apart than `step` (m) along the shape, evenly spaced on each piece, corners included; path axes are
+    /// those of the part, each piece has a line of its own, and no feed is told. A circle is not closed by a second copy of
+    /// its first point.
+    pub fn sampled(&self, step: f64) -> SampledPath {
+        let points = match self {
+            Shape::Circle { centre, radius } => round(centre, *radius, step),
+            Shape::Polyline(corners) => straight(corners, step),
+        };
+        SampledPath {
+            moves: points.last().map_or(0, |point| point.line as usize),
+            rapids: vec![0.0; usize::from(!points.is_empty())],
+            points,
+            ..SampledPath::default()
         }
     }
 }
 
-/// A point of a sampled path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sample {
-    /// Where, m, part x and y.
-    pub at: Point2<f64>,
-    /// Distance from the start along the path, m.
-    pub along: f64,
+fn round(centre: &Point2<f64>, radius: f64, step: f64) -> Vec<PathPoint> {
+    let count = pieces(TAU * radius, step).max(3);
+    let point = |i: usize| {
+        let phi = TAU * i as f64 / count as f64;
+        let (sin, cos) = phi.sin_cos();
+        let at = centre + Vector2::new(-cos, sin) * radius;
+        point(at, Vector2::new(sin, cos), phi * radius, 0)
+    };
+    (0..count).map(point).collect()
+}
+
+fn straight(corners: &[Point2<f64>], step: f64) -> Vec<PathPoint> {
+    let mut points: Vec<PathPoint> = Vec::new();
+    let mut along = 0.0;
+    let sides = corners.windows(2).map(|ends| (ends[0], ends[1] - ends[0]));
+    for (piece, (from, side)) in sides.enumerate().filter(|(_, (_, side))| side.norm() > 0.0) {
+        let count = pieces(side.norm(), step);
+        for i in 0..count {
+            let t = i as f64 / count as f64;
+            points.push(point(from + side * t, side, along + side.norm() * t, piece));
+        }
+        along += side.norm();
+    }
+    let end = points.last().copied().zip(corners.last());
+    points.extend(end.map(|(before, last)| PathPoint {
+        at: Point3::new(last.x, last.y, 0.0),
+        along,
+        ..before
+    }));
+    points
+}
+
+/// A point of piece number `piece`.
+fn point(at: Point2<f64>, direction: Vector2<f64>, along: f64, piece: usize) -> PathPoint {
+    PathPoint {
+        at: Point3::new(at.x, at.y, 0.0),
+        axis: None,
+        spin: None,
+        direction: Unit::new_normalize(Vector3::new(direction.x, direction.y, 0.0)),
+        along,
+        pace: Pace::Untold,
+        line: piece as u32 + 1,
+    }
 }
 
 /// How many pieces no longer than `step` make up `length`; at least one.
@@ -106,25 +124,50 @@ mod tests {
             centre: Point2::origin(),
             radius: 0.1,
         };
-        let samples = circle.sampled(TAU * 0.1 / 72.0);
-        assert_eq!(samples.len(), 72);
-        assert!((samples[0].at - Point2::new(-0.1, 0.0)).norm() < 1e-15);
-        assert!((samples[18].at - Point2::new(0.0, 0.1)).norm() < 1e-15);
+        let path = circle.sampled(TAU * 0.1 / 72.0);
+        let points = &path.points;
+        assert_eq!(points.len(), 72);
+        assert!((points[0].at - Point3::new(-0.1, 0.0, 0.0)).norm() < 1e-15);
+        assert!((points[18].at - Point3::new(0.0, 0.1, 0.0)).norm() < 1e-15);
+        assert_eq!(path.stretches().collect::<Vec<_>>(), [0..72]);
     }
 
     #[test]
-    fn polyline_samples_keep_corners_and_step() {
+    fn the_tip_goes_from_point_to_point() {
+        let circle = Shape::Circle {
+            centre: Point2::new(0.3, -0.2),
+            radius: 0.1,
+        };
         let square = Shape::rectangle(Point2::new(0.1, 0.2), Vector2::new(0.3, 0.1));
-        let samples = square.sampled(0.04);
-        assert_eq!(samples.first().unwrap().at, samples.last().unwrap().at);
-        assert!((samples.last().unwrap().along - 0.8).abs() < 1e-15);
-        for pair in samples.windows(2) {
+        for (shape, bend) in [(circle, 0.02), (square, 1e-12)] {
+            let points = shape.sampled(1e-3).points;
+            for pair in points.windows(2).filter(|pair| pair[0].line == pair[1].line) {
+                let chord = (pair[1].at - pair[0].at).normalize();
+                assert!((chord - pair[0].direction.into_inner()).norm() < bend);
+                assert!(((pair[1].at - pair[0].at).norm() - (pair[1].along - pair[0].along)).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn polyline_points_keep_corners_and_step() {
+        let square = Shape::rectangle(Point2::new(0.1, 0.2), Vector2::new(0.3, 0.1));
+        let path = square.sampled(0.04);
+        let points = &path.points;
+        assert_eq!(points.first().unwrap().at, points.last().unwrap().at);
+        assert!((path.length() - 0.8).abs() < 1e-15 && path.moves == 4);
+        for pair in points.windows(2) {
             assert!((pair[1].at - pair[0].at).norm() < 0.04 + 1e-12);
         }
-        assert!(
-            samples
-                .iter()
-                .any(|s| (s.at - Point2::new(0.25, 0.25)).norm() < 1e-15)
-        );
+        let corner = Point3::new(0.25, 0.25, 0.0);
+        assert!(points.iter().any(|p| (p.at - corner).norm() < 1e-15));
+    }
+
+    #[test]
+    fn a_piece_of_no_length_has_no_points() {
+        let [a, b] = [Point2::new(0.0, 0.0), Point2::new(0.1, 0.0)];
+        let twice = Shape::Polyline(vec![a, a, b, b]);
+        assert_eq!(twice.sampled(0.05).points.len(), 3);
+        assert!(Shape::Polyline(vec![a, a]).sampled(0.05).points.is_empty());
     }
 }

@@ -1,30 +1,40 @@
-//! Warnings of a tool path program: out of reach, jumps of the arm, points without force.
+//! Warnings of a path: out of reach, jumps of the arm, points without force.
 
-use super::path::PathResult;
+use super::path::PathAnswer;
 
-/// What a user should know before trusting the result of a program.
-pub(super) fn of_program(path: &PathResult) -> Vec<String> {
-    let Some(program) = &path.program else {
-        return Vec::new();
-    };
+/// What a user should know before trusting the result of a path.
+pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();
     if path.unreached > 0 {
+        let hint = match path.program {
+            Some(_) => "does the program lie where it should (part_from_path_mm_deg)?",
+            None => "are its coordinates in mm, and does the plane lie where it should?",
+        };
         warnings.push(format!(
-            "{name}: {} of {} points are out of reach; does the program lie where it should (part_from_path_mm_deg)?",
+            "{name}: {} of {} points are out of reach; {hint}",
             path.unreached, path.points
         ));
     }
-    if !program.jumps.is_empty() {
+    if path.outside_joint_limits > 0 {
         warnings.push(format!(
-            "{name}: the arm cannot follow without a stop: {}.",
-            program.jumps.join("; ")
+            "{name}: {} of {} points stand outside joint limits in the branch {}.",
+            path.outside_joint_limits,
+            path.points,
+            path.followed_branch.as_ref().unwrap_or(&path.branch)
         ));
     }
-    if program.points_without_force > 0 {
+    if !path.jumps.is_empty() {
         warnings.push(format!(
-            "{name}: {} of {} points have no force (plunges and steep dives, where the bottom of the cutter cuts): their deviation is told as zero.",
-            program.points_without_force, path.points
+            "{name}: the arm cannot follow without a stop: {}.",
+            path.jumps.join("; ")
+        ));
+    }
+    let without_force = path.cut.as_ref().map_or(0, |cut| cut.points_without_force);
+    if without_force > 0 {
+        warnings.push(format!(
+            "{name}: {without_force} of {} points have no force (plunges and steep dives, where the bottom of the cutter cuts): their deviation is told as zero.",
+            path.points
         ));
     }
     warnings

@@ -4,36 +4,31 @@
 //! max_in_plane_um, roundness_um` are a public contract.
 
 mod cautions;
-pub(crate) mod limits;
 mod map;
-mod measured;
-mod path;
+pub(crate) mod path;
 mod point;
-mod program;
 mod sentence;
 mod statement;
 mod volume;
 
-pub use limits::{LimitResult, LimitsResult, RestResult, StockResult};
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
-pub use measured::MeasuredResult;
-pub use path::PathResult;
+pub use path::{
+    CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
+    ProgramAnswer, RestAnswer, StockAnswer, WorstPoint,
+};
 pub use point::{PointAnswer, SettingAnswer};
-pub use program::{FeatureResult, OperationResult, ProgramResult, WorstPoint};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
-use armill_core::map::PlaneMap;
 use armill_formats::robot::Source;
 use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::file::cut::Cut;
-use crate::file::program::ProgramAsk;
-use crate::file::resolve::{Ask, Sheet, Study, Subject};
+use crate::file::path::{Cut, PathAsk};
+use crate::file::resolve::{Study, Subject};
 use crate::parts::left_out;
-use crate::run::Found;
+use crate::run::{Done, Found, Section};
 
 /// The whole answer.
 #[derive(Clone, Debug, Serialize)]
@@ -53,7 +48,7 @@ pub struct StudyAnswer {
     /// Every plane, sections included.
     pub maps: Vec<MapAnswer>,
     /// Every path.
-    pub paths: Vec<PathResult>,
+    pub paths: Vec<PathAnswer>,
     /// Every box.
     pub volumes: Vec<VolumeAnswer>,
     /// What others state, beside what was found here.
@@ -93,34 +88,27 @@ pub struct JointAnswer {
 /// The answer to one ask.
 enum Told {
     Maps(Vec<MapAnswer>),
-    Path(Box<PathResult>),
+    Path(Box<PathAnswer>),
     Volume(Box<VolumeAnswer>),
 }
 
-/// The answer to `study` from what was found for each of its asks.
-pub fn answer(study: &Study, found: &[Found]) -> StudyAnswer {
-    let told = |(ask, found): (&Ask, &Found)| match (&ask.subject, found) {
-        (Subject::Map(sheet), Found::Map(map)) => {
-            Told::Maps(vec![map::answer(study, &ask.name, &sheet.setting, map)])
-        }
-        (Subject::Sections(sections), Found::Sections(found)) => {
-            let section = |((label, sheet), map): (&(String, Sheet), &PlaneMap)| {
-                map::answer(study, &format!("{}: {label}", ask.name), &sheet.setting, map)
+/// The answer to `study` from what was done.
+pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
+    let told = |done: &Done<'_>| match &done.found {
+        Found::Map(sheet, map) => Told::Maps(vec![map::answer(study, done.name, &sheet.setting, map)]),
+        Found::Sections(sections) => {
+            let section = |section: &Section<'_>| {
+                let name = format!("{}: {}", done.name, section.label);
+                map::answer(study, &name, &section.sheet.setting, &section.map)
             };
-            Told::Maps(sections.par_iter().zip(found).map(section).collect())
+            Told::Maps(sections.par_iter().map(section).collect())
         }
-        (Subject::Volume(setting, _), Found::Volume(volume)) => {
-            Told::Volume(Box::new(volume::answer(study, &ask.name, setting, volume)))
+        Found::Volume(setting, volume) => {
+            Told::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
         }
-        (Subject::Path(setting, ..), Found::Path(path)) => {
-            Told::Path(Box::new(path::answer(study, &ask.name, setting, path)))
-        }
-        (Subject::Program(ask_of), Found::Program(found)) => {
-            Told::Path(Box::new(program::answer(study, &ask.name, ask_of, found)))
-        }
-        _ => Told::Maps(Vec::new()),
+        Found::Path(ask, found) => Told::Path(Box::new(path::answer(study, done.name, ask, found))),
     };
-    let all: Vec<Told> = study.asks.par_iter().zip(found).map(told).collect();
+    let all: Vec<Told> = done.par_iter().map(told).collect();
     let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
     for told in all {
         match told {
@@ -205,20 +193,19 @@ fn sources(study: &Study) -> Vec<Source> {
     );
     sources.extend(study.load_source.iter().map(|source| own("load", source)));
     let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
-        Subject::Program(program) => Some(program),
+        Subject::Path(path) => Some(path),
         _ => None,
     });
-    let of_program = |program: &ProgramAsk| {
-        let cut = program.cut.as_ref().map(sources_of_cut);
+    let of_path = |path: &PathAsk| {
+        let cut = path.cut.as_ref().map(sources_of_cut);
         let drill = || {
-            program
-                .drill
+            path.drill
                 .as_ref()
                 .map(|drill| told_by(drill.material.kienzle_sources()))
         };
         cut.or_else(drill).unwrap_or_default()
     };
-    for source in cuts.flat_map(|program| of_program(program)) {
+    for source in cuts.flat_map(|path| of_path(path)) {
         if !sources.contains(&source) {
             sources.push(source);
         }
@@ -226,7 +213,7 @@ fn sources(study: &Study) -> Vec<Source> {
     sources
 }
 
-fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<String> {
+fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     for (i, joint) in study.robot.joints.iter().enumerate() {
@@ -251,16 +238,10 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
             ));
         }
     }
-    for path in paths.iter().filter(|path| path.outside_joint_limits > 0) {
-        warnings.push(format!(
-            "{}: {} of {} points stand outside joint limits in the branch {}.",
-            path.name, path.outside_joint_limits, path.points, path.branch
-        ));
-    }
-    warnings.extend(paths.iter().flat_map(cautions::of_program));
+    warnings.extend(paths.iter().flat_map(cautions::of_path));
     for ask in &study.asks {
-        if let Subject::Program(program) = &ask.subject {
-            let unsure = program.measured.as_ref().and_then(|measured| measured.warning());
+        if let Subject::Path(path) = &ask.subject {
+            let unsure = path.measured.as_ref().and_then(|measured| measured.warning());
             warnings.extend(unsure.map(|warning| format!("{}: {warning}.", ask.name)));
         }
     }

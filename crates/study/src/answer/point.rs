@@ -2,7 +2,9 @@
 
 use armill_core::compliance::{permissible_force, permissible_force_in_worst_direction};
 use armill_core::kernel::{Answers, Held};
+use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
+use armill_core::workpiece::Plane;
 use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
@@ -21,9 +23,11 @@ pub struct SettingAnswer {
     pub normal_axis: [f64; 3],
     /// Distance of the TCP from the flange.
     pub tool_length_mm: f64,
-    /// Forces on the tool, base axes, one a case.
+    /// Axes that forces and moments are told in: `base_link`, or `feed` where they turn with it.
+    pub load_frame: &'static str,
+    /// Forces on the tool, one a case; none where they come with the path.
     pub cases_n: Vec<[f64; 3]>,
-    /// Moments on the tool at the TCP, base axes, one a case.
+    /// Moments on the tool at the TCP, one a case.
     pub moments_n_m: Vec<[f64; 3]>,
     /// Standard uncertainty of the size of the load.
     pub load_u_percent: f64,
@@ -42,6 +46,12 @@ pub struct SettingAnswer {
 impl SettingAnswer {
     pub(super) fn of(study: &Study, setting: &Setting) -> SettingAnswer {
         let robot = &study.robot.robot;
+        let turns = setting.load.frame == LoadFrame::Feed;
+        let cases = if turns {
+            &setting.load.cases
+        } else {
+            &setting.cases
+        };
         let centre = setting.counted(&setting.plane.base_from_part.translation.vector.into());
         SettingAnswer {
             base: setting.base_name.clone(),
@@ -49,8 +59,9 @@ impl SettingAnswer {
             tilt_deg: setting.tilt.map(f64::to_degrees).map(tidy),
             normal_axis: clean(setting.plane.normal().into_inner().into()),
             tool_length_mm: tidy(setting.flange_from_tool.translation.vector.norm() * 1e3),
-            cases_n: setting.cases.iter().map(|w| clean(w.force.into())).collect(),
-            moments_n_m: setting.cases.iter().map(|w| clean(w.moment.into())).collect(),
+            load_frame: if turns { "feed" } else { crate::BASE_LINK },
+            cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
+            moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
             load_u_percent: tidy(setting.doubt.relative * 100.0),
             load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
             tool_u_length_mm: tidy(setting.doubt.tool_length * 1e3),
@@ -96,6 +107,12 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
+    /// y', z' of a point of base from the centre of `plane`.
+    pub(super) fn in_plane_mm(plane: &Plane, at: &Point3<f64>) -> [f64; 2] {
+        let in_part = plane.base_from_part.inverse_transform_point(at);
+        [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)]
+    }
+
     pub(super) fn of(
         study: &Study,
         setting: &Setting,
@@ -103,7 +120,6 @@ impl PointAnswer {
         at: (usize, &Held, Point3<f64>),
     ) -> PointAnswer {
         let (index, held, tcp) = at;
-        let in_part = setting.plane.base_from_part.inverse_transform_point(&tcp);
         let robot = &study.robot.robot;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
         let compliance = setting.compliance_at(robot, answers.joints_at(index));
@@ -113,7 +129,7 @@ impl PointAnswer {
         let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;
         PointAnswer {
             xyz_mm: clean(setting.counted(&tcp).coords.map(|c| c * 1e3).into()),
-            in_plane_mm: [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)],
+            in_plane_mm: PointAnswer::in_plane_mm(&setting.plane, &tcp),
             branch: held.name.to_string(),
             joints_deg: answers
                 .joints_at(index)

@@ -1,12 +1,12 @@
 //! The answer in one sentence, with the numbers that carry it.
 
 use super::map::MapAnswer;
-use super::path::PathResult;
+use super::path::PathAnswer;
 use super::point::PointAnswer;
 use crate::file::resolve::Study;
 
 /// The answer to the first thing that was asked.
-pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> String {
+pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> String {
     let first_is_path = study
         .asks
         .first()
@@ -64,7 +64,7 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
     )
 }
 
-fn of_path(study: &Study, path: &PathResult) -> String {
+fn of_path(study: &Study, path: &PathAnswer) -> String {
     let Some(worst) = &path.worst else {
         return format!(
             "The robot reaches no point of the path ({}, branch {}).",
@@ -73,8 +73,8 @@ fn of_path(study: &Study, path: &PathResult) -> String {
     };
     let (where_to, circle, line) = match &path.program {
         None => ("in the plane", "the circle", String::new()),
-        Some(program) => {
-            let line = program.worst_points.first().map(|worst| worst.line);
+        Some(_) => {
+            let line = path.worst_points.first().map(|worst| worst.line);
             let line = line.map_or(String::new(), |line| format!(" (line {line})"));
             ("across its axis", "a circle", line)
         }
@@ -85,7 +85,7 @@ fn of_path(study: &Study, path: &PathResult) -> String {
     format!(
         "{}, branch {}: the tool deviates up to {} ± {} µm {where_to}{line}{roundness}, mostly by {}; {:.1} % of the path holds {} µm.",
         path.name,
-        path.branch,
+        path.followed_branch.as_ref().unwrap_or(&path.branch),
         micrometres(worst.in_plane_um),
         micrometres(worst.in_plane_u_um),
         culprit(study, worst, &path.setting.shares_of),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::map::MapAnswer;
-use super::path::PathResult;
+use super::path::PathAnswer;
 use crate::file::resolve::Study;
 
 /// A statement and every reading of it.
@@ -34,7 +34,7 @@ pub struct Reading {
     pub consistent: bool,
 }
 
-pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<StatementAnswer> {
+pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> Vec<StatementAnswer> {
     let of_map = |map: &MapAnswer| {
         (
             map.branch.clone(),
@@ -42,7 +42,7 @@ pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -
             map.outside_joint_limits == 0,
         )
     };
-    let of_path = |path: &PathResult| {
+    let of_path = |path: &PathAnswer| {
         (
             path.branch.clone(),
             path.min_in_plane_um.zip(path.max_in_plane_um),

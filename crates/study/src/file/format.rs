@@ -6,8 +6,8 @@ use armill_formats::robot::structure::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::cut::CutTable;
-use super::program::ProgramTable;
+use super::path::cut::CutTable;
+use super::path::program::ProgramTable;
 use crate::compliance_class::ComplianceClass;
 
 /// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
@@ -38,9 +38,9 @@ pub struct StudyFile {
     pub load_dependent: bool,
     /// The workpiece plane.
     pub plane: PlaneTable,
-    /// The load on the tool; along programs a cut does as well.
+    /// The load on the tool; along paths a cut does as well.
     pub load: Option<LoadTable>,
-    /// The cut: along programs its forces take the place of the load.
+    /// The cut: along paths its forces take the place of the load.
     pub cut: Option<CutTable>,
     /// Greatest in-plane deviation that is tolerated.
     #[schemars(range(min = 0.0, max = 1e9))]
@@ -213,7 +213,7 @@ pub struct LoadTable {
 }
 
 /// Axes that a load is told in.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum LoadFrameName {
     /// Base of the robot.
@@ -228,39 +228,34 @@ pub enum LoadFrameName {
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PostureTable {
-    /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal`, or `best`.
-    #[serde(default = "nominal")]
-    pub branch: String,
+    /// Words out of `front|back elbow-up|elbow-down flip|no-flip`, or `nominal` (so if left out), or `best`.
+    pub branch: Option<String>,
     /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; without, the middle of their
     /// ranges.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub home_deg: Option<Vec<f64>>,
 }
 
-fn nominal() -> String {
-    "nominal".to_owned()
-}
-
 /// What is asked.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum AskKind {
     /// The deviation over the plane.
+    #[default]
     Map,
     /// Maps over a series of distances or tilts.
     Sections,
     /// The deviation in a box.
     Volume,
-    /// The deviation along a path on the plane.
+    /// The deviation along a path: a shape on the plane, or a tool path program.
     Path,
-    /// The deviation along a tool path program.
-    Program,
 }
 
 /// One ask; what it does not say it takes from the study.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AskTable {
-    /// `map`, `sections`, `volume`, `path` or `program`.
+    /// `map`, `sections`, `volume` or `path`.
     pub kind: AskKind,
     /// Name of the answer; made from kind and number if left out.
     pub name: Option<String>,
@@ -298,9 +293,9 @@ pub struct AskTable {
     /// Path: greatest distance between points along it.
     #[schemars(range(max = 1e6))]
     pub step_mm: Option<f64>,
-    /// Program: another cut.
+    /// Path: another cut.
     pub cut: Option<CutTable>,
-    /// Program: its file, and how the tool follows it.
+    /// Path: a tool path program, and how the tool follows it.
     pub program: Option<ProgramTable>,
 }
 

@@ -42,8 +42,7 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
             .map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64))
             .sum(),
         Subject::Volume(setting, grid) => of(setting, grid.len() as f64),
-        Subject::Path(setting, shape, step) => of(setting, shape.length() / step),
-        Subject::Program(program) => of(&program.setting, program.track.points.len() as f64),
+        Subject::Path(path) => of(&path.setting, path.track.len() as f64),
     };
     let bytes: f64 = asks.iter().map(of_ask).sum();
     if bytes > MOST_BYTES {

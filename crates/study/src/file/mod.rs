@@ -1,15 +1,13 @@
 //! What a user writes: the study file, format 1.
 //!
-//! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what
-//! each ask means, its [`quantities`] in SI and the [`compliance`] that it brings.
+//! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
+//! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
+//! [`positioner`]; `places` tells problems where they stand.
 
 pub mod compliance;
-pub mod cut;
-pub mod drill;
 pub mod format;
-pub mod measured;
+pub mod path;
 pub mod positioner;
-pub mod program;
 pub mod quantities;
 pub mod resolve;
 pub mod stiffness;

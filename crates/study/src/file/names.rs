@@ -42,7 +42,7 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
     let all_asks_known = asks.len() == file.ask.len().max(1);
     for (index, statement) in file.statement.iter().enumerate() {
         for (k, name) in statement.of.iter().enumerate() {
-            let known = named(&[AskKind::Map, AskKind::Path, AskKind::Program], name)
+            let known = named(&[AskKind::Map, AskKind::Path], name)
                 || sections.contains(name)
                 || (file.ask.is_empty() && name == "map")
                 || (!all_asks_known && name.contains(": "));

@@ -4,10 +4,9 @@ use std::path::Path;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
-use armill_core::load::Doubt;
+use armill_core::load::{Doubt, LoadCases};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Matrix6, Point3};
-use armill_core::path::Shape;
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -17,12 +16,12 @@ use armill_formats::robot::RobotDescription;
 
 use super::ask::Resolver;
 use super::compliance::{self, OwnCompliance};
-use super::format::{AskKind, AskTable, StatementTable, StudyFile};
+use super::format::{AskTable, StatementTable, StudyFile};
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
+use super::path::PathAsk;
 use super::places::Places;
 use super::positioner;
-use super::program::ProgramAsk;
 use crate::error::StudyError;
 use crate::robots;
 
@@ -58,8 +57,8 @@ impl Study {
         self.asks.iter().filter_map(|ask| match &ask.subject {
             Subject::Map(sheet) => Some(&sheet.setting),
             Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
-            Subject::Volume(setting, _) | Subject::Path(setting, ..) => Some(setting),
-            Subject::Program(program) => Some(&program.setting),
+            Subject::Volume(setting, _) => Some(setting),
+            Subject::Path(path) => Some(&path.setting),
         })
     }
 }
@@ -82,10 +81,8 @@ pub enum Subject {
     Sections(Vec<(String, Sheet)>),
     /// A box of points.
     Volume(Setting, BoxGrid),
-    /// A path on a plane.
-    Path(Setting, Shape, f64),
-    /// A tool path program.
-    Program(Box<ProgramAsk>),
+    /// A path.
+    Path(Box<PathAsk>),
 }
 
 /// A plane with its grid.
@@ -112,7 +109,9 @@ pub struct Setting {
     pub plane: Plane,
     /// Its tilt as asked, rad, where it was given by one.
     pub tilt: Option<f64>,
-    /// Load cases in base.
+    /// Load cases as they are told; none where the forces come with a path.
+    pub load: LoadCases,
+    /// The same in base; of a load that turns with the feed as if that went along x of the part.
     pub cases: Vec<Wrench>,
     /// How sure load and tool are.
     pub doubt: Doubt,
@@ -213,24 +212,8 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
 /// An ask for one map of the study's plane.
 fn whole_plane() -> AskTable {
     AskTable {
-        kind: AskKind::Map,
         name: Some("map".to_owned()),
-        plane: None,
-        tool: None,
-        load: None,
-        base: None,
-        limit_um: None,
-        posture: None,
-        distances_mm: None,
-        tilts_deg: None,
-        in_box: None,
-        circle: None,
-        line: None,
-        polyline_mm: None,
-        rectangle: None,
-        step_mm: None,
-        cut: None,
-        program: None,
+        ..AskTable::default()
     }
 }
 

@@ -1,4 +1,4 @@
-//! What keeps the tolerance along a program: a table of its points, and a picture of depth over feed.
+//! What keeps the tolerance along a path: a table of its points, and a picture of depth over feed.
 
 use armill_core::load::PathLoad;
 use armill_core::map::{CutLimits, Permitted, PointLimits};
@@ -6,10 +6,10 @@ use armill_formats::table::{Column, ColumnData, Table};
 use armill_report::{AxisLabels, ProcessMap};
 
 use super::pictures::Picture;
-use crate::answer::limits::verdict;
+use crate::answer::path::limits::verdict;
 use crate::error::StudyError;
-use crate::file::program::ProgramAsk;
-use crate::run::ProgramFound;
+use crate::file::path::PathAsk;
+use crate::run::PathFound;
 
 /// What the table's name ends in.
 pub(super) const EXTENSION: &str = "limits.csv";
@@ -21,12 +21,12 @@ const MM_DECIMALS: u8 = 4;
 ///
 /// # Errors
 /// Never in practice: columns of one length with names of their own.
-pub(super) fn table(name: &str, ask: &ProgramAsk, found: &ProgramFound) -> Result<Option<Table>, StudyError> {
+pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Option<Table>, StudyError> {
     let Some(limits) = &found.limits else {
         return Ok(None);
     };
     let points = &limits.points;
-    let at = |point: &PointLimits| &ask.track.points[point.index];
+    let at = |point: &PointLimits| &ask.track.path.points[point.index];
     let column = |name: &str, unit: Option<&str>, description: &str, decimals: Option<u8>, data| Column {
         name: name.to_owned(),
         unit: unit.map(str::to_owned),
@@ -49,7 +49,7 @@ pub(super) fn table(name: &str, ask: &ProgramAsk, found: &ProgramFound) -> Resul
             ColumnData::Integer(points.iter().map(|point| i64::from(at(point).line)).collect()),
         ),
         column(
-            "along_mm",
+            "distance_mm",
             Some("mm"),
             "distance along all cuts before",
             Some(MM_DECIMALS),
@@ -61,7 +61,7 @@ pub(super) fn table(name: &str, ask: &ProgramAsk, found: &ProgramFound) -> Resul
             "deviation across the tool as the study cuts",
             Some(MM_DECIMALS),
             numbers(&|point| {
-                let held = found.answer.answers.points[point.index].as_ref().ok()?;
+                let held = found.along.answers.points[point.index].as_ref().ok()?;
                 Some(held.in_plane * 1e6)
             }),
         ),
@@ -127,12 +127,7 @@ pub(super) fn table(name: &str, ask: &ProgramAsk, found: &ProgramFound) -> Resul
 }
 
 /// Depth over feed with the line of the tolerance; `None` without a cut.
-pub(super) fn picture(
-    name: &str,
-    subtitle: String,
-    ask: &ProgramAsk,
-    found: &ProgramFound,
-) -> Option<Picture> {
+pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathFound) -> Option<Picture> {
     let sheet = found.limits.as_ref()?.sheet.as_ref()?;
     let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
     let drawing = ProcessMap {
@@ -159,11 +154,11 @@ pub(super) fn picture(
 }
 
 /// Feed per tooth and depth (mm) where the tool deviates most, if it cuts there.
-fn drawn(found: &ProgramFound) -> Option<[f64; 2]> {
-    let PathLoad::Cuts(cuts) = &found.answer.load else {
+fn drawn(found: &PathFound) -> Option<[f64; 2]> {
+    let PathLoad::Cuts(cuts) = &found.along.load else {
         return None;
     };
-    let (worst, _) = found.answer.answers.worst()?;
+    let (worst, _) = found.along.answers.worst()?;
     let cut = cuts.points[worst].cut?;
     Some([cut.feed.hypot(cut.rise) * 1e3, cut.depth * 1e3])
 }

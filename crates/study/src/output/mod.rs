@@ -7,9 +7,9 @@
 mod arm;
 mod folder;
 mod limits;
+mod path;
 mod pictures;
 mod plates;
-mod program;
 mod report;
 mod rows;
 mod tables;
@@ -26,7 +26,7 @@ use rayon::prelude::*;
 use crate::answer::StudyAnswer;
 use crate::error::StudyError;
 use crate::file::resolve::Study;
-use crate::run::Found;
+use crate::run::Done;
 
 /// What to write beside `result.json`, Parquet and VTK.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,7 +117,7 @@ pub fn prepare(out: &Path) -> Result<(), StudyError> {
 /// A file cannot be written.
 pub fn write(
     study: &Study,
-    found: &[Found],
+    done: &[Done<'_>],
     answer: &StudyAnswer,
     (out, wanted): (&Path, Wanted),
     note: &(dyn Fn(&str) + Sync),
@@ -126,7 +126,7 @@ pub fn write(
     // cannot be replaced either, and writing it will say so.
     let _ = std::fs::remove_file(out.join(RESULT));
     let drawn = match wanted.pictures {
-        Pictures::Drawn => pictures::draw(study, found, answer),
+        Pictures::Drawn => pictures::draw(study, done, answer),
         Pictures::None => Vec::new(),
     };
     let names = names(study, &drawn, wanted);
@@ -138,10 +138,10 @@ pub fn write(
     let mut json_text = Ok(String::new());
     folder::write_together(out, note, |files| {
         let tables = || {
-            let asks = study.asks.par_iter().zip(found).with_max_len(1);
-            asks.try_for_each(|(ask, found)| {
+            let asks = study.asks.par_iter().zip(done).with_max_len(1);
+            asks.try_for_each(|(ask, done)| {
                 let slug = slug(&ask.name);
-                tables::files(study, (ask, found), wanted.csv, &|extension, bytes| {
+                tables::files(study, (ask, done), wanted.csv, &|extension, bytes| {
                     files.save(&format!("{slug}.{extension}"), bytes)
                 })
             })

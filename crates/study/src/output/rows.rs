@@ -7,9 +7,9 @@ use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
 use armill_core::robot::Unreachable;
 
-use crate::file::program::ProgramAsk;
-use crate::file::resolve::{Ask, Setting, Subject};
-use crate::run::Found;
+use crate::file::path::PathAsk;
+use crate::file::resolve::Setting;
+use crate::run::{Found, Section};
 
 /// One series of points that share a setting: a map, a section, a volume or a path.
 pub(super) struct Rows<'a> {
@@ -21,8 +21,8 @@ pub(super) struct Rows<'a> {
     pub answers: &'a Answers,
     /// TCP of each point, mm, in the frame that the study counts from.
     pub at_mm: Vec<[f64; 3]>,
-    /// The program whose points they are.
-    pub program: Option<&'a ProgramAsk>,
+    /// The path whose points they are.
+    pub path: Option<&'a PathAsk>,
 }
 
 impl<'a> Rows<'a> {
@@ -39,7 +39,7 @@ impl<'a> Rows<'a> {
             setting,
             answers,
             at_mm: points.map(mm).collect(),
-            program: None,
+            path: None,
         }
     }
 
@@ -81,38 +81,34 @@ fn rounded(value: f64) -> f64 {
     if rounded == 0.0 { 0.0 } else { rounded }
 }
 
-/// Every series of points of an ask.
-pub(super) fn rows<'a>(ask: &'a Ask, found: &'a Found) -> Vec<Rows<'a>> {
+/// Every series of points of what was found.
+pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Rows<'a>> {
     let map = |label: &str, setting: &'a Setting, map: &'a PlaneMap| {
         let points = (0..map.grid.len()).map(|index| map.plane.at(map.grid.point(index)));
         Rows::new(label, setting, &map.answers, points)
     };
-    match (&ask.subject, found) {
-        (Subject::Map(sheet), Found::Map(found)) => vec![map("", &sheet.setting, found)],
-        (Subject::Sections(sections), Found::Sections(found)) => sections
-            .iter()
-            .zip(found)
-            .map(|((label, sheet), found)| map(label, &sheet.setting, found))
-            .collect(),
-        (Subject::Volume(setting, _), Found::Volume(volume)) => {
+    match found {
+        Found::Map(sheet, found) => vec![map("", &sheet.setting, found)],
+        Found::Sections(sections) => {
+            let section = |section: &'a Section<'_>| map(section.label, &section.sheet.setting, &section.map);
+            sections.iter().map(section).collect()
+        }
+        Found::Volume(setting, volume) => {
             let points = (0..volume.grid.len()).map(|index| volume.grid.point(index));
             vec![Rows::new("", setting, &volume.answers, points)]
         }
-        (Subject::Path(setting, ..), Found::Path(path)) => {
-            let points = path.samples.iter().map(|sample| path.plane.at(sample.at));
-            vec![Rows::new("", setting, &path.answers, points)]
-        }
-        (Subject::Program(program), Found::Program(found)) => {
-            let track = &program.track;
-            let points = track
+        Found::Path(ask, found) => {
+            let base_from_path = ask.track.placing.base_from_path;
+            let points = ask
+                .track
+                .path
                 .points
                 .iter()
-                .map(|point| track.placing.base_from_path * point.at);
+                .map(|point| base_from_path * point.at);
             vec![Rows {
-                program: Some(program),
-                ..Rows::new("", &program.setting, &found.answer.answers, points)
+                path: Some(ask),
+                ..Rows::new("", &ask.setting, &found.along.answers, points)
             }]
         }
-        _ => Vec::new(),
     }
 }

@@ -8,7 +8,7 @@ use std::fmt::Display;
 use std::ops::Range;
 
 use armill_core::kernel::{Answers, Held};
-use armill_core::map::probability_within;
+use armill_core::map::{PlaneMap, probability_within};
 use armill_formats::table::vtk::{Image, PointArray, PointValues, PolyData, write_image, write_poly_data};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ use super::Csv;
 use super::rows::{Rows, of_held, of_points, rows};
 use crate::error::StudyError;
 use crate::file::resolve::{Ask, Study, Subject};
-use crate::run::Found;
+use crate::run::{Done, Found};
 
 /// The file of an ask for ParaView.
 const IMAGE: &str = "vti";
@@ -32,26 +32,26 @@ pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
     if cfg!(feature = "parquet") {
         extensions.push("parquet");
     }
-    if let Subject::Program(program) = &ask.subject
-        && program.tells_limits()
+    if let Subject::Path(path) = &ask.subject
+        && path.tells_limits()
     {
         extensions.push(super::limits::EXTENSION);
     }
     extensions.push(match &ask.subject {
         Subject::Volume(..) => IMAGE,
-        Subject::Map(_) | Subject::Sections(_) | Subject::Path(..) | Subject::Program(_) => POLY_DATA,
+        Subject::Map(_) | Subject::Sections(_) | Subject::Path(_) => POLY_DATA,
     });
     extensions
 }
 
-/// A spreadsheet shows so many points of a program with ease.
+/// A spreadsheet shows so many points of a path with ease.
 const FEW: usize = 100_000;
 
 /// Many points are for programs; without Parquet they have nothing else to read.
 fn has_csv(ask: &Ask, csv: Csv) -> bool {
     let few = match &ask.subject {
-        Subject::Map(_) | Subject::Path(..) => true,
-        Subject::Program(program) => program.track.points.len() <= FEW,
+        Subject::Map(_) => true,
+        Subject::Path(path) => path.track.len() <= FEW,
         Subject::Sections(_) | Subject::Volume(..) => false,
     };
     few || csv == Csv::Every || cfg!(not(feature = "parquet"))
@@ -63,11 +63,11 @@ type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 /// Hands the files of one ask to `save`, extension and bytes.
 pub(super) fn files(
     study: &Study,
-    (ask, found): (&Ask, &Found),
+    (ask, done): (&Ask, &Done<'_>),
     csv: Csv,
     save: &Save<'_>,
 ) -> Result<(), StudyError> {
-    let series = rows(ask, found);
+    let series = rows(&done.found);
     let rows_of_table = || {
         let table = table(study, &ask.name, &series)?;
         #[cfg(feature = "parquet")]
@@ -78,29 +78,33 @@ pub(super) fn files(
         if has_csv(ask, csv) {
             save("csv", &csv::write(&table))?;
         }
-        if let (Subject::Program(program), Found::Program(found)) = (&ask.subject, found)
-            && let Some(table) = super::limits::table(&ask.name, program, found)?
+        if let Found::Path(path, found) = &done.found
+            && let Some(table) = super::limits::table(&ask.name, path, found)?
         {
             save(super::limits::EXTENSION, &csv::write(&table))?;
         }
         Ok(())
     };
-    let field = || match (&ask.subject, found) {
-        (Subject::Volume(setting, _), Found::Volume(volume)) => {
+    let field = || match &done.found {
+        Found::Volume(setting, volume) => {
             let mm = |v: armill_core::nalgebra::Point3<f64>| v.coords.map(|c| c * 1e3).into();
             let step = volume.grid.step * 1e3;
             let origin = mm(setting.counted(&volume.grid.origin));
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
             save(IMAGE, &write_image(&image))
         }
-        (_, Found::Path(_) | Found::Program(_)) => {
+        Found::Path(..) => {
             let paths: Vec<Vec<[f64; 3]>> = series.iter().flat_map(stretches).collect();
             save(
                 POLY_DATA,
                 &write_poly_data(&PolyData::paths(&paths, arrays(&series))?),
             )
         }
-        (_, found) => save(POLY_DATA, &write_poly_data(&sheets(found, &series)?)),
+        Found::Map(_, map) => save(POLY_DATA, &write_poly_data(&sheets(&[map], &series)?)),
+        Found::Sections(sections) => {
+            let maps: Vec<&PlaneMap> = sections.iter().map(|section| &section.map).collect();
+            save(POLY_DATA, &write_poly_data(&sheets(&maps, &series)?))
+        }
     };
     let (of_table, of_field) = rayon::join(rows_of_table, field);
     of_table.and(of_field)
@@ -122,22 +126,12 @@ fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadat
 
 /// The points of a path, stretch by stretch where rapids part them.
 fn stretches(rows: &Rows<'_>) -> Vec<Vec<[f64; 3]>> {
-    match rows.program {
-        None => vec![rows.at_mm.clone()],
-        Some(program) => program
-            .stretches()
-            .map(|stretch| rows.at_mm[stretch].to_vec())
-            .collect(),
-    }
+    let stretches = rows.path.iter().flat_map(|path| path.track.path.stretches());
+    stretches.map(|stretch| rows.at_mm[stretch].to_vec()).collect()
 }
 
 /// All planes of an ask as one surface.
-fn sheets(found: &Found, series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
-    let maps: &[armill_core::map::PlaneMap] = match found {
-        Found::Map(map) => std::slice::from_ref(map),
-        Found::Sections(maps) => maps,
-        Found::Volume(_) | Found::Path(_) | Found::Program(_) => &[],
-    };
+fn sheets(maps: &[&PlaneMap], series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
     let mut quads = Vec::new();
     let mut first = 0;
     for map in maps {
@@ -300,7 +294,9 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     ));
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
-        let mut columns = rows.program.map_or_else(Vec::new, track::columns);
+        let mut columns = rows
+            .path
+            .map_or_else(Vec::new, |path| track::columns(&path.track));
         columns.extend(numbers(study, sharers, rows.answers));
         columns
     });
@@ -308,8 +304,8 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
     Ok(Table::new(name, columns)?)
 }
 
-/// Columns whose values a program does not tell at every point.
-const NOT_ALONG_PROGRAMS: [&str; 2] = ["in_plane_u_um", "probability_within"];
+/// Columns whose values are not told at every point where shares are not.
+const WITH_SHARES: [&str; 2] = ["in_plane_u_um", "probability_within"];
 
 fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
     let (cases, shared) = (answers.case_count, answers.share_count > 0);
@@ -362,7 +358,7 @@ fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec
         ),
     ];
     if !shared {
-        columns.retain(|column| !NOT_ALONG_PROGRAMS.contains(&column.name.as_str()));
+        columns.retain(|column| !WITH_SHARES.contains(&column.name.as_str()));
     }
     let joints = study.robot.robot.joints();
     columns.extend(joints.iter().enumerate().map(|(i, joint)| {

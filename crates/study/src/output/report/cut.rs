@@ -8,26 +8,25 @@ use armill_report::html::Input;
 use super::cells::input;
 use super::inputs::{THE_STUDY, place};
 use crate::answer::{StudyAnswer, sources_of_cut};
-use crate::file::cut::Cut;
-use crate::file::program::ProgramAsk;
+use crate::file::path::{Cut, PathAsk};
 use crate::file::resolve::{Study, Subject};
 
 /// The rows of every cut of the study; of equal ones the first. Where several differ each row names its program.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
-    let mut told: Vec<(&str, &ProgramAsk, &Cut)> = Vec::new();
+    let mut told: Vec<(&str, &PathAsk, &Cut)> = Vec::new();
     for ask in &study.asks {
-        let Subject::Program(program) = &ask.subject else {
+        let Subject::Path(path) = &ask.subject else {
             continue;
         };
-        if let Some(cut) = &program.cut
+        if let Some(cut) = &path.cut
             && told.iter().all(|(_, _, other)| other.cutting != cut.cutting)
         {
-            told.push((&ask.name, program, cut));
+            told.push((&ask.name, path, cut));
         }
     }
     let several = told.len() > 1;
-    let of = |(name, program, cut): (&str, &ProgramAsk, &Cut)| {
-        let mut rows = of_cut(answer, (name, program), cut);
+    let of = |(name, path, cut): (&str, &PathAsk, &Cut)| {
+        let mut rows = of_cut(answer, (name, path), cut);
         if several {
             for row in &mut rows {
                 row.name = format!("{name}: {}", row.name);
@@ -38,7 +37,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     told.into_iter().flat_map(of).collect()
 }
 
-fn of_cut(answer: &StudyAnswer, (name, program): (&str, &ProgramAsk), cut: &Cut) -> Vec<Input> {
+fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Vec<Input> {
     let sources = sources_of_cut(cut);
     let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
     let of_material = places.join("; ");
@@ -75,9 +74,9 @@ fn of_cut(answer: &StudyAnswer, (name, program): (&str, &ProgramAsk), cut: &Cut)
         rows.push(study("stock", format!("{from} to {to}, cells of {cell}"), "mm"));
     }
     let told = answer.paths.iter().find(|path| path.name == name);
-    let forces = told.and_then(|path| path.program.as_ref()?.largest_mean_and_peak_n);
-    if let Some([mean, peak]) = forces {
-        let u = mean * program.setting.doubt.relative;
+    if let Some(of_cut) = told.and_then(|path| path.cut.as_ref()) {
+        let (mean, peak) = (of_cut.largest_mean_n, of_cut.largest_peak_n);
+        let u = mean * path.setting.doubt.relative;
         let computed = "computed from the rows above";
         rows.push(input(
             "largest mean force of a revolution",

@@ -5,14 +5,13 @@ mod cut;
 mod inputs;
 mod paths;
 mod planes;
-mod program;
 mod statements;
 mod volumes;
 
 use armill_report::html::Report;
 
 use super::pictures::Picture;
-use crate::answer::{PathResult, StudyAnswer};
+use crate::answer::StudyAnswer;
 use crate::file::resolve::Study;
 
 pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) -> String {
@@ -37,13 +36,8 @@ pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) ->
     if !answer.maps.is_empty() {
         report = report.section("Planes").table(&planes::table(answer));
     }
-    let (programs, shapes): (Vec<&PathResult>, Vec<&PathResult>) =
-        answer.paths.iter().partition(|path| path.program.is_some());
-    if !shapes.is_empty() {
-        report = report.section("Paths").table(&paths::table(&shapes));
-    }
-    if !programs.is_empty() {
-        report = program::tell(report, &programs);
+    if !answer.paths.is_empty() {
+        report = paths::tell(report, &answer.paths);
     }
     if !answer.volumes.is_empty() {
         report = report.section("Volumes").table(&volumes::table(answer));

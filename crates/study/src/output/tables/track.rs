@@ -1,33 +1,33 @@
-//! Columns that only a program has.
+//! Columns that only a path has.
 
-use armill_core::map::Parts;
-use armill_core::path::Pace;
+use armill_core::path::{Pace, Parts, Track};
 
 use super::{MM_DECIMALS, Numbers};
-use crate::file::program::ProgramAsk;
 
 /// Line, way and feed, and the deviation seen from the track.
-pub(super) fn columns(program: &ProgramAsk) -> Vec<Numbers<'_>> {
-    let points = &program.track.points;
+pub(super) fn columns(track: &Track) -> Vec<Numbers<'_>> {
+    let points = &track.path.points;
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
         Numbers::um(name.to_owned(), description, move |rows, index, held| {
             let deviation = rows.answers.deviations_at(index)[held.deciding_case];
-            of(program.track.parts(index, &deviation)) * 1e6
+            of(track.parts(index, &deviation)) * 1e6
         })
     };
     vec![
         Numbers {
             unit: None,
             decimals: 0,
-            ..Numbers::um("line".to_owned(), "line of the program", move |_, index, _| {
-                f64::from(points[index].line)
-            })
+            ..Numbers::um(
+                "line".to_owned(),
+                "line of the program, or piece of the shape",
+                move |_, index, _| f64::from(points[index].line),
+            )
         },
         Numbers {
             unit: Some("mm"),
             decimals: MM_DECIMALS,
             ..Numbers::um(
-                "along_mm".to_owned(),
+                "distance_mm".to_owned(),
                 "distance along all cuts before",
                 move |_, index, _| points[index].along * 1e3,
             )
@@ -36,7 +36,7 @@ pub(super) fn columns(program: &ProgramAsk) -> Vec<Numbers<'_>> {
             unit: Some("mm/s"),
             decimals: MM_DECIMALS,
             ..Numbers::um(
-                "feed_mm_s".to_owned(),
+                "feed_mm_per_s".to_owned(),
                 "speed of the tip, where the program tells it",
                 move |_, index, _| match points[index].pace {
                     Pace::Feed(speed) => speed * 1e3,
@@ -57,7 +57,7 @@ pub(super) fn columns(program: &ProgramAsk) -> Vec<Numbers<'_>> {
         part(
             "axial_um",
             "deviation of the deciding case along the tool, away from the part",
-            |parts| parts.normal,
+            |parts| parts.axial,
         ),
     ]
 }

@@ -3,12 +3,13 @@
 use serde::Serialize;
 
 use crate::file::format::LoadFrameName;
-use crate::file::measured::{ActsOnName, MeasuredForces, SynchroniseName, ValueName};
+use crate::file::path::MeasuredForces;
+use crate::file::path::measured::{ActsOnName, SynchroniseName, ValueName};
 use crate::forces::DriftAnswer;
 
 /// The record that forces come from.
 #[derive(Clone, Debug, Serialize)]
-pub struct MeasuredResult {
+pub struct MeasuredAnswer {
     /// Its file, as the study calls it.
     pub file: String,
     /// The format it is in.
@@ -48,11 +49,11 @@ pub struct MeasuredResult {
     pub largest_of_turns_n: Option<f64>,
 }
 
-impl MeasuredResult {
-    pub(super) fn of(measured: &MeasuredForces) -> MeasuredResult {
+impl MeasuredAnswer {
+    pub(super) fn of(measured: &MeasuredForces) -> MeasuredAnswer {
         let (table, treated) = (&measured.table, &measured.treated);
         let extremes = table.value == Some(ValueName::Extremes);
-        MeasuredResult {
+        MeasuredAnswer {
             file: table.file.clone(),
             format: measured.format,
             acts_on: match table.acts_on {

@@ -11,7 +11,7 @@ use armill_formats::material::{Material, Together};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::places::Places;
+use crate::file::places::Places;
 use crate::library;
 
 /// What cuts, and how deep.

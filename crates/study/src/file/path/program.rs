@@ -1,22 +1,12 @@
-//! A tool path program of an ask: its file, where it lies on the part, how the tool is turned, how finely it is cut.
-
-mod cut_up;
-mod feature;
-
-pub use feature::{FeatureName, FeatureTable};
+//! A tool path program: its file, where it lies on the part, how the tool is turned, how finely it is cut into points.
 
 use std::fs::File;
 use std::io::BufReader;
-use std::ops::Range;
 use std::path::Path;
 
 use armill_core::frame::Isometry;
-use armill_core::load::{LoadCases, PathLoad};
-use armill_core::map::Track;
 use armill_core::nalgebra::Vector3;
-use armill_core::path::clock::begins;
-use armill_core::path::{ForcesTold, NoForces, Operation, Placing, Sampling, Spin};
-use armill_core::watch::Watch;
+use armill_core::path::{PathBuilder, Placing, SampledPath, Sampling, Spin};
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
@@ -24,16 +14,12 @@ use armill_formats::toolpath::program::{self, Summary, Wanted};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use cut_up::CutUp;
-use feature::features_have_points;
-
-use super::cut::Cut;
-use super::drill::{DrillCut, DrillTable};
-use super::measured::{self, Course, MeasuredForces, MeasuredTable};
-use super::places::Places;
-use super::quantities::{pose_mm_deg, positive};
-use super::resolve::Setting;
+use super::drill::DrillTable;
+use super::feature::{FeatureTable, features_have_points};
+use super::measured::MeasuredTable;
 use crate::StudyError;
+use crate::file::places::Places;
+use crate::file::quantities::{pose_mm_deg, positive};
 
 /// A program that the tool follows.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -144,73 +130,6 @@ pub enum SpinName {
     Given,
 }
 
-/// A program that was read and cut into points.
-#[derive(Clone, Debug)]
-pub struct ProgramAsk {
-    /// How its points are asked; cases in base as far as they do not turn with the feed.
-    pub setting: Setting,
-    /// Its file, as the study calls it.
-    pub file: String,
-    /// What was read.
-    pub summary: Summary,
-    /// Moves, rapids included.
-    pub moves: usize,
-    /// Length of all cuts, m.
-    pub length: f64,
-    /// Time of all cuts with a known feed, s.
-    pub time: f64,
-    /// Its operations, and the first point of each.
-    pub operations: Vec<(usize, Operation)>,
-    /// The points, and where they lie.
-    pub track: Track,
-    /// What pushes there; of a cut in a stock as if the engagement were the same everywhere.
-    pub load: PathLoad,
-    /// Whether it is asked what keeps the tolerance.
-    pub wants_limits: bool,
-    /// Features asked for.
-    pub features: Vec<FeatureTable>,
-    /// The cut that the forces come from, in place of given cases.
-    pub cut: Option<Cut>,
-    /// The drill, likewise.
-    pub drill: Option<DrillCut>,
-    /// What is worth telling of the forces of either.
-    pub forces: Option<ForcesTold>,
-    /// The record that the forces come from.
-    pub measured: Option<Box<MeasuredForces>>,
-}
-
-/// What pushes on the tool along a program.
-pub(super) enum Pushes {
-    /// Load cases, the same at every point.
-    Cases(LoadCases),
-    /// What the cut needs.
-    Cut(Box<Cut>),
-    /// What the drill needs.
-    Drill(Box<DrillCut>),
-    /// What was measured; the cut predicts it where that is asked for.
-    Measured(Option<Box<Cut>>),
-}
-
-impl ProgramAsk {
-    /// Whether what keeps the tolerance is asked and can be told.
-    pub fn tells_limits(&self) -> bool {
-        self.wants_limits && self.setting.model.is_affine()
-    }
-
-    /// Whether its cut tells the stock.
-    pub fn has_stock(&self) -> bool {
-        self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
-    }
-
-    /// Points that follow on each other without a rapid between them.
-    pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        let points = &self.track.points;
-        let starts: Vec<usize> = (0..points.len()).filter(|i| begins(points, *i)).collect();
-        let ends: Vec<usize> = starts.iter().skip(1).copied().chain([points.len()]).collect();
-        starts.into_iter().zip(ends).map(|(start, end)| start..end)
-    }
-}
-
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
 const BESIDE_STUDY: &str = "the path counts from the folder of the study";
@@ -219,7 +138,7 @@ const CHORD_ERROR_MM: f64 = 0.01;
 /// Greatest distance of points where the study says nothing, mm.
 const STEP_MM: f64 = 1.0;
 
-/// The program of this table; `None` where it has problems, told at their places.
+/// The points of the program of this table; `None` where it has problems, told at their places.
 ///
 /// # Errors
 /// The problems of its file.
@@ -227,9 +146,7 @@ pub(super) fn read(
     places: &mut Places<'_>,
     table: &ProgramTable,
     folder: &Path,
-    setting: Setting,
-    pushes: Pushes,
-) -> Result<Option<ProgramAsk>, StudyError> {
+) -> Result<Option<(SampledPath, Summary)>, StudyError> {
     let chord_error = positive(
         places,
         "program.chord_error_mm",
@@ -247,16 +164,16 @@ pub(super) fn read(
     let (Some(chord_error), Some(step)) = (chord_error, step) else {
         return Ok(None);
     };
-    let path = folder.join(&table.file);
-    if path.is_dir() {
-        let message = format!("{} is a folder", path.display());
+    let file_path = folder.join(&table.file);
+    if file_path.is_dir() {
+        let message = format!("{} is a folder", file_path.display());
         places.problem("program.file", message, "name the file in it");
         return Ok(None);
     }
-    let file = match File::open(&path) {
+    let file = match File::open(&file_path) {
         Ok(file) => file,
         Err(error) => {
-            let message = format!("cannot read {}: {error}", path.display());
+            let message = format!("cannot read {}: {error}", file_path.display());
             places.problem("program.file", message, BESIDE_STUDY);
             return Ok(None);
         }
@@ -280,7 +197,7 @@ pub(super) fn read(
         }
     };
     // A subroutine that is not in the program lies beside it in a file of its own, as LinuxCNC has it.
-    let beside = path.parent().unwrap_or(folder).to_owned();
+    let beside = file_path.parent().unwrap_or(folder).to_owned();
     let subroutine = |name: &str| {
         let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
         let file = beside.join(format!("{name}.ngc"));
@@ -297,27 +214,27 @@ pub(super) fn read(
         subroutines: Some(&subroutine),
         ..Wanted::default()
     };
-    let mut cut_up = CutUp::new(Sampling { chord_error, step });
-    let shown = path.display().to_string();
+    let mut builder = PathBuilder::new(Sampling { chord_error, step }, MOST_POINTS);
+    let shown = file_path.display().to_string();
     let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| {
-        cut_up.take(step);
+        builder.take(step);
     })?;
-    if cut_up.too_many {
-        let message = format!("{shown} gives more than {MOST_POINTS} points");
-        places.problem(
-            "program.step_mm",
-            message,
-            "a larger step, or a part of the program",
-        );
-        return Ok(None);
-    }
-    if cut_up.points.is_empty() {
+    let path = match builder.finish() {
+        Ok(path) => path,
+        Err(error) => {
+            let message = format!("{shown} gives {error}");
+            let hint = "a larger step, or a part of the program";
+            places.problem("program.step_mm", message, hint);
+            return Ok(None);
+        }
+    };
+    if path.points.is_empty() {
         let message = format!("{shown} has no cutting move");
         places.problem("program.file", message, "rapids alone cut nothing");
         return Ok(None);
     }
     if table.spin == Some(SpinName::Given)
-        && let Some(silent) = cut_up.points.iter().find(|point| point.spin.is_none())
+        && let Some(silent) = path.points.iter().find(|point| point.spin.is_none())
     {
         let message = format!("{shown}: line {} tells no spin", silent.line);
         let hint =
@@ -325,16 +242,20 @@ pub(super) fn read(
         places.problem("program.spin", message, hint);
         return Ok(None);
     }
-    if !features_have_points(places, table, &cut_up.points) {
+    if !features_have_points(places, table, &path.points) {
         return Ok(None);
     }
-    let base_from_part = setting.plane.base_from_part;
+    Ok(Some((path, summary)))
+}
+
+/// Where the program lies, and how the tool is turned on it.
+pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry) -> Placing {
     let part_from_path = table
         .part_from_path_mm_deg
         .as_ref()
         .map_or_else(Isometry::identity, pose_mm_deg);
     let spin = table.spin_deg.unwrap_or(0.0).to_radians();
-    let placing = Placing {
+    Placing {
         base_from_path: base_from_part * part_from_path,
         axis: part_from_path.rotation.inverse() * Vector3::z_axis(),
         keeps_axis: table.tool_axis == Some(ToolAxisName::Normal),
@@ -343,95 +264,6 @@ pub(super) fn read(
             Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
             Some(SpinName::Given) => Spin::Given(spin),
         },
-    };
-    let mut setting = setting;
-    let (mut measured, mut drill) = (None, None);
-    let (load, cut, forces) = match pushes {
-        Pushes::Measured(cut) => {
-            let Some(told) = &table.measured else {
-                return Ok(None);
-            };
-            let course = Course {
-                points: &cut_up.points,
-                operations: &cut_up.operations,
-                rapids: &cut_up.rapids,
-                placing: &placing,
-                base_from_part: &base_from_part,
-            };
-            let found = measured::along(places, told, folder, &course, cut.as_deref())?;
-            let Some((load, forces)) = found else {
-                return Ok(None);
-            };
-            setting.doubt.relative = told.u_percent.unwrap_or(0.0) / 100.0;
-            measured = Some(Box::new(forces));
-            (load, None, None)
-        }
-        Pushes::Cases(load) => (PathLoad::Cases(load), None, None),
-        Pushes::Drill(of) => match of.drill.along(&cut_up.points, &cut_up.operations, &placing) {
-            Ok((load, told)) => {
-                setting.doubt.relative = told.relative_uncertainty;
-                drill = Some(*of);
-                (load, None, Some(told))
-            }
-            Err(error) => {
-                places.problem("program.file", format!("{shown}: {error}"), why_no_forces(&error, "the program tells feed and spindle, or program.drill with feed_mm_min and spindle_rpm"));
-                return Ok(None);
-            }
-        },
-        Pushes::Cut(cut) => {
-            let (points, operations) = (&cut_up.points, &cut_up.operations);
-            match cut
-                .cutting
-                .along((points, operations), &placing, None, Watch::NONE)
-            {
-                Ok(found) => {
-                    setting.doubt.relative = found.told.relative_uncertainty;
-                    (PathLoad::Cuts(found.cuts), Some(*cut), Some(found.told))
-                }
-                Err(error) => {
-                    places.problem(
-                        "program.file",
-                        format!("{shown}: {error}"),
-                        why_no_forces(
-                            &error,
-                            "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do",
-                        ),
-                    );
-                    return Ok(None);
-                }
-            }
-        }
-    };
-    Ok(Some(ProgramAsk {
-        file: table.file.clone(),
-        summary,
-        moves: cut_up.moves,
-        length: cut_up.points.last().map_or(0.0, |point| point.along),
-        time: cut_up.time,
-        operations: cut_up.operations,
-        track: Track {
-            points: cut_up.points,
-            placing,
-            base_from_part,
-        },
-        load,
-        wants_limits: table.limits.unwrap_or(true),
-        features: table.feature.clone(),
-        cut,
-        drill,
-        forces,
-        measured,
-        setting,
-    }))
-}
-
-/// What to do where there are no forces along a program.
-fn why_no_forces(error: &NoForces, untold: &'static str) -> &'static str {
-    match error {
-        NoForces::Cut { .. } => {
-            "depths are those of the program, or cut.axial_depth_mm and cut.radial_depth_mm"
-        }
-        _ => untold,
     }
 }
 

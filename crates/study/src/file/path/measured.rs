@@ -5,13 +5,12 @@
 
 use std::path::Path;
 
-use armill_core::frame::Isometry;
 use armill_core::load::record::align::align;
 use armill_core::load::record::lag::{self, Lag};
 use armill_core::load::record::revolutions::{mean_at, turn_at};
 use armill_core::load::{ActsOn, LoadFrame, PathLoad, Record, RecordError};
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
-use armill_core::path::{Clock, NoTime, Operation, PathPoint, Placing, Speeds};
+use armill_core::path::{Clock, NoTime, Speeds, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_formats::measurement::known::Wanted;
@@ -19,9 +18,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::cut::Cut;
-use super::format::LoadFrameName;
-use super::places::Places;
 use crate::StudyError;
+use crate::file::format::LoadFrameName;
+use crate::file::places::Places;
 use crate::forces::{Air, Measured, Refusal, Treated, Treatment, Unread, read, treat};
 
 /// A record of measured forces.
@@ -111,16 +110,6 @@ pub enum SynchroniseName {
     Predicted,
 }
 
-/// The path that the forces are for.
-pub(super) struct Course<'a> {
-    pub points: &'a [PathPoint],
-    pub operations: &'a [(usize, Operation)],
-    /// Length of the rapid before each stretch, m.
-    pub rapids: &'a [f64],
-    pub placing: &'a Placing,
-    pub base_from_part: &'a Isometry,
-}
-
 /// Measured forces along a program.
 #[derive(Clone, Debug)]
 pub struct MeasuredForces {
@@ -175,8 +164,7 @@ pub(super) fn along(
     places: &mut Places<'_>,
     table: &MeasuredTable,
     folder: &Path,
-    course: &Course<'_>,
-    cut: Option<&Cut>,
+    (track, cut): (&Track, Option<&Cut>),
 ) -> Result<Option<(PathLoad, MeasuredForces)>, StudyError> {
     let path = folder.join(&table.file);
     let shown = path.display().to_string();
@@ -191,7 +179,7 @@ pub(super) fn along(
     };
     let cycle = table.cycle.map(|cycle| cycle as usize);
     let found = match read((&shown, &path), acts_on, &wanted, cycle) {
-        Ok(measured) => forces(table, measured, course, cut),
+        Ok(measured) => forces(table, measured, track, cut),
         Err(Unread::File(problems)) => return Err(problems),
         Err(Unread::Value(refusal)) => Err(refusal),
     };
@@ -205,7 +193,7 @@ pub(super) fn along(
 fn forces(
     table: &MeasuredTable,
     measured: Measured,
-    course: &Course<'_>,
+    track: &Track,
     cut: Option<&Cut>,
 ) -> Result<(PathLoad, MeasuredForces), Refusal> {
     let treatment = Treatment {
@@ -216,7 +204,7 @@ fn forces(
     let turn = table.sensor_turned_deg.unwrap_or(0.0).to_radians();
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), turn);
     let treated = treat(measured.record.on_tool().turned(&turn), &treatment)?;
-    let clock = clock(table, course)?;
+    let clock = clock(table, track)?;
     let record = &treated.after;
     let [lasts, cuts] = [record.end() - record.begin(), clock.duration()];
     if cuts > lasts {
@@ -224,7 +212,7 @@ fn forces(
         let hint = "is it the record of this program, with the feeds and rapids that were driven?";
         return Err(Refusal::new("file", message, hint));
     }
-    let (start, lag) = start(table, &treated.after, &clock, course, cut)?;
+    let (start, lag) = start(table, &treated.after, &clock, track, cut)?;
     let program = [start, start + cuts];
     // A step of the record to either side is rounding.
     let step = lasts / (record.time().len() - 1) as f64;
@@ -269,13 +257,13 @@ fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     }
 }
 
-fn clock(table: &MeasuredTable, course: &Course<'_>) -> Result<Clock, Refusal> {
+fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
     let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
         feed: speed(table.feed_mm_min),
         rapid: speed(table.rapid_mm_min),
     };
-    Clock::of(course.points, course.rapids, speeds).map_err(|error| match error {
+    Clock::of(&track.path, speeds).map_err(|error| match error {
         NoTime::NoFeed { .. } => Refusal::new("feed_mm_min", error.to_string(), "feed_mm_min = 600"),
         NoTime::NoRapid { .. } => Refusal::new(
             "rapid_mm_min",
@@ -290,7 +278,7 @@ fn start(
     table: &MeasuredTable,
     record: &Record,
     clock: &Clock,
-    course: &Course<'_>,
+    track: &Track,
     cut: Option<&Cut>,
 ) -> Result<(f64, Option<Lag>), Refusal> {
     let refused = |error: RecordError, hint: &str| Refusal::new("synchronise", error.to_string(), hint);
@@ -328,7 +316,7 @@ fn start(
                 )
             })?;
             let hint = "synchronise = \"start\", or start_s";
-            let force = predicted(table, course, cut)?;
+            let force = predicted(table, track, cut)?;
             let step = record.step().map_err(|error| refused(error, hint))?;
             let prediction = clock.record(|i| force[i], step, MARGIN * clock.duration());
             let prediction = prediction.map_err(|error| refused(error, hint))?;
@@ -342,30 +330,29 @@ fn start(
 }
 
 /// The mean force of the cut at every point, in the axes that the record is told in.
-fn predicted(table: &MeasuredTable, course: &Course<'_>, cut: &Cut) -> Result<Vec<Vector3<f64>>, Refusal> {
+fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vector3<f64>>, Refusal> {
     let mut stock = cut.stock.clone();
-    let (points, operations) = (course.points, course.operations);
+    let (points, operations) = (&track.path.points, &track.path.operations);
     let along = cut
         .cutting
-        .along((points, operations), course.placing, stock.as_mut(), Watch::NONE);
+        .along((points, operations), &track.placing, stock.as_mut(), Watch::NONE);
     let load = along.map_err(|error| {
         let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
         Refusal::new("synchronise", error.to_string(), hint)
     })?;
     let load = PathLoad::Cuts(load.cuts);
-    let part_from_base = course.base_from_part.rotation.inverse();
+    let part_from_base = track.base_from_part.rotation.inverse();
     let mut wrenches = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
-    let force = |(index, point): (usize, &PathPoint)| {
-        let base_from_feed = course.placing.base_from_feed(point);
-        load.in_base(index, course.base_from_part, &base_from_feed, &mut wrenches);
+    let force = |index: usize| {
+        track.wrenches(&load, index, &mut wrenches);
         let in_base = wrenches.first().map_or_else(Vector3::zeros, |mean| mean.force);
         match frame(table) {
             LoadFrame::Base => in_base,
             LoadFrame::Part => part_from_base * in_base,
-            LoadFrame::Feed => base_from_feed.inverse() * in_base,
+            LoadFrame::Feed => track.base_from_feed(index).inverse() * in_base,
         }
     };
-    Ok(course.points.iter().enumerate().map(force).collect())
+    Ok((0..track.len()).map(force).collect())
 }
 
 fn frame(table: &MeasuredTable) -> LoadFrame {

@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::cut::{RELATIVE_U_OF_ONE_SET, kienzle, material, one_set_remark};
-use super::places::Places;
+use crate::file::places::Places;
 
 /// A twist drill that goes into the part wherever the program moves along its axis.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]

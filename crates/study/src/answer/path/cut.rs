@@ -1,51 +1,33 @@
-//! What a program permits, and what its cut met and did, in the answer.
+//! What cuts along a path, what it met in the stock, and how its force gave way, in the answer.
 
-use armill_core::map::{CutLimits, Permitted, PointLimits, Rested};
+use armill_core::map::Rested;
 use armill_core::path::Met;
 use serde::Serialize;
 
-use super::point::tidy;
-use crate::file::program::ProgramAsk;
-use crate::run::ProgramFound;
+use super::super::point::tidy;
+use crate::file::path::PathAsk;
+use crate::run::PathFound;
 
-/// What keeps the tolerance on the whole of a program: the least of its points.
+/// What cuts or drills along a path, and the forces of it.
 #[derive(Clone, Debug, Serialize)]
-pub struct LimitsResult {
-    /// Points that were asked: spread over the path, the worst among them.
-    pub points: usize,
-    /// Force that every direction permits.
-    pub any_direction: Option<LimitResult>,
-    /// Force along the feed.
-    pub along: Option<LimitResult>,
-    /// Force across it.
-    pub cross: Option<LimitResult>,
-    /// Force along the tool.
-    pub axial: Option<LimitResult>,
-    /// Axial depth of the cut, all else as the study has it.
-    pub axial_depth: Option<LimitResult>,
-    /// Radial depth, likewise; none of a slot.
-    pub radial_depth: Option<LimitResult>,
-    /// Feed per tooth, likewise.
-    pub feed_per_tooth: Option<LimitResult>,
-}
-
-/// A limit, and where it comes from.
-#[derive(Clone, Debug, Serialize)]
-pub struct LimitResult {
-    /// How much.
-    // unit: the one told beside it
-    pub value: f64,
-    /// Its unit.
-    pub unit: &'static str,
-    /// `up to`, `at least` (more was not looked at), or `nothing`.
-    pub verdict: &'static str,
-    /// Line of the program that permits no more.
-    pub line: u32,
+pub struct CutAnswer {
+    /// Material that the forces are those of.
+    pub material: String,
+    /// Largest mean force of a revolution along the path, of the cut as drawn.
+    pub largest_mean_n: f64,
+    /// Largest force within a revolution, likewise.
+    pub largest_peak_n: f64,
+    /// Points whose cut has no force: plunges and steep dives, where the bottom of the cutter is not modelled.
+    pub points_without_force: usize,
+    /// What the tool met in the stock, where the study tells one.
+    pub stock: Option<StockAnswer>,
+    /// How the force of the cut gave way with the tool.
+    pub rest: Option<RestAnswer>,
 }
 
 /// What the tool met in the stock.
 #[derive(Clone, Debug, Serialize)]
-pub struct StockResult {
+pub struct StockAnswer {
     /// Points with nothing ahead of the tool.
     pub points_in_air: usize,
     /// Points with material over its whole width.
@@ -62,7 +44,7 @@ pub struct StockResult {
 
 /// How the force gave way with the tool.
 #[derive(Clone, Debug, Serialize)]
-pub struct RestResult {
+pub struct RestAnswer {
     /// Largest deviation across the tool if the force stayed as drawn.
     pub max_in_plane_if_drawn_um: f64,
     /// Points at which force and tool do not rest: the cut draws the tool in.
@@ -74,53 +56,25 @@ pub struct RestResult {
 /// Deviations that differ by less than this part with and without giving way need no word.
 const MATTERS: f64 = 0.05;
 
-impl LimitsResult {
-    pub(super) fn of(ask: &ProgramAsk, found: &ProgramFound) -> Option<LimitsResult> {
-        let limits = found.limits.as_ref()?;
-        let line = |point: &PointLimits| ask.track.points[point.index].line;
-        let force = |which: usize| {
-            let points = limits.points.iter();
-            let least = points.min_by(|a, b| a.forces[which].total_cmp(&b.forces[which]))?;
-            Some(LimitResult {
-                value: tidy(least.forces[which]),
-                unit: "N",
-                verdict: "up to",
-                line: line(least),
-            })
-        };
-        let cut = |part: fn(&CutLimits) -> Option<Permitted>| {
-            limits.least(part).map(|(point, permitted)| LimitResult {
-                value: permitted.value() * 1e3,
-                unit: "mm",
-                verdict: verdict(permitted),
-                line: line(point),
-            })
-        };
-        Some(LimitsResult {
-            points: limits.points.len(),
-            any_direction: force(3),
-            along: force(0),
-            cross: force(1),
-            axial: force(2),
-            axial_depth: cut(|cut| Some(cut.depth)),
-            radial_depth: cut(|cut| cut.width),
-            feed_per_tooth: cut(|cut| Some(cut.feed_per_tooth)),
+impl CutAnswer {
+    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<CutAnswer> {
+        let of_cut = ask.cut.as_ref().map(|cut| &cut.material);
+        let material = of_cut.or(ask.drill.as_ref().map(|drill| &drill.material))?;
+        let forces = found.forces?;
+        Some(CutAnswer {
+            material: material.name.clone(),
+            largest_mean_n: forces.largest_mean,
+            largest_peak_n: forces.greatest,
+            points_without_force: forces.without_force,
+            stock: forces.met.map(|met| StockAnswer::of(&met)),
+            rest: found.along.rested.map(|rested| RestAnswer::of(ask, &rested)),
         })
     }
 }
 
-/// In one word.
-pub(crate) fn verdict(permitted: Permitted) -> &'static str {
-    match permitted {
-        Permitted::UpTo(_) => "up to",
-        Permitted::AtLeast(_) => "at least",
-        Permitted::Nothing => "nothing",
-    }
-}
-
-impl StockResult {
-    pub(super) fn of(met: &Met) -> StockResult {
-        StockResult {
+impl StockAnswer {
+    pub(super) fn of(met: &Met) -> StockAnswer {
+        StockAnswer {
             points_in_air: met.in_air,
             points_in_slot: met.slots,
             points_leaning: met.leaning,
@@ -131,12 +85,14 @@ impl StockResult {
     }
 }
 
-impl RestResult {
-    pub(super) fn of(ask: &ProgramAsk, rested: &Rested) -> RestResult {
-        RestResult {
+impl RestAnswer {
+    pub(super) fn of(ask: &PathAsk, rested: &Rested) -> RestAnswer {
+        RestAnswer {
             max_in_plane_if_drawn_um: rested.largest_if_drawn * 1e6,
             points_unsettled: rested.unsettled,
-            first_unsettled_line: rested.first_unsettled.map(|index| ask.track.points[index].line),
+            first_unsettled_line: rested
+                .first_unsettled
+                .map(|index| ask.track.path.points[index].line),
         }
     }
 }
@@ -145,10 +101,10 @@ impl RestResult {
 const OTHER_DIAMETER: f64 = 0.01;
 
 /// Tools of the program of another size than the cutter of the study.
-fn other_tools(ask: &ProgramAsk) -> Option<String> {
+fn other_tools(ask: &PathAsk) -> Option<String> {
     let cutter_mm = ask.cut.as_ref()?.cutting.cutter.diameter() * 1e3;
     let mut others: Vec<String> = Vec::new();
-    for (_, operation) in &ask.operations {
+    for (_, operation) in &ask.track.path.operations {
         let Some(diameter_mm) = operation.diameter.map(|diameter| diameter * 1e3) else {
             continue;
         };
@@ -167,8 +123,20 @@ fn other_tools(ask: &ProgramAsk) -> Option<String> {
     })
 }
 
-/// What a user should know of the engagement and of how the force gave way.
-pub(super) fn notes(ask: &ProgramAsk, found: &ProgramFound) -> Vec<String> {
+/// What a user should know of cut or drill.
+pub(super) fn notes(ask: &PathAsk, found: &PathFound) -> Vec<String> {
+    let of_cut = ask.cut.as_ref().map(|cut| {
+        let mut notes = of_engagement(ask, found);
+        notes.extend(of_rest(ask, found));
+        notes.extend(cut.remarks.iter().cloned());
+        notes
+    });
+    let of_drill = ask.drill.as_ref().map(|drill| drill.remarks.clone());
+    of_cut.or(of_drill).unwrap_or_default()
+}
+
+/// What a user should know of the engagement.
+fn of_engagement(ask: &PathAsk, found: &PathFound) -> Vec<String> {
     let mut notes: Vec<String> = other_tools(ask).into_iter().collect();
     match found.forces.and_then(|forces| forces.met) {
         None => notes.push(
@@ -190,12 +158,14 @@ pub(super) fn notes(ask: &ProgramAsk, found: &ProgramFound) -> Vec<String> {
             }
         }
     }
-    let largest = found
-        .answer
-        .answers
-        .worst()
-        .map_or(0.0, |(_, held)| held.in_plane);
-    match &found.answer.rested {
+    notes
+}
+
+/// What a user should know of how the force gave way.
+fn of_rest(ask: &PathAsk, found: &PathFound) -> Vec<String> {
+    let mut notes = Vec::new();
+    let largest = found.along.answers.worst().map_or(0.0, |(_, held)| held.in_plane);
+    match &found.along.rested {
         None => notes.push(
             "the force does not give way with the tool here: this stiffness model changes with the load"
                 .to_owned(),
@@ -214,7 +184,7 @@ pub(super) fn notes(ask: &ProgramAsk, found: &ProgramFound) -> Vec<String> {
                 notes.push(format!(
                     "at {} points, the first on line {}, the cut draws the tool in and neither rests; the force of the cut \
                      as drawn stands there",
-                    rested.unsettled, ask.track.points[first].line
+                    rested.unsettled, ask.track.path.points[first].line
                 ));
             }
         }

@@ -4,7 +4,7 @@ use armill_core::path::{FeatureKind, PathPoint};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ProgramTable;
+use super::program::ProgramTable;
 use crate::file::places::Places;
 
 /// A stretch of the program that makes a feature.

@@ -1,0 +1,207 @@
+//! A path as points: what a program of moves, or a shape on a plane, becomes when it is cut up.
+//!
+//! Points of a cut follow on each other; a rapid between two cuts has no points, and the start of the cut behind it is a
+//! point of its own, at the same distance along the cuts as the last one before. m, s.
+
+use std::ops::Range;
+
+use nalgebra::Point3;
+
+use super::program::{Operation, Pace, Step};
+use super::sampler::{PathPoint, Sampler, Sampling};
+
+/// A path, cut into points.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SampledPath {
+    /// Points of its cuts.
+    pub points: Vec<PathPoint>,
+    /// Its operations, each with the index of its first point.
+    pub operations: Vec<(usize, Operation)>,
+    /// Length of the rapid that leads to each stretch of cuts, m.
+    pub rapids: Vec<f64>,
+    /// Moves, rapids included.
+    pub moves: usize,
+    /// Time of all cuts whose feed is told, s.
+    pub cutting_time: f64,
+}
+
+impl SampledPath {
+    /// Length of all cuts, m.
+    pub fn length(&self) -> f64 {
+        self.points.last().map_or(0.0, |point| point.along)
+    }
+
+    /// Whether point `index` is the first behind a rapid, or of all.
+    pub fn begins(&self, index: usize) -> bool {
+        begins(&self.points, index)
+    }
+
+    /// Points that follow on each other without a rapid between them, stretch after stretch.
+    pub fn stretches(&self) -> impl Iterator<Item = Range<usize>> {
+        let count = self.points.len();
+        let starts: Vec<usize> = (0..count).filter(|i| self.begins(*i)).collect();
+        let ends: Vec<usize> = starts.iter().skip(1).copied().chain([count]).collect();
+        starts.into_iter().zip(ends).map(|(start, end)| start..end)
+    }
+
+    /// The least and the greatest coordinates of its points, m; the origin twice where there is none.
+    pub fn corners(&self) -> [Point3<f64>; 2] {
+        let first = self.points.first().map_or_else(Point3::origin, |point| point.at);
+        let points = self.points.iter().map(|point| point.at);
+        points.fold([first, first], |[low, high], at| [low.inf(&at), high.sup(&at)])
+    }
+}
+
+/// Whether point `index` is the first behind a rapid, or of all.
+pub(super) fn begins(points: &[PathPoint], index: usize) -> bool {
+    // The start of such a cut is a point of its own: nothing was cut since the point before.
+    index == 0 || points[index].along <= points[index - 1].along
+}
+
+/// A program gives more points than are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("more than {most} points")]
+pub struct TooManyPoints {
+    /// As many as are wanted at most.
+    pub most: usize,
+}
+
+/// Cuts a program into points, step by step as its reader gives them.
+#[derive(Clone, Debug)]
+pub struct PathBuilder {
+    sampler: Sampler,
+    path: SampledPath,
+    most: usize,
+    too_many: bool,
+    /// Length of the rapids since the last cut, m.
+    since: f64,
+    stands: Option<Point3<f64>>,
+}
+
+impl PathBuilder {
+    /// Before the first step; at most `most` points are kept.
+    pub fn new(sampling: Sampling, most: usize) -> PathBuilder {
+        PathBuilder {
+            sampler: Sampler::new(sampling),
+            path: SampledPath::default(),
+            most,
+            too_many: false,
+            since: 0.0,
+            stands: None,
+        }
+    }
+
+    /// Takes the next step of the program.
+    pub fn take(&mut self, step: Step) {
+        let next = match step {
+            Step::Operation(operation) => {
+                self.path.operations.push((self.path.points.len(), operation));
+                return;
+            }
+            Step::Move(next) => next,
+        };
+        let path = &mut self.path;
+        path.moves += 1;
+        if path.points.len().saturating_add(self.sampler.count(&next)) > self.most {
+            self.too_many = true;
+            return;
+        }
+        let (first, before) = (path.points.len(), path.length());
+        self.sampler.points(&next, |point| path.points.push(point));
+        if let Pace::Feed(speed) = next.pace
+            && speed > 0.0
+        {
+            path.cutting_time += (path.length() - before) / speed;
+        }
+        if !next.pace.cuts() {
+            self.since += self.stands.map_or(0.0, |from| (next.end - from).norm());
+        } else if first < path.points.len() {
+            if path.begins(first) {
+                path.rapids.push(self.since);
+            }
+            self.since = 0.0;
+        }
+        self.stands = Some(next.end);
+    }
+
+    /// The path.
+    ///
+    /// # Errors
+    /// [`TooManyPoints`].
+    pub fn finish(self) -> Result<SampledPath, TooManyPoints> {
+        if self.too_many {
+            return Err(TooManyPoints { most: self.most });
+        }
+        Ok(self.path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Vector3;
+
+    use super::super::program::{Course, Move};
+    use super::*;
+
+    /// Two cuts of 10 mm at 20 mm/s with a rapid of 30 mm up, over and down between them.
+    fn steps() -> Vec<Step> {
+        let to = |x: f64, z: f64, pace| {
+            Step::Move(Move {
+                end: Point3::new(x, 0.0, z),
+                axis: None,
+                spin: None,
+                course: Course::Line,
+                pace,
+                line: 1,
+            })
+        };
+        let feed = Pace::Feed(0.02);
+        vec![
+            Step::Operation(Operation::default()),
+            to(0.0, 0.0, Pace::Rapid),
+            to(0.01, 0.0, feed),
+            to(0.01, 0.01, Pace::Rapid),
+            to(0.02, 0.01, Pace::Rapid),
+            to(0.02, 0.0, Pace::Rapid),
+            Step::Operation(Operation::default()),
+            to(0.03, 0.0, feed),
+        ]
+    }
+
+    fn built(most: usize) -> Result<SampledPath, TooManyPoints> {
+        let sampling = Sampling {
+            chord_error: 1e-5,
+            step: 1e-3,
+        };
+        let mut builder = PathBuilder::new(sampling, most);
+        steps().into_iter().for_each(|step| builder.take(step));
+        builder.finish()
+    }
+
+    #[test]
+    fn a_rapid_ends_a_stretch_and_counts_by_its_length() {
+        let path = built(100).unwrap();
+        let stretches: Vec<_> = path.stretches().collect();
+        assert_eq!(stretches, [0..11, 11..22]);
+        assert!((path.length() - 0.02).abs() < 1e-15 && (path.cutting_time - 1.0).abs() < 1e-12);
+        assert_eq!((path.moves, path.rapids.len()), (6, 2));
+        assert!(path.rapids[0] == 0.0 && (path.rapids[1] - 0.03).abs() < 1e-15);
+        let firsts: Vec<usize> = path.operations.iter().map(|(first, _)| *first).collect();
+        assert_eq!(firsts, [0, 11]);
+        let [low, high] = path.corners();
+        assert!((high - low - Vector3::new(0.03, 0.0, 0.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn more_points_than_are_wanted_are_refused_not_cut_off() {
+        assert!(built(22).is_ok());
+        assert_eq!(built(21), Err(TooManyPoints { most: 21 }));
+    }
+
+    #[test]
+    fn a_path_without_points_has_no_stretch_and_no_length() {
+        let path = SampledPath::default();
+        assert_eq!((path.stretches().count(), path.length()), (0, 0.0));
+        assert_eq!(path.corners(), [Point3::origin(); 2]);
+    }
+}

@@ -1,0 +1,90 @@
+//! A path in the cell: its points with the tool poses there, and a deviation seen from them.
+
+use nalgebra::{Rotation3, Unit, Vector3};
+
+use super::placing::Placing;
+use super::sampled::SampledPath;
+use crate::frame::Isometry;
+use crate::load::PathLoad;
+use crate::spatial::Wrench;
+
+/// A sampled path, and where it lies.
+#[derive(Clone, Debug)]
+pub struct Track {
+    /// Its points.
+    pub path: SampledPath,
+    /// Where they lie.
+    pub placing: Placing,
+    /// The part whose axes a load may be told in.
+    pub base_from_part: Isometry,
+}
+
+/// A point of a track: where the tool stands, and what its deviation is split on.
+#[derive(Clone, Copy, Debug)]
+pub struct Stop {
+    /// The tool pose.
+    pub base_from_tool: Isometry,
+    /// What counts as normal there, base: from the tip towards the spindle.
+    pub normal: Unit<Vector3<f64>>,
+}
+
+/// A deviation seen from the path, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Parts {
+    /// Where the tip goes: late or early, hardly seen on the part.
+    pub along: f64,
+    /// To the left of the track: what a wall gets.
+    pub cross: f64,
+    /// Along the tool, away from the part: what a floor gets.
+    pub axial: f64,
+}
+
+impl Track {
+    /// How many points.
+    pub fn len(&self) -> usize {
+        self.path.points.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.path.points.is_empty()
+    }
+
+    /// The tool pose at point `index`, and the tool axis as its normal.
+    pub fn stop(&self, index: usize) -> Stop {
+        let point = &self.path.points[index];
+        Stop {
+            base_from_tool: self.placing.base_from_tool(point),
+            normal: self.placing.spindle(point),
+        }
+    }
+
+    /// A deviation (m, base) at point `index`, seen from the path.
+    pub fn parts(&self, index: usize, deviation: &Vector3<f64>) -> Parts {
+        let seen = self.base_from_feed(index).inverse() * deviation;
+        Parts {
+            along: seen.x,
+            cross: seen.y,
+            axial: seen.z,
+        }
+    }
+
+    /// Axes of the feed frame at point `index`, in base.
+    pub fn base_from_feed(&self, index: usize) -> Rotation3<f64> {
+        self.placing.base_from_feed(&self.path.points[index])
+    }
+
+    /// Fills in the wrenches of `load` at point `index`, base.
+    pub fn wrenches(&self, load: &PathLoad, index: usize, out: &mut [Wrench]) {
+        let axes = self.base_from_feed(index);
+        load.in_base(index, &self.base_from_part, &axes, out);
+    }
+
+    /// The tool axis, from the tip towards the spindle, base, if it is the same at all points.
+    pub fn steady_normal(&self) -> Option<Unit<Vector3<f64>>> {
+        let first = self.path.points.first()?;
+        let same = |axis| self.placing.keeps_axis || axis == first.axis;
+        let steady = self.path.points.iter().all(|point| same(point.axis));
+        steady.then(|| self.placing.spindle(first))
+    }
+}

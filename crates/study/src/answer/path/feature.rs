@@ -1,0 +1,122 @@
+//! What became of the features that a study marks in its program.
+
+use armill_core::nalgebra::Vector3;
+use armill_core::path::{Became, Strayed, became};
+use serde::Serialize;
+
+use super::super::point::tidy;
+use crate::file::path::{FeatureTable, PathAsk};
+use crate::run::PathFound;
+
+/// What became of a feature under one load case.
+#[derive(Clone, Debug, Serialize)]
+pub struct FeatureAnswer {
+    /// Its name.
+    pub name: String,
+    /// `circle`, `line`, `plane` or `hole`.
+    pub kind: &'static str,
+    /// The case, from 1.
+    pub case: usize,
+    /// Points that made it.
+    pub points: usize,
+    /// Circle: radius of the tool's path as programmed.
+    pub radius_mm: Option<f64>,
+    /// Circle: what it became larger by.
+    pub radius_change_um: Option<f64>,
+    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along the
+    /// tool.
+    pub shift_um: Option<[f64; 3]>,
+    /// Circle: peak to valley about the least-squares circle.
+    pub roundness_um: Option<f64>,
+    /// Line: peak to valley across the tool.
+    pub straightness_across_um: Option<f64>,
+    /// Line: peak to valley along the tool.
+    pub straightness_axial_um: Option<f64>,
+    /// Plane: peak to valley.
+    pub flatness_um: Option<f64>,
+    /// Why there is no result.
+    pub missing: Option<&'static str>,
+}
+
+pub(super) fn features(ask: &PathAsk, found: &PathFound) -> Vec<FeatureAnswer> {
+    let of = |feature: &FeatureTable| {
+        let [first, last] = feature.lines;
+        let points = &ask.track.path.points;
+        let within = |i: &usize| (first..=last).contains(&points[*i].line);
+        let within: Vec<usize> = (0..points.len()).filter(within).collect();
+        let cases = 0..found.along.answers.case_count;
+        cases
+            .map(|case| of_case((feature, case), &within, ask, found))
+            .collect::<Vec<_>>()
+    };
+    ask.features.iter().flat_map(of).collect()
+}
+
+fn of_case(
+    (feature, case): (&FeatureTable, usize),
+    points: &[usize],
+    ask: &PathAsk,
+    found: &PathFound,
+) -> FeatureAnswer {
+    let mut told = FeatureAnswer {
+        name: feature.name.clone(),
+        kind: feature.kind.word(),
+        case: case + 1,
+        points: points.len(),
+        radius_mm: None,
+        radius_change_um: None,
+        shift_um: None,
+        roundness_um: None,
+        straightness_across_um: None,
+        straightness_axial_um: None,
+        flatness_um: None,
+        missing: None,
+    };
+    let answers = &found.along.answers;
+    if points.iter().any(|i| answers.points[*i].is_err()) {
+        told.missing = Some("not every point of it is reached");
+        return told;
+    }
+    let placing = &ask.track.placing;
+    let path_from_base = placing.base_from_path.inverse();
+    let strayed = |i: &usize| {
+        let point = &ask.track.path.points[*i];
+        Strayed {
+            at: point.at,
+            axis: path_from_base.rotation * placing.spindle(point),
+            by: path_from_base * answers.deviations_at(*i)[case],
+        }
+    };
+    let strayed: Vec<Strayed> = points.iter().map(strayed).collect();
+    let um = |v: Vector3<f64>| Some(v.map(|c| c * 1e6).into());
+    match became(feature.kind.kind(), &strayed) {
+        Some(Became::Circle {
+            radius,
+            radius_change,
+            centre_shift,
+            roundness,
+        }) => {
+            told.radius_mm = Some(tidy(radius * 1e3));
+            told.radius_change_um = Some(radius_change * 1e6);
+            told.shift_um = um(centre_shift);
+            told.roundness_um = Some(roundness * 1e6);
+        }
+        Some(Became::Line {
+            straightness_across,
+            straightness_normal: straightness_axial,
+            offset,
+        }) => {
+            told.straightness_across_um = Some(straightness_across * 1e6);
+            told.straightness_axial_um = Some(straightness_axial * 1e6);
+            told.shift_um = um(offset);
+        }
+        Some(Became::Plane { flatness, offset }) => {
+            told.flatness_um = Some(flatness * 1e6);
+            let normal = strayed.first().map_or_else(Vector3::z, |p| p.axis.into_inner());
+            told.shift_um = um(normal * offset);
+        }
+        Some(Became::Hole { shift }) => told.shift_um = um(shift),
+        None => told.missing = Some("its points make no such feature"),
+    }
+    told
+}

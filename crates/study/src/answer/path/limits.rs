@@ -1,0 +1,87 @@
+//! What a path permits, in the answer.
+
+use armill_core::map::{CutLimits, Permitted, PointLimits};
+use serde::Serialize;
+
+use super::super::point::tidy;
+use crate::file::path::PathAsk;
+use crate::run::PathFound;
+
+/// What keeps the tolerance on the whole of a program: the least of its points.
+#[derive(Clone, Debug, Serialize)]
+pub struct LimitsAnswer {
+    /// Points that were asked: spread over the path, the worst among them.
+    pub points: usize,
+    /// Force that every direction permits.
+    pub any_direction: Option<LimitAnswer>,
+    /// Force along the feed.
+    pub along: Option<LimitAnswer>,
+    /// Force across it.
+    pub cross: Option<LimitAnswer>,
+    /// Force along the tool.
+    pub axial: Option<LimitAnswer>,
+    /// Axial depth of the cut, all else as the study has it.
+    pub axial_depth: Option<LimitAnswer>,
+    /// Radial depth, likewise; none of a slot.
+    pub radial_depth: Option<LimitAnswer>,
+    /// Feed per tooth, likewise.
+    pub feed_per_tooth: Option<LimitAnswer>,
+}
+
+/// A limit, and where it comes from.
+#[derive(Clone, Debug, Serialize)]
+pub struct LimitAnswer {
+    /// How much.
+    // unit: the one told beside it
+    pub value: f64,
+    /// Its unit.
+    pub unit: &'static str,
+    /// `up to`, `at least` (more was not looked at), or `nothing`.
+    pub verdict: &'static str,
+    /// Line of the program that permits no more.
+    pub line: u32,
+}
+
+impl LimitsAnswer {
+    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<LimitsAnswer> {
+        let limits = found.limits.as_ref()?;
+        let line = |point: &PointLimits| ask.track.path.points[point.index].line;
+        let force = |which: usize| {
+            let points = limits.points.iter();
+            let least = points.min_by(|a, b| a.forces[which].total_cmp(&b.forces[which]))?;
+            Some(LimitAnswer {
+                value: tidy(least.forces[which]),
+                unit: "N",
+                verdict: "up to",
+                line: line(least),
+            })
+        };
+        let cut = |part: fn(&CutLimits) -> Option<Permitted>| {
+            limits.least(part).map(|(point, permitted)| LimitAnswer {
+                value: permitted.value() * 1e3,
+                unit: "mm",
+                verdict: verdict(permitted),
+                line: line(point),
+            })
+        };
+        Some(LimitsAnswer {
+            points: limits.points.len(),
+            any_direction: force(3),
+            along: force(0),
+            cross: force(1),
+            axial: force(2),
+            axial_depth: cut(|cut| Some(cut.depth)),
+            radial_depth: cut(|cut| cut.width),
+            feed_per_tooth: cut(|cut| Some(cut.feed_per_tooth)),
+        })
+    }
+}
+
+/// In one word.
+pub(crate) fn verdict(permitted: Permitted) -> &'static str {
+    match permitted {
+        Permitted::UpTo(_) => "up to",
+        Permitted::AtLeast(_) => "at least",
+        Permitted::Nothing => "nothing",
+    }
+}

@@ -1,0 +1,78 @@
+//! What only a path that a program tells has in the answer.
+
+use armill_core::path::Operation;
+use serde::Serialize;
+
+use crate::file::path::{PathAsk, PathSource};
+use crate::run::PathFound;
+
+/// The program that tells a path.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProgramAnswer {
+    /// Its file, as the study calls it.
+    pub file: String,
+    /// The format it is in.
+    pub format: &'static str,
+    /// Moves, rapids included.
+    pub moves: usize,
+    /// Time of the cuts whose feed is told.
+    pub cutting_time_s: f64,
+    /// Stretches with the same tool and spindle speed.
+    pub operations: Vec<OperationAnswer>,
+}
+
+/// A stretch with the same tool and spindle speed.
+#[derive(Clone, Debug, Serialize)]
+pub struct OperationAnswer {
+    /// What the program calls it.
+    pub name: Option<String>,
+    /// Number of its tool.
+    pub tool: Option<u32>,
+    /// Line where it begins.
+    pub line: u32,
+    /// Its points.
+    pub points: usize,
+    /// Largest in-plane deviation.
+    pub max_in_plane_um: Option<f64>,
+}
+
+impl ProgramAnswer {
+    pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<ProgramAnswer> {
+        let PathSource::Program { file, summary } = &ask.source else {
+            return None;
+        };
+        Some(ProgramAnswer {
+            file: file.clone(),
+            format: summary.format,
+            moves: ask.track.path.moves,
+            cutting_time_s: ask.track.path.cutting_time,
+            operations: operations(ask, found),
+        })
+    }
+}
+
+fn operations(ask: &PathAsk, found: &PathFound) -> Vec<OperationAnswer> {
+    let (all, points) = (&ask.track.path.operations, &found.along.answers.points);
+    let of = |(i, (first, operation)): (usize, &(usize, Operation))| {
+        let end = all.get(i + 1).map_or(points.len(), |next| next.0);
+        let points = &points[*first..end];
+        let largest = points.iter().flatten().map(|held| held.in_plane * 1e6);
+        OperationAnswer {
+            name: operation.name.clone(),
+            tool: operation.tool,
+            line: operation.line,
+            points: points.len(),
+            max_in_plane_um: largest.max_by(f64::total_cmp),
+        }
+    };
+    let told = all.iter().enumerate().map(of);
+    told.filter(|operation| operation.points > 0).collect()
+}
+
+/// What was passed over in the program.
+pub(super) fn notes(ask: &PathAsk) -> Vec<String> {
+    match &ask.source {
+        PathSource::Program { summary, .. } => summary.notes.clone(),
+        PathSource::Shape(_) => Vec::new(),
+    }
+}

@@ -1,0 +1,86 @@
+//! Where a path is worst, and why.
+
+use armill_core::kernel::Held;
+use serde::Serialize;
+
+use super::super::point::PointAnswer;
+use crate::file::path::PathAsk;
+use crate::file::resolve::Study;
+use crate::run::{InFull, PathFound};
+
+/// A point where the deviation is large, and why.
+#[derive(Clone, Debug, Serialize)]
+pub struct WorstPoint {
+    /// Line of the program, or piece of the shape.
+    pub line: u32,
+    /// Distance along all cuts.
+    pub distance_mm: f64,
+    /// Deviation of the deciding case along the track.
+    pub along_um: f64,
+    /// To the left of the track.
+    pub cross_um: f64,
+    /// Along the tool, from the part towards the spindle.
+    pub axial_um: f64,
+    /// What makes it large.
+    pub cause: String,
+    /// The point.
+    pub point: PointAnswer,
+}
+
+/// A feed that turns by more than this between two points turns sharply, rad.
+const SHARP: f64 = 0.5;
+/// A joint nearer to its limit than this is told, rad.
+const NEAR_LIMIT: f64 = 0.087;
+
+pub(super) fn worst_points(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<WorstPoint> {
+    let told = |worst: &InFull| of_point(study, ask, worst);
+    found.worst.iter().filter_map(told).collect()
+}
+
+fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> {
+    let held = *worst.answers.points.first()?.as_ref().ok()?;
+    let here = &ask.track.path.points[worst.index];
+    let parts = ask
+        .track
+        .parts(worst.index, &worst.answers.deviations_at(0)[held.deciding_case]);
+    let at = worst.setting.plane.base_from_part.translation.vector.into();
+    let point = PointAnswer {
+        in_plane_mm: PointAnswer::in_plane_mm(&ask.setting.plane, &at),
+        ..PointAnswer::of(study, &worst.setting, &worst.answers, (0, &held, at))
+    };
+    Some(WorstPoint {
+        line: here.line,
+        distance_mm: here.along * 1e3,
+        along_um: parts.along * 1e6,
+        cross_um: parts.cross * 1e6,
+        axial_um: parts.axial * 1e6,
+        cause: cause(study, (ask, worst.index), &held, &point),
+        point,
+    })
+}
+
+fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &PointAnswer) -> String {
+    let joints = study.robot.robot.joints();
+    let names = ask.setting.model.sharer_names(joints);
+    let shares = names.iter().zip(&point.joint_share_um);
+    let largest = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
+    let mut parts: Vec<String> = largest
+        .filter(|_| point.in_plane_um > 0.0)
+        .map(|(name, share)| format!("{name} {:.0} %", 100.0 * share / point.in_plane_um))
+        .into_iter()
+        .collect();
+    if let Some(singularity) = held.singularity {
+        parts.push(format!("near the {singularity}"));
+    }
+    if held.limit_margin < NEAR_LIMIT {
+        parts.push(format!("joint {} at its limit", joints[held.limit_joint].name));
+    }
+    let points = &ask.track.path.points;
+    if let Some(before) = index.checked_sub(1).map(|i| &points[i]) {
+        let turn = before.direction.angle(&points[index].direction);
+        if turn > SHARP {
+            parts.push(format!("the feed turns by {:.0} deg here", turn.to_degrees()));
+        }
+    }
+    parts.join(", ")
+}

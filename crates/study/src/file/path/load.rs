@@ -1,0 +1,139 @@
+//! What pushes on the tool along a path: given cases, a cut, a drill, or what was measured.
+
+use std::path::Path;
+
+use armill_core::load::PathLoad;
+use armill_core::path::NoForces;
+use armill_core::watch::Watch;
+
+use super::PathAsk;
+use super::cut::{self, CutTable};
+use super::drill::{self, DrillTable};
+use super::measured::{self, MeasuredTable, SynchroniseName};
+use crate::StudyError;
+use crate::file::format::{AskKind, AskTable, LoadTable, StudyFile};
+use crate::file::places::Places;
+
+/// What pushes on the tool, as the study tells it.
+#[derive(Clone, Copy)]
+pub(in crate::file) enum Push<'a> {
+    /// Given cases.
+    Load(&'a LoadTable),
+    /// Forces of a cut.
+    Cut(&'a CutTable),
+    /// Forces of a drill.
+    Drill(&'a DrillTable),
+    /// A record, and the cut that predicts it where that is asked for.
+    Measured(&'a MeasuredTable, Option<&'a CutTable>),
+}
+
+impl<'a> Push<'a> {
+    /// What pushes in this ask: what it brings itself, else the cut of the study (along a path), else its load.
+    pub fn of(file: &'a StudyFile, ask: &'a AskTable) -> Option<Push<'a>> {
+        let along = ask.kind == AskKind::Path;
+        let program = ask.program.as_ref().filter(|_| along);
+        let own_cut = ask.cut.as_ref().filter(|_| along);
+        let cut = own_cut.or(file.cut.as_ref().filter(|_| along));
+        if let Some(measured) = program.and_then(|program| program.measured.as_ref()) {
+            return Some(Push::Measured(measured, cut.filter(|_| measured.is_predicted())));
+        }
+        let drill = program.and_then(|program| program.drill.as_ref());
+        let own = drill.map(Push::Drill).or(own_cut.map(Push::Cut));
+        let own = own.or(ask.load.as_ref().map(Push::Load));
+        own.or(cut.map(Push::Cut)).or(file.load.as_ref().map(Push::Load))
+    }
+
+    /// Tells an ask that brings two things that push.
+    pub fn refuse_two(places: &mut Places<'_>, ask: &AskTable) {
+        let program = ask.program.as_ref();
+        let measured = program.and_then(|program| program.measured.as_ref());
+        let predicted = measured.is_some_and(MeasuredTable::is_predicted);
+        let brought = [
+            ("load", "a load", ask.load.is_some()),
+            ("cut", "a cut", ask.cut.is_some() && !predicted),
+            (
+                "program.drill",
+                "a drill",
+                program.is_some_and(|program| program.drill.is_some()),
+            ),
+            ("program.measured", "measured forces", measured.is_some()),
+        ];
+        let mut brought = brought.into_iter().filter(|(.., given)| *given);
+        if let (Some((_, first, _)), Some((key, second, _))) = (brought.next(), brought.next()) {
+            places.problem(key, format!("this path has {first} and {second}"), "remove one");
+        }
+    }
+}
+
+impl MeasuredTable {
+    /// Whether the begin is found by a prediction.
+    fn is_predicted(&self) -> bool {
+        self.synchronise == Some(SynchroniseName::Predicted)
+    }
+}
+
+/// Puts what pushes on a path whose load is that of its setting; whether it could, problems are told at their places.
+///
+/// # Errors
+/// The problems of a file of measured forces.
+pub(super) fn put_on(
+    places: &mut Places<'_>,
+    push: Push<'_>,
+    folder: &Path,
+    ask: &mut PathAsk,
+) -> Result<bool, StudyError> {
+    let found = match push {
+        Push::Load(_) => Some(()),
+        Push::Cut(table) => cut::resolve(places, table).and_then(|cut| put_cut(places, cut, ask)),
+        Push::Drill(table) => drill::resolve(places, table).and_then(|drill| put_drill(places, drill, ask)),
+        Push::Measured(table, cut) => {
+            let predicting = cut.map(|table| cut::resolve(places, table));
+            if matches!(predicting, Some(None)) {
+                return Ok(false);
+            }
+            let found = measured::along(places, table, folder, (&ask.track, predicting.flatten().as_ref()))?;
+            found.map(|(load, forces)| {
+                ask.setting.doubt.relative = table.u_percent.unwrap_or(0.0) / 100.0;
+                (ask.load, ask.measured) = (load, Some(Box::new(forces)));
+            })
+        }
+    };
+    Ok(found.is_some())
+}
+
+fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<()> {
+    let (path, placing) = (&ask.track.path, &ask.track.placing);
+    let found = cut
+        .cutting
+        .along((&path.points, &path.operations), placing, None, Watch::NONE);
+    let untold = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+    let found = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
+    ask.setting.doubt.relative = found.told.relative_uncertainty;
+    (ask.load, ask.cut, ask.forces) = (PathLoad::Cuts(found.cuts), Some(cut), Some(found.told));
+    Some(())
+}
+
+fn put_drill(places: &mut Places<'_>, drill: drill::DrillCut, ask: &mut PathAsk) -> Option<()> {
+    let (path, placing) = (&ask.track.path, &ask.track.placing);
+    let found = drill.drill.along(&path.points, &path.operations, placing);
+    let untold = "the program tells feed and spindle, or program.drill with feed_mm_min and spindle_rpm";
+    let (load, told) = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
+    ask.setting.doubt.relative = told.relative_uncertainty;
+    (ask.load, ask.drill, ask.forces) = (load, Some(drill), Some(told));
+    Some(())
+}
+
+/// Tells why there are no forces; `untold` helps where feed or spindle are missing.
+fn tell(places: &mut Places<'_>, ask: &PathAsk, error: &NoForces, untold: &str) {
+    let hint = match error {
+        NoForces::Cut { .. } => {
+            "depths are those of the program, or cut.axial_depth_mm and cut.radial_depth_mm"
+        }
+        _ => untold,
+    };
+    let message = format!("{}: {error}", ask.shown());
+    match ask.shape() {
+        None => places.problem("program.file", message, hint),
+        Some(_) => places.problem_here(message, hint),
+    }
+}

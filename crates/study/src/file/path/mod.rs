@@ -1,0 +1,156 @@
+//! A path of an ask: a shape on the plane or a program, where it lies in the cell, and what pushes along it.
+
+pub mod cut;
+pub mod drill;
+pub mod feature;
+mod load;
+pub mod measured;
+pub mod program;
+mod shape;
+
+pub use cut::Cut;
+pub use drill::DrillCut;
+pub use feature::FeatureTable;
+pub(super) use load::Push;
+pub use measured::MeasuredForces;
+
+use std::path::Path;
+
+use armill_core::load::PathLoad;
+use armill_core::path::{ForcesTold, Placing, Shape, Track};
+use armill_formats::toolpath::program::Summary;
+
+use super::format::AskTable;
+use super::places::Places;
+use super::resolve::Setting;
+use crate::StudyError;
+
+/// A path with what pushes along it.
+#[derive(Clone, Debug)]
+pub struct PathAsk {
+    /// How its points are asked; cases in base as far as they do not turn with the feed.
+    pub setting: Setting,
+    /// What gave the points.
+    pub source: PathSource,
+    /// The points, and where they lie.
+    pub track: Track,
+    /// What pushes there; of a cut in a stock as if the engagement were the same everywhere.
+    pub load: PathLoad,
+    /// The cut that the forces come from, in place of given cases.
+    pub cut: Option<Cut>,
+    /// The drill, likewise.
+    pub drill: Option<DrillCut>,
+    /// What is worth telling of the forces of either.
+    pub forces: Option<ForcesTold>,
+    /// The record that the forces come from.
+    pub measured: Option<Box<MeasuredForces>>,
+    /// Whether it is asked what keeps the tolerance.
+    pub wants_limits: bool,
+    /// Features asked for.
+    pub features: Vec<FeatureTable>,
+}
+
+/// What gives the points of a path.
+#[derive(Clone, Debug)]
+pub enum PathSource {
+    /// A shape on the plane.
+    Shape(Shape),
+    /// A program.
+    Program {
+        /// Its file, as the study calls it.
+        file: String,
+        /// What was read.
+        summary: Summary,
+    },
+}
+
+impl PathAsk {
+    /// Whether what keeps the tolerance is asked and can be told.
+    pub fn tells_limits(&self) -> bool {
+        self.wants_limits && self.setting.model.is_affine()
+    }
+
+    /// Whether its cut tells the stock.
+    pub fn has_stock(&self) -> bool {
+        self.cut.as_ref().is_some_and(|cut| cut.stock.is_some())
+    }
+
+    /// What errors call it: its file, or its shape.
+    pub fn shown(&self) -> &str {
+        match &self.source {
+            PathSource::Shape(Shape::Circle { .. }) => "circle",
+            PathSource::Shape(Shape::Polyline(_)) => "line",
+            PathSource::Program { file, .. } => file,
+        }
+    }
+
+    /// The shape, if it is one.
+    pub fn shape(&self) -> Option<&Shape> {
+        match &self.source {
+            PathSource::Shape(shape) => Some(shape),
+            PathSource::Program { .. } => None,
+        }
+    }
+}
+
+/// The path of this ask; `None` where it has problems, told at their places. `step_mm` is the pitch of the plane.
+///
+/// # Errors
+/// The problems of the files that it names.
+pub(super) fn resolve(
+    places: &mut Places<'_>,
+    (table, step_mm): (&AskTable, f64),
+    folder: &Path,
+    (setting, push): (Option<Setting>, Option<Push<'_>>),
+) -> Result<Option<PathAsk>, StudyError> {
+    if usize::from(table.program.is_some()) + shape::count(table) != 1 {
+        let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
+        places.problem_here("a path has exactly one shape or program", hint);
+        return Ok(None);
+    }
+    let (path, source) = match &table.program {
+        Some(of) => match program::read(places, of, folder)? {
+            Some((path, summary)) => (
+                path,
+                PathSource::Program {
+                    file: of.file.clone(),
+                    summary,
+                },
+            ),
+            None => return Ok(None),
+        },
+        None => match shape::resolve(places, table, step_mm) {
+            Some((path, shape)) => (path, PathSource::Shape(shape)),
+            None => return Ok(None),
+        },
+    };
+    let (Some(setting), Some(push)) = (setting, push) else {
+        return Ok(None);
+    };
+    let base_from_part = setting.plane.base_from_part;
+    let placing = match &table.program {
+        Some(of) => program::placing(of, &base_from_part),
+        None => Placing::on_plane(&setting.plane),
+    };
+    let mut ask = PathAsk {
+        source,
+        track: Track {
+            path,
+            placing,
+            base_from_part,
+        },
+        load: PathLoad::Cases(setting.load.clone()),
+        cut: None,
+        drill: None,
+        forces: None,
+        measured: None,
+        wants_limits: table.program.as_ref().is_some_and(|of| of.limits.unwrap_or(true)),
+        features: table
+            .program
+            .as_ref()
+            .map_or_else(Vec::new, |of| of.feature.clone()),
+        setting,
+    };
+    let pushes = load::put_on(places, push, folder, &mut ask)?;
+    Ok(pushes.then_some(ask))
+}

@@ -1,0 +1,77 @@
+//! A shape on the plane as points.
+
+use armill_core::nalgebra::{Point2, Vector2};
+use armill_core::path::{SampledPath, Shape};
+
+use super::program::MOST_POINTS;
+use crate::file::format::AskTable;
+use crate::file::places::Places;
+use crate::file::quantities::positive;
+
+/// A circle is sampled every degree where the ask says nothing.
+const CIRCLE_SAMPLES: f64 = 360.0;
+
+/// How many shapes an ask has.
+pub(super) fn count(table: &AskTable) -> usize {
+    let given = [
+        table.circle.is_some(),
+        table.line.is_some(),
+        table.polyline_mm.is_some(),
+        table.rectangle.is_some(),
+    ];
+    given.into_iter().filter(|given| *given).count()
+}
+
+/// The shape of an ask, which has one, cut into points; `None` where it has problems. A point every `step_mm` where the ask
+/// says nothing.
+pub(super) fn resolve(
+    places: &mut Places<'_>,
+    table: &AskTable,
+    step_mm: f64,
+) -> Option<(SampledPath, Shape)> {
+    if let Some(circle) = &table.circle {
+        positive(places, "circle.radius_mm", circle.radius_mm)?;
+    }
+    let shape = shape(table)?;
+    let length = shape.length();
+    if length <= 0.0 {
+        let hint = "give it at least two different points";
+        places.problem_here("the path has length 0 mm", hint);
+        return None;
+    }
+    let (key, step) = match (table.step_mm, &shape) {
+        (Some(step), _) => ("step_mm", positive(places, "step_mm", step)?),
+        (None, Shape::Circle { .. }) => ("step_mm", length / CIRCLE_SAMPLES),
+        (None, Shape::Polyline(_)) => ("plane.step_mm", positive(places, "plane.step_mm", step_mm)?),
+    };
+    let points = length / step;
+    if points > MOST_POINTS as f64 {
+        let message = format!("the path would have {points:.0} points, more than {MOST_POINTS}");
+        places.problem(key, message, "a larger step");
+        return None;
+    }
+    Some((shape.sampled(step), shape))
+}
+
+fn shape(table: &AskTable) -> Option<Shape> {
+    // The study's y' runs against x of the part.
+    let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);
+    if let Some(circle) = &table.circle {
+        return Some(Shape::Circle {
+            centre: at(circle.centre_mm.unwrap_or_default()),
+            radius: circle.radius_mm * 1e-3,
+        });
+    }
+    if let Some(line) = &table.line {
+        return Some(Shape::Polyline(vec![at(line.from_mm), at(line.to_mm)]));
+    }
+    if let Some(points) = &table.polyline_mm {
+        return Some(Shape::Polyline(points.iter().copied().map(at).collect()));
+    }
+    let rectangle = table.rectangle.as_ref()?;
+    let size = Vector2::from(rectangle.size_mm) * 1e-3;
+    Some(Shape::rectangle(
+        at(rectangle.centre_mm.unwrap_or_default()),
+        size,
+    ))
+}

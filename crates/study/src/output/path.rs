@@ -1,0 +1,386 @@
+//! Pictures of a path: where it deviates, how far along it, which joint is to blame, what a circle becomes, the arm.
+
+use std::fmt::Write;
+
+use armill_core::map::RadialDeviation;
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::path::Parts;
+use armill_report::{
+    ArmDrawing, Arrow, ArrowCase, AxisLabels, Growth, Marker, MarkerKind, PathPlot, PolarPlot, RadialSeries,
+    Series, Stretch, TrackMap, VectorField, View,
+};
+
+use super::arm::arm_posture;
+use super::pictures::{Picture, share_bar, shares};
+use super::plates::{axes, base_y, subtitle};
+use crate::answer::PathAnswer;
+use crate::file::format::LoadFrameName;
+use crate::file::path::{MeasuredForces, PathAsk};
+use crate::file::resolve::{Setting, Study};
+use crate::run::PathFound;
+
+/// Points that a chart shows at most: of a longer path each stands for the largest deviations of those around it.
+const MOST_POINTS: usize = 1200;
+/// Points that the arm's picture has of the path at most.
+const MOST_IN_SPACE: usize = 8_000;
+/// Marks nearer to each other than this part of the width would hide each other's numbers.
+const APART: f64 = 0.025;
+/// Arrows that are drawn along a path at most.
+const ARROWS: usize = 72;
+/// Postures that are drawn faintly along a path.
+const GHOSTS: usize = 5;
+/// The arm's plate reaches this many times as far as the path.
+const PLATE: f64 = 1.3;
+
+/// The pictures of a path.
+pub(super) fn pictures(study: &Study, ask: &PathAsk, told: &PathAnswer, found: &PathFound) -> Vec<Picture> {
+    let drawing = Drawing {
+        study,
+        ask,
+        told,
+        found,
+    };
+    let mut pictures = vec![drawing.where_it_deviates(), drawing.along()];
+    pictures.extend(drawing.polar());
+    pictures.extend(drawing.blame());
+    pictures.extend(super::limits::picture(&told.name, drawing.subtitle(), ask, found));
+    pictures.extend(ask.measured.as_deref().map(|measured| drawing.forces(measured)));
+    pictures.extend(drawing.arm());
+    pictures
+}
+
+/// What a path's pictures are made of.
+struct Drawing<'a> {
+    study: &'a Study,
+    ask: &'a PathAsk,
+    told: &'a PathAnswer,
+    found: &'a PathFound,
+}
+
+impl Drawing<'_> {
+    fn picture(&self, what: &str, caption: &str, svg: String) -> Picture {
+        Picture {
+            name: format!("{}-{what}", super::slug(&self.told.name)),
+            caption: format!("{}: {caption}", self.told.name),
+            svg,
+        }
+    }
+
+    /// The setting with the branch that was followed.
+    fn setting(&self) -> Setting {
+        Setting {
+            choice: self.found.along.choice,
+            ..self.ask.setting.clone()
+        }
+    }
+
+    /// What a reader must know beside the title.
+    fn subtitle(&self) -> String {
+        subtitle(&self.setting())
+    }
+
+    fn in_plane_um(&self, index: usize) -> f64 {
+        let point = &self.found.along.answers.points[index];
+        point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
+    }
+
+    /// A load case in a word: its force where that is the same everywhere.
+    fn case_name(&self, case: usize) -> String {
+        let force = self
+            .ask
+            .setting
+            .cases
+            .get(case)
+            .filter(|_| self.ask.load.is_steady());
+        force.map_or_else(
+            || format!("case {}", case + 1),
+            |wrench| {
+                let f = wrench.force;
+                format!("F = ({:.0}, {:.0}, {:.0}) N", f.x, f.y, f.z)
+            },
+        )
+    }
+
+    /// Arrows on a shape under loads that are the same everywhere, else the path coloured by its deviation.
+    fn where_it_deviates(&self) -> Picture {
+        if self.ask.shape().is_some() && self.ask.load.is_steady() {
+            let caption = "in-plane deviation along the path under every load case.";
+            return self.picture("vectors", caption, self.vectors());
+        }
+        let caption =
+            "the path seen along the z axis of the program, coloured by the deviation across the tool.";
+        self.picture("track", caption, self.track())
+    }
+
+    fn track(&self) -> String {
+        let points = &self.ask.track.path.points;
+        let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
+        let stretch = |range: std::ops::Range<usize>| Stretch {
+            points_mm: range.clone().map(at).collect(),
+            deviation_um: range.map(|i| self.in_plane_um(i)).collect(),
+        };
+        let stretches = self.ask.track.path.stretches().map(stretch).collect();
+        let [low, high] = self.ask.track.path.corners();
+        let apart_mm = APART * (high.x - low.x).max(high.y - low.y) * 1e3;
+        let mut markers: Vec<Marker> = Vec::new();
+        for (i, worst) in self.found.worst.iter().enumerate() {
+            let at_mm = at(worst.index);
+            // Points above each other have one mark.
+            let near = |other: &&mut Marker| {
+                let [x, y] = other.at_mm;
+                (x - at_mm[0]).hypot(y - at_mm[1]) < apart_mm
+            };
+            match markers.iter_mut().find(near) {
+                Some(other) => other.label += &format!(", {}", i + 1),
+                None => markers.push(Marker {
+                    at_mm,
+                    label: (i + 1).to_string(),
+                    kind: MarkerKind::Point,
+                }),
+            }
+        }
+        let picture = TrackMap {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            axes: AxisLabels {
+                horizontal: "program x (mm)".to_owned(),
+                vertical: "program y (mm)".to_owned(),
+            },
+            quantity: "deviation across the tool (µm)".to_owned(),
+            limit_um: Some(self.ask.setting.limit * 1e6),
+            stretches,
+            markers,
+            ..TrackMap::default()
+        };
+        picture.to_svg()
+    }
+
+    fn vectors(&self) -> String {
+        let (track, answers) = (&self.ask.track, &self.found.along.answers);
+        let points = &track.path.points;
+        let y0 = base_y(&self.ask.setting);
+        let at = |i: usize| [y0 - points[i].at.x * 1e3, points[i].at.y * 1e3];
+        let every = points.len().div_ceil(ARROWS).max(1);
+        let reached = |i: &usize| answers.points[*i].is_ok();
+        let arrows = |case: usize| {
+            let arrow = |i: usize| {
+                let deviation: Vector3<f64> =
+                    self.ask.setting.plane.in_part(&answers.deviations_at(i)[case]) * 1e6;
+                Arrow {
+                    at_mm: at(i),
+                    deviation_um: [-deviation.x, deviation.y],
+                }
+            };
+            (0..points.len())
+                .step_by(every)
+                .filter(reached)
+                .map(arrow)
+                .collect()
+        };
+        let mut path_mm: Vec<[f64; 2]> = (0..points.len()).map(at).collect();
+        if !self.found.radial.is_empty() {
+            path_mm.extend(path_mm.first().copied());
+        }
+        let picture = VectorField {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            axes: axes(&self.ask.setting),
+            growth: Growth::Left,
+            path_mm,
+            cases: (0..answers.case_count)
+                .map(|case| ArrowCase {
+                    name: self.case_name(case),
+                    arrows: arrows(case),
+                })
+                .collect(),
+        };
+        picture.to_svg()
+    }
+
+    /// The deviation along the path: of one load case its parts, of several each in the plane. Of a path too long for a
+    /// chart the largest sizes of each handful of points.
+    fn along(&self) -> Picture {
+        let (track, answers) = (&self.ask.track, &self.found.along.answers);
+        let points = &track.path.points;
+        let handful = points.len().div_ceil(MOST_POINTS).max(1);
+        let largest = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+            let sizes = |first: usize| first..(first + handful).min(points.len());
+            (0..points.len())
+                .step_by(handful)
+                .map(|first| match handful {
+                    1 => of(first),
+                    _ => sizes(first).map(|i| of(i).abs()).fold(f64::NAN, f64::max),
+                })
+                .collect()
+        };
+        let position: Vec<f64> = points.iter().step_by(handful).map(|p| p.along * 1e3).collect();
+        let series = |name: String, of: &dyn Fn(usize) -> f64| Series {
+            name,
+            position: position.clone(),
+            deviation_um: largest(&|i| {
+                if answers.points[i].is_ok() {
+                    of(i)
+                } else {
+                    f64::NAN
+                }
+            }),
+        };
+        let part = |name: &str, of: fn(Parts) -> f64| {
+            series(name.to_owned(), &|i| {
+                of(track.parts(i, &answers.deviations_at(i)[0])) * 1e6
+            })
+        };
+        let (across, quantity) = match handful {
+            1 => ("across it, to the left", "deviation (µm)"),
+            _ => ("across it", "size of the deviation (µm)"),
+        };
+        let in_plane = |case: usize| {
+            let of = move |i: usize| {
+                let parts = track.parts(i, &answers.deviations_at(i)[case]);
+                parts.along.hypot(parts.cross) * 1e6
+            };
+            series(self.case_name(case), &of)
+        };
+        let one_case = answers.case_count == 1;
+        let (all, quantity, envelope) = if one_case {
+            let parts = vec![
+                part("along the track", |parts| parts.along),
+                part(across, |parts| parts.cross),
+                part("along the tool", |parts| parts.axial),
+            ];
+            (parts, quantity, "largest across the tool")
+        } else {
+            let cases = (0..answers.case_count).map(in_plane).collect();
+            (cases, "deviation across the tool (µm)", "largest of all cases")
+        };
+        let picture = PathPlot {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            position_label: "along the path (mm)".to_owned(),
+            quantity: quantity.to_owned(),
+            series: all,
+            envelope: Some(series(envelope.to_owned(), &|i| self.in_plane_um(i))),
+            limit_um: Some(self.ask.setting.limit * 1e6),
+        };
+        self.picture("along", "the deviation along the path.", picture.to_svg())
+    }
+
+    /// What becomes of a circle, magnified.
+    fn polar(&self) -> Option<Picture> {
+        let count = self.ask.track.len();
+        let angle_deg: Vec<f64> = (0..=count).map(|i| 360.0 * i as f64 / count as f64).collect();
+        let series = |(case, radial): (usize, &RadialDeviation)| RadialSeries {
+            name: self.case_name(case),
+            angle_deg: angle_deg.clone(),
+            radial_um: radial
+                .outward
+                .iter()
+                .chain(radial.outward.first())
+                .map(|value| value * 1e6)
+                .collect(),
+        };
+        let picture = PolarPlot {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            horizontal: "base y".to_owned(),
+            vertical: "z′".to_owned(),
+            growth: Growth::Left,
+            series: self.found.radial.iter().enumerate().map(series).collect(),
+        };
+        let caption = "radial deviation of the circle, magnified.";
+        (!self.found.radial.is_empty()).then(|| self.picture("polar", caption, picture.to_svg()))
+    }
+
+    /// Which joint is to blame at the worst points.
+    fn blame(&self) -> Option<Picture> {
+        let worst = &self.told.worst_points;
+        let bars = worst.iter().enumerate().map(|(i, worst)| {
+            let label = format!("{}: line {}", i + 1, worst.line);
+            share_bar(&label, &worst.point)
+        });
+        let title = format!("{}: which joint is to blame", self.told.name);
+        let quantity = "share of deviation across the tool (µm)";
+        let svg = shares(self.study, &title, (&self.setting(), quantity), bars.collect());
+        (!worst.is_empty()).then(|| self.picture("shares", "share of each joint at the worst points.", svg))
+    }
+
+    /// The record with begin and end of the program.
+    fn forces(&self, measured: &MeasuredForces) -> Picture {
+        let axes = match measured.table.frame {
+            LoadFrameName::Base => "base",
+            LoadFrameName::Part => "part",
+            LoadFrameName::Feed => "feed",
+        };
+        let mut subtitle = format!("{}; force on the tool, {axes} axes", measured.table.file);
+        if let Some(hz) = measured.table.low_pass_hz {
+            let _ = write!(subtitle, "; low-pass {hz} Hz");
+        }
+        if let Some(rpm) = measured.table.spindle_rpm {
+            let _ = write!(subtitle, "; means of turns at {rpm} rpm");
+        }
+        let title = format!("{}: measured force", self.told.name);
+        let mut plot = crate::forces::output::plot((title, subtitle), &measured.treated);
+        let [from, to] = measured.program;
+        plot.marks_s = vec![
+            (from, "first cut begins".to_owned()),
+            (to, "last cut ends".to_owned()),
+        ];
+        let caption = "the measured force on the tool, before and after drift and teeth were taken off.";
+        self.picture("forces", caption, plot.to_svg())
+    }
+
+    /// The arm at the worst point of the path, faintly along it.
+    fn arm(&self) -> Option<Picture> {
+        let (answers, track) = (&self.found.along.answers, &self.ask.track);
+        let (worst, _) = answers.worst()?;
+        let robot = &self.study.robot.robot;
+        let flange_from_tool = &self.ask.setting.flange_from_tool;
+        let stand = |i: usize| arm_posture(robot, answers.joints_at(i), flange_from_tool);
+        let ghosts = (0..GHOSTS)
+            .map(|k| k * track.len() / GHOSTS)
+            .filter(|i| answers.points[*i].is_ok());
+        let stride = track.len().div_ceil(MOST_IN_SPACE).max(1);
+        let base =
+            |at: &Point3<f64>| -> [f64; 3] { ((track.placing.base_from_path * at).coords * 1e3).into() };
+        let mut path_mm: Vec<[f64; 3]> = track
+            .path
+            .points
+            .iter()
+            .step_by(stride)
+            .map(|p| base(&p.at))
+            .collect();
+        if !self.found.radial.is_empty() {
+            path_mm.extend(path_mm.first().copied());
+        }
+        let drawing = ArmDrawing {
+            title: self.told.name.clone(),
+            subtitle: self.subtitle(),
+            posture: stand(worst),
+            ghosts: ghosts.map(stand).collect(),
+            plate_mm: Some(self.plate().map(|corner| base(&corner))),
+            path_mm,
+            view: View::Iso,
+        };
+        let caption = "the arm along the path, in full where the deviation is largest.";
+        Some(self.picture("arm", caption, drawing.to_svg_views(&[View::Iso, View::Side])))
+    }
+
+    /// Corners of the plate, path axes: about the centre of the plane of a shape, below a program.
+    fn plate(&self) -> [Point3<f64>; 4] {
+        let [low, high] = self.ask.track.path.corners();
+        let [low, high] = match self.ask.shape() {
+            Some(_) => {
+                let reach = PLATE * low.coords.amax().max(high.coords.amax());
+                [Point3::new(-reach, -reach, 0.0), Point3::new(reach, reach, 0.0)]
+            }
+            None => [low, Point3::new(high.x, high.y, low.z)],
+        };
+        let corner = |x: f64, y: f64| Point3::new(x, y, low.z);
+        [
+            corner(low.x, low.y),
+            corner(high.x, low.y),
+            corner(high.x, high.y),
+            corner(low.x, high.y),
+        ]
+    }
+}
