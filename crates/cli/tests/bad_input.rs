@@ -216,12 +216,18 @@ fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
 
 #[test]
 fn boxes_paths_and_sections_are_measured_before_they_are_made() {
-    let ask = |ask: &str| {
-        check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(&["points would take", "GiB", "study.toml:"])
-    };
-    ask("kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }");
-    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-7");
-    ask("kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [100, 0] }\nstep_mm = 1e-300");
+    let ask = |ask: &str, words: &[&str]| check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(words);
+    let memory = ["points would take", "GiB", "study.toml:"];
+    ask(
+        "kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }",
+        &memory,
+    );
+    let count = ["points, more than 8000000", "study.toml:"];
+    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-7", &count);
+    ask(
+        "kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [100, 0] }\nstep_mm = 1e-300",
+        &count,
+    );
 }
 
 #[test]

@@ -330,7 +330,7 @@ fn a_volume_and_a_plane_agree_where_they_share_points() {
     let plane = Plane::tilted(Point3::new(0.8, 0.0, 0.8), 0.0);
     let (map, volume) = ask(&robot, &plane, branch("front elbow-up"), |q| {
         let map = plane_map(q, plane, Grid::within([0.2, 0.2], 0.1), Watch::NONE).unwrap();
-        let grid = BoxGrid::within(Point3::new(0.8, 0.0, 0.8), [0.1, 0.2, 0.2], 0.1);
+        let grid = BoxGrid::within(&Isometry::translation(0.8, 0.0, 0.8), [0.1, 0.2, 0.2], 0.1);
         (map, volume_map(q, plane, grid, Watch::NONE).unwrap())
     });
     // Slice x = 800 mm is the second of three; the plane's columns run against base y.

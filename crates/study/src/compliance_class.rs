@@ -191,7 +191,12 @@ fn factor_between(a: f64, b: f64) -> f64 {
 }
 
 fn compliances(arm: &str) -> Result<Vec<f64>, StudyError> {
-    let missing = || StudyError::value(format!("library robot {arm} lacks its compliance"), "");
+    let missing = || {
+        StudyError::value(
+            format!("library robot {arm} lacks its compliance"),
+            "a fault of armill: please report it",
+        )
+    };
     let found = library::robot(arm).ok_or_else(missing)??;
     let values: Vec<f64> = found
         .robot

@@ -15,8 +15,9 @@ pub mod file;
 pub mod forces;
 pub mod identify;
 pub mod library;
+pub mod model_words;
+mod naming;
 pub mod output;
-pub mod parts;
 pub mod pendant;
 pub mod pose;
 pub mod robots;
@@ -25,79 +26,7 @@ pub mod run;
 pub use compliance_class::ComplianceClass;
 pub use error::{ErrorKind, StudyError};
 pub use file::resolve::Study;
-
-use armill_core::frame::Isometry;
-use armill_core::kernel::BranchChoice;
-use armill_core::robot::{BranchPattern, Robot};
-
-/// Name of the frame on the robot's floor plane, which every robot has.
-pub const BASE_LINK: &str = "base_link";
+pub use naming::{BASE_LINK, base_from_counted, branch_choice_of};
 
 /// Joints that hold a tool at any pose.
 pub const ENOUGH_JOINTS: usize = 6;
-
-/// The frame `name` that coordinates count from, in base.
-///
-/// # Errors
-/// The names that the robot knows.
-pub fn base_from_counted(robot: &Robot, name: &str) -> Result<Isometry, String> {
-    if name == BASE_LINK {
-        return Ok(Isometry::identity());
-    }
-    let found = robot.frames().iter().find(|frame| frame.name == name);
-    found.map(|frame| frame.base_from_frame).ok_or_else(|| {
-        let named = robot.frames().iter().map(|frame| format!(", {}", frame.name));
-        format!("{BASE_LINK}{}", named.collect::<String>())
-    })
-}
-
-/// The posture that `words` ask for: a branch completed by the nominal one, `nominal`, or `best`.
-///
-/// # Errors
-/// The word that names no branch.
-pub fn branch_choice(words: &str, nominal: BranchPattern) -> Result<BranchChoice, String> {
-    match words.trim() {
-        "best" => Ok(BranchChoice::Best),
-        "nominal" => Ok(BranchChoice::Of(nominal)),
-        words => {
-            let pattern: BranchPattern = words.parse().map_err(|error| format!("{error}"))?;
-            Ok(BranchChoice::Of(pattern.or(nominal)))
-        }
-    }
-}
-
-/// [`branch_choice`] of `robot`; where its branches have no names, only `nominal` and `best` say something.
-///
-/// # Errors
-/// The word that names no branch; any word where none has a name.
-pub fn branch_choice_of(robot: &Robot, words: &str) -> Result<BranchChoice, String> {
-    if robot.inverse().has_branches() {
-        return branch_choice(words, robot.nominal_branch());
-    }
-    match branch_choice(words, BranchPattern::default())? {
-        BranchChoice::Of(pattern) if pattern != BranchPattern::default() => Err(format!(
-            "`{}`: the branches of robot `{}` have no names",
-            words.trim(),
-            robot.name()
-        )),
-        choice => Ok(choice),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_left_out_come_from_the_nominal_branch() {
-        let nominal = BranchPattern::FRONT_ELBOW_UP;
-        let choice = branch_choice("elbow-down", nominal).unwrap();
-        assert_eq!(choice, BranchChoice::Of("front elbow-down".parse().unwrap()));
-        assert_eq!(branch_choice("best", nominal), Ok(BranchChoice::Best));
-        assert!(
-            branch_choice("sideways", nominal)
-                .unwrap_err()
-                .contains("`sideways`")
-        );
-    }
-}

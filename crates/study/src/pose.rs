@@ -17,7 +17,7 @@ use armill_formats::robot::{RobotDescription, Source};
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::parts::{left_out, parts};
+use crate::model_words::{left_out, parts};
 
 /// What is asked of one pose.
 #[derive(Clone, Debug)]

@@ -111,7 +111,7 @@ fn doubt_about_load_and_tool_widens_the_uncertainty_and_nothing_else() {
     let sure = answered(&plate_with(""));
     for (table, key) in [
         (
-            "tool = { flange_from_tool_mm_deg = [0, 0, 0, 0, 0, 0], u_length_mm = 2 }\n",
+            "tool = { flange_from_tool_mm_deg = [0, 0, 0, 0, 0, 0], length_u_mm = 2 }\n",
             "length",
         ),
         ("load.u_percent = 10\n", "percent"),
@@ -562,4 +562,84 @@ fn every_example_study_reads() {
         let read = read(example.path, Path::new(example.name), example.text.as_bytes());
         assert!(read.is_ok(), "{}", read.unwrap_err());
     }
+}
+
+#[test]
+fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
+    let home = "posture = { branch = \"front elbow-up\", home_deg = [1, 2, 3, 4, 5, 6] }\n";
+    let study = plate_with(&format!(
+        "{home}[[ask]]\nkind = \"map\"\nposture.branch = \"front elbow-down\"\n"
+    ));
+    let setting = study.settings().next().unwrap();
+    assert_eq!(setting.branch(), "front elbow-down");
+    let home: Vec<f64> = setting.home.clone().unwrap();
+    assert!((home[5].to_degrees() - 6.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_path_is_followed_in_one_branch_which_the_answer_names() {
+    let ask = "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\nposture.branch = \"best\"\n";
+    let answer = answered(&plate_with(ask));
+    let path = &answer.paths[0];
+    let followed = path.followed_branch.as_ref().unwrap();
+    assert_eq!((path.branch.as_str(), followed.split(' ').count()), ("best", 3));
+    assert!(
+        path.worst_points
+            .iter()
+            .all(|worst| worst.point.branch == *followed)
+    );
+    // A circle has parts along its track and across it; the largest in the plane is at least either.
+    let largest = path.max_in_plane_um.unwrap();
+    assert!(path.max_along_um.unwrap() <= largest && path.max_cross_um.unwrap() <= largest);
+    assert!(path.max_axial_um.unwrap() <= path.max_full_um.unwrap());
+}
+
+#[test]
+fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
+    let of_box =
+        "[[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
+    let answer = answered(&plate_with(of_box));
+    assert!(
+        answer.answer.starts_with("v, branch ") && answer.answer.contains("% of the box"),
+        "{}",
+        answer.answer
+    );
+    let far = "plane = { centre_mm = [9000, 0, 800] }\n";
+    let path = "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\n";
+    let answer = answered(&plate_with(&format!("{of_box}{far}{path}{far}")));
+    for words in [
+        "v: no point of the box has a posture",
+        "c: 360 of 360 points are out of reach",
+    ] {
+        assert!(
+            answer.warnings.iter().any(|warning| warning.contains(words)),
+            "{words}: {:?}",
+            answer.warnings
+        );
+    }
+    assert!(
+        answer.answer.contains("reaches no point of the box"),
+        "{}",
+        answer.answer
+    );
+}
+
+#[test]
+fn sources_of_loads_and_of_what_the_tool_holds_stand_in_the_answer() {
+    let tool = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0], mass = [{ at = \"tool\", mass_kg = 5, centre_mm = [0, 0, -50], source = \"weighed\" }] }\n";
+    let ask = "[[ask]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
+    let answer = answered(&plate_with(&format!("{tool}{ask}")));
+    let place = |key: &str| {
+        answer
+            .sources
+            .iter()
+            .find(|source| source.key == key)
+            .map(|source| source.place.clone())
+    };
+    assert_eq!(place("load").as_deref(), Some("a dynamometer"));
+    assert_eq!(place("tool").as_deref(), Some("weighed"));
+    assert_eq!(
+        answer.maps[0].setting.load_source.as_deref(),
+        Some("a dynamometer")
+    );
 }

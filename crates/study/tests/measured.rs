@@ -151,7 +151,7 @@ impl Witness {
 }
 
 const START_S: f64 = 1.2345;
-const MEASURED: &str = "[ask.program.measured]\nfile = \"record.csv\"\nrapid_mm_min = 6000\n";
+const MEASURED: &str = "[ask.program.measured]\nfile = \"record.csv\"\nrapid_mm_per_min = 6000\n";
 const AIR: &str = "air_s = [[0, 1], [12, 13]]\n";
 
 /// A number without pattern from -1 to 1.
@@ -182,7 +182,7 @@ fn the_force_of_the_cut_as_a_drifting_record_deviates_as_the_cut() {
     let differs = witness.differs(&found, 0, 0.002, 1.0);
     assert!(differs < EXACT, "{differs}");
     let (_, measured) = told(&ran);
-    assert!((measured.lag_s - START_S).abs() < 1e-12 && (measured.end_s - START_S - CUTS_S).abs() < 1e-9);
+    assert!((measured.start_s - START_S).abs() < 1e-12 && (measured.end_s - START_S - CUTS_S).abs() < 1e-9);
     // 10.5 s at 1 kHz.
     assert!(
         measured.samples_used.abs_diff(10_500) <= 1,
@@ -213,7 +213,7 @@ fn a_prediction_finds_a_noisy_record_to_a_sample() {
     );
     let ran = study(&beside, &record).unwrap();
     let (answer, measured) = told(&ran);
-    assert!((measured.lag_s - 5.4321).abs() < 1e-3, "{}", measured.lag_s);
+    assert!((measured.start_s - 5.4321).abs() < 1e-3, "{}", measured.start_s);
     assert!(
         measured.likeness.unwrap() > 0.9 && measured.confidence.unwrap() > 0.3,
         "{measured:?}"
@@ -230,15 +230,15 @@ fn the_first_crossing_of_a_threshold_is_the_begin() {
     let witness = Witness::new();
     let record = witness.record((13.0, 1000.0, START_S), |force, _, _| force);
     let beside = format!(
-        "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"start\"\nthreshold_n = 1\n"
+        "{MEASURED}drift = false\nacts_on = \"tool\"\nframe = \"base\"\nsynchronise = \"threshold\"\nthreshold_n = 1\n"
     );
     let ran = study(&beside, &record).unwrap();
     let (_, measured) = told(&ran);
     assert!(
-        (measured.lag_s - START_S).abs() < 1e-3 && measured.drift.is_none(),
+        (measured.start_s - START_S).abs() < 1e-3 && measured.drift.is_none(),
         "{measured:?}"
     );
-    assert!(measured.confidence.is_none() && measured.synchronised == "start");
+    assert!(measured.confidence.is_none() && measured.synchronised == "threshold");
 }
 
 #[test]
@@ -300,7 +300,7 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
     let swing = |time: f64| 1.0 + 0.5 * (2.0 * TAU * 150.0 * time).sin();
     let record = witness.record((13.0, 3000.0, START_S), |force, time, _| force * swing(time));
     let beside = format!(
-        "{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\nspindle_rpm = 9000\nvalue = \"extremes\"\nu_percent = 20\n"
+        "{MEASURED}start_s = {START_S}\ndrift = false\nacts_on = \"tool\"\nframe = \"base\"\nspindle_rpm = 9000\npeak = true\nu_percent = 20\n"
     );
     let ran = study(&beside, &record).unwrap();
     let (ask, found) = program(&ran);
@@ -316,7 +316,7 @@ fn teeth_leave_the_mean_of_a_turn_and_make_its_extreme() {
     }
     assert!((ask.setting.doubt.relative - 0.2).abs() < 1e-15);
     let (answer, measured) = told(&ran);
-    let (mean, most) = (measured.largest_n, measured.largest_of_turns_n.unwrap());
+    let (mean, most) = (measured.largest_n, measured.largest_peak_n.unwrap());
     assert!((1.4..1.51).contains(&(most / mean)), "{mean} {most}");
     let worst = answer.paths[0].worst.as_ref().unwrap();
     assert!(worst.deciding_case == 2 && worst.in_plane_u_um >= 0.2 * worst.in_plane_um);
@@ -388,27 +388,27 @@ fn what_is_wrong_is_told_at_its_place() {
             &["nothing tells when", "synchronise"],
         ),
         (
-            format!("{base}{axes}{start}synchronise = \"start\"\n"),
+            format!("{base}{axes}{start}synchronise = \"threshold\"\n"),
             &good,
             &["either `start_s` or"],
         ),
         (
-            format!("{base}{axes}synchronise = \"start\"\n"),
+            format!("{base}{axes}synchronise = \"threshold\"\n"),
             &good,
             &["no", "threshold_n = 10"],
         ),
         (
-            format!("{base}{axes}synchronise = \"start\"\nthreshold_n = 1e6\n"),
+            format!("{base}{axes}synchronise = \"threshold\"\nthreshold_n = 1e6\n"),
             &good,
             &["never crosses"],
         ),
         (
-            format!("{base}{axes}{start}").replace("rapid_mm_min = 6000", ""),
+            format!("{base}{axes}{start}").replace("rapid_mm_per_min = 6000", ""),
             &good,
-            &["a rapid of 50.0 mm", "line 10", "rapid_mm_min = 6000"],
+            &["a rapid of 50.0 mm", "line 10", "rapid_mm_per_min = 6000"],
         ),
         (
-            format!("{base}{axes}{start}value = \"extremes\"\n"),
+            format!("{base}{axes}{start}peak = true\n"),
             &good,
             &["spindle_rpm = 9000"],
         ),
@@ -465,13 +465,13 @@ fn a_prediction_needs_its_cut_and_a_program_its_feed() {
         let read = read("study.toml", folder.path(), text.as_bytes());
         read.map(|_| ()).map_err(|error| error.to_string())
     };
-    let message = told("synchronise = \"predicted\"\nfeed_mm_min = 600").unwrap_err();
+    let message = told("synchronise = \"predicted\"\nfeed_mm_per_min = 600").unwrap_err();
     assert!(message.contains("no `cut` predicts the force"), "{message}");
     let message = told("start_s = 1").unwrap_err();
     assert!(
-        message.contains("feed") && message.contains("feed_mm_min = 600"),
+        message.contains("feed") && message.contains("feed_mm_per_min = 600"),
         "{message}"
     );
     // 60 mm at 10 mm/s: the record is long enough.
-    assert_eq!(told("start_s = 1\nfeed_mm_min = 600"), Ok(()));
+    assert_eq!(told("start_s = 1\nfeed_mm_per_min = 600"), Ok(()));
 }

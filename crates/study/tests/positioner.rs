@@ -119,6 +119,40 @@ fn a_part_on_the_table_lies_where_its_joints_put_it() {
 }
 
 #[test]
+fn a_box_stands_along_the_axes_of_the_table() {
+    let folder = cell("positioner-box", "", "");
+    let ask = "[[ask]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 100, 100], step_mm = 50 }\n";
+    let text = study(
+        "base = \"table\"",
+        "[50, 0, 200]",
+        "[0, 0, 0]",
+        &format!("{}{ask}", positioner("[30, 40]")),
+    );
+    let answer = answered(&folder, &text);
+    let of_box = &answer.volumes[0];
+    assert!(of_box.counts.within + of_box.counts.over_limit > 30);
+    for (corner, expected) in of_box.origin_mm.iter().zip([-50.0, -100.0, 100.0]) {
+        assert!((corner - expected).abs() < 1e-9);
+    }
+    for point in [&of_box.worst, &of_box.best].into_iter().flatten() {
+        for (at, corner) in point.xyz_mm.iter().zip(&of_box.origin_mm) {
+            let steps = (at - corner) / 50.0;
+            assert!(
+                (steps - steps.round()).abs() < 1e-9 && (0.0..=4.0).contains(&steps.round()),
+                "{point:?}"
+            );
+        }
+    }
+    // Its numbers stand in the answer as those of the robot do.
+    assert!(
+        answer
+            .sources
+            .iter()
+            .any(|source| source.key == "positioner:made-up")
+    );
+}
+
+#[test]
 fn what_the_table_yields_adds_to_what_the_arm_yields() {
     // The tilt axis runs along x through (1000, 0, 400); a force of 5 N along y at height z turns it by c 5 N (z - 0.4 m).
     let plane = ("[1000, 0, 900]", "[0, -90, 0]");

@@ -28,7 +28,7 @@ cutter = { diameter_mm = 10, flutes = 2 }
 axial_depth_mm = 1
 radial_depth_mm = 3
 side = "down"
-feed_mm_min = 600
+feed_mm_per_min = 600
 spindle_rpm = 9000
 "#;
 /// A full circle of radius 40 mm about the zero, and a rapid to its start.
@@ -145,7 +145,7 @@ fn forces_come_from_the_cut_and_need_no_load() {
     let ([mean, peak], [twice, _]) = (forces(&one), forces(&two));
     // A mean force goes with the depth; so does what it moves.
     assert!((twice / mean - 2.0).abs() < 1e-12 && peak > mean);
-    let greatest = CUT.replace("flutes = 2 }", "flutes = 2 }\ngreatest = true");
+    let greatest = CUT.replace("flutes = 2 }", "flutes = 2 }\npeak = true");
     let both = told(
         &format!("{CELL}{greatest}{}", ask("file = \"ring.ngc\"")),
         &[("ring.ngc", RING)],
@@ -396,7 +396,7 @@ fn what_is_wrong_is_told_at_its_place() {
     let ring = ask("file = \"ring.ngc\"");
     let slow = CUT
         .replace("spindle_rpm = 9000", "")
-        .replace("feed_mm_min = 600", "");
+        .replace("feed_mm_per_min = 600", "");
     let silent = "G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nM2\n";
     for (study, program, words) in [
         (

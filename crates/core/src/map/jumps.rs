@@ -33,3 +33,81 @@ pub fn jumps<'a>(
             .map(move |(joint, by)| Jump { index, joint, by })
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point2;
+
+    use super::*;
+    use crate::kernel::Held;
+    use crate::path::Shape;
+    use crate::robot::{Amount, Axis, Branch, Joint, Motion, PostureName, Unreachable};
+
+    /// A rail that carries a turning joint.
+    fn robot() -> Robot {
+        let motions = vec![
+            Motion::Along(Axis::X, Amount::Joint(0)),
+            Motion::About(Axis::Z, Amount::Joint(1)),
+        ];
+        Robot::new("rail", motions, vec![Joint::plain("R"), Joint::plain("A")]).unwrap()
+    }
+
+    fn answers(joints: &[[f64; 2]]) -> Answers {
+        let held = Held {
+            name: PostureName::Branch(Branch::ALL[0]),
+            limit_margin: 1.0,
+            limit_joint: 0,
+            singularity: None,
+            deciding_case: 0,
+            in_plane: 0.0,
+            in_plane_uncertainty: 0.0,
+            normal: 0.0,
+            full: 0.0,
+        };
+        Answers {
+            points: vec![Ok(held); joints.len()],
+            joints: joints.concat(),
+            deviations: Vec::new(),
+            shares: Vec::new(),
+            joint_count: 2,
+            case_count: 0,
+            share_count: 0,
+        }
+    }
+
+    #[test]
+    fn a_joint_that_turns_far_jumps_and_a_rail_that_slides_far_does_not() {
+        let path = Shape::Polyline(vec![Point2::origin(), Point2::new(3.0, 0.0)]).sampled(1.0);
+        let mut answers = answers(&[[0.0, 0.0], [5.0, 0.49], [5.0, -0.2], [5.0, -0.1]]);
+        let robot = robot();
+        let found: Vec<Jump> = jumps(&robot, &path, &answers).collect();
+        let [jump] = found[..] else {
+            panic!("one jump, not {found:?}")
+        };
+        assert_eq!((jump.index, jump.joint), (2, 1));
+        assert!((jump.by + 0.69).abs() < 1e-12);
+        // Nobody knows how the arm gets over a point that it does not reach.
+        answers.points[1] = Err(Unreachable::TooFar { by: 1.0 });
+        assert_eq!(jumps(&robot, &path, &answers).count(), 0);
+    }
+
+    #[test]
+    fn in_a_rapid_the_arm_may_turn() {
+        let mut path = Shape::Polyline(vec![Point2::origin(), Point2::new(1.0, 0.0)]).sampled(1.0);
+        // The second cut begins where the first ended.
+        path.points.extend(path.points.clone());
+        for point in &mut path.points[2..] {
+            point.along += 1.0;
+        }
+        let robot = robot();
+        assert_eq!(
+            jumps(
+                &robot,
+                &path,
+                &answers(&[[0.0, 0.0], [0.0, 0.1], [0.0, 2.0], [0.0, 2.1]])
+            )
+            .count(),
+            0
+        );
+    }
+}

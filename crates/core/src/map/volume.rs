@@ -1,6 +1,6 @@
 //! Deviation in space: a box of points, the tool held as for a plane.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Translation3, Vector3};
 
 use super::plane::Counts;
 use crate::frame::Isometry;
@@ -8,24 +8,25 @@ use crate::kernel::{Answers, Question, evaluate};
 use crate::watch::{Cancelled, Watch};
 use crate::workpiece::Plane;
 
-/// A regular box of points along the base axes; x runs first, then y, then z.
+/// A regular box of points; x runs first, then y, then z.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoxGrid {
-    /// The corner with the least coordinates, m, base.
-    pub origin: Point3<f64>,
-    /// Points along base x, y, z.
+    /// Base to box: its corner with the least coordinates, and its sides as axes.
+    pub base_from_box: Isometry,
+    /// Points along x, y, z of the box.
     pub counts: [usize; 3],
     /// Pitch, m.
     pub step: f64,
 }
 
 impl BoxGrid {
-    /// The box of pitch `step` (m) centred at `centre` that reaches as far as it can within `half_size` (m).
-    pub fn within(centre: Point3<f64>, half_size: [f64; 3], step: f64) -> BoxGrid {
+    /// The box of pitch `step` (m) about the origin of `base_from_centre`, along its axes, that reaches as far as it can
+    /// within `half_size` (m).
+    pub fn within(base_from_centre: &Isometry, half_size: [f64; 3], step: f64) -> BoxGrid {
         let steps = half_size.map(|half| (half / step + 1e-9).floor());
-        let corner = Vector3::from(steps) * step;
+        let centre_from_corner = Translation3::from(Vector3::from(steps) * -step);
         BoxGrid {
-            origin: centre - corner,
+            base_from_box: base_from_centre * centre_from_corner,
             counts: steps.map(|n| 2 * n as usize + 1),
             step,
         }
@@ -45,7 +46,12 @@ impl BoxGrid {
     pub fn point(&self, index: usize) -> Point3<f64> {
         let [nx, ny, _] = self.counts;
         let (x, y, z) = (index % nx, index / nx % ny, index / (nx * ny));
-        self.origin + Vector3::new(x as f64, y as f64, z as f64) * self.step
+        self.base_from_box * Point3::from(Vector3::new(x as f64, y as f64, z as f64) * self.step)
+    }
+
+    /// The corner with the least coordinates, m, base.
+    pub fn corner(&self) -> Point3<f64> {
+        self.base_from_box.translation.vector.into()
     }
 }
 
@@ -94,10 +100,23 @@ mod tests {
 
     #[test]
     fn box_points_run_along_x_first_from_the_least_corner() {
-        let grid = BoxGrid::within(Point3::new(1.0, 0.0, 0.5), [0.2, 0.1, 0.1], 0.1);
+        let grid = BoxGrid::within(&Isometry::translation(1.0, 0.0, 0.5), [0.2, 0.1, 0.1], 0.1);
         assert_eq!(grid.counts, [5, 3, 3]);
         assert!((grid.point(0) - Point3::new(0.8, -0.1, 0.4)).norm() < 1e-15);
         assert!((grid.point(1) - Point3::new(0.9, -0.1, 0.4)).norm() < 1e-15);
         assert!((grid.point(44) - Point3::new(1.2, 0.1, 0.6)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_box_stands_along_the_axes_of_its_centre() {
+        let turned = Isometry::new(Vector3::new(1.0, 0.2, 0.5), Vector3::new(0.3, -0.2, 0.5));
+        let (grid, straight) = (
+            BoxGrid::within(&turned, [0.2, 0.1, 0.1], 0.1),
+            BoxGrid::within(&Isometry::identity(), [0.2, 0.1, 0.1], 0.1),
+        );
+        for index in 0..grid.len() {
+            assert!((grid.point(index) - turned * straight.point(index)).norm() < 1e-15);
+        }
+        assert_eq!(grid.corner(), grid.point(0));
     }
 }

@@ -32,3 +32,67 @@ pub fn worst_points(track: &Track, answers: &Answers, most: usize) -> Vec<usize>
     }
     kept
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point2, Point3, Vector3};
+
+    use super::*;
+    use crate::kernel::Held;
+    use crate::path::{Placing, Shape};
+    use crate::robot::{Branch, PostureName, Unreachable};
+    use crate::workpiece::Plane;
+
+    /// A line of 1 m with a point every millimetre, and the deviation of each of its points; none is not reached.
+    fn answered(in_plane: impl Fn(usize) -> Option<f64>) -> (Track, Answers) {
+        let line = Shape::Polyline(vec![Point2::origin(), Point2::new(1.0, 0.0)]);
+        let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.8), 0.0);
+        let track = Track {
+            path: line.sampled(1e-3),
+            placing: Placing::on_plane(&plane),
+            base_from_part: plane.base_from_part,
+        };
+        let held = |in_plane| Held {
+            name: PostureName::Branch(Branch::ALL[0]),
+            limit_margin: 1.0,
+            limit_joint: 0,
+            singularity: None,
+            deciding_case: 0,
+            in_plane,
+            in_plane_uncertainty: 0.0,
+            normal: 0.0,
+            full: in_plane,
+        };
+        let point = |i| in_plane(i).map(held).ok_or(Unreachable::TooFar { by: 1.0 });
+        let answers = Answers {
+            points: (0..track.len()).map(point).collect(),
+            joints: Vec::new(),
+            deviations: vec![Vector3::zeros(); track.len()],
+            shares: Vec::new(),
+            joint_count: 0,
+            case_count: 1,
+            share_count: 0,
+        };
+        (track, answers)
+    }
+
+    #[test]
+    fn each_worst_point_is_a_tenth_of_the_path_from_those_before() {
+        // It rises to the end: the last point, then those 100 mm before.
+        let (track, answers) = answered(|i| Some(i as f64));
+        let worst = worst_points(&track, &answers, 4);
+        assert_eq!(worst[0], 1000);
+        for pair in worst.windows(2) {
+            assert!((99..=101).contains(&(pair[0] - pair[1])), "{worst:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_not_reached_is_not_the_worst_and_fewer_may_be_found_than_wanted() {
+        let (track, answers) = answered(|i| (450..550).contains(&i).then_some(1.0));
+        // Of equal ones the first; no other stands a tenth of the path away from it.
+        assert_eq!(worst_points(&track, &answers, 5), [450]);
+        let (track, answers) = answered(|_| None);
+        assert!(worst_points(&track, &answers, 5).is_empty());
+    }
+}

@@ -27,7 +27,7 @@ use serde::Serialize;
 
 use crate::file::path::{Cut, PathAsk};
 use crate::file::resolve::{Study, Subject};
-use crate::parts::left_out;
+use crate::model_words::left_out;
 use crate::run::{Done, Found, Section};
 
 /// The whole answer.
@@ -122,10 +122,10 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
         armill: env!("CARGO_PKG_VERSION"),
         title: study.title.clone(),
         question: study.question.clone(),
-        answer: sentence::answer(study, &maps, &paths),
+        answer: sentence::answer(study, &maps, &paths, &volumes),
         robot: robot_answer(study),
         statements: statement::answers(study, &maps, &paths),
-        warnings: warnings(study, &maps, &paths),
+        warnings: warnings(study, &maps, &paths, &volumes),
         maps,
         paths,
         volumes,
@@ -191,7 +191,15 @@ fn sources(study: &Study) -> Vec<Source> {
             .iter()
             .map(|of_study| own("compliance", &of_study.source)),
     );
-    sources.extend(study.load_source.iter().map(|source| own("load", source)));
+    for setting in study.settings() {
+        let of_load = setting.load_source.iter().map(|source| own("load", source));
+        let of_tool = setting.tool_sources.iter().map(|source| own("tool", source));
+        for source in of_load.chain(of_tool) {
+            if !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+    }
     let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
         Subject::Path(path) => Some(path),
         _ => None,
@@ -213,7 +221,12 @@ fn sources(study: &Study) -> Vec<Source> {
     sources
 }
 
-fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> Vec<String> {
+fn warnings(
+    study: &Study,
+    maps: &[MapAnswer],
+    paths: &[PathAnswer],
+    volumes: &[VolumeAnswer],
+) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
     for (i, joint) in study.robot.joints.iter().enumerate() {
@@ -237,6 +250,12 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> Vec<Stri
                 map.name, map.outside_joint_limits, map.grid.points, map.branch
             ));
         }
+    }
+    for volume in volumes.iter().filter(|volume| volume.worst.is_none()) {
+        warnings.push(format!(
+            "{}: no point of the box has a posture; are its coordinates in mm, and counted from {}?",
+            volume.name, volume.setting.base
+        ));
     }
     warnings.extend(paths.iter().flat_map(cautions::of_path));
     for ask in &study.asks {

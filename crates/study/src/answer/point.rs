@@ -8,7 +8,7 @@ use armill_core::workpiece::Plane;
 use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
-use crate::parts::parts;
+use crate::model_words::parts;
 
 /// What all points of an ask share. Positions count from the frame `base`.
 #[derive(Clone, Debug, Serialize)]
@@ -29,12 +29,14 @@ pub struct SettingAnswer {
     pub cases_n: Vec<[f64; 3]>,
     /// Moments on the tool at the TCP, one a case.
     pub moments_n_m: Vec<[f64; 3]>,
+    /// Where the load comes from, in the user's words.
+    pub load_source: Option<String>,
     /// Standard uncertainty of the size of the load.
     pub load_u_percent: f64,
     /// Standard uncertainties of the force along three directions: vectors so long, base axes.
     pub load_u_n: [[f64; 3]; 3],
     /// Standard uncertainty of the place of the TCP along the tool axis.
-    pub tool_u_length_mm: f64,
+    pub tool_length_u_mm: f64,
     /// The tolerance.
     pub limit_um: f64,
     /// Parts of the stiffness model that were on.
@@ -62,9 +64,10 @@ impl SettingAnswer {
             load_frame: if turns { "feed" } else { crate::BASE_LINK },
             cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
+            load_source: setting.load_source.clone(),
             load_u_percent: tidy(setting.doubt.relative * 100.0),
             load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
-            tool_u_length_mm: tidy(setting.doubt.tool_length * 1e3),
+            tool_length_u_mm: tidy(setting.doubt.tool_length * 1e3),
             limit_um: tidy(setting.limit * 1e6),
             model: parts(robot, &setting.model),
             shares_of: setting.model.sharer_names(robot.joints()),

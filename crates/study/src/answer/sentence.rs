@@ -3,25 +3,49 @@
 use super::map::MapAnswer;
 use super::path::PathAnswer;
 use super::point::PointAnswer;
-use crate::file::resolve::Study;
+use super::volume::VolumeAnswer;
+use crate::file::resolve::{Study, Subject};
 
 /// The answer to the first thing that was asked.
-pub(super) fn answer(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> String {
-    let first_is_path = study
-        .asks
-        .first()
-        .is_some_and(|ask| paths.first().is_some_and(|path| path.name == ask.name));
-    let sentence = if first_is_path {
-        paths.first().map(|p| of_path(study, p))
-    } else {
-        maps.first().map(|m| of_map(study, m))
-    };
-    let sentence = sentence.unwrap_or_else(|| "Nothing was asked of a plane or a path.".to_owned());
+pub(super) fn answer(
+    study: &Study,
+    maps: &[MapAnswer],
+    paths: &[PathAnswer],
+    volumes: &[VolumeAnswer],
+) -> String {
+    let first = study.asks.first().and_then(|ask| match ask.subject {
+        Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
+        Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
+        Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
+    });
+    let sentence = first.unwrap_or_else(|| "Nothing was asked.".to_owned());
     if study.compliance_is_assumed() {
         sentence + " The joint compliances are assumed, not measured."
     } else {
         sentence
     }
+}
+
+fn of_volume(study: &Study, volume: &VolumeAnswer) -> String {
+    let Some(worst) = &volume.worst else {
+        return format!(
+            "The robot reaches no point of the box ({}, branch {}).",
+            volume.name, volume.branch
+        );
+    };
+    format!(
+        "{}, branch {}: {:.1} % of the box holds {} µm; the in-plane deviation goes up to {} ± {} µm at ({:.0}, {:.0}, {:.0}) mm, mostly by {}.",
+        volume.name,
+        volume.branch,
+        volume.fraction_within * 100.0,
+        micrometres(volume.setting.limit_um),
+        micrometres(worst.in_plane_um),
+        micrometres(worst.in_plane_u_um),
+        worst.xyz_mm[0],
+        worst.xyz_mm[1],
+        worst.xyz_mm[2],
+        culprit(study, worst, &volume.setting.shares_of),
+    )
 }
 
 fn of_map(study: &Study, map: &MapAnswer) -> String {

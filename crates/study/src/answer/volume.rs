@@ -22,7 +22,7 @@ pub struct VolumeAnswer {
     pub volume_within_mm3: f64,
     /// Points by reason; they add up to all points.
     pub counts: CountsAnswer,
-    /// Points along base x, y, z.
+    /// Points along x, y, z of the frame that positions count from.
     pub point_counts: [usize; 3],
     /// Pitch.
     pub step_mm: f64,
@@ -56,7 +56,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &Volu
         point_counts: volume.grid.counts,
         step_mm: volume.grid.step * 1e3,
         origin_mm: setting
-            .counted(&volume.grid.origin)
+            .counted(&volume.grid.corner())
             .coords
             .map(|c| super::point::tidy(c * 1e3))
             .into(),

@@ -6,12 +6,12 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
 use armill_core::load::{Doubt, LoadCases, LoadFrame};
 use armill_core::map::BoxGrid;
-use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::nalgebra::{Translation3, Vector3};
 use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
-use super::format::{AskKind, AskTable, LoadFrameName, PlaneTable, PostureTable, StudyFile};
+use super::format::{AskKind, AskTable, LoadFrameName, PlaneTable, PostureTable, StudyFile, ToolTable};
 use super::memory;
 use super::path::{self, Push};
 use super::places::Places;
@@ -72,7 +72,8 @@ impl Resolver<'_> {
                 let table = (self.table, plane.step_mm);
                 let path = path::resolve(places, table, self.folder, (setting, push))?;
                 path.and_then(|path| {
-                    self.enough_memory(places, "step_mm", path.track.len() as f64, &path.setting)?;
+                    let of = (self.robot?, &path.setting, path.load.case_count());
+                    memory::check_points(places, "step_mm", path.track.len() as f64, of)?;
                     Some(Subject::Path(Box::new(path)))
                 })
             }
@@ -158,7 +159,7 @@ impl Resolver<'_> {
         let (model, load) = (model?, load?);
         let doubt = Doubt {
             relative: given.and_then(|load| load.u_percent).unwrap_or(0.0) / 100.0,
-            tool_length: tool.and_then(|t| t.u_length_mm).unwrap_or(0.0) * 1e-3,
+            tool_length: tool.and_then(|t| t.length_u_mm).unwrap_or(0.0) * 1e-3,
             ..Doubt::NONE
         };
         let u_n = given.and_then(|load| load.u_n).unwrap_or_default();
@@ -176,6 +177,8 @@ impl Resolver<'_> {
             tilt,
             load,
             cases,
+            load_source: given.and_then(|load| load.source.clone()),
+            tool_sources: tool.map_or_else(Vec::new, ToolTable::sources),
             doubt,
             limit,
             choice,
@@ -204,7 +207,7 @@ impl Resolver<'_> {
         let words = words.map_or("nominal", String::as_str);
         let choice = match self.robot {
             Some(found) => crate::branch_choice_of(&found.robot, words),
-            None => crate::branch_choice(words, BranchPattern::FRONT_ELBOW_UP),
+            None => crate::naming::branch_choice(words, BranchPattern::FRONT_ELBOW_UP),
         };
         let tell = |message| places.problem("posture.branch", message, "or write `nominal` or `best`");
         choice.map_err(tell).ok()
@@ -294,13 +297,18 @@ impl Resolver<'_> {
         let step = positive(places, "box.step_mm", table.step_mm);
         let (half_size, step, setting) = (half_size?, step?, setting?);
         let centre = table.centre_mm.unwrap_or_else(|| self.plane_table().centre_mm);
-        let centre = setting.base_from_counted * Point3::from(Vector3::from(centre) * 1e-3);
+        // The sides of the box go along the axes that its centre is told in.
+        let base_from_centre = setting.base_from_counted * Translation3::from(Vector3::from(centre) * 1e-3);
         let points: f64 = half_size
             .iter()
             .map(|half| 2.0 * (half / step).floor() + 1.0)
             .product();
         self.enough_memory(places, "box.step_mm", points, &setting)?;
-        let grid = BoxGrid::within(centre, [half_size[0], half_size[1], half_size[2]], step);
+        let grid = BoxGrid::within(
+            &base_from_centre,
+            [half_size[0], half_size[1], half_size[2]],
+            step,
+        );
         Some(Subject::Volume(setting, grid))
     }
 
@@ -311,6 +319,6 @@ impl Resolver<'_> {
         points: f64,
         setting: &Setting,
     ) -> Option<()> {
-        memory::check_points(places, path, points, (self.robot?, setting))
+        memory::check_points(places, path, points, (self.robot?, setting, setting.cases.len()))
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! In-plane coordinates are the paper's y' (along base y on a tilted plane) and z', from the plane's centre.
 
+use armill_core::load::LoadFrame;
 use armill_formats::robot::structure::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -99,7 +100,7 @@ pub struct ToolTable {
     pub flange_from_tool_mm_deg: [f64; 6],
     /// Standard uncertainty of the place of the TCP along the tool axis.
     #[schemars(range(min = 0.0, max = 1e3))]
-    pub u_length_mm: Option<f64>,
+    pub length_u_mm: Option<f64>,
     /// How far the cutter sticks out of its holder; it then bends like a clamped bar.
     #[schemars(range(min = 0.01, max = 1e4))]
     pub stick_out_mm: Option<f64>,
@@ -224,6 +225,26 @@ pub enum LoadFrameName {
     Feed,
 }
 
+impl LoadFrameName {
+    /// As the core knows it.
+    pub(crate) fn frame(self) -> LoadFrame {
+        match self {
+            LoadFrameName::Base => LoadFrame::Base,
+            LoadFrameName::Part => LoadFrame::Part,
+            LoadFrameName::Feed => LoadFrame::Feed,
+        }
+    }
+
+    /// As the study calls it.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            LoadFrameName::Base => "base",
+            LoadFrameName::Part => "part",
+            LoadFrameName::Feed => "feed",
+        }
+    }
+}
+
 /// How the arm stands.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -299,14 +320,14 @@ pub struct AskTable {
     pub program: Option<ProgramTable>,
 }
 
-/// A box of points along the base axes.
+/// A box of points along the axes of the frame that the study counts from.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxTable {
     /// Centre; that of the plane if left out.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub centre_mm: Option<[f64; 3]>,
-    /// Half the sides along base x, y, z.
+    /// Half the sides along x, y, z.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub half_size_mm: [f64; 3],
     /// Pitch.

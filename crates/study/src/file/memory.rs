@@ -15,14 +15,14 @@ pub(super) const BYTES_BESIDE: usize = 256;
 
 const HINT: &str = "a larger step, or a smaller plane";
 
-/// Whether `points` of this setting fit; a problem at `path` if not.
+/// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
 pub(super) fn check_points(
     places: &mut Places<'_>,
     path: &str,
     points: f64,
-    (robot, setting): (&RobotDescription, &Setting),
+    (robot, setting, cases): (&RobotDescription, &Setting, usize),
 ) -> Option<()> {
-    let bytes = points * bytes_per_point(robot, setting);
+    let bytes = points * bytes_per_point(robot, setting, cases);
     if bytes <= MOST_BYTES {
         return Some(());
     }
@@ -34,7 +34,7 @@ pub(super) fn check_points(
 
 /// A problem if all asks do not fit together: their answers are held at once.
 pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks: &[Ask]) {
-    let of = |setting: &Setting, points: f64| points * bytes_per_point(robot, setting);
+    let of = |setting: &Setting, points: f64| points * bytes_per_point(robot, setting, setting.cases.len());
     let of_ask = |ask: &Ask| match &ask.subject {
         Subject::Map(sheet) => of(&sheet.setting, sheet.grid.len() as f64),
         Subject::Sections(all) => all
@@ -42,7 +42,10 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
             .map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64))
             .sum(),
         Subject::Volume(setting, grid) => of(setting, grid.len() as f64),
-        Subject::Path(path) => of(&path.setting, path.track.len() as f64),
+        Subject::Path(path) => {
+            let cases = path.load.case_count();
+            path.track.len() as f64 * bytes_per_point(robot, &path.setting, cases)
+        }
     };
     let bytes: f64 = asks.iter().map(of_ask).sum();
     if bytes > MOST_BYTES {
@@ -52,8 +55,8 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
     }
 }
 
-fn bytes_per_point(robot: &RobotDescription, setting: &Setting) -> f64 {
+fn bytes_per_point(robot: &RobotDescription, setting: &Setting, cases: usize) -> f64 {
     let joints = robot.robot.joints().len();
     let shares = setting.model.sharers(joints).len();
-    (Answers::bytes_per_point(joints, shares, setting.cases.len()) + BYTES_BESIDE) as f64
+    (Answers::bytes_per_point(joints, shares, cases) + BYTES_BESIDE) as f64
 }

@@ -12,8 +12,9 @@ use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::tool_on;
 use armill_core::robot::jacobian::screws_at;
 use armill_core::robot::model::NamedFrame;
-use armill_core::robot::{Robot, Seat, Spring};
+use armill_core::robot::{Seat, Spring};
 use armill_core::spatial::Twist;
+use armill_formats::robot::{RobotDescription, Source};
 
 use super::format::PositionerTable;
 use super::places::Places;
@@ -25,7 +26,8 @@ use crate::robots;
 /// What its table is called where coordinates count from it.
 pub const TABLE: &str = "table";
 
-/// `robot` with the table of this positioner as a frame, and its joints as springs; unchanged where something is wrong.
+/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where something
+/// is wrong.
 ///
 /// # Errors
 /// The problems of the positioner's file.
@@ -33,13 +35,14 @@ pub(super) fn beside(
     places: &mut Places<'_>,
     table: &PositionerTable,
     folder: &Path,
-    robot: Robot,
-) -> Result<Robot, StudyError> {
+    mut found: RobotDescription,
+) -> Result<RobotDescription, StudyError> {
+    let robot = &found.robot;
     let described = match robots::find(&table.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
             places.problem("positioner.robot", message, &hint);
-            return Ok(robot);
+            return Ok(found);
         }
         Err(problems) => return Err(problems),
     };
@@ -47,7 +50,7 @@ pub(super) fn beside(
         Ok(q) => q,
         Err(StudyError::Value { message, hint }) => {
             places.problem("positioner.joints_deg", message, &hint);
-            return Ok(robot);
+            return Ok(found);
         }
         Err(problems) => return Err(problems),
     };
@@ -94,6 +97,19 @@ pub(super) fn beside(
                 compliance: *compliance,
             }));
     }
-    let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-    robot.with_frames(all).with_structure(structure).map_err(refused)
+    let refused = |error: armill_core::robot::RobotError| {
+        StudyError::value(
+            error.to_string(),
+            "see the positioner's file, and where it stands",
+        )
+    };
+    let beside = robot.clone().with_frames(all).with_structure(structure);
+    found.robot = beside.map_err(refused)?;
+    found
+        .sources
+        .extend(described.sources.into_iter().map(|source| Source {
+            key: format!("positioner:{}", source.key),
+            ..source
+        }));
+    Ok(found)
 }

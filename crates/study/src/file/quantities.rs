@@ -121,13 +121,8 @@ pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<L
         force: (*f).into(),
         moment: m.into(),
     });
-    let frame = match table.frame {
-        None | Some(LoadFrameName::Base) => LoadFrame::Base,
-        Some(LoadFrameName::Part) => LoadFrame::Part,
-        Some(LoadFrameName::Feed) => LoadFrame::Feed,
-    };
     Some(LoadCases {
-        frame,
+        frame: table.frame.map_or(LoadFrame::Base, LoadFrameName::frame),
         cases: cases.collect(),
     })
 }

@@ -36,8 +36,6 @@ pub struct Study {
     pub robot: RobotDescription,
     /// Compliances that the study brings.
     pub own_compliance: Option<OwnCompliance>,
-    /// Where the load comes from.
-    pub load_source: Option<String>,
     /// What is asked.
     pub asks: Vec<Ask>,
     /// What others state.
@@ -113,6 +111,10 @@ pub struct Setting {
     pub load: LoadCases,
     /// The same in base; of a load that turns with the feed as if that went along x of the part.
     pub cases: Vec<Wrench>,
+    /// Where the load comes from, in the user's words.
+    pub load_source: Option<String>,
+    /// Where springs and masses of the tool come from, likewise.
+    pub tool_sources: Vec<String>,
     /// How sure load and tool are.
     pub doubt: Doubt,
     /// The tolerance, m.
@@ -202,7 +204,6 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
             .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
         question: file.question,
         own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
-        load_source: file.load.and_then(|load| load.source),
         robot,
         asks,
         statements: file.statement,
@@ -249,7 +250,12 @@ fn find_robot(
     }
     let own = compliance::of_study(places, file, &found.robot)?;
     if let Some(joints) = own {
-        let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
+        let refused = |error: armill_core::robot::RobotError| {
+            StudyError::value(
+                error.to_string(),
+                "one compliance for each joint of the robot, 0 for a rigid one",
+            )
+        };
         // Curves and covariance of the robot file were of other compliances.
         let mut structure = found.robot.structure().clone();
         structure.curves.clear();
@@ -260,7 +266,7 @@ fn find_robot(
             .map_err(refused)?;
     }
     if let Some(table) = &file.positioner {
-        found.robot = positioner::beside(places, table, folder, found.robot)?;
+        found = positioner::beside(places, table, folder, found)?;
     }
     Ok(Some(found))
 }

@@ -33,6 +33,21 @@ pub(super) fn model(
     })
 }
 
+impl ToolTable {
+    /// Where its springs and masses come from, each once.
+    pub(super) fn sources(&self) -> Vec<String> {
+        let of_springs = self.spring.iter().map(|spring| &spring.source);
+        let all = of_springs.chain(self.mass.iter().map(|mass| &mass.source));
+        let mut sources: Vec<String> = Vec::new();
+        for source in all {
+            if !sources.contains(source) {
+                sources.push(source.clone());
+            }
+        }
+        sources
+    }
+}
+
 fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     let mut tell = |path: String, fault: Fault| {

@@ -14,7 +14,6 @@ use super::arm::arm_posture;
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::{axes, base_y, subtitle};
 use crate::answer::PathAnswer;
-use crate::file::format::LoadFrameName;
 use crate::file::path::{MeasuredForces, PathAsk};
 use crate::file::resolve::{Setting, Study};
 use crate::run::PathFound;
@@ -306,11 +305,7 @@ impl Drawing<'_> {
 
     /// The record with begin and end of the program.
     fn forces(&self, measured: &MeasuredForces) -> Picture {
-        let axes = match measured.table.frame {
-            LoadFrameName::Base => "base",
-            LoadFrameName::Part => "part",
-            LoadFrameName::Feed => "feed",
-        };
+        let axes = measured.table.frame.word();
         let mut subtitle = format!("{}; force on the tool, {axes} axes", measured.table.file);
         if let Some(hz) = measured.table.low_pass_hz {
             let _ = write!(subtitle, "; low-pass {hz} Hz");

@@ -221,7 +221,7 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
     let [nx, ny, nz] = volume.grid.counts;
     let count = nx.min(SLICES);
     let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
-    let origin = setting.counted(&volume.grid.origin) * 1e3;
+    let origin = setting.counted(&volume.grid.corner()) * 1e3;
     let step = volume.grid.step * 1e3;
     let panels = chosen.map(|i| {
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
@@ -243,13 +243,17 @@ pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Pictu
             },
         }
     });
+    let frame = match setting.base_name.as_str() {
+        crate::BASE_LINK => "base",
+        name => name,
+    };
     let axes = AxisLabels {
-        horizontal: "base y (mm)".to_owned(),
-        vertical: "base z (mm)".to_owned(),
+        horizontal: format!("{frame} y (mm)"),
+        vertical: format!("{frame} z (mm)"),
     };
     let mut picture = sheet(name, panels.collect(), setting, axes);
     picture.caption = format!(
-        "{name}: slices of the box across base x; above the in-plane deviation, below the region within {:.0} µm.",
+        "{name}: slices of the box across {frame} x; above the in-plane deviation, below the region within {:.0} µm.",
         setting.limit * 1e6
     );
     picture

@@ -89,7 +89,7 @@ pub(super) fn files(
         Found::Volume(setting, volume) => {
             let mm = |v: armill_core::nalgebra::Point3<f64>| v.coords.map(|c| c * 1e3).into();
             let step = volume.grid.step * 1e3;
-            let origin = mm(setting.counted(&volume.grid.origin));
+            let origin = mm(setting.counted(&volume.grid.corner()));
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
             save(IMAGE, &write_image(&image))
         }

@@ -2,9 +2,8 @@
 
 use serde::Serialize;
 
-use crate::file::format::LoadFrameName;
 use crate::file::path::MeasuredForces;
-use crate::file::path::measured::{ActsOnName, SynchroniseName, ValueName};
+use crate::file::path::measured::{ActsOnName, SynchroniseName};
 use crate::forces::DriftAnswer;
 
 /// The record that forces come from.
@@ -20,15 +19,13 @@ pub struct MeasuredAnswer {
     pub frame: &'static str,
     /// By what angle it is turned about z of them.
     pub sensor_turned_deg: f64,
-    /// What of each turn is the load: `mean` or `extremes`.
-    pub value: &'static str,
     /// First and last instant of the record.
     pub record_s: [f64; 2],
     /// Time in the record at which the first cut of the program begins.
-    pub lag_s: f64,
+    pub start_s: f64,
     /// Time in the record at which the last cut ends.
     pub end_s: f64,
-    /// How the begin was found: `told`, `start` or `predicted`.
+    /// How the begin was found: `told`, `threshold` or `predicted`.
     pub synchronised: &'static str,
     /// How like the prediction the record is there, to 1; none without prediction.
     // unit: 1
@@ -45,14 +42,13 @@ pub struct MeasuredAnswer {
     pub samples_used: usize,
     /// Largest force along the program.
     pub largest_n: f64,
-    /// Largest force within a turn, where extremes are a load case.
-    pub largest_of_turns_n: Option<f64>,
+    /// Largest force within a turn, where that is a load case.
+    pub largest_peak_n: Option<f64>,
 }
 
 impl MeasuredAnswer {
     pub(super) fn of(measured: &MeasuredForces) -> MeasuredAnswer {
         let (table, treated) = (&measured.table, &measured.treated);
-        let extremes = table.value == Some(ValueName::Extremes);
         MeasuredAnswer {
             file: table.file.clone(),
             format: measured.format,
@@ -60,19 +56,14 @@ impl MeasuredAnswer {
                 ActsOnName::Tool => "tool",
                 ActsOnName::Part => "part",
             },
-            frame: match table.frame {
-                LoadFrameName::Base => "base",
-                LoadFrameName::Part => "part",
-                LoadFrameName::Feed => "feed",
-            },
+            frame: table.frame.word(),
             sensor_turned_deg: table.sensor_turned_deg.unwrap_or(0.0),
-            value: if extremes { "extremes" } else { "mean" },
             record_s: [treated.before.begin(), treated.before.end()],
-            lag_s: measured.program[0],
+            start_s: measured.program[0],
             end_s: measured.program[1],
             synchronised: match table.synchronise {
                 None => "told",
-                Some(SynchroniseName::Start) => "start",
+                Some(SynchroniseName::Threshold) => "threshold",
                 Some(SynchroniseName::Predicted) => "predicted",
             },
             likeness: measured.lag.map(|lag| lag.likeness),
@@ -85,7 +76,7 @@ impl MeasuredAnswer {
             spindle_rpm: table.spindle_rpm,
             samples_used: measured.samples(),
             largest_n: measured.largest[0],
-            largest_of_turns_n: extremes.then_some(measured.largest[1]),
+            largest_peak_n: table.peak.then_some(measured.largest[1]),
         }
     }
 }

@@ -34,14 +34,13 @@ pub struct CutTable {
     pub side: SideName,
     /// Feed where the program does not tell it.
     #[schemars(range(min = 0.0, max = 1e6))]
-    // unit: mm/min
-    pub feed_mm_min: Option<f64>,
+    pub feed_mm_per_min: Option<f64>,
     /// Speed of the spindle where the program does not tell it; clockwise.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
     /// Whether the greatest force of a revolution is a second load case, beside the mean.
     #[serde(default)]
-    pub greatest: bool,
+    pub peak: bool,
     /// Kienzle: radial over cutting force, and its standard uncertainty.
     pub radial_ratio: Option<[f64; 2]>,
     /// Kienzle: axial over cutting force, positive as a right-hand helix makes it, and its standard uncertainty.
@@ -172,14 +171,14 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &CutTable) -> Option<Cut> 
             depth: table.axial_depth_mm * 1e-3,
             immersion,
             feed: table
-                .feed_mm_min
+                .feed_mm_per_min
                 .filter(|feed| *feed > 0.0)
                 .map(|feed| feed * 1e-3 / 60.0),
             spindle: table
                 .spindle_rpm
                 .filter(|speed| *speed > 0.0)
                 .map(|speed| speed * TAU / 60.0),
-            greatest: if table.greatest {
+            greatest: if table.peak {
                 Greatest::SecondCase
             } else {
                 Greatest::LeftOut

@@ -24,8 +24,7 @@ pub struct DrillTable {
     pub point_deg: Option<f64>,
     /// Feed where the program does not tell it.
     #[schemars(range(min = 0.0, max = 1e6))]
-    // unit: mm/min
-    pub feed_mm_min: Option<f64>,
+    pub feed_mm_per_min: Option<f64>,
     /// Speed of the spindle where the program does not tell it.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
@@ -88,7 +87,7 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &DrillTable) -> Option<Dri
             point_angle: table.point_deg.unwrap_or(POINT_DEG).to_radians(),
             law,
             feed: table
-                .feed_mm_min
+                .feed_mm_per_min
                 .filter(|feed| *feed > 0.0)
                 .map(|feed| feed * 1e-3 / 60.0),
             spindle: table.spindle_rpm.map(|speed| speed * TAU / 60.0),

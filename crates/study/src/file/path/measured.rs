@@ -47,24 +47,23 @@ pub struct MeasuredTable {
     /// Speed of the spindle: forces are then those of whole turns.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub spindle_rpm: Option<f64>,
-    /// What of each turn is the load; its mean if left out.
-    pub value: Option<ValueName>,
+    /// Whether the force of largest size within each turn is a second load case beside its mean.
+    #[serde(default)]
+    pub peak: bool,
     /// Time in the record at which the first cut of the program begins.
     #[schemars(range(min = -1e9, max = 1e9))]
     pub start_s: Option<f64>,
     /// How that time is found, in place of `start_s`.
     pub synchronise: Option<SynchroniseName>,
-    /// For `synchronise = "start"`: the first cut begins where the force is larger for the first time.
+    /// For `synchronise = "threshold"`: the first cut begins where the force is larger for the first time.
     #[schemars(range(min = 0.0, max = 1e9))]
     pub threshold_n: Option<f64>,
     /// Speed of rapids between cuts.
     #[schemars(range(min = 0.0, max = 1e6))]
-    // unit: mm/min
-    pub rapid_mm_min: Option<f64>,
+    pub rapid_mm_per_min: Option<f64>,
     /// Feed where the program does not tell it.
     #[schemars(range(min = 0.0, max = 1e6))]
-    // unit: mm/min
-    pub feed_mm_min: Option<f64>,
+    pub feed_mm_per_min: Option<f64>,
     /// Standard uncertainty of the size of the force; 0 if left out.
     #[schemars(range(min = 0.0, max = 1e3))]
     pub u_percent: Option<f64>,
@@ -90,22 +89,12 @@ pub enum ActsOnName {
     Part,
 }
 
-/// What of each turn of the spindle is the load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub enum ValueName {
-    /// The mean; without a spindle speed the force itself.
-    Mean,
-    /// The mean, and as a second case the force of largest size.
-    Extremes,
-}
-
 /// How the begin of the program is found in the record.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SynchroniseName {
     /// Where the force crosses `threshold_n` for the first time.
-    Start,
+    Threshold,
     /// Where the record is most like the force that `[cut]` predicts.
     Predicted,
 }
@@ -260,15 +249,15 @@ fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
 fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
     let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
-        feed: speed(table.feed_mm_min),
-        rapid: speed(table.rapid_mm_min),
+        feed: speed(table.feed_mm_per_min),
+        rapid: speed(table.rapid_mm_per_min),
     };
     Clock::of(&track.path, speeds).map_err(|error| match error {
-        NoTime::NoFeed { .. } => Refusal::new("feed_mm_min", error.to_string(), "feed_mm_min = 600"),
+        NoTime::NoFeed { .. } => Refusal::new("feed_mm_per_min", error.to_string(), "feed_mm_per_min = 600"),
         NoTime::NoRapid { .. } => Refusal::new(
-            "rapid_mm_min",
+            "rapid_mm_per_min",
             error.to_string(),
-            "rapid_mm_min = 6000: how fast the robot was between the cuts",
+            "rapid_mm_per_min = 6000: how fast the robot was between the cuts",
         ),
     })
 }
@@ -292,9 +281,9 @@ fn start(
         (None, None) => Err(Refusal::new(
             "start_s",
             "nothing tells when the program begins in the record",
-            "start_s = 1.2, or synchronise = \"start\" or \"predicted\"",
+            "start_s = 1.2, or synchronise = \"threshold\" or \"predicted\"",
         )),
-        (None, Some(SynchroniseName::Start)) => {
+        (None, Some(SynchroniseName::Threshold)) => {
             let threshold = table.threshold_n.ok_or_else(|| {
                 let message = "the begin is to be found by a threshold, but there is none";
                 Refusal::new(
@@ -315,7 +304,7 @@ fn start(
                     "[cut] with material, cutter and depths",
                 )
             })?;
-            let hint = "synchronise = \"start\", or start_s";
+            let hint = "synchronise = \"threshold\", or start_s";
             let force = predicted(table, track, cut)?;
             let step = record.step().map_err(|error| refused(error, hint))?;
             let prediction = clock.record(|i| force[i], step, MARGIN * clock.duration());
@@ -337,7 +326,7 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
         .cutting
         .along((points, operations), &track.placing, stock.as_mut(), Watch::NONE);
     let load = along.map_err(|error| {
-        let hint = "the program tells feed and spindle, or cut.feed_mm_min and cut.spindle_rpm do";
+        let hint = "the program tells feed and spindle, or cut.feed_mm_per_min and cut.spindle_rpm do";
         Refusal::new("synchronise", error.to_string(), hint)
     })?;
     let load = PathLoad::Cuts(load.cuts);
@@ -346,21 +335,13 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
     let force = |index: usize| {
         track.wrenches(&load, index, &mut wrenches);
         let in_base = wrenches.first().map_or_else(Vector3::zeros, |mean| mean.force);
-        match frame(table) {
+        match table.frame.frame() {
             LoadFrame::Base => in_base,
             LoadFrame::Part => part_from_base * in_base,
             LoadFrame::Feed => track.base_from_feed(index).inverse() * in_base,
         }
     };
     Ok((0..track.len()).map(force).collect())
-}
-
-fn frame(table: &MeasuredTable) -> LoadFrame {
-    match table.frame {
-        LoadFrameName::Base => LoadFrame::Base,
-        LoadFrameName::Part => LoadFrame::Part,
-        LoadFrameName::Feed => LoadFrame::Feed,
-    }
 }
 
 /// The forces at the points, and the largest of each case, N.
@@ -371,13 +352,10 @@ fn at_points(
     start: f64,
 ) -> Result<(PathLoad, [f64; 2]), Refusal> {
     let turns = treated.turns.as_deref();
-    let cases = match table.value {
-        None | Some(ValueName::Mean) => 1,
-        Some(ValueName::Extremes) => 2,
-    };
-    if cases == 2 && turns.is_none() {
-        let message = "extremes are those of a turn of the spindle, and its speed is not told";
-        return Err(Refusal::new("value", message, "spindle_rpm = 9000"));
+    let cases = if table.peak { 2 } else { 1 };
+    if table.peak && turns.is_none() {
+        let message = "a peak is that of a turn of the spindle, and its speed is not told";
+        return Err(Refusal::new("peak", message, "spindle_rpm = 9000"));
     }
     let mut wrenches = Vec::with_capacity(clock.time().len() * cases);
     let mut largest = [0.0_f64; 2];
@@ -396,7 +374,7 @@ fn at_points(
     }
     let load = PathLoad::OfEach {
         cases,
-        frame: frame(table),
+        frame: table.frame.frame(),
         wrenches,
     };
     Ok((load, largest))

@@ -14,9 +14,10 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         .maps
         .iter()
         .map(|map| &map.setting)
-        .chain(answer.paths.iter().map(|path| &path.setting));
+        .chain(answer.paths.iter().map(|path| &path.setting))
+        .chain(answer.volumes.iter().map(|volume| &volume.setting));
     let first = settings.into_iter().next();
-    inputs.extend(first.into_iter().flat_map(|setting| forces(study, setting)));
+    inputs.extend(first.into_iter().flat_map(|setting| forces(setting)));
     inputs.extend(cut::rows(study, answer));
     inputs.extend(first.into_iter().flat_map(|setting| others(answer, setting)));
     for index in (1..inputs.len()).rev() {
@@ -66,8 +67,8 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     inputs
 }
 
-fn forces(study: &Study, setting: &SettingAnswer) -> Vec<Input> {
-    let source = study.load_source.as_deref().unwrap_or(THE_STUDY);
+fn forces(setting: &SettingAnswer) -> Vec<Input> {
+    let source = setting.load_source.as_deref().unwrap_or(THE_STUDY);
     let force = |(i, force): (usize, &[f64; 3])| {
         let value = format!("({}, {}, {})", force[0], force[1], force[2]);
         input(&format!("force on the tool, case {}", i + 1), value, "N", source)
