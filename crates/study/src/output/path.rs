@@ -107,7 +107,7 @@ impl Drawing<'_> {
             return self.picture("vectors", caption, self.vectors());
         }
         let caption =
-            "the path seen along the z axis of the program, coloured by the deviation across the tool.";
+            "the path seen along its z axis, coloured by the deviation across the tool.";
         self.picture("track", caption, self.track())
     }
 
@@ -142,8 +142,8 @@ impl Drawing<'_> {
             title: self.told.name.clone(),
             subtitle: self.subtitle(),
             axes: AxisLabels {
-                horizontal: "program x (mm)".to_owned(),
-                vertical: "program y (mm)".to_owned(),
+                horizontal: "path x (mm)".to_owned(),
+                vertical: "path y (mm)".to_owned(),
             },
             quantity: "deviation across the tool (µm)".to_owned(),
             limit_um: Some(self.ask.setting.limit * 1e6),
