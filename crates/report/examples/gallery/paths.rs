@@ -1,8 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot,
-    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, VectorField,
+    Arrangement, Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, Marker,
+    MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse,
+    Stretch, TrackMap, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -20,6 +21,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     vec![
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
+        ("track_map", track_map().to_svg()),
         ("process_map", process_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
@@ -54,6 +56,46 @@ fn vector_field() -> VectorField {
             .map(|k| on_circle(turn * f64::from(k) / 128.0))
             .collect(),
         cases: cases.collect(),
+    }
+}
+
+/// Contours of a part and a finer one inside; the arm does not reach one corner.
+fn track_map() -> TrackMap {
+    let turn = std::f64::consts::TAU;
+    let ring = |radius: f64, corners: u32| -> Stretch {
+        let points_mm: Vec<[f64; 2]> = (0..=corners)
+            .map(|k| turn * f64::from(k) / f64::from(corners))
+            .map(|a| {
+                let r = radius * (1.0 + 0.18 * (4.0 * a).cos());
+                [r * a.cos(), 0.7 * r * a.sin()]
+            })
+            .collect();
+        let deviation = |p: &[f64; 2]| {
+            let value = 34.0 + 0.12 * p[0] + 0.002 * p[1].powi(2);
+            if p[0] + p[1] > 225.0 { f64::NAN } else { value }
+        };
+        Stretch {
+            deviation_um: points_mm.iter().map(deviation).collect(),
+            points_mm,
+        }
+    };
+    let marker = |label: &str, at_mm| Marker {
+        at_mm,
+        label: label.to_owned(),
+        kind: MarkerKind::Point,
+    };
+    TrackMap {
+        title: "A part with an island".to_owned(),
+        subtitle: "front elbow-up no-flip, 120 N".to_owned(),
+        axes: AxisLabels {
+            horizontal: "program x (mm)".to_owned(),
+            vertical: "program y (mm)".to_owned(),
+        },
+        quantity: "deviation across the tool (µm)".to_owned(),
+        limit_um: Some(60.0),
+        scale: ColourScale::Viridis,
+        stretches: vec![ring(210.0, 2000), ring(150.0, 400), ring(60.0, 24)],
+        markers: vec![marker("1", [0.0, 120.5]), marker("2", [0.0, -173.5])],
     }
 }
 

@@ -1,9 +1,10 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, Arrangement, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Grid, Overlay,
-    Panel, PathPlot, PointState, PolarPlot, Posture, RadialSeries, RectangleMm, RegionMap, Series, ShareBar,
-    ShareBars, Sheet, StiffnessEllipse, VectorField, View,
+    ArmDrawing, ArmJoint, Arrangement, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope,
+    ForcePlot, ForceTrace, Grid, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState, PolarPlot,
+    Posture, ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars, Sheet,
+    StiffnessEllipse, Stretch, TrackMap, VectorField, View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -172,6 +173,66 @@ pub fn sheet(grids: Vec<Grid>) -> Sheet {
     }
 }
 
+pub fn track(deviation_um: Vec<f64>) -> TrackMap {
+    let marker = |at_mm, kind| Marker {
+        at_mm,
+        label: NASTY.into(),
+        kind,
+    };
+    let at = |k: usize| [10.0 * k as f64, 7.0 * (k % 2) as f64];
+    TrackMap {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        quantity: NASTY.into(),
+        limit_um: Some(50.0),
+        stretches: vec![Stretch {
+            points_mm: (0..deviation_um.len()).map(at).collect(),
+            deviation_um,
+        }],
+        markers: vec![
+            marker([1.0, 2.0], MarkerKind::Point),
+            marker([f64::NAN, 2.0], MarkerKind::Point),
+            marker([9.0, 3.0], MarkerKind::Best),
+        ],
+        ..TrackMap::default()
+    }
+}
+
+pub fn process(deviation_um: Vec<f64>) -> ProcessMap {
+    ProcessMap {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        quantity: NASTY.into(),
+        axes: AxisLabels {
+            horizontal: NASTY.into(),
+            vertical: NASTY.into(),
+        },
+        horizontal: vec![0.05, 0.10, 0.20],
+        vertical: vec![1.0, 3.0],
+        deviation_um,
+        limit_um: 50.0,
+        drawn: Some([0.1, 2.0]),
+    }
+}
+
+pub fn forces(newtons: Vec<f64>) -> ForcePlot {
+    const SPAN_S: [f64; 2] = [0.0, 10.0];
+    let samples = || newtons.iter().enumerate().map(|(k, n)| (k as f64, *n));
+    let trace = |times: f64| ForceTrace {
+        name: NASTY.into(),
+        before: Envelope::of(SPAN_S, samples()),
+        after: Envelope::of(SPAN_S, samples().map(|(time, n)| (time, times * n))),
+    };
+    ForcePlot {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        span_s: SPAN_S,
+        traces: vec![trace(0.5), trace(-1.0)],
+        air_s: vec![[0.0, 1.0], [f64::NAN, 2.0]],
+        marks_s: vec![(0.5, NASTY.into()), (f64::NAN, "never".into())],
+    }
+}
+
 /// One picture of each kind, and the same from input that has nothing to draw.
 pub fn everything() -> Vec<String> {
     let lost = |_: f64, _: f64| PointState::Unreachable;
@@ -229,6 +290,31 @@ pub fn everything() -> Vec<String> {
     ];
     all.extend(rows.iter().map(|r| path_plot(r.clone()).to_svg()));
     all.extend(rows.iter().map(|r| polar(r.clone()).to_svg()));
+    all.extend(rows.iter().map(|r| track(r.clone()).to_svg()));
+    all.extend(rows.iter().map(|r| forces(r.clone()).to_svg()));
+    all.extend(
+        [
+            process(vec![10.0, 20.0, 90.0, 30.0, f64::INFINITY, 400.0]),
+            process(vec![f64::NAN; 6]),
+            process(vec![1.0]),
+            process(vec![7.0; 6]),
+            process(vec![0.0, f64::NAN, 1e300, -1e300, 3.0, 4.0]),
+            ProcessMap {
+                limit_um: f64::NAN,
+                drawn: Some([f64::NAN, 2.0]),
+                ..process(vec![10.0, 20.0, 90.0, 30.0, 40.0, 50.0])
+            },
+            ProcessMap {
+                horizontal: vec![0.05; 3],
+                ..process(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+            },
+            ProcessMap {
+                vertical: vec![1.0, f64::NAN],
+                ..process(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+            },
+        ]
+        .map(|map| map.to_svg()),
+    );
     let arrow = |v: f64| Arrow {
         at_mm: [v, 1.0],
         deviation_um: [v, 3.0],
