@@ -1,9 +1,10 @@
 //! The colour bar of a filled map: one box a band, numbers at the edges, the limit as a line across.
 
 use crate::axis::plain;
-use crate::colour::{ColourScale, INK, LIMIT};
+use crate::colour::{ColourScale, INK};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::levels::Levels;
+use crate::limit;
 use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Rect, Style, Svg, Text};
 
@@ -59,10 +60,9 @@ impl ColourBar<'_> {
         }
         if let Some(l) = limit {
             let (a, b) = ([area.x - 3.0, y(l)], [area.x + BAR_PX + 6.0, y(l)]);
-            svg.line(a, b, &Style::line("#fff", 4.6).opacity(0.9));
-            svg.line(a, b, &Style::line(LIMIT, 2.4));
-            let text = Text::new(SMALL_PX).bold().colour(LIMIT);
-            svg.text([b[0] + 4.0, y(l) + 4.0], &format!("limit {}", plain(l)), &text);
+            svg.line(a, b, &limit::ground_style());
+            svg.line(a, b, &limit::style());
+            svg.text([b[0] + 4.0, y(l) + 4.0], &limit_number(l), &limit::text());
         }
         let lines = self.quantity_lines(area.h);
         for (k, line) in lines.iter().enumerate() {
@@ -88,7 +88,7 @@ impl ColourBar<'_> {
             .map(|v| text_width_px(&self.levels.label(*v), SMALL_PX, Weight::Regular))
             .fold(0.0, f64::max);
         let limit = self.limit_inside().map_or(0.0, |l| {
-            text_width_px(&format!("limit {}", plain(l)), SMALL_PX, Weight::Bold) + 4.0
+            text_width_px(&limit_number(l), SMALL_PX, Weight::Bold) + 4.0
         });
         BAR_PX + 8.0 + numbers.max(limit)
     }
@@ -97,4 +97,9 @@ impl ColourBar<'_> {
         let (low, high) = (self.levels.edge_um.first()?, self.levels.edge_um.last()?);
         self.limit_um.filter(|l| l >= low && l <= high)
     }
+}
+
+/// The limit among the numbers of the bar, whose unit stands in its quantity.
+fn limit_number(limit_um: f64) -> String {
+    format!("limit {}", plain(limit_um))
 }

@@ -4,12 +4,12 @@
 //! `m ± r`, `m = (c11 + c22) / 2`, `r = hypot((c11 - c22) / 2, c12)`, the softer one at `atan2(c12, (c11 - c22) / 2) / 2`.
 //! The reference circle has the compliance m: the same arm, equally soft in all directions.
 
+use crate::arrow::draw_arrow;
 use crate::axis::three_digits;
-use crate::colour::{INK, LIMIT, category};
+use crate::colour::{FAINT, INK, SIGNAL, category};
 use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, overlap, text_box, title_block};
-use crate::plane::{AxisLabels, Marks, Plane, Window};
+use crate::plane::{AxisLabels, Growth, Marks, Plane, Window};
 use crate::svg::{Anchor, Ends, Point, Style, Svg, Text, trace};
-use crate::vector_field::{Growth, draw_arrow};
 
 const MOST_PX: [f64; 2] = [380.0, 380.0];
 const CORNERS: u32 = 180;
@@ -44,10 +44,7 @@ impl StiffnessEllipse {
         }
         let turn_rad = shear.atan2((a - d) / 2.0) / 2.0;
         let half = 1.45 * soft.max(stiff.abs());
-        let (left_mm, right_mm) = match self.growth {
-            Growth::Right => (-half, half),
-            Growth::Left => (half, -half),
-        };
+        let [left_mm, right_mm] = self.growth.ends([-half, half]);
         let window = Window {
             left_mm,
             right_mm,
@@ -61,7 +58,7 @@ impl StiffnessEllipse {
         let top = title_block(&mut svg, &self.title, &self.subtitle, width);
         let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
         let centre = plane.at([0.0, 0.0]);
-        let faint = Style::line("#c9c9c9", 0.9);
+        let faint = Style::line(FAINT, 0.9);
         svg.line([plane.area.x, centre[1]], [plane.area.right(), centre[1]], &faint);
         svg.line(
             [centre[0], plane.area.y],
@@ -84,7 +81,7 @@ impl StiffnessEllipse {
             &Style::line(INK, 1.2).dashed("6 4"),
         );
         let directions = [
-            (soft, turn_rad, LIMIT),
+            (soft, turn_rad, SIGNAL),
             (stiff, turn_rad + std::f64::consts::FRAC_PI_2, category(2)),
         ];
         let mut taken = Vec::new();
@@ -118,7 +115,7 @@ impl StiffnessEllipse {
                 Key::Field(Style::fill("#dbe9f4").outlined(category(0), 1.5)),
                 "deviation under 1 N",
             ),
-            Entry::new(Key::Line(vec![Style::line(LIMIT, 2.0)]), "softest direction"),
+            Entry::new(Key::Line(vec![Style::line(SIGNAL, 2.0)]), "softest direction"),
             Entry::new(
                 Key::Line(vec![Style::line(category(2), 2.0)]),
                 "stiffest direction",

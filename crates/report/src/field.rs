@@ -1,9 +1,10 @@
 //! One field in one plane: bands or region, iso-lines with labels, the limit, and the zones that cannot be used.
 
-use crate::colour::{ColourScale, DOUBTFUL, INK, LIMIT, OVER, WITHIN};
+use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
 use crate::contours::{Lattice, Ring};
 use crate::grid::{Grid, PointState};
 use crate::levels::Levels;
+use crate::limit;
 use crate::line_label::{Labelled, Room, write_labels};
 use crate::page::{Entry, Key};
 use crate::plane::{Plane, Window};
@@ -109,10 +110,10 @@ pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<
             );
         }
         for line in &limit_lines {
-            svg.polyline(line, &Style::line("#fff", 4.6).opacity(0.9));
+            svg.polyline(line, &limit::ground_style());
         }
         for line in &limit_lines {
-            svg.polyline(line, &limit_style());
+            svg.polyline(line, &limit::style());
         }
         if grid.has_unreachable() {
             let fill = svg.hatch(&unreachable_hatch());
@@ -169,11 +170,6 @@ pub(crate) fn window_of(grid: &Grid) -> Window {
     }
 }
 
-/// How the limit is drawn, on maps and in their legends.
-pub(crate) fn limit_style() -> Style {
-    Style::line(LIMIT, 2.4)
-}
-
 /// Legend entries for the zones of these grids that cannot be used.
 pub(crate) fn zone_entries<'a>(
     svg: &mut Svg,
@@ -183,10 +179,7 @@ pub(crate) fn zone_entries<'a>(
     let mut entries = Vec::new();
     let mut add = |svg: &mut Svg, hatch: Hatch, label: &str| {
         let fill = svg.hatch(&hatch);
-        entries.push(Entry::new(
-            Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8)),
-            label,
-        ));
+        entries.push(Entry::new(Key::field(&fill), label));
     };
     if grids.clone().any(Grid::has_unreachable) {
         add(svg, unreachable_hatch(), "out of reach");
@@ -202,7 +195,7 @@ fn unreachable_hatch() -> Hatch {
         turn_deg: 45.0,
         pitch_px: 6.0,
         width_px: 0.8,
-        colour: "#9a9a9a",
+        colour: NOMINAL,
         ground: Some("#fafafa"),
     }
 }
@@ -258,8 +251,8 @@ fn labels_of(
     let limit_um = look.limit_um.unwrap_or(f64::NAN);
     let limit_label = |points: &Vec<Point>| Labelled {
         points: points.clone(),
-        text: format!("limit {} µm", crate::axis::plain(limit_um)),
-        look: Text::new(11.0).bold().colour(LIMIT),
+        text: limit::label(limit_um),
+        look: limit::text(),
     };
     let mut labels: Vec<Labelled> = limit.iter().map(limit_label).collect();
     for (lines, level) in iso.iter().zip(levels) {

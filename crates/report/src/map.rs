@@ -2,13 +2,15 @@
 
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
 use crate::levels::Levels;
+use crate::limit;
 use crate::line_label::points_along;
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, diamond, legend, notice, title_block};
+use crate::marker::{Marker, draw_marker, marker_entries};
+use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
 use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane};
-use crate::svg::{Rect, Style, Svg, Text};
+use crate::svg::{Rect, Style, Svg};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [600.0, 470.0];
@@ -22,27 +24,6 @@ pub struct Overlay {
     pub label: String,
     /// Points in mm: horizontal, vertical.
     pub points_mm: Vec<[f64; 2]>,
-}
-
-/// What a marked point stands for; decides its sign.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MarkerKind {
-    /// A point of interest: a ring.
-    #[default]
-    Point,
-    /// The best point: a filled diamond.
-    Best,
-}
-
-/// A marked point on a map.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marker {
-    /// Horizontal and vertical value in mm.
-    pub at_mm: [f64; 2],
-    /// What is marked, for the legend; markers with the same label share an entry.
-    pub label: String,
-    /// Its sign.
-    pub kind: MarkerKind,
 }
 
 /// What a deviation map shows.
@@ -114,14 +95,8 @@ impl DeviationMap {
         };
         draw_field(&mut svg, &plane, &self.grid, &look);
         let mut entries = zone_entries(&mut svg, std::iter::once(&self.grid), paint);
-        if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
-            let label = format!(
-                "limit {} µm{}",
-                crate::axis::plain(limit),
-                self.where_limit(limit)
-            );
-            entries.insert(0, Entry::new(Key::Line(vec![limit_style()]), label));
-        }
+        let limit = limit::entry_over(self.limit_um, self.grid.values_um());
+        entries.splice(0..0, limit);
         draw_on_top(&mut svg, &plane, self, &mut entries);
         plane.draw_frame(&mut svg, Marks::ALL);
         plane.draw_labels(&mut svg, &self.axes);
@@ -137,15 +112,6 @@ impl DeviationMap {
         let below = plane.area.y + bar_height.max(plane.area.h + BELOW_PX) + 8.0;
         let bottom = legend(&mut svg, &entries, [left, below], width - left - BORDER_PX);
         svg.finish(width, bottom + BORDER_PX, &self.title)
-    }
-
-    /// A remark for a limit that no line shows.
-    fn where_limit(&self, limit: f64) -> &'static str {
-        match crate::axis::extent(self.grid.values_um()) {
-            Some((low, _)) if limit <= low => " (exceeded everywhere)",
-            Some((_, high)) if limit > high => " (kept everywhere)",
-            _ => "",
-        }
     }
 }
 
@@ -177,13 +143,7 @@ fn draw_on_top(svg: &mut Svg, plane: &Plane, map: &DeviationMap, entries: &mut V
             overlay.label.clone(),
         ));
     }
-    let mut named: Vec<&str> = Vec::new();
-    for marker in map.markers.iter().filter(|m| !m.label.is_empty()) {
-        if !named.contains(&marker.label.as_str()) {
-            named.push(&marker.label);
-            entries.push(Entry::new(marker_key(marker.kind), marker.label.clone()));
-        }
-    }
+    entries.extend(marker_entries(&map.markers));
 }
 
 fn computed_style() -> Style {
@@ -195,34 +155,4 @@ fn overlay_styles() -> [Style; 2] {
         Style::line("#fff", 4.0).opacity(0.8),
         Style::line(INK, 1.6).dashed("6 4"),
     ]
-}
-
-fn marker_style(kind: MarkerKind) -> Style {
-    match kind {
-        MarkerKind::Point => Style::fill("#fff").outlined(INK, 1.6),
-        MarkerKind::Best => Style::fill("#E69F00").outlined(INK, 1.2),
-    }
-}
-
-fn marker_key(kind: MarkerKind) -> Key {
-    match kind {
-        MarkerKind::Point => Key::Dot(marker_style(kind)),
-        MarkerKind::Best => Key::Diamond(marker_style(kind)),
-    }
-}
-
-fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
-    if !marker.at_mm.iter().all(|v| v.is_finite()) {
-        return;
-    }
-    let at = plane.at(marker.at_mm);
-    match marker.kind {
-        MarkerKind::Point => svg.circle(at, 3.5, &marker_style(marker.kind)),
-        MarkerKind::Best => svg.polygon(&diamond(at, 7.0), &marker_style(marker.kind)),
-    }
-}
-
-/// A small text at a place on a map, readable on any band.
-pub(crate) fn write_on_map(svg: &mut Svg, at: [f64; 2], content: &str) {
-    svg.text(at, content, &Text::new(SMALL_PX).bold().middle().halo(3.5));
 }

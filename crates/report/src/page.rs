@@ -1,6 +1,6 @@
 //! What every picture has around its drawing: title block, legend, and the picture that says why there is nothing to draw.
 
-use crate::colour::{INK, MUTED};
+use crate::colour::{EMPTY, INK, KEY_EDGE, MUTED};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
@@ -41,6 +41,13 @@ pub(crate) enum Key {
     Dot(Style),
     /// A diamond.
     Diamond(Style),
+}
+
+impl Key {
+    /// A field of the drawing in small, with a thin edge.
+    pub(crate) fn field(fill: &str) -> Self {
+        Self::Field(Style::fill(fill).outlined(KEY_EDGE, 0.8))
+    }
 }
 
 /// One entry of a legend.
@@ -127,7 +134,7 @@ pub(crate) fn notice(title: &str, subtitle: &str, reason: &str) -> String {
         w: width - 2.0 * BORDER_PX,
         h: height,
     };
-    svg.rounded(card, 4.0, &Style::fill("#f6f6f6").outlined("#c4c4c4", 1.0));
+    svg.rounded(card, 4.0, &Style::fill(EMPTY).outlined("#c4c4c4", 1.0));
     for (k, line) in lines.iter().enumerate() {
         let y = top + 38.0 + 18.0 * k as f64;
         svg.text(

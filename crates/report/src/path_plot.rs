@@ -1,12 +1,11 @@
 //! The deviation along a path: one line a load case, their envelope, and the limit.
 
-use crate::axis::plain;
 use crate::chart::{Chart, range, runs};
-use crate::colour::{INK, LIMIT, category};
-use crate::field::limit_style;
+use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
+use crate::limit;
 use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
-use crate::svg::{Rect, Style, Svg, Text};
+use crate::svg::{Rect, Style, Svg};
 
 const AREA_PX: [f64; 2] = [560.0, 300.0];
 
@@ -108,10 +107,9 @@ impl PathPlot {
             self.draw_limit(&mut svg, &chart, limit);
         }
         if let Some(limit) = far_limit {
-            let label = format!("limit {} µm, above this chart", plain(limit));
+            let label = format!("{}, above this chart", limit::label(limit));
             let at = [chart.area.right() - 6.0, chart.area.y + 15.0];
-            let text = Text::new(SMALL_PX).bold().end().colour(LIMIT).halo(3.0);
-            svg.text(at, &label, &text);
+            svg.text(at, &label, &limit::text().end().halo(3.0));
         }
         let mut entries: Vec<Entry> = Vec::new();
         for (k, series) in self.series.iter().enumerate() {
@@ -154,8 +152,8 @@ impl PathPlot {
     /// The limit with its label at the right end, on the side with fewer lines.
     fn draw_limit(&self, svg: &mut Svg, chart: &Chart, limit: f64) {
         let y = chart.at([0.0, limit])[1];
-        svg.line([chart.area.x, y], [chart.area.right(), y], &limit_style());
-        let label = format!("limit {} µm", plain(limit));
+        svg.line([chart.area.x, y], [chart.area.right(), y], &limit::style());
+        let label = limit::label(limit);
         let half = text_width_px(&label, SMALL_PX, Weight::Bold) / 2.0 + 4.0;
         let all: Vec<_> = self
             .series
@@ -179,11 +177,7 @@ impl PathPlot {
             .filter(inside)
             .min_by_key(|p| crowd(p[0], p[1]));
         let at = best.unwrap_or([places[0], y - 6.0]);
-        svg.text(
-            at,
-            &label,
-            &Text::new(SMALL_PX).bold().middle().colour(LIMIT).halo(3.0),
-        );
+        svg.text(at, &label, &limit::text().middle().halo(3.0));
     }
 }
 

@@ -17,6 +17,34 @@ pub struct AxisLabels {
     pub vertical: String,
 }
 
+/// Direction in which an axis grows on the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Growth {
+    /// To the right.
+    #[default]
+    Right,
+    /// To the left, as base y does when seen from the tool side.
+    Left,
+}
+
+impl Growth {
+    /// The two ends of a range as they stand from left to right.
+    pub(crate) fn ends(self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Right => [low, high],
+            Self::Left => [high, low],
+        }
+    }
+
+    /// 1 to the right, -1 to the left.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
+}
+
 /// The part of a plane that is drawn; `left_mm` may be greater than `right_mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Window {

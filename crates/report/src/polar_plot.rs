@@ -2,10 +2,10 @@
 
 use crate::axis::{extent, multiples, nice_step, tick_label};
 use crate::chart::runs;
-use crate::colour::{GRID, INK, MUTED, category};
+use crate::colour::{FAINT, GRID, INK, MUTED, category};
 use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
-use crate::vector_field::Growth;
 
 const RADIUS_PX: f64 = 190.0;
 const WIDTH_PX: f64 = 500.0;
@@ -99,11 +99,10 @@ impl PolarPlot {
 
     fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
-        let across = match self.growth {
-            Growth::Right => 1.0,
-            Growth::Left => -1.0,
-        };
-        [centre[0] + across * radius_px * cos, centre[1] - radius_px * sin]
+        [
+            centre[0] + self.growth.sign() * radius_px * cos,
+            centre[1] - radius_px * sin,
+        ]
     }
 
     fn draw_rings(&self, svg: &mut Svg, centre: Point, rings: (&[f64], f64), radius: impl Fn(f64) -> f64) {
@@ -148,7 +147,7 @@ impl PolarPlot {
             let style = if is_nominal {
                 nominal_style()
             } else {
-                Style::line("#c9c9c9", 0.9)
+                Style::line(FAINT, 0.9)
             };
             svg.circle(centre, radius(*um), &style);
         }

@@ -1,12 +1,12 @@
 //! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut as it stands.
 
-use crate::axis::{extent, plain};
+use crate::axis::extent;
 use crate::chart::Chart;
-use crate::colour::{ColourScale, INK, LIMIT};
+use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
 use crate::contours::{Lattice, Ring};
-use crate::field::limit_style;
 use crate::levels::Levels;
+use crate::limit;
 use crate::line_label::{Labelled, Room, write_labels};
 use crate::page::{BORDER_PX, Entry, Key, diamond, legend, notice, title_block};
 use crate::plane::AxisLabels;
@@ -93,10 +93,7 @@ impl ProcessMap {
             ..chart.area
         };
         bar.draw(&mut svg, bar_area);
-        let mut entries = vec![Entry::new(
-            Key::Line(vec![limit_style()]),
-            format!("limit {} µm: cuts below hold it", plain(self.limit_um)),
-        )];
+        let mut entries = vec![limit::entry(self.limit_um, ": cuts below hold it")];
         if let Some(at) = self.drawn {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
             svg.polygon(&diamond(chart.at(at), 6.0), &style);
@@ -146,11 +143,11 @@ impl ProcessMap {
         }
         for points in lattice.lines_at(&[self.limit_um]).into_iter().flatten() {
             let points = line(&points);
-            svg.polyline(&points, &limit_style());
+            svg.polyline(&points, &limit::style());
             let label = Labelled {
                 points,
-                text: format!("limit {} µm", plain(self.limit_um)),
-                look: Text::new(11.0).bold().colour(LIMIT),
+                text: limit::label(self.limit_um),
+                look: limit::text(),
             };
             labels.insert(0, label);
         }

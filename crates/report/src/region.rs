@@ -2,11 +2,12 @@
 
 use crate::axis::plain;
 use crate::colour::{DOUBTFUL, INK, OVER, WITHIN};
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
 use crate::levels::Levels;
+use crate::limit;
 use crate::line_label::points_under;
-use crate::map::write_on_map;
+use crate::marker::write_on_map;
 use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
 use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane};
 use crate::svg::{Point, Style, Svg};
@@ -116,17 +117,16 @@ impl RegionMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
         let limit = plain(self.limit_um);
         let doubtful = self.is_doubtful();
         let within = if doubtful { "surely within" } else { "within" };
-        let mut entries = vec![Entry::new(field(WITHIN), format!("{within} {limit} µm"))];
+        let mut entries = vec![Entry::new(Key::field(WITHIN), format!("{within} {limit} µm"))];
         if doubtful {
-            entries.push(Entry::new(field(DOUBTFUL), "within the uncertainty (95 %)"));
+            entries.push(Entry::new(Key::field(DOUBTFUL), "within the uncertainty (95 %)"));
         }
         entries.extend([
-            Entry::new(field(OVER), format!("over {limit} µm")),
-            Entry::new(Key::Line(vec![limit_style()]), format!("limit {limit} µm")),
+            Entry::new(Key::field(OVER), format!("over {limit} µm")),
+            limit::entry(self.limit_um, ""),
         ]);
         if self.rectangle.is_some() {
             entries.push(Entry::new(

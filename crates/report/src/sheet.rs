@@ -1,11 +1,12 @@
 //! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one colour bar.
 
-use crate::colour::{ColourScale, MUTED, OVER, WITHIN};
+use crate::colour::{ColourScale, EMPTY, MUTED, OVER, WITHIN};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::grid::Grid;
 use crate::levels::Levels;
+use crate::limit;
 use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
 use crate::plane::{AxisLabels, Marks, Plane, Window};
 use crate::svg::{Rect, Style, Svg, Text};
@@ -145,7 +146,7 @@ impl Sheet {
         let paints = [Paint::Bands(self.scale), Paint::Region];
         for ((plane, paint), marks) in cell.planes.iter().zip(paints).zip(&cell.marks) {
             if let Some(reason) = panel.grid.obstacle() {
-                svg.rect(plane.area, &Style::fill("#f6f6f6"));
+                svg.rect(plane.area, &Style::fill(EMPTY));
                 let lines = wrap(&reason, 10.0, Weight::Regular, plane.area.w - 16.0);
                 for (k, line) in lines.iter().enumerate() {
                     let c = plane.area.centre();
@@ -170,15 +171,11 @@ impl Sheet {
     fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
         let mut entries = Vec::new();
         if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
-            let limit = crate::axis::plain(limit);
-            entries.push(Entry::new(
-                Key::Line(vec![limit_style()]),
-                format!("limit {limit} µm"),
-            ));
+            entries.push(limit::entry(limit, ""));
             if self.has_regions() {
-                let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
-                entries.push(Entry::new(field(WITHIN), format!("within {limit} µm")));
-                entries.push(Entry::new(field(OVER), format!("over {limit} µm")));
+                let limit = crate::axis::plain(limit);
+                entries.push(Entry::new(Key::field(WITHIN), format!("within {limit} µm")));
+                entries.push(Entry::new(Key::field(OVER), format!("over {limit} µm")));
             }
         }
         entries.extend(zone_entries(

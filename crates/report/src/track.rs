@@ -1,10 +1,11 @@
 //! A tool path seen from above, coloured by the deviation along it; where there is no posture it is drawn in grey.
 
-use crate::axis::{extent, plain};
+use crate::axis::extent;
 use crate::colour::{ColourScale, INK, MUTED};
 use crate::colour_bar::ColourBar;
 use crate::levels::Levels;
-use crate::map::{Marker, MarkerKind, write_on_map};
+use crate::limit;
+use crate::marker::{Marker, MarkerKind, write_on_map};
 use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
 use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
 use crate::svg::{Point, Rect, Style, Svg};
@@ -160,19 +161,8 @@ impl TrackMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let mut entries = Vec::new();
         let values = || self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
-        if let (Some(limit), Some((low, high))) = (self.limit_um, extent(values())) {
-            let remark = if limit <= low {
-                " (exceeded everywhere)"
-            } else if limit > high {
-                " (kept everywhere)"
-            } else {
-                ""
-            };
-            let label = format!("limit {} µm{remark}", plain(limit));
-            entries.push(Entry::new(Key::Line(vec![crate::field::limit_style()]), label));
-        }
+        let mut entries: Vec<Entry> = limit::entry_over(self.limit_um, values()).into_iter().collect();
         if values().any(|value| !value.is_finite()) {
             let style = Style::line(MUTED, 1.2).dashed("2 3");
             entries.push(Entry::new(Key::Line(vec![style]), "no posture"));

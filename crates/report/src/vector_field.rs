@@ -1,25 +1,16 @@
 //! Which way the tool is pushed: a path with the deviation as an arrow at sampled points, one colour a load case.
 
+use crate::arrow::draw_arrow;
 use crate::axis::{extent, nice_below, plain};
-use crate::colour::{INK, category};
+use crate::colour::{INK, NOMINAL, category};
 use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
+use crate::plane::{AxisLabels, BELOW_PX, Growth, Marks, Plane, Window};
 use crate::svg::{Point, Style, Svg, Text};
 
 const MOST_PX: [f64; 2] = [560.0, 480.0];
 const LEAST_WIDTH_PX: f64 = 430.0;
 /// The longest arrow, as a share of the drawing.
 const LONGEST_ARROW: f64 = 0.16;
-
-/// Direction in which an axis grows on the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Growth {
-    /// To the right.
-    #[default]
-    Right,
-    /// To the left, as base y does when seen from the tool side.
-    Left,
-}
 
 /// The deviation at one point of a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,10 +76,7 @@ impl VectorField {
             1.0
         };
         let margin = 1.25 * LONGEST_ARROW * span_mm;
-        let (left_mm, right_mm) = match self.growth {
-            Growth::Right => (x.0 - margin, x.1 + margin),
-            Growth::Left => (x.1 + margin, x.0 - margin),
-        };
+        let [left_mm, right_mm] = self.growth.ends([x.0 - margin, x.1 + margin]);
         let window = Window {
             left_mm,
             right_mm,
@@ -104,7 +92,7 @@ impl VectorField {
         let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
         svg.clipped(plane.area, |svg| {
             let path: Vec<Point> = self.path_mm.iter().map(|p| plane.at(*p)).collect();
-            svg.polyline(&path, &Style::line("#9a9a9a", 1.4));
+            svg.polyline(&path, &nominal_style());
             for (k, case) in self.cases.iter().enumerate() {
                 svg.layer("load-case", 1.0, |svg| {
                     self.draw_case(svg, &plane, case, (factor, category(k)));
@@ -122,10 +110,7 @@ impl VectorField {
                 (longest_um, factor),
             );
         }
-        let mut entries = vec![Entry::new(
-            Key::Line(vec![Style::line("#9a9a9a", 1.4)]),
-            "nominal path",
-        )];
+        let mut entries = vec![Entry::new(Key::Line(vec![nominal_style()]), "nominal path")];
         for (k, case) in self.cases.iter().enumerate() {
             entries.push(Entry::new(
                 Key::Line(vec![Style::line(category(k), 2.0)]),
@@ -167,26 +152,8 @@ fn draw_scale(svg: &mut Svg, at: Point, px_per_um: f64, (longest_um, factor): (f
     svg.text([tip[0] + 8.0, at[1] + 4.0], &text, &Text::new(SMALL_PX));
 }
 
-/// A shaft with a filled head; the head of a short arrow shrinks with it.
-pub(crate) fn draw_arrow(svg: &mut Svg, [from, to]: [Point; 2], colour: &str) {
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-    if length < 0.3 || !length.is_finite() {
-        return;
-    }
-    let (cos, sin) = ((to[0] - from[0]) / length, (to[1] - from[1]) / length);
-    let head = 8.0_f64.min(length * 0.6);
-    let half = head * 0.36;
-    let neck = [to[0] - head * cos, to[1] - head * sin];
-    svg.line(
-        from,
-        [to[0] - 0.8 * head * cos, to[1] - 0.8 * head * sin],
-        &Style::line(colour, 1.5),
-    );
-    let wings = [
-        [neck[0] - half * sin, neck[1] + half * cos],
-        [neck[0] + half * sin, neck[1] - half * cos],
-    ];
-    svg.polygon(&[to, wings[0], wings[1]], &Style::fill(colour));
+fn nominal_style() -> Style {
+    Style::line(NOMINAL, 1.4)
 }
 
 fn is_finite(arrow: &Arrow) -> bool {

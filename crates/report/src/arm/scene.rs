@@ -4,12 +4,12 @@ use super::body::{Body, JointSpot, Part, Solid, arm_length};
 use super::shapes::{Place, corners, draw_solid, hull, paint_depth};
 use super::view::{Projection, Vec3, View};
 use super::{ArmDrawing, Posture, is_finite};
+use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
-use crate::colour::{INK, LIMIT, MUTED};
+use crate::colour::{INK, MUTED, SIGNAL};
 use crate::font::{Weight, text_width_px};
 use crate::page::{SMALL_PX, overlap};
 use crate::svg::{Point, Rect, Style, Svg, Text};
-use crate::vector_field::draw_arrow;
 
 /// Everything that is drawn, in the base frame.
 pub(crate) struct Scene {
@@ -97,6 +97,8 @@ impl Scene {
 
 /// Blank border inside a drawing.
 const INSET_PX: f64 = 26.0;
+/// Red, green and blue for x, y and z, as everywhere.
+const AXIS_COLOURS: [&str; 3] = ["#c8102e", "#2e8b57", "#1f5fa8"];
 /// Strip below it for the base directions.
 const DIRECTIONS_PX: f64 = 46.0;
 
@@ -201,7 +203,7 @@ pub(crate) fn draw_scene(svg: &mut Svg, scene: &Scene, view: View, area: Rect) {
             Item::Path => {
                 let points: Vec<Point> = scene.path_mm.iter().map(|p| place.at(*p)).collect();
                 svg.polyline(&points, &Style::line("#fff", 4.4).opacity(0.85));
-                svg.polyline(&points, &Style::line(LIMIT, 2.2));
+                svg.polyline(&points, &Style::line(SIGNAL, 2.2));
             }
         }
     }
@@ -368,9 +370,9 @@ fn draw_directions(svg: &mut Svg, view: View, area: Rect) {
     let projection = view.projection();
     let at = [area.x + 36.0, area.bottom() - 20.0];
     let axes = [
-        ("x", [1.0, 0.0, 0.0], "#c8102e"),
-        ("y", [0.0, 1.0, 0.0], "#2e8b57"),
-        ("z", [0.0, 0.0, 1.0], "#1f5fa8"),
+        ("x", [1.0, 0.0, 0.0], AXIS_COLOURS[0]),
+        ("y", [0.0, 1.0, 0.0], AXIS_COLOURS[1]),
+        ("z", [0.0, 0.0, 1.0], AXIS_COLOURS[2]),
     ];
     for (name, axis, colour) in axes {
         let flat = projection.flat(axis);
