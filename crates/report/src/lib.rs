@@ -43,6 +43,7 @@ mod colour_bar;
 mod contours;
 mod field;
 mod levels;
+mod levels_drawing;
 mod limit;
 mod line_label;
 mod marker;

@@ -4,17 +4,20 @@ use crate::axis::extent;
 use crate::chart::Chart;
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::contours::{Lattice, Ring};
+use crate::contours::Lattice;
+use crate::grid::is_steady;
 use crate::levels::Levels;
+use crate::levels_drawing::{LevelLines, Placed};
 use crate::limit;
-use crate::line_label::{Labelled, Room, write_labels};
+use crate::line_label::{Room, write_labels};
 use crate::page::{BORDER_PX, Entry, Key, diamond, legend, notice, title_block};
 use crate::plane::AxisLabels;
-use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
+use crate::svg::{Point, Rect, Style, Svg};
 
 const AREA_PX: [f64; 2] = [480.0, 360.0];
 /// Deviations beyond this many times the limit have one colour: nobody cuts there.
 const MOST_LIMITS: f64 = 4.0;
+const NOTHING: &str = "There is nothing to draw: no cut has a value.";
 
 /// What a picture of permitted cuts shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,9 +30,9 @@ pub struct ProcessMap {
     pub axes: AxisLabels,
     /// What is drawn, with its unit: `largest deviation across the tool (µm)`.
     pub quantity: String,
-    /// Values along the horizontal axis, rising.
+    /// Values along the horizontal axis, rising or falling steadily; at least two.
     pub horizontal: Vec<f64>,
-    /// Values along the vertical axis, rising.
+    /// Values along the vertical axis, rising or falling steadily; at least two.
     pub vertical: Vec<f64>,
     /// Deviation in um, row by row from the bottom; infinite where the cut cannot be held at all.
     pub deviation_um: Vec<f64>,
@@ -40,20 +43,17 @@ pub struct ProcessMap {
 }
 
 impl ProcessMap {
-    /// The picture as a complete SVG document; no values give one that says so.
+    /// The picture as a complete SVG document; values that cannot be drawn give one that says why.
     pub fn to_svg(&self) -> String {
+        if let Some(reason) = self.obstacle() {
+            return notice(&self.title, &self.subtitle, reason);
+        }
         let most = MOST_LIMITS * self.limit_um;
         let shown: Vec<f64> = self.deviation_um.iter().map(|um| um.min(most)).collect();
-        let sizes = [self.horizontal.len(), self.vertical.len()];
-        let is_field = sizes[0] >= 2 && sizes[1] >= 2 && shown.len() == sizes[0] * sizes[1];
-        let levels = Levels::covering(shown.iter().copied()).filter(|_| is_field);
+        let levels = Levels::covering(shown.iter().copied());
         let ranges = extent(self.horizontal.iter().copied()).zip(extent(self.vertical.iter().copied()));
         let (Some(levels), Some((across, up))) = (levels, ranges) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: no cut has a value.",
-            );
+            return notice(&self.title, &self.subtitle, NOTHING);
         };
         let bar = ColourBar {
             levels: &levels,
@@ -94,7 +94,7 @@ impl ProcessMap {
         };
         bar.draw(&mut svg, bar_area);
         let mut entries = vec![limit::entry(self.limit_um, ": cuts below hold it")];
-        if let Some(at) = self.drawn {
+        if let Some(at) = self.drawn.filter(|at| at.iter().all(|v| v.is_finite())) {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
             svg.polygon(&diamond(chart.at(at), 6.0), &style);
             entries.push(Entry::new(Key::Diamond(style), "the cut as it stands"));
@@ -108,55 +108,42 @@ impl ProcessMap {
         svg.finish(width, bottom + BORDER_PX, &self.title)
     }
 
+    /// Why there is nothing to draw.
+    fn obstacle(&self) -> Option<&'static str> {
+        let sizes = [self.horizontal.len(), self.vertical.len()];
+        if sizes[0] < 2 || sizes[1] < 2 || self.deviation_um.len() != sizes[0] * sizes[1] {
+            return Some(NOTHING);
+        }
+        if !(is_steady(&self.horizontal) && is_steady(&self.vertical)) {
+            return Some("The values along an axis neither rise steadily nor fall steadily.");
+        }
+        if self.deviation_um.iter().any(|um| um.is_nan()) {
+            return Some("A deviation is not a number.");
+        }
+        (!self.limit_um.is_finite()).then_some("The limit is not a number.")
+    }
+
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
-        let lattice = Lattice {
-            horizontal_mm: &self.horizontal,
-            vertical_mm: &self.vertical,
-            samples: shown,
+        let line = |values: &[[f64; 2]]| values.iter().map(|v| chart.at(*v)).collect::<Vec<Point>>();
+        let placed = Placed {
+            lattice: Lattice {
+                horizontal: &self.horizontal,
+                vertical: &self.vertical,
+                samples: shown,
+            },
+            line: &line,
+            area: chart.area,
         };
-        let line = |points: &[[f64; 2]]| points.iter().map(|v| chart.at(*v)).collect::<Vec<Point>>();
-        let path = |rings: &[Ring]| {
-            rings
-                .iter()
-                .map(|ring| trace(&line(ring), Ends::Closed))
-                .collect::<String>()
-        };
-        let scale = ColourScale::default();
-        svg.rect(chart.area, &Style::fill(levels.colour(0, scale)));
-        for (band, rings) in lattice.areas_from(levels.inner_um()).iter().enumerate() {
-            svg.path(&path(rings), &Style::fill(levels.colour(band + 1, scale)));
-        }
-        let mut labels = Vec::new();
-        for (lines, level) in lattice.lines_at(levels.inner_um()).iter().zip(levels.inner_um()) {
-            for points in lines.iter().map(|points| line(points)) {
-                svg.polyline(&points, &Style::line(INK, 0.6).opacity(0.55));
-                // A line that coincides with the limit carries the limit's label.
-                if (level - self.limit_um).abs() < 0.05 * levels.step_um {
-                    continue;
-                }
-                labels.push(Labelled {
-                    points,
-                    text: levels.label(*level),
-                    look: Text::new(10.0).halo(3.0),
-                });
-            }
-        }
-        for points in lattice.lines_at(&[self.limit_um]).into_iter().flatten() {
-            let points = line(&points);
-            svg.polyline(&points, &limit::style());
-            let label = Labelled {
-                points,
-                text: limit::label(self.limit_um),
-                look: limit::text(),
-            };
-            labels.insert(0, label);
-        }
+        placed.draw_bands(svg, levels, ColourScale::default());
+        let lines = LevelLines::of(&placed, levels, Some(self.limit_um));
+        lines.draw_iso(svg, &Style::line(INK, 0.6).opacity(0.55));
+        lines.draw_limit(svg, &[limit::style()]);
         let room = Room {
             area: chart.area,
             free: &|_| true,
             obstacles: &[],
         };
-        write_labels(svg, &labels, &room);
+        write_labels(svg, &lines.labels(), &room);
     }
 }
 
@@ -213,5 +200,31 @@ mod tests {
         ] {
             assert!(empty.to_svg().contains("nothing to draw"));
         }
+    }
+
+    #[test]
+    fn values_that_stand_still_and_numbers_that_are_none_are_refused() {
+        let axis = vec![0.05; 12];
+        let odd = [
+            ProcessMap {
+                horizontal: axis.clone(),
+                ..map()
+            },
+            ProcessMap {
+                vertical: axis,
+                ..map()
+            },
+        ];
+        for odd in odd {
+            assert!(odd.to_svg().contains("neither rise steadily nor fall"));
+        }
+        let limitless = ProcessMap {
+            limit_um: f64::NAN,
+            ..map()
+        };
+        assert!(limitless.to_svg().contains("The limit is not a number"));
+        let mut unknown = map();
+        unknown.deviation_um[7] = f64::NAN;
+        assert!(unknown.to_svg().contains("A deviation is not a number"));
     }
 }

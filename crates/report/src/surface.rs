@@ -5,6 +5,7 @@
 //! first and masked afterwards; what is reached is known bilinearly, half-way between a point inside and a point outside.
 
 use crate::axis::extent;
+use crate::contours::Lattice;
 use crate::grid::{Grid, PointState};
 
 /// Fine steps wanted along the longer side of a picture.
@@ -41,6 +42,15 @@ impl Surface {
                 factor,
                 Between::Straight,
             ),
+        }
+    }
+
+    /// The values.
+    pub(crate) fn lattice(&self) -> Lattice<'_> {
+        Lattice {
+            horizontal: &self.horizontal_mm,
+            vertical: &self.vertical_mm,
+            samples: &self.value_um,
         }
     }
 
