@@ -42,7 +42,7 @@ pub enum ColourScale {
     /// Dark violet over green to yellow.
     #[default]
     Viridis,
-    /// Dark blue over grey to yellow; looks the same to almost everybody.
+    /// Dark blue over grey to yellow; looks the same to almost everybody. The pictures of a study do not ask for it.
     Cividis,
 }
 

@@ -72,7 +72,7 @@ pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialSeries};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
-pub use shares::{Arrangement, ShareBar, ShareBars};
+pub use shares::{ShareBar, ShareBars};
 pub use sheet::{Panel, Sheet};
 pub use track::{Stretch, TrackMap};
 pub use vector_field::{Arrow, ArrowCase, VectorField};

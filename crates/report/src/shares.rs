@@ -10,19 +10,8 @@ use crate::svg::{Point, Rect, Style, Svg, Text};
 const AREA_WIDTH_PX: f64 = 470.0;
 const BAR_PX: f64 = 22.0;
 const TOTAL_PX: f64 = 16.0;
-const THIN_BAR_PX: f64 = 13.0;
 /// Longest bar label in pixels; longer ones are cut.
 const LABEL_PX: f64 = 190.0;
-
-/// How the shares of one bar stand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arrangement {
-    /// End to end from zero: positive to the right, negative to the left.
-    #[default]
-    Stacked,
-    /// One thin bar a share, each from zero.
-    Grouped,
-}
 
 /// The shares at one point or under one condition.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,8 +20,6 @@ pub struct ShareBar {
     pub label: String,
     /// Signed share of each part in um, in the order of [`ShareBars::parts`].
     pub shares_um: Vec<f64>,
-    /// Standard uncertainty of each share in um; empty for none. Drawn when grouped.
-    pub share_uncertainty_um: Vec<f64>,
     /// Total in um, marked by a diamond.
     pub total_um: Option<f64>,
     /// Standard uncertainty of the total in um, drawn as a whisker.
@@ -52,8 +39,6 @@ pub struct ShareBars {
     pub parts: Vec<String>,
     /// The bars from top to bottom.
     pub bars: Vec<ShareBar>,
-    /// How shares stand in a bar.
-    pub arrangement: Arrangement,
 }
 
 /// The value axis placed on the picture.
@@ -71,7 +56,7 @@ impl Scale {
 impl ShareBars {
     /// The picture as a complete SVG document; no shares gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let ends = self.bars.iter().flat_map(|b| self.ends_um(b));
+        let ends = self.bars.iter().flat_map(|b| ends_um(b));
         let has_values = self
             .bars
             .iter()
@@ -95,7 +80,7 @@ impl ShareBars {
         let left = BORDER_PX + labels.fold(30.0, f64::max).min(LABEL_PX) + 12.0;
         let right_room = 92.0;
         let width = left + AREA_WIDTH_PX + right_room + BORDER_PX;
-        let row = self.row_px();
+        let row = BAR_PX + self.total_row_px() + 14.0;
 
         let mut svg = Svg::new();
         let top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
@@ -114,10 +99,7 @@ impl ShareBars {
                 &cut(&bar.label),
                 &Text::new(BODY_PX).end(),
             );
-            svg.layer("share-bar", 1.0, |svg| match self.arrangement {
-                Arrangement::Stacked => draw_stacked(svg, &scale, bar, middle),
-                Arrangement::Grouped => draw_grouped(svg, &scale, bar, middle),
-            });
+            svg.layer("share-bar", 1.0, |svg| draw_stacked(svg, &scale, bar, middle));
             draw_total(
                 &mut svg,
                 &scale,
@@ -159,46 +141,6 @@ impl ShareBars {
         }
     }
 
-    fn row_px(&self) -> f64 {
-        match self.arrangement {
-            Arrangement::Stacked => BAR_PX + self.total_row_px() + 14.0,
-            Arrangement::Grouped => {
-                let most = self.bars.iter().map(|b| b.shares_um.len()).max().unwrap_or(1);
-                THIN_BAR_PX * most.max(1) as f64 + self.total_row_px() + 16.0
-            }
-        }
-    }
-
-    /// The values that a bar reaches.
-    fn ends_um(&self, bar: &ShareBar) -> Vec<f64> {
-        let mut ends = Vec::new();
-        match self.arrangement {
-            Arrangement::Stacked => {
-                let sum = |sign: f64| {
-                    bar.shares_um
-                        .iter()
-                        .filter(|v| v.is_finite() && **v * sign > 0.0)
-                        .sum::<f64>()
-                };
-                ends.extend([sum(1.0), sum(-1.0)]);
-            }
-            Arrangement::Grouped => {
-                for (k, v) in bar.shares_um.iter().enumerate() {
-                    let u = bar
-                        .share_uncertainty_um
-                        .get(k)
-                        .copied()
-                        .filter(|u| u.is_finite())
-                        .unwrap_or(0.0);
-                    ends.extend([v - u, v + u]);
-                }
-            }
-        }
-        let u = bar.total_uncertainty_um.filter(|u| u.is_finite()).unwrap_or(0.0);
-        ends.extend(bar.total_um.into_iter().flat_map(|t| [t - u, t + u]));
-        ends
-    }
-
     fn draw_axis(&self, svg: &mut Svg, scale: &Scale) {
         let area = scale.area;
         let step = nice_step(scale.range[1] - scale.range[0], 6.0);
@@ -220,6 +162,20 @@ impl ShareBars {
     }
 }
 
+/// The values that a bar reaches.
+fn ends_um(bar: &ShareBar) -> Vec<f64> {
+    let sum = |sign: f64| {
+        bar.shares_um
+            .iter()
+            .filter(|v| v.is_finite() && **v * sign > 0.0)
+            .sum::<f64>()
+    };
+    let u = bar.total_uncertainty_um.filter(|u| u.is_finite()).unwrap_or(0.0);
+    let total = bar.total_um.into_iter().flat_map(|t| [t - u, t + u]);
+    [sum(1.0), sum(-1.0)].into_iter().chain(total).collect()
+}
+
+/// End to end from zero: positive to the right, negative to the left.
 fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     let mut end = [0.0, 0.0];
     for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
@@ -240,35 +196,6 @@ fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
             if cell.w > text_width_px(&label, 10.0, Weight::Bold) + 6.0 {
                 svg.text([cell.centre()[0], middle + 3.6], &label, &text);
             }
-        }
-    }
-}
-
-fn draw_grouped(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
-    let top = middle - THIN_BAR_PX * bar.shares_um.len() as f64 / 2.0;
-    for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
-        let y = top + THIN_BAR_PX * k as f64;
-        let (a, b) = (scale.x(share.min(0.0)), scale.x(share.max(0.0)));
-        svg.rect(
-            Rect {
-                x: a,
-                y: y + 1.0,
-                w: b - a,
-                h: THIN_BAR_PX - 2.0,
-            },
-            &Style::fill(category(k)),
-        );
-        if let Some(u) = bar
-            .share_uncertainty_um
-            .get(k)
-            .filter(|u| u.is_finite() && **u > 0.0)
-        {
-            draw_whisker(
-                svg,
-                [scale.x(share - u), scale.x(share + u)],
-                y + THIN_BAR_PX / 2.0,
-                3.0,
-            );
         }
     }
 }

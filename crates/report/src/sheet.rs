@@ -11,6 +11,8 @@ use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, titl
 use crate::plane::{AxisLabels, Marks, Plane, Window};
 use crate::svg::{Rect, Style, Svg, Text};
 
+/// Panels in a row at most: more would be too small to read.
+const MOST_COLUMNS: usize = 8;
 const GAP_PX: f64 = 14.0;
 /// Gap between a map and the region under it.
 const PAIR_PX: f64 = 16.0;
@@ -38,7 +40,7 @@ pub struct Sheet {
     pub subtitle: String,
     /// The maps in reading order.
     pub panels: Vec<Panel>,
-    /// Panels in a row; 0 chooses.
+    /// Panels in a row, 1 to 8; any other number stands for the nearer of the two.
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
     pub axes: AxisLabels,
@@ -226,12 +228,7 @@ struct Cell {
 impl Layout {
     fn new(sheet: &Sheet, window: Window) -> Self {
         let panels = sheet.panels.len();
-        let chosen = if panels <= 5 {
-            panels
-        } else {
-            (panels as f64).sqrt().ceil() as usize
-        };
-        let columns = if sheet.columns == 0 { chosen } else { sheet.columns }.clamp(1, panels.clamp(1, 8));
+        let columns = sheet.columns.clamp(1, panels.clamp(1, MOST_COLUMNS));
         let planes_per_panel = if sheet.has_regions() { 2 } else { 1 };
         let most = (900.0 - GAP_PX * (columns as f64 - 1.0)) / columns as f64;
         let area = Plane::fit(window, [0.0, 0.0], [most.min(300.0), most.min(300.0)]).area;

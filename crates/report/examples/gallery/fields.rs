@@ -122,7 +122,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         title: "Distance series: in-plane deviation and permissible region".into(),
         subtitle: "Vertical plate, envelope of four feed directions, 120 N".into(),
         panels: [600.0, 800.0, 900.0, 1000.0, 1200.0].map(|x| panel(x, 21)).into(),
-        columns: 0,
+        columns: 5,
         axes: axes(),
         quantity: "in-plane deviation (µm)".into(),
         limit_um: Some(50.0),
@@ -132,6 +132,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     let many = Sheet {
         title: "Volume in slices of 40 mm".into(),
         panels: (0..15).map(|k| panel(500.0 + 40.0 * f64::from(k), 15)).collect(),
+        columns: 4,
         show_regions: false,
         ..sheet.clone()
     };

@@ -1,9 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, Marker,
-    MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse,
-    Stretch, TrackMap, VectorField,
+    Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, Marker, MarkerKind,
+    PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch,
+    TrackMap, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -25,8 +25,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("process_map", process_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
-        ("shares_stacked", shares(Arrangement::Stacked).to_svg()),
-        ("shares_grouped", shares(Arrangement::Grouped).to_svg()),
+        ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
     ]
 }
@@ -240,29 +239,24 @@ fn polar_plot() -> PolarPlot {
     }
 }
 
-fn shares(arrangement: Arrangement) -> ShareBars {
+fn shares() -> ShareBars {
     let bar = |label: &str, shares_um: [f64; 6]| ShareBar {
         label: label.into(),
         shares_um: shares_um.into(),
-        share_uncertainty_um: shares_um.iter().map(|s| 0.12 * s.abs() + 0.4).collect(),
         total_um: Some(shares_um.iter().sum()),
         total_uncertainty_um: Some(4.2),
     };
-    let mut bars = vec![
+    let bars = vec![
         bar("centre of the plate", [11.0, 16.5, 9.2, 2.1, -3.4, 0.6]),
         bar("upper left corner", [24.0, 21.5, 14.0, 4.8, -9.0, 1.2]),
         bar("lower right corner, elbow down", [8.0, -6.5, 5.2, 1.1, 2.4, 0.2]),
     ];
-    if arrangement == Arrangement::Grouped {
-        bars.truncate(2);
-    }
     ShareBars {
         title: "Which joint is to blame?".into(),
         subtitle: "Share of each joint in the in-plane deviation, feed +y, 120 N".into(),
         quantity: "share of in-plane deviation (µm)".into(),
         parts: ["S", "L", "U", "R", "B", "T"].map(String::from).into(),
         bars,
-        arrangement,
     }
 }
 

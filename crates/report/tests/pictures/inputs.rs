@@ -1,10 +1,10 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, Arrangement, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope,
-    ForcePlot, ForceTrace, Grid, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState, PolarPlot,
-    Posture, ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars, Sheet,
-    StiffnessEllipse, Stretch, TrackMap, VectorField, View,
+    ArmDrawing, ArmJoint, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope, ForcePlot,
+    ForceTrace, Grid, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState, PolarPlot, Posture,
+    ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars, Sheet, StiffnessEllipse,
+    Stretch, TrackMap, VectorField, View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -99,10 +99,9 @@ pub fn arm() -> ArmDrawing {
     }
 }
 
-pub fn bars(arrangement: Arrangement, shares_um: Vec<f64>) -> ShareBars {
+pub fn bars(shares_um: Vec<f64>) -> ShareBars {
     let bar = ShareBar {
         label: NASTY.repeat(9),
-        share_uncertainty_um: vec![1.0, f64::NAN],
         total_um: Some(shares_um.iter().sum()),
         total_uncertainty_um: Some(2.0),
         shares_um,
@@ -111,7 +110,6 @@ pub fn bars(arrangement: Arrangement, shares_um: Vec<f64>) -> ShareBars {
         title: NASTY.into(),
         parts: vec![NASTY.into()],
         bars: vec![bar],
-        arrangement,
         ..ShareBars::default()
     }
 }
@@ -169,6 +167,7 @@ pub fn sheet(grids: Vec<Grid>) -> Sheet {
         panels: panels.collect(),
         limit_um: Some(50.0),
         show_regions: true,
+        columns: 4,
         ..Sheet::default()
     }
 }
@@ -270,16 +269,14 @@ pub fn everything() -> Vec<String> {
         sheet(Vec::new()).to_svg(),
         sheet(vec![Grid::default()]).to_svg(),
     ]);
-    for arrangement in [Arrangement::Stacked, Arrangement::Grouped] {
-        let shares = [
-            vec![3.0, -1.0, 0.5],
-            vec![],
-            vec![f64::NAN],
-            vec![0.0],
-            vec![-4.0],
-        ];
-        all.extend(shares.map(|s| bars(arrangement, s).to_svg()));
-    }
+    let shares = [
+        vec![3.0, -1.0, 0.5],
+        vec![],
+        vec![f64::NAN],
+        vec![0.0],
+        vec![-4.0],
+    ];
+    all.extend(shares.map(|s| bars(s).to_svg()));
     let rows = [
         vec![1.0, f64::NAN, 3.0, 4.0],
         vec![],

@@ -2,7 +2,7 @@
 
 mod inputs;
 
-use armill_report::{ArmDrawing, Arrangement, Arrow, DeviationMap, Grid, PointState, RegionMap, Sheet};
+use armill_report::{ArmDrawing, Arrow, DeviationMap, Grid, PointState, RegionMap, Sheet};
 
 use inputs::{NASTY, arm, bars, ellipse, everything, field, grid, map, path_plot, region, sheet, slope};
 
@@ -245,11 +245,7 @@ fn principal_compliances_are_written() {
 
 #[test]
 fn the_total_of_the_shares_is_written_with_its_uncertainty() {
-    assert!(
-        bars(Arrangement::Stacked, vec![30.0, -10.0])
-            .to_svg()
-            .contains(">20 ± 2 µm<")
-    );
+    assert!(bars(vec![30.0, -10.0]).to_svg().contains(">20 ± 2 µm<"));
 }
 
 #[test]
