@@ -60,7 +60,7 @@ impl ColourScale {
 }
 
 /// Colour of the `index`-th case, joint or series.
-pub(crate) fn category(index: usize) -> &'static str {
+pub(crate) const fn category(index: usize) -> &'static str {
     CATEGORIES[index % CATEGORIES.len()]
 }
 

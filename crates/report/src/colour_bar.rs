@@ -9,6 +9,9 @@ use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Rect, Style, Svg, Text};
 
 const BAR_PX: f64 = 16.0;
+/// From a drawing to the bar beside it, and the least height that such a bar has.
+const GAP_PX: f64 = 22.0;
+const LEAST_PX: f64 = 150.0;
 const QUANTITY_LINE_PX: f64 = 15.0;
 
 /// A colour bar with its quantity and limit.
@@ -25,7 +28,18 @@ impl ColourBar<'_> {
         self.numbers_px() + 10.0 + QUANTITY_LINE_PX * self.quantity_lines(height_px).len() as f64
     }
 
-    /// Draws the bar in `area`; its quantity reads upwards along the right side.
+    /// Where the bar stands beside a drawing: right of it, from its upper edge.
+    pub(crate) fn beside(&self, drawing: Rect) -> Rect {
+        let h = drawing.h.max(LEAST_PX);
+        Rect {
+            x: drawing.right() + GAP_PX,
+            y: drawing.y,
+            w: self.width_px(h),
+            h,
+        }
+    }
+
+    /// Draws the bar at the left of `area`; its quantity reads upwards along the right side.
     pub(crate) fn draw(&self, svg: &mut Svg, area: Rect) {
         let edges = &self.levels.edge_um;
         let (Some(low), Some(high)) = (edges.first(), edges.last()) else {

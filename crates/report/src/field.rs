@@ -2,11 +2,11 @@
 
 use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
 use crate::grid::{Grid, PointState};
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::levels_drawing::{LevelLines, Placed};
 use crate::limit;
 use crate::line_label::{Room, write_labels};
-use crate::page::{Entry, Key};
 use crate::plane::{Plane, Window};
 use crate::surface::Surface;
 use crate::svg::{Hatch, Point, Style, Svg};

@@ -6,18 +6,23 @@
 
 use std::fmt::Write;
 
-use crate::axis::{extent, tick_label, ticks};
-use crate::chart::range;
-use crate::colour::{GRID, INK, category};
+use crate::axis::extent;
+use crate::chart::{APART_PX, range};
+use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::legend::{Entry, Key};
+use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
+use crate::plane::LABEL_BELOW_PX;
 use crate::svg::{Rect, Style, Svg, Text, num};
+use crate::ticks::{Across, Axis, Overhang, Ticks};
 
 /// Columns of pixels: what a trace is drawn in.
 const COLUMNS: usize = 640;
 /// Height of one chart, and the gap to the next.
 const CHART_PX: f64 = 108.0;
 const GAP_PX: f64 = 14.0;
+/// Height that each tick of a force gets at least, about.
+const TICK_PX: f64 = 30.0;
 /// What was measured, behind what became of it.
 const BEFORE: &str = "#b9b9b9";
 /// A stretch where nothing is cut.
@@ -87,41 +92,35 @@ pub struct ForcePlot {
 impl ForcePlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let scales: Option<Vec<[f64; 2]>> = self.traces.iter().map(scale).collect();
-        let Some(scales) = scales.filter(|scales| !scales.is_empty() && self.span_s[1] > self.span_s[0])
-        else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the record has no values.",
-            );
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let strips: Option<Vec<Strip<'_>>> = self.traces.iter().enumerate().map(strip).collect();
+        let Some(mut strips) = strips.filter(|all| !all.is_empty() && self.span_s[1] > self.span_s[0]) else {
+            return heading.notice("There is nothing to draw: the record has no values.");
         };
-        let labels = scales.iter().map(|scale| {
-            let (at, step) = force_ticks(scale);
-            let widths = at.iter().map(|v| tick_width_px(*v, step));
-            widths.fold(0.0, f64::max)
-        });
-        let left = BORDER_PX + 32.0 + labels.fold(0.0, f64::max);
-        let width = left + COLUMNS as f64 + BORDER_PX + 8.0;
-        let mut svg = Svg::new();
-        let mut top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
-        if !self.marks_s.is_empty() {
-            top += SMALL_PX + 2.0;
+        let numbers = strips.iter().map(|strip| strip.ticks().width_px(SMALL_PX));
+        let left = BORDER_PX + 32.0 + numbers.fold(0.0, f64::max);
+        let mut page = heading.page(left + COLUMNS as f64 + BORDER_PX + 8.0);
+        let names = if self.marks_s.is_empty() {
+            0.0
+        } else {
+            SMALL_PX + 2.0
+        };
+        let top = page.top_px + 4.0 + names;
+        for (index, strip) in strips.iter_mut().enumerate() {
+            strip.area.x = left;
+            strip.area.y = top + index as f64 * (CHART_PX + GAP_PX);
+            self.draw_air(&mut page.svg, &strip.area);
+            strip.draw(&mut page.svg);
         }
-        let mut area = Rect {
+        let all = Rect {
             x: left,
             y: top,
             w: COLUMNS as f64,
-            h: CHART_PX,
+            h: strips.len() as f64 * (CHART_PX + GAP_PX) - GAP_PX,
         };
-        for (index, (trace, scale)) in self.traces.iter().zip(&scales).enumerate() {
-            area.y = top + index as f64 * (CHART_PX + GAP_PX);
-            self.draw_trace(&mut svg, area, trace, (*scale, category(index)));
-        }
-        self.draw_marks(&mut svg, [top, area.bottom()], left);
-        let bottom = self.draw_time(&mut svg, area);
-        let bottom = legend(&mut svg, &self.entries(), [left, bottom + 8.0], COLUMNS as f64);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        self.draw_marks(&mut page.svg, &all);
+        self.draw_time(&mut page.svg, &all);
+        page.finish_with_legend(&self.entries(), [left, all.bottom() + 50.0])
     }
 
     fn x(&self, time_s: f64, area: &Rect) -> f64 {
@@ -129,83 +128,48 @@ impl ForcePlot {
         area.x + part.clamp(0.0, 1.0) * area.w
     }
 
-    fn draw_trace(
-        &self,
-        svg: &mut Svg,
-        area: Rect,
-        trace: &ForceTrace,
-        ([low, high], colour): ([f64; 2], &'static str),
-    ) {
+    fn draw_air(&self, svg: &mut Svg, area: &Rect) {
         for [from, to] in &self.air_s {
-            let x = self.x(*from, &area);
+            let x = self.x(*from, area);
             let air = Rect {
                 x,
-                w: self.x(*to, &area) - x,
-                ..area
+                w: self.x(*to, area) - x,
+                ..*area
             };
             svg.rect(air, &Style::fill(AIR));
         }
-        let y = |value: f64| area.bottom() - (value - low) / (high - low) * area.h;
-        let (at, step) = force_ticks(&[low, high]);
-        for v in at {
-            svg.line([area.x, y(v)], [area.right(), y(v)], &Style::line(GRID, 1.0));
-            svg.line([area.x - 5.0, y(v)], [area.x, y(v)], &Style::line(INK, 1.0));
-            svg.text(
-                [area.x - 8.0, y(v) + 4.0],
-                &tick_label(v, step),
-                &Text::new(SMALL_PX).end(),
-            );
-        }
-        for (envelope, style) in [
-            (&trace.before, Style::line(BEFORE, 1.0)),
-            (&trace.after, Style::line(colour, 1.0)),
-        ] {
-            svg.path(&zigzag(envelope, area.x, &y), &style);
-        }
-        svg.rect(area, &Style::line(INK, 1.0));
-        svg.text(
-            [BORDER_PX + 12.0, area.centre()[1]],
-            &trace.name,
-            &Text::new(BODY_PX).middle().turned(-90.0),
-        );
     }
 
     /// Instants as dashed lines through all charts, each with its name above where there is room.
-    fn draw_marks(&self, svg: &mut Svg, [top, bottom]: [f64; 2], left: f64) {
-        let area = Rect {
-            x: left,
-            y: top,
-            w: COLUMNS as f64,
-            h: bottom - top,
-        };
+    fn draw_marks(&self, svg: &mut Svg, all: &Rect) {
         let mut taken = f64::NEG_INFINITY;
         for (time, name) in &self.marks_s {
-            let x = self.x(*time, &area);
-            svg.line([x, top], [x, bottom], &Style::line(INK, 1.0).dashed("4 3"));
+            let x = self.x(*time, all);
+            svg.line(
+                [x, all.y],
+                [x, all.bottom()],
+                &Style::line(INK, 1.0).dashed("4 3"),
+            );
             let half = text_width_px(name, SMALL_PX, Weight::Regular) / 2.0;
-            let at = x.clamp(left + half, (area.right() - half).max(left + half));
+            let at = x.clamp(all.x + half, (all.right() - half).max(all.x + half));
             if at - half > taken {
-                svg.text([at, top - 5.0], name, &Text::new(SMALL_PX).middle());
+                svg.text([at, all.y - 5.0], name, &Text::new(SMALL_PX).middle());
                 taken = at + half + 6.0;
             }
         }
     }
 
-    fn draw_time(&self, svg: &mut Svg, area: Rect) -> f64 {
-        let (at, step) = ticks(self.span_s[0], self.span_s[1], COLUMNS as f64 / 75.0);
-        let bottom = area.bottom();
-        for v in at {
-            let x = self.x(v, &area);
-            svg.line([x, bottom], [x, bottom + 5.0], &Style::line(INK, 1.0));
-            svg.text(
-                [x, bottom + 17.0],
-                &tick_label(v, step),
-                &Text::new(SMALL_PX).middle(),
-            );
-        }
-        let text = Text::new(BODY_PX).middle();
-        svg.text([area.centre()[0], bottom + 36.0], "time (s)", &text);
-        bottom + 42.0
+    fn draw_time(&self, svg: &mut Svg, all: &Rect) {
+        let axis = Axis {
+            ticks: Ticks::about(COLUMNS as f64 / APART_PX[0], self.span_s),
+            area: *all,
+            font_px: SMALL_PX,
+            across: Across::Nothing,
+            overhang: Overhang::Allowed,
+        };
+        axis.draw_below(svg, |time| self.x(time, all));
+        let at = [all.centre()[0], all.bottom() + LABEL_BELOW_PX];
+        svg.text(at, "time (s)", &Text::new(BODY_PX).middle());
     }
 
     fn entries(&self) -> Vec<Entry> {
@@ -224,19 +188,57 @@ impl ForcePlot {
     }
 }
 
-/// Range of a chart: both traces and zero.
-fn scale(trace: &ForceTrace) -> Option<[f64; 2]> {
+/// One trace with its scale, in its place.
+struct Strip<'a> {
+    trace: &'a ForceTrace,
+    colour: &'static str,
+    /// Values at the lower and at the upper edge.
+    ends: [f64; 2],
+    area: Rect,
+}
+
+/// The strip of a trace, still without its place: its scale shows both envelopes and zero. `None` without values.
+fn strip((index, trace): (usize, &ForceTrace)) -> Option<Strip<'_>> {
     let values = || trace.before.values().chain(trace.after.values());
     extent(values())?;
-    range(values().chain([0.0]), 0.05)
+    Some(Strip {
+        trace,
+        colour: category(index),
+        ends: range(values().chain([0.0]), 0.05)?,
+        area: Rect {
+            x: 0.0,
+            y: 0.0,
+            w: COLUMNS as f64,
+            h: CHART_PX,
+        },
+    })
 }
 
-fn force_ticks([low, high]: &[f64; 2]) -> (Vec<f64>, f64) {
-    ticks(*low, *high, CHART_PX / 30.0)
-}
+impl Strip<'_> {
+    fn ticks(&self) -> Ticks {
+        Ticks::about(CHART_PX / TICK_PX, self.ends)
+    }
 
-fn tick_width_px(value: f64, step: f64) -> f64 {
-    text_width_px(&tick_label(value, step), SMALL_PX, Weight::Regular)
+    fn draw(&self, svg: &mut Svg) {
+        let area = self.area;
+        let [low, high] = self.ends;
+        let y = |value: f64| area.bottom() - (value - low) / (high - low) * area.h;
+        let axis = Axis {
+            ticks: self.ticks(),
+            area,
+            font_px: SMALL_PX,
+            across: Across::Lines,
+            overhang: Overhang::Allowed,
+        };
+        axis.draw_left(svg, y);
+        for (envelope, colour) in [(&self.trace.before, BEFORE), (&self.trace.after, self.colour)] {
+            svg.path(&zigzag(envelope, area.x, &y), &Style::line(colour, 1.0));
+        }
+        svg.rect(area, &Style::line(INK, 1.0));
+        let at = [BORDER_PX + 12.0, area.centre()[1]];
+        let text = Text::new(BODY_PX).middle().turned(-90.0);
+        svg.text(at, &self.trace.name, &text);
+    }
 }
 
 /// Up one column and down the next: a line one pixel wide fills what lies between least and greatest.

@@ -55,9 +55,11 @@ mod axis;
 mod colour;
 mod error;
 mod font;
+mod legend;
 mod page;
 mod plane;
 mod svg;
+mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, Posture, View};
 pub use colour::ColourScale;

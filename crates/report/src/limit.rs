@@ -2,7 +2,8 @@
 
 use crate::axis::{extent, plain};
 use crate::colour::LIMIT;
-use crate::page::{Entry, Key, SMALL_PX};
+use crate::legend::Entry;
+use crate::page::SMALL_PX;
 use crate::svg::{Style, Text};
 
 /// The line of the limit, on drawings and in their legends.
@@ -27,7 +28,7 @@ pub(crate) fn label(limit_um: f64) -> String {
 
 /// The legend's entry: the line, its label, and a remark that follows the label as it stands.
 pub(crate) fn entry(limit_um: f64, remark: &str) -> Entry {
-    Entry::new(Key::Line(vec![style()]), format!("{}{remark}", label(limit_um)))
+    Entry::line(style(), format!("{}{remark}", label(limit_um)))
 }
 
 /// The entry of a limit over these values, with a remark where no line shows it; none for a limit that is no number.

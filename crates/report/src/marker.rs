@@ -1,7 +1,8 @@
 //! Marked points of a plane: their signs, the text beside them, and their entries in a legend.
 
 use crate::colour::INK;
-use crate::page::{Entry, Key, SMALL_PX, diamond};
+use crate::legend::{Entry, Key, diamond};
+use crate::page::SMALL_PX;
 use crate::plane::Plane;
 use crate::svg::{Point, Style, Svg, Text};
 

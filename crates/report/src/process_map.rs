@@ -6,13 +6,14 @@ use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
 use crate::contours::Lattice;
 use crate::grid::is_steady;
+use crate::legend::{Entry, Key, diamond};
 use crate::levels::Levels;
 use crate::levels_drawing::{LevelLines, Placed};
 use crate::limit;
 use crate::line_label::{Room, write_labels};
-use crate::page::{BORDER_PX, Entry, Key, diamond, legend, notice, title_block};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
-use crate::svg::{Point, Rect, Style, Svg};
+use crate::svg::{Point, Style, Svg};
 
 const AREA_PX: [f64; 2] = [480.0, 360.0];
 /// Deviations beyond this many times the limit have one colour: nobody cuts there.
@@ -45,15 +46,16 @@ pub struct ProcessMap {
 impl ProcessMap {
     /// The picture as a complete SVG document; values that cannot be drawn give one that says why.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         if let Some(reason) = self.obstacle() {
-            return notice(&self.title, &self.subtitle, reason);
+            return heading.notice(reason);
         }
         let most = MOST_LIMITS * self.limit_um;
         let shown: Vec<f64> = self.deviation_um.iter().map(|um| um.min(most)).collect();
         let levels = Levels::covering(shown.iter().copied());
         let ranges = extent(self.horizontal.iter().copied()).zip(extent(self.vertical.iter().copied()));
         let (Some(levels), Some((across, up))) = (levels, ranges) else {
-            return notice(&self.title, &self.subtitle, NOTHING);
+            return heading.notice(NOTHING);
         };
         let bar = ColourBar {
             levels: &levels,
@@ -61,51 +63,21 @@ impl ProcessMap {
             quantity: &self.quantity,
             limit_um: Some(self.limit_um),
         };
-        let area = Rect {
-            x: 0.0,
-            y: 0.0,
-            w: AREA_PX[0],
-            h: AREA_PX[1],
-        };
-        let chart = Chart {
-            area,
-            low: [across.0, up.0],
-            high: [across.1, up.1],
-        };
-        let left = BORDER_PX + chart.left_room_px();
-        let width = left + AREA_PX[0] + 22.0 + bar.width_px(AREA_PX[1]) + BORDER_PX;
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let chart = Chart {
-            area: Rect {
-                x: left,
-                y: top + 4.0,
-                ..area
-            },
-            ..chart
-        };
-        chart.draw(&mut svg, &self.axes.horizontal, &self.axes.vertical);
-        svg.clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
-        svg.rect(chart.area, &Style::line(INK, 1.0));
-        let bar_area = Rect {
-            x: chart.area.right() + 22.0,
-            w: 0.0,
-            ..chart.area
-        };
-        bar.draw(&mut svg, bar_area);
+        let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
+        let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
+        let chart = chart.lowered_to(page.top_px + 4.0);
+        chart.draw_axes(&mut page.svg, &self.axes);
+        page.svg
+            .clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
+        page.svg.rect(chart.area, &Style::line(INK, 1.0));
+        bar.draw(&mut page.svg, bar.beside(chart.area));
         let mut entries = vec![limit::entry(self.limit_um, ": cuts below hold it")];
         if let Some(at) = self.drawn.filter(|at| at.iter().all(|v| v.is_finite())) {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
-            svg.polygon(&diamond(chart.at(at), 6.0), &style);
+            page.svg.polygon(&diamond(chart.at(at), 6.0), &style);
             entries.push(Entry::new(Key::Diamond(style), "the cut as it stands"));
         }
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [left, chart.area.bottom() + 48.0],
-            width - left - BORDER_PX,
-        );
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        page.finish_with_legend(&entries, [chart.area.x, chart.area.bottom() + 48.0])
     }
 
     /// Why there is nothing to draw.

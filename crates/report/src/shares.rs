@@ -1,17 +1,23 @@
 //! Which joint is to blame: the share of each joint in a deviation, signed, with its uncertainty and the total.
 
-use crate::axis::{multiples, nice_step, number, tick_label};
+use crate::axis::number;
 use crate::chart::range;
 use crate::colour::{GRID, INK, category};
 use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, diamond, legend, notice, title_block};
+use crate::legend::{Entry, Key, diamond};
+use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
+use crate::ticks::Ticks;
 
 const AREA_WIDTH_PX: f64 = 470.0;
+/// Height of a bar, and of the row under it for the mark of its total.
 const BAR_PX: f64 = 22.0;
 const TOTAL_PX: f64 = 16.0;
-/// Longest bar label in pixels; longer ones are cut.
+/// Longest bar label in pixels; longer ones are cut. Room for the labels, where all are short.
 const LABEL_PX: f64 = 190.0;
+const LEAST_LABEL_PX: f64 = 30.0;
+/// Room right of the bars for the totals in numbers.
+const NUMBER_PX: f64 = 92.0;
 
 /// The shares at one point or under one condition.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -56,63 +62,56 @@ impl Scale {
 impl ShareBars {
     /// The picture as a complete SVG document; no shares gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let ends = self.bars.iter().flat_map(|b| ends_um(b));
-        let has_values = self
-            .bars
-            .iter()
-            .any(|b| b.shares_um.iter().any(|v| v.is_finite()));
-        let Some(mut range) = range(ends.chain([0.0]), 0.0).filter(|_| has_values) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: no shares were given.",
-            );
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let Some(range) = self.range_um() else {
+            return heading.notice("There is nothing to draw: no shares were given.");
         };
-        let room = 0.04 * (range[1] - range[0]);
-        range = [
-            if range[0] < 0.0 { range[0] - room } else { 0.0 },
-            if range[1] > 0.0 { range[1] + room } else { 0.0 },
-        ];
         let labels = self
             .bars
             .iter()
             .map(|b| text_width_px(&b.label, BODY_PX, Weight::Regular));
-        let left = BORDER_PX + labels.fold(30.0, f64::max).min(LABEL_PX) + 12.0;
-        let right_room = 92.0;
-        let width = left + AREA_WIDTH_PX + right_room + BORDER_PX;
+        let left = BORDER_PX + labels.fold(LEAST_LABEL_PX, f64::max).min(LABEL_PX) + 12.0;
         let row = BAR_PX + self.total_row_px() + 14.0;
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
+        let mut page = heading.page(left + AREA_WIDTH_PX + NUMBER_PX + BORDER_PX);
         let area = Rect {
             x: left,
-            y: top,
+            y: page.top_px + 4.0,
             w: AREA_WIDTH_PX,
             h: row * self.bars.len() as f64,
         };
         let scale = Scale { area, range };
-        self.draw_axis(&mut svg, &scale);
+        self.draw_axis(&mut page.svg, &scale);
         for (k, bar) in self.bars.iter().enumerate() {
-            let middle = top + row * (k as f64 + 0.5) - self.total_row_px() / 2.0;
-            svg.text(
-                [left - 10.0, middle + 4.0],
-                &cut(&bar.label),
-                &Text::new(BODY_PX).end(),
-            );
-            svg.layer("share-bar", 1.0, |svg| draw_stacked(svg, &scale, bar, middle));
-            draw_total(
-                &mut svg,
-                &scale,
-                bar,
-                top + row * (k as f64 + 1.0) - 6.0 - TOTAL_PX / 2.0,
-            );
+            let middle = area.y + row * (k as f64 + 0.5) - self.total_row_px() / 2.0;
+            let text = Text::new(BODY_PX).end();
+            page.svg
+                .text([left - 10.0, middle + 4.0], &cut(&bar.label), &text);
+            page.svg
+                .layer("share-bar", 1.0, |svg| draw_stacked(svg, &scale, bar, middle));
+            let below = area.y + row * (k as f64 + 1.0) - 6.0 - TOTAL_PX / 2.0;
+            draw_total(&mut page.svg, &scale, bar, below);
         }
         let zero = scale.x(0.0);
-        svg.line([zero, area.y], [zero, area.bottom()], &Style::line(INK, 1.2));
-        let mut entries: Vec<Entry> = self
-            .parts
-            .iter()
-            .enumerate()
+        page.svg
+            .line([zero, area.y], [zero, area.bottom()], &Style::line(INK, 1.2));
+        page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
+    }
+
+    /// What the value axis shows: all ends of bars and zero, with room beyond; `None` where no bar has a value.
+    fn range_um(&self) -> Option<[f64; 2]> {
+        let mut shares = self.bars.iter().flat_map(|b| &b.shares_um);
+        shares.find(|v| v.is_finite())?;
+        let [low, high] = range(self.bars.iter().flat_map(ends_um).chain([0.0]), 0.0)?;
+        let room = 0.04 * (high - low);
+        Some([
+            if low < 0.0 { low - room } else { 0.0 },
+            if high > 0.0 { high + room } else { 0.0 },
+        ])
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let parts = self.parts.iter().enumerate();
+        let mut entries: Vec<Entry> = parts
             .map(|(k, name)| Entry::new(Key::Field(Style::fill(category(k))), name.clone()))
             .collect();
         if self.bars.iter().any(|b| b.total_um.is_some()) {
@@ -123,13 +122,7 @@ impl ShareBars {
             };
             entries.push(Entry::new(Key::Diamond(total_style()), remark));
         }
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [left, area.bottom() + 50.0],
-            AREA_WIDTH_PX + right_room,
-        );
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        entries
     }
 
     /// Room under each bar for the mark of its total.
@@ -143,13 +136,13 @@ impl ShareBars {
 
     fn draw_axis(&self, svg: &mut Svg, scale: &Scale) {
         let area = scale.area;
-        let step = nice_step(scale.range[1] - scale.range[0], 6.0);
-        for um in multiples(scale.range[0], scale.range[1], step) {
-            let x = scale.x(um);
+        let ticks = Ticks::about(6.0, scale.range);
+        for um in &ticks.at {
+            let x = scale.x(*um);
             svg.line([x, area.y], [x, area.bottom()], &Style::line(GRID, 1.0));
             svg.text(
                 [x, area.bottom() + 16.0],
-                &tick_label(um, step),
+                &ticks.label(*um),
                 &Text::new(SMALL_PX).middle(),
             );
         }

@@ -41,6 +41,11 @@ impl Rect {
         p[0] >= self.x && p[0] <= self.right() && p[1] >= self.y && p[1] <= self.bottom()
     }
 
+    /// Whether the two share more than an edge.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        self.x < other.right() && other.x < self.right() && self.y < other.bottom() && other.y < self.bottom()
+    }
+
     /// The rectangle with `by` pixels taken off each side.
     pub(crate) fn shrunk(&self, by: f64) -> Self {
         Self {

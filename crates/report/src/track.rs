@@ -3,17 +3,16 @@
 use crate::axis::extent;
 use crate::colour::{ColourScale, INK, MUTED};
 use crate::colour_bar::ColourBar;
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::limit;
 use crate::marker::{Marker, MarkerKind, write_on_map};
-use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
-use crate::svg::{Point, Rect, Style, Svg};
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Plane, Window};
+use crate::svg::{Point, Style, Svg};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [620.0, 520.0];
-/// A picture is at least this wide, for its title and legend.
-const LEAST_WIDTH_PX: f64 = 430.0;
 /// White around the path, part of its size.
 const MARGIN: f64 = 0.06;
 
@@ -50,20 +49,12 @@ pub struct TrackMap {
 impl TrackMap {
     /// The picture as a complete SVG document; a path without points gives one that says so.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         let Some(window) = self.window() else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the path has no points.",
-            );
+            return heading.notice("There is nothing to draw: the path has no points.");
         };
-        let values = self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
-        let Some(levels) = Levels::covering(values) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "The robot reaches no point of the path.",
-            );
+        let Some(levels) = Levels::covering(self.values_um()) else {
+            return heading.notice("The robot reaches no point of the path.");
         };
         let bar = ColourBar {
             levels: &levels,
@@ -71,14 +62,12 @@ impl TrackMap {
             quantity: &self.quantity,
             limit_um: self.limit_um,
         };
-        let left = BORDER_PX + Plane::left_room_px(&window);
-        let plane = Plane::fit(window, [left, 0.0], MOST_PX);
-        let bar_height = plane.area.h.max(150.0);
-        let width = (plane.area.right() + 22.0 + bar.width_px(bar_height) + BORDER_PX).max(LEAST_WIDTH_PX);
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
-        svg.clipped(plane.area, |svg| {
+        let plane = Plane::beside_axis(window, MOST_PX);
+        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
+        let bar_area = bar.beside(plane.area);
+        page.svg.clipped(plane.area, |svg| {
             self.draw_path(svg, &plane, &levels);
             for marker in &self.markers {
                 let at = plane.at(marker.at_mm);
@@ -86,25 +75,14 @@ impl TrackMap {
                 write_on_map(svg, [at[0], at[1] - 8.0], &marker.label);
             }
         });
-        plane.draw_frame(&mut svg, Marks::ALL);
-        plane.draw_labels(&mut svg, &self.axes);
-        bar.draw(
-            &mut svg,
-            Rect {
-                x: plane.area.right() + 22.0,
-                y: plane.area.y,
-                w: 0.0,
-                h: bar_height,
-            },
-        );
-        let below = plane.area.y + bar_height.max(plane.area.h + BELOW_PX) + 8.0;
-        let entries = self.entries();
-        let bottom = if entries.is_empty() {
-            below
-        } else {
-            legend(&mut svg, &entries, [left, below], width - left - BORDER_PX)
-        };
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        plane.draw_axes(&mut page.svg, &self.axes);
+        bar.draw(&mut page.svg, bar_area);
+        let below = bar_area.bottom().max(plane.area.bottom() + BELOW_PX) + 8.0;
+        page.finish_with_legend(&self.entries(), [plane.area.x, below])
+    }
+
+    fn values_um(&self) -> impl Iterator<Item = f64> + '_ {
+        self.stretches.iter().flat_map(|s| &s.deviation_um).copied()
     }
 
     fn window(&self) -> Option<Window> {
@@ -161,11 +139,12 @@ impl TrackMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let values = || self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
-        let mut entries: Vec<Entry> = limit::entry_over(self.limit_um, values()).into_iter().collect();
-        if values().any(|value| !value.is_finite()) {
+        let mut entries: Vec<Entry> = limit::entry_over(self.limit_um, self.values_um())
+            .into_iter()
+            .collect();
+        if self.values_um().any(|value| !value.is_finite()) {
             let style = Style::line(MUTED, 1.2).dashed("2 3");
-            entries.push(Entry::new(Key::Line(vec![style]), "no posture"));
+            entries.push(Entry::line(style, "no posture"));
         }
         if self.markers.iter().any(|marker| marker.kind == MarkerKind::Point) {
             let style = Style::fill("#fff").outlined(INK, 1.6);

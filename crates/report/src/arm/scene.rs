@@ -8,7 +8,7 @@ use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
 use crate::colour::{INK, MUTED, SIGNAL};
 use crate::font::{Weight, text_width_px};
-use crate::page::{SMALL_PX, overlap};
+use crate::page::SMALL_PX;
 use crate::svg::{Point, Rect, Style, Svg, Text};
 
 /// Everything that is drawn, in the base frame.
@@ -344,7 +344,7 @@ fn best_badge(
                 h: 18.0,
             };
             let room = badge.shrunk(-5.0);
-            if taken.iter().any(|t| overlap(t, &room))
+            if taken.iter().any(|t| t.overlaps(&room))
                 || !inner.contains([badge.x, badge.y])
                 || !inner.contains([badge.right(), badge.bottom()])
             {
