@@ -44,10 +44,10 @@ pub(crate) struct Look<'a> {
 pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<'_>) {
     let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64) as usize;
     let surface = Surface::refine(grid, steps);
-    let line = |mm: &[[f64; 2]]| on_picture(plane, mm);
+    let at = |mm: [f64; 2]| plane.at(mm);
     let placed = Placed {
         lattice: surface.lattice(),
-        line: &line,
+        at: &at,
         area: plane.area,
     };
     let lines = LevelLines::of(&placed, look.levels, look.limit_um);
@@ -176,21 +176,4 @@ fn outside_hatch(paint: Paint) -> Hatch {
         colour: "#3a3a3a",
         ground,
     }
-}
-
-/// A line in pixels, without the points that would not be seen.
-fn on_picture(plane: &Plane, line: &[[f64; 2]]) -> Vec<Point> {
-    // Half of the two decimals that are written.
-    const SAME_PX: f64 = 0.3;
-    let mut out: Vec<Point> = Vec::with_capacity(line.len());
-    for (k, mm) in line.iter().enumerate() {
-        let p = plane.at(*mm);
-        let near = out
-            .last()
-            .is_some_and(|q| (p[0] - q[0]).hypot(p[1] - q[1]) < SAME_PX);
-        if !near || k + 1 == line.len() {
-            out.push(p);
-        }
-    }
-    out
 }

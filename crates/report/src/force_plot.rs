@@ -27,10 +27,12 @@ const TICK_PX: f64 = 30.0;
 const BEFORE: &str = "#b9b9b9";
 /// A stretch where nothing is cut.
 const AIR: &str = "#e3eef7";
+const NOTHING: &str = "There is nothing to draw: the record has no values.";
 
-/// Least and greatest value in each column of pixels.
+/// Least and greatest value in each column of pixels, over a span of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
+    span_s: [f64; 2],
     columns: Vec<Option<[f64; 2]>>,
 }
 
@@ -53,7 +55,7 @@ impl Envelope {
             columns[column] = Some([value.min(low), value.max(high)]);
             last = Some((column, value));
         }
-        Envelope { columns }
+        Envelope { span_s, columns }
     }
 
     fn values(&self) -> impl Iterator<Item = f64> + '_ {
@@ -79,9 +81,7 @@ pub struct ForcePlot {
     pub title: String,
     /// Second line: file, sampling rate, what was done.
     pub subtitle: String,
-    /// The time that is shown, s.
-    pub span_s: [f64; 2],
-    /// One below the other.
+    /// One below the other; all envelopes are of one span, which is the time that is shown.
     pub traces: Vec<ForceTrace>,
     /// Stretches where nothing is cut, s.
     pub air_s: Vec<[f64; 2]>,
@@ -93,9 +93,16 @@ impl ForcePlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
+        let mut spans = self.traces.iter().flat_map(|t| [t.before.span_s, t.after.span_s]);
+        let Some(span_s) = spans.next().filter(|[from, to]| to > from) else {
+            return heading.notice(NOTHING);
+        };
+        if spans.any(|other| other != span_s) {
+            return heading.notice("The traces are not of one span of time.");
+        }
         let strips: Option<Vec<Strip<'_>>> = self.traces.iter().enumerate().map(strip).collect();
-        let Some(mut strips) = strips.filter(|all| !all.is_empty() && self.span_s[1] > self.span_s[0]) else {
-            return heading.notice("There is nothing to draw: the record has no values.");
+        let Some(mut strips) = strips else {
+            return heading.notice(NOTHING);
         };
         let numbers = strips.iter().map(|strip| strip.ticks().width_px(SMALL_PX));
         let left = BORDER_PX + 32.0 + numbers.fold(0.0, f64::max);
@@ -109,82 +116,95 @@ impl ForcePlot {
         for (index, strip) in strips.iter_mut().enumerate() {
             strip.area.x = left;
             strip.area.y = top + index as f64 * (CHART_PX + GAP_PX);
-            self.draw_air(&mut page.svg, &strip.area);
+            let time = TimeAxis {
+                span_s,
+                area: strip.area,
+            };
+            self.draw_air(&mut page.svg, &time);
             strip.draw(&mut page.svg);
         }
-        let all = Rect {
+        let area = Rect {
             x: left,
             y: top,
             w: COLUMNS as f64,
             h: strips.len() as f64 * (CHART_PX + GAP_PX) - GAP_PX,
         };
-        self.draw_marks(&mut page.svg, &all);
-        self.draw_time(&mut page.svg, &all);
-        page.finish_with_legend(&self.entries(), [left, all.bottom() + 50.0])
+        let time = TimeAxis { span_s, area };
+        self.draw_marks(&mut page.svg, &time);
+        time.draw(&mut page.svg);
+        page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
     }
 
-    fn x(&self, time_s: f64, area: &Rect) -> f64 {
-        let part = (time_s - self.span_s[0]) / (self.span_s[1] - self.span_s[0]);
-        area.x + part.clamp(0.0, 1.0) * area.w
-    }
-
-    fn draw_air(&self, svg: &mut Svg, area: &Rect) {
+    fn draw_air(&self, svg: &mut Svg, time: &TimeAxis) {
         for [from, to] in &self.air_s {
-            let x = self.x(*from, area);
+            let x = time.x(*from);
             let air = Rect {
                 x,
-                w: self.x(*to, area) - x,
-                ..*area
+                w: time.x(*to) - x,
+                ..time.area
             };
             svg.rect(air, &Style::fill(AIR));
         }
     }
 
     /// Instants as dashed lines through all charts, each with its name above where there is room.
-    fn draw_marks(&self, svg: &mut Svg, all: &Rect) {
+    fn draw_marks(&self, svg: &mut Svg, time: &TimeAxis) {
+        let area = time.area;
         let mut taken = f64::NEG_INFINITY;
-        for (time, name) in &self.marks_s {
-            let x = self.x(*time, all);
+        for (instant, name) in &self.marks_s {
+            let x = time.x(*instant);
             svg.line(
-                [x, all.y],
-                [x, all.bottom()],
+                [x, area.y],
+                [x, area.bottom()],
                 &Style::line(INK, 1.0).dashed("4 3"),
             );
             let half = text_width_px(name, SMALL_PX, Weight::Regular) / 2.0;
-            let at = x.clamp(all.x + half, (all.right() - half).max(all.x + half));
+            let at = x.clamp(area.x + half, (area.right() - half).max(area.x + half));
             if at - half > taken {
-                svg.text([at, all.y - 5.0], name, &Text::new(SMALL_PX).middle());
+                svg.text([at, area.y - 5.0], name, &Text::new(SMALL_PX).middle());
                 taken = at + half + 6.0;
             }
         }
     }
 
-    fn draw_time(&self, svg: &mut Svg, all: &Rect) {
-        let axis = Axis {
-            ticks: Ticks::about(COLUMNS as f64 / APART_PX[0], self.span_s),
-            area: *all,
-            font_px: SMALL_PX,
-            across: Across::Nothing,
-            overhang: Overhang::Allowed,
-        };
-        axis.draw_below(svg, |time| self.x(time, all));
-        let at = [all.centre()[0], all.bottom() + LABEL_BELOW_PX];
-        svg.text(at, "time (s)", &Text::new(BODY_PX).middle());
-    }
-
     fn entries(&self) -> Vec<Entry> {
-        let line = |colour: &str| Key::Line(vec![Style::line(colour, 2.4)]);
-        let after = (0..self.traces.len()).map(|k| Style::line(category(k), 2.4));
-        let mut entries = vec![Entry::new(line(BEFORE), "as measured")];
-        entries.extend(
-            after
-                .take(1)
-                .map(|style| Entry::new(Key::Line(vec![style]), "as used")),
-        );
+        let used = (0..self.traces.len()).map(|k| Style::line(category(k), 2.4));
+        let mut entries = vec![
+            Entry::line(Style::line(BEFORE, 2.4), "as measured"),
+            Entry::new(Key::Pieces(used.collect()), "as used"),
+        ];
         if !self.air_s.is_empty() {
             entries.push(Entry::new(Key::Field(Style::fill(AIR)), "nothing is cut"));
         }
         entries
+    }
+}
+
+/// The time across a chart, or across all of them.
+struct TimeAxis {
+    span_s: [f64; 2],
+    area: Rect,
+}
+
+impl TimeAxis {
+    /// Where an instant stands; one outside the span at the nearer end.
+    fn x(&self, time_s: f64) -> f64 {
+        let [from, to] = self.span_s;
+        self.area.x + ((time_s - from) / (to - from)).clamp(0.0, 1.0) * self.area.w
+    }
+
+    /// Ticks, numbers and label below the lowest chart.
+    fn draw(&self, svg: &mut Svg) {
+        let axis = Axis {
+            ticks: Ticks::about(COLUMNS as f64 / APART_PX[0], self.span_s),
+            area: self.area,
+            font_px: SMALL_PX,
+            across: Across::Nothing,
+            overhang: Overhang::Allowed,
+        };
+        axis.draw_below(svg, |time_s| self.x(time_s));
+        let at = [self.area.centre()[0], self.area.bottom() + LABEL_BELOW_PX];
+        svg.text(at, "time (s)", &Text::new(BODY_PX).middle());
     }
 }
 
@@ -286,7 +306,6 @@ mod tests {
         };
         ForcePlot {
             title: "a record".to_owned(),
-            span_s: [0.0, 10.0],
             traces: ["Fx (N)", "Fy (N)", "Fz (N)", "size (N)"].map(trace).to_vec(),
             air_s: vec![[0.0, 1.0], [9.0, 10.0]],
             marks_s: vec![(1.5, "first cut".to_owned())],
@@ -326,13 +345,33 @@ mod tests {
         let empty = ForceTrace {
             name: "Fx (N)".to_owned(),
             before: Envelope::of([0.0, 1.0], []),
-            after: Envelope::of([0.0, 0.0], [(0.0, 1.0)]),
+            after: Envelope::of([0.0, 1.0], []),
         };
-        let plot = ForcePlot {
-            span_s: [0.0, 1.0],
-            traces: vec![empty],
+        let of = |traces| ForcePlot {
+            traces,
             ..ForcePlot::default()
         };
-        assert!(plot.to_svg().contains("no values"));
+        assert!(of(vec![empty.clone()]).to_svg().contains("no values"));
+        let turned = ForceTrace {
+            before: Envelope::of([1.0, 0.0], []),
+            ..empty
+        };
+        assert!(of(vec![turned]).to_svg().contains("no values"));
+    }
+
+    #[test]
+    fn traces_of_different_times_are_not_drawn_as_if_they_were_of_one() {
+        let mut plot = plot();
+        plot.traces[3].after = Envelope::of([0.0, 5.0], [(1.0, 2.0)]);
+        assert!(plot.to_svg().contains("not of one span of time"));
+    }
+
+    #[test]
+    fn what_was_used_is_in_the_legend_in_the_colour_of_every_trace() {
+        let svg = plot().to_svg();
+        for index in 0..4 {
+            let key = format!("stroke=\"{}\" stroke-width=\"2.4\"", category(index));
+            assert_eq!(svg.matches(&key).count(), 1, "{index}");
+        }
     }
 }

@@ -19,6 +19,8 @@ pub(crate) enum Key {
     Field(Style),
     /// Lines drawn over each other.
     Line(Vec<Style>),
+    /// A line of several pieces, one after the other.
+    Pieces(Vec<Style>),
     /// A filled dot.
     Dot(Style),
     /// A diamond.
@@ -46,6 +48,13 @@ impl Key {
             Self::Line(styles) => {
                 for style in styles {
                     svg.line([x + 2.0, middle], [x + KEY_PX - 2.0, middle], style);
+                }
+            }
+            Self::Pieces(styles) => {
+                let piece = (KEY_PX - 4.0) / styles.len() as f64;
+                for (k, style) in styles.iter().enumerate() {
+                    let from = x + 2.0 + piece * k as f64;
+                    svg.line([from, middle], [from + piece, middle], style);
                 }
             }
             Self::Dot(style) => svg.circle(centre, 3.5, style),

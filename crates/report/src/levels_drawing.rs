@@ -5,6 +5,7 @@ use crate::colour::ColourScale;
 use crate::contours::{Lattice, Ring};
 use crate::levels::Levels;
 use crate::limit;
+use crate::line::without_straight;
 use crate::line_label::Labelled;
 use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
 
@@ -15,8 +16,8 @@ const COINCIDES: f64 = 0.05;
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub(crate) lattice: Lattice<'a>,
-    /// From a line in the units of the lattice to one in pixels.
-    pub(crate) line: &'a dyn Fn(&[[f64; 2]]) -> Vec<Point>,
+    /// Where a point of the lattice stands on the picture.
+    pub(crate) at: &'a dyn Fn([f64; 2]) -> Point,
     /// What the lattice covers.
     pub(crate) area: Rect,
 }
@@ -45,14 +46,20 @@ impl<'a> Placed<'a> {
     /// For each level the lines along which the samples equal it, px.
     pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Point>>> {
         let all = self.lattice.lines_at(levels);
-        let on_picture = |lines: &Vec<Ring>| lines.iter().map(|line| (self.line)(line)).collect();
+        let on_picture = |lines: &Vec<Ring>| lines.iter().map(|line| self.on_picture(line)).collect();
         all.iter().map(on_picture).collect()
+    }
+
+    /// A line in pixels, without the points that would not be seen.
+    fn on_picture(&self, line: &[[f64; 2]]) -> Vec<Point> {
+        let line: Vec<Point> = line.iter().map(|values| (self.at)(*values)).collect();
+        without_straight(&line)
     }
 
     fn fill(&self, svg: &mut Svg, rings: &[Ring], colour: &str) {
         let data: String = rings
             .iter()
-            .map(|ring| trace(&(self.line)(ring), Ends::Closed))
+            .map(|ring| trace(&self.on_picture(ring), Ends::Closed))
             .collect();
         svg.path(&data, &Style::fill(colour));
     }

@@ -1,6 +1,7 @@
 //! Labels on lines: rotated along the line, where it is straight, clear of each other, of other lines and of masked zones.
 
 use crate::font::{Weight, text_width_px};
+use crate::line::Stations;
 use crate::page::text_box;
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
@@ -25,26 +26,6 @@ pub(crate) struct Room<'a> {
     pub(crate) free: &'a dyn Fn(Point) -> bool,
     /// Points of other things drawn there, better not covered.
     pub(crate) obstacles: &'a [Point],
-}
-
-/// Points every few pixels along a line, as obstacles for labels.
-pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
-    const EVERY_PX: f64 = 3.0;
-    let mut points = Vec::new();
-    for w in line.windows(2) {
-        let length = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
-        // Far more than fit on a picture: the line runs out of it.
-        let count = (length / EVERY_PX).ceil().clamp(1.0, 2000.0) as usize;
-        points.extend((0..=count).map(|k| {
-            let t = k as f64 / count as f64;
-            [
-                w[0][0] + (w[1][0] - w[0][0]) * t,
-                w[0][1] + (w[1][1] - w[0][1]) * t,
-            ]
-        }));
-    }
-    points.retain(|p| p[0].is_finite() && p[1].is_finite());
-    points
 }
 
 /// Points all over a centred text, as obstacles for labels.
@@ -106,42 +87,6 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
                 &line.look.clone().middle().turned(turn_deg),
             );
         }
-    }
-}
-
-/// A line with the way from its start to each of its points.
-struct Stations<'a> {
-    points: &'a [Point],
-    way: Vec<f64>,
-    length: f64,
-}
-
-impl<'a> Stations<'a> {
-    fn along(points: &'a [Point]) -> Self {
-        let mut way = Vec::with_capacity(points.len());
-        let mut length = 0.0;
-        for (k, p) in points.iter().enumerate() {
-            if k > 0 {
-                length += (p[0] - points[k - 1][0]).hypot(p[1] - points[k - 1][1]);
-            }
-            way.push(length);
-        }
-        Self { points, way, length }
-    }
-
-    fn at(&self, s: f64) -> Point {
-        let k = self
-            .way
-            .partition_point(|w| *w < s)
-            .clamp(1, self.points.len() - 1);
-        let (a, b) = (self.points[k - 1], self.points[k]);
-        let span = self.way[k] - self.way[k - 1];
-        let t = if span > 0.0 {
-            ((s - self.way[k - 1]) / span).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t]
     }
 }
 

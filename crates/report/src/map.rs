@@ -7,7 +7,7 @@ use crate::grid::Grid;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
 use crate::limit;
-use crate::line_label::points_along;
+use crate::line::points_along;
 use crate::marker::{Marker, draw_marker, marker_entries};
 use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Plane};

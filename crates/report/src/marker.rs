@@ -6,6 +6,9 @@ use crate::page::SMALL_PX;
 use crate::plane::Plane;
 use crate::svg::{Point, Style, Svg, Text};
 
+/// From a point up to the baseline of its name.
+const NAME_ABOVE_PX: f64 = 8.0;
+
 /// What a marked point stands for; decides its sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MarkerKind {
@@ -25,6 +28,8 @@ pub struct Marker {
     pub label: String,
     /// Its sign.
     pub kind: MarkerKind,
+    /// What is written above the sign, such as a number; empty for nothing.
+    pub name: String,
 }
 
 impl Marker {
@@ -33,7 +38,7 @@ impl Marker {
     }
 }
 
-/// Draws the sign of a marker.
+/// Draws the sign of a marker, and its name above it.
 pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
     if !marker.is_somewhere() {
         return;
@@ -42,6 +47,9 @@ pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
     match marker.kind {
         MarkerKind::Point => svg.circle(at, 3.5, &style(marker.kind)),
         MarkerKind::Best => svg.polygon(&diamond(at, 7.0), &style(marker.kind)),
+    }
+    if !marker.name.is_empty() {
+        write_on_map(svg, [at[0], at[1] - NAME_ABOVE_PX], &marker.name);
     }
 }
 

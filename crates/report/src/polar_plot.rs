@@ -127,14 +127,20 @@ impl PolarPlot {
         }
     }
 
-    /// The ray between two spokes where the lines keep farthest from the rings' values.
-    fn clearest_ray_deg(&self, rings: &Rings) -> f64 {
-        let step = RADIUS_PX / 5.0;
+    /// The ray between two spokes along which the fewest points stand where a ring's value is to be written.
+    fn clearest_ray_deg(&self, rings: &Rings, numbered_um: &[f64]) -> f64 {
+        const NEAR_DEG: f64 = 9.0;
+        const NEAR_PX: f64 = 8.0;
+        let numbers_px: Vec<f64> = numbered_um.iter().map(|um| rings.radius_px(*um)).collect();
         let crowd = |ray: f64| -> usize {
-            let near = |a: f64| ((a - ray + 540.0).rem_euclid(360.0) - 180.0).abs() < 9.0;
+            let near_ray = |deg: f64| ((deg - ray + 540.0).rem_euclid(360.0) - 180.0).abs() < NEAR_DEG;
+            let near_number = |um: f64| {
+                let radius = rings.radius_px(um);
+                numbers_px.iter().any(|number| (radius - number).abs() < NEAR_PX)
+            };
             let points = self.series.iter().flat_map(RadialSeries::points);
             points
-                .filter(|[deg, um]| near(*deg) && (rings.radius_px(*um) / step).fract().abs() < 0.4)
+                .filter(|[deg, um]| near_ray(*deg) && near_number(*um))
                 .count()
         };
         let rays = [75.0, 105.0, 255.0, 285.0, 45.0, 135.0, 225.0, 315.0];
@@ -143,8 +149,9 @@ impl PolarPlot {
 
     /// The rings' values, along a ray between two spokes.
     fn write_scale(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
-        let ray_deg = self.clearest_ray_deg(rings);
-        for um in rings.numbered_um() {
+        let numbered_um = rings.numbered_um();
+        let ray_deg = self.clearest_ray_deg(rings, &numbered_um);
+        for um in numbered_um {
             let at = self.on_circle(centre, ray_deg, rings.radius_px(um));
             let sign = if um > rings.slack_um() { "+" } else { "" };
             let label = format!("{sign}{} µm", rings.ticks.label(um));
@@ -220,4 +227,39 @@ fn case_style(index: usize) -> Style {
 
 fn nominal_style() -> Style {
     Style::line(INK, 1.3).dashed("6 4")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_reach_from_the_hole_to_the_rim_and_hold_the_nominal_circle() {
+        for (low, high) in [(-3.0, 71.0), (5.0, 6.0), (-1e-9, 0.0), (-400.0, -390.0)] {
+            let rings = Rings::covering(low, high);
+            let [first, last] = rings.ends_um;
+            assert!(first <= low && last >= high && first < 0.0 && last > 0.0);
+            assert!((rings.radius_px(first) - HOLE_PX).abs() < 1e-9);
+            assert!((rings.radius_px(last) - RADIUS_PX).abs() < 1e-9);
+            assert!(rings.ticks.at.iter().any(|um| um.abs() < rings.slack_um()));
+        }
+    }
+
+    #[test]
+    fn values_are_written_where_the_line_is_not() {
+        let rings = Rings::covering(-10.0, 10.0);
+        let numbered = rings.numbered_um();
+        let on_ring = |deg: f64| RadialSeries {
+            angle_deg: vec![deg; 5],
+            radial_um: vec![numbered[1]; 5],
+            ..RadialSeries::default()
+        };
+        let plot = |series| PolarPlot {
+            series,
+            ..PolarPlot::default()
+        };
+        let ray = |series| plot(series).clearest_ray_deg(&rings, &numbered);
+        assert!((ray(Vec::new()) - 75.0).abs() < 1e-9);
+        assert!((ray(vec![on_ring(75.0), on_ring(105.0)]) - 255.0).abs() < 1e-9);
+    }
 }

@@ -13,7 +13,7 @@ use crate::limit;
 use crate::line_label::{Room, write_labels};
 use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
-use crate::svg::{Point, Style, Svg};
+use crate::svg::{Style, Svg};
 
 const AREA_PX: [f64; 2] = [480.0, 360.0];
 /// Deviations beyond this many times the limit have one colour: nobody cuts there.
@@ -96,14 +96,14 @@ impl ProcessMap {
     }
 
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
-        let line = |values: &[[f64; 2]]| values.iter().map(|v| chart.at(*v)).collect::<Vec<Point>>();
+        let at = |values: [f64; 2]| chart.at(values);
         let placed = Placed {
             lattice: Lattice {
                 horizontal: &self.horizontal,
                 vertical: &self.vertical,
                 samples: shown,
             },
-            line: &line,
+            at: &at,
             area: chart.area,
         };
         placed.draw_bands(svg, levels, ColourScale::default());

@@ -448,7 +448,7 @@ pub(crate) fn escape(text: &str) -> String {
     out
 }
 
-/// FNV-1a over the texts, folded to 32 bits: the same content gives the same prefix on every machine.
+/// FNV-1a of 32 bits over the texts: the same content gives the same prefix on every machine.
 fn fingerprint(texts: &[&str]) -> u32 {
     let mut hash = 0x811c_9dc5_u32;
     for byte in texts.iter().flat_map(|t| t.bytes()) {

@@ -78,10 +78,11 @@ fn track_map() -> TrackMap {
             points_mm,
         }
     };
-    let marker = |label: &str, at_mm| Marker {
+    let marker = |name: &str, at_mm| Marker {
         at_mm,
-        label: label.to_owned(),
+        label: "worst points".to_owned(),
         kind: MarkerKind::Point,
+        name: name.to_owned(),
     };
     TrackMap {
         title: "A part with an island".to_owned(),
@@ -201,7 +202,6 @@ fn force_plot() -> ForcePlot {
     ForcePlot {
         title: "Force on the tool while a groove is milled".into(),
         subtitle: "groove.txt, 50000 Hz; drift taken off; low-pass 50 Hz".into(),
-        span_s: SPAN_S,
         traces: vec![
             component("Fx (N)", 0),
             component("Fy (N)", 1),

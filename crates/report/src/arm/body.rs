@@ -3,7 +3,7 @@
 //! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its own link is drawn
 //! as a collar on that link, since its origin may stand anywhere along the axis.
 
-use super::Posture;
+use super::ArmPosture;
 use super::view::{Vec3, along, between, dot, length, unit};
 
 /// What a solid belongs to; decides its colour.
@@ -61,7 +61,7 @@ const THICK: f64 = 0.046;
 const THIN: f64 = 0.022;
 
 impl Body {
-    pub(crate) fn of(posture: &Posture) -> Self {
+    pub(crate) fn of(posture: &ArmPosture) -> Self {
         let size = arm_length(posture).max(1.0);
         let nodes: Vec<Vec3> = posture
             .joints
@@ -223,7 +223,7 @@ fn link(ends: [Vec3; 2], radii: [f64; 2], collars: &[&Collar]) -> Vec<Solid> {
 }
 
 /// The way from base over all joints to the flange.
-pub(crate) fn arm_length(posture: &Posture) -> f64 {
+pub(crate) fn arm_length(posture: &ArmPosture) -> f64 {
     let mut total = 0.0;
     let mut at = posture.base_mm;
     for next in posture
@@ -238,7 +238,7 @@ pub(crate) fn arm_length(posture: &Posture) -> f64 {
     total
 }
 
-fn foot(posture: &Posture, size: f64) -> Solid {
+fn foot(posture: &ArmPosture, size: f64) -> Solid {
     let half_length = FOOT * size;
     let axis = posture.joints.first().map_or([0.0, 0.0, 1.0], |j| unit(j.axis));
     Solid::Cylinder {

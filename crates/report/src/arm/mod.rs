@@ -24,7 +24,7 @@ pub struct ArmJoint {
 
 /// The arm in one posture, in the base frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Posture {
+pub struct ArmPosture {
     /// Where the foot stands, in mm.
     pub base_mm: [f64; 3],
     /// The joints from base to flange.
@@ -43,9 +43,9 @@ pub struct ArmDrawing {
     /// Second line.
     pub subtitle: String,
     /// The posture drawn in full.
-    pub posture: Posture,
+    pub posture: ArmPosture,
     /// Further postures, drawn faintly behind it.
-    pub ghosts: Vec<Posture>,
+    pub ghosts: Vec<ArmPosture>,
     /// Corners of a plate in mm, in order around it.
     pub plate_mm: Option<[[f64; 3]; 4]>,
     /// Path of the tool in mm.
@@ -111,7 +111,7 @@ impl ArmDrawing {
 }
 
 /// Whether every point of a posture is a number.
-fn is_finite(posture: &Posture) -> bool {
+fn is_finite(posture: &ArmPosture) -> bool {
     let points = posture.joints.iter().flat_map(|j| [j.origin_mm, j.axis]);
     points
         .chain([posture.base_mm, posture.flange_mm, posture.tool_mm])

@@ -3,7 +3,7 @@
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
 use super::shapes::{Place, corners, draw_solid, hull, paint_depth};
 use super::view::{Projection, Vec3, View};
-use super::{ArmDrawing, Posture, is_finite};
+use super::{ArmDrawing, ArmPosture, is_finite};
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
 use crate::colour::{INK, MUTED, SIGNAL};
@@ -25,7 +25,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(crate) fn of(drawing: &ArmDrawing) -> Self {
-        let ghosts: Vec<&Posture> = drawing
+        let ghosts: Vec<&ArmPosture> = drawing
             .ghosts
             .iter()
             .filter(|g| !g.joints.is_empty() && is_finite(g))

@@ -1,10 +1,10 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope, ForcePlot,
-    ForceTrace, Grid, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState, PolarPlot, Posture,
-    ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars, Sheet, StiffnessEllipse,
-    Stretch, TrackMap, VectorField, View,
+    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope,
+    ForcePlot, ForceTrace, Grid, MapSeries, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState,
+    PolarPlot, ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars,
+    StiffnessEllipse, Stretch, TrackMap, VectorField, View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -73,7 +73,7 @@ pub fn arm() -> ArmDrawing {
     };
     ArmDrawing {
         title: NASTY.into(),
-        posture: Posture {
+        posture: ArmPosture {
             base_mm: [0.0; 3],
             joints: vec![
                 joint(NASTY, [0.0; 3], [0.0, 0.0, 1.0]),
@@ -157,18 +157,18 @@ pub fn ellipse(compliance_um_per_n: [[f64; 2]; 2]) -> StiffnessEllipse {
     }
 }
 
-pub fn sheet(grids: Vec<Grid>) -> Sheet {
+pub fn sheet(grids: Vec<Grid>) -> MapSeries {
     let panels = grids.into_iter().map(|grid| Panel {
         title: NASTY.into(),
         note: "n".into(),
         grid,
     });
-    Sheet {
+    MapSeries {
         panels: panels.collect(),
         limit_um: Some(50.0),
         show_regions: true,
         columns: 4,
-        ..Sheet::default()
+        ..MapSeries::default()
     }
 }
 
@@ -177,6 +177,7 @@ pub fn track(deviation_um: Vec<f64>) -> TrackMap {
         at_mm,
         label: NASTY.into(),
         kind,
+        name: NASTY.into(),
     };
     let at = |k: usize| [10.0 * k as f64, 7.0 * (k % 2) as f64];
     TrackMap {
@@ -225,7 +226,6 @@ pub fn forces(newtons: Vec<f64>) -> ForcePlot {
     ForcePlot {
         title: NASTY.into(),
         subtitle: NASTY.into(),
-        span_s: SPAN_S,
         traces: vec![trace(0.5), trace(-1.0)],
         air_s: vec![[0.0, 1.0], [f64::NAN, 2.0]],
         marks_s: vec![(0.5, NASTY.into()), (f64::NAN, "never".into())],
@@ -331,7 +331,7 @@ pub fn everything() -> Vec<String> {
         [[1.0, 2.0], [2.0, 1.0]],
     ];
     all.extend(compliances.map(|c| ellipse(c).to_svg()));
-    let nowhere = Posture {
+    let nowhere = ArmPosture {
         tool_mm: [f64::NAN; 3],
         ..arm().posture
     };
@@ -346,9 +346,9 @@ pub fn everything() -> Vec<String> {
         .to_svg(),
         ArmDrawing::default().to_svg(),
         ArmDrawing {
-            posture: Posture {
+            posture: ArmPosture {
                 joints: vec![ArmJoint::default(); 6],
-                ..Posture::default()
+                ..ArmPosture::default()
             },
             ..arm()
         }

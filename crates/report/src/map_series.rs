@@ -45,7 +45,7 @@ pub struct Panel {
 
 /// What a sheet shows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sheet {
+pub struct MapSeries {
     /// First line, bold.
     pub title: String,
     /// Second line: load, posture.
@@ -66,7 +66,7 @@ pub struct Sheet {
     pub show_regions: bool,
 }
 
-impl Sheet {
+impl MapSeries {
     /// The sheet as a complete SVG document; a panel that cannot be drawn says why.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
@@ -224,7 +224,7 @@ struct Cell {
 }
 
 impl Layout {
-    fn new(sheet: &Sheet, window: Window) -> Self {
+    fn new(sheet: &MapSeries, window: Window) -> Self {
         let panels = sheet.panels.len();
         let columns = sheet.columns.clamp(1, panels.clamp(1, MOST_COLUMNS));
         let planes_per_panel = if sheet.has_regions() { 2 } else { 1 };
