@@ -1,4 +1,8 @@
 //! One field in one plane: bands or region, iso-lines with labels, the limit, and the zones that cannot be used.
+//!
+//! What is drawn between the grid points is the monotone cubic of [`crate::surface`]: exact at the points, between the two
+//! neighbours in between. How far a line lies from that of the true field is not known here; a finer grid tells. Zones
+//! end half-way between a point inside and a point outside.
 
 use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
 use crate::grid::{Grid, PointState};

@@ -129,19 +129,23 @@ impl PolarPlot {
 
     /// The ray between two spokes along which the fewest points stand where a ring's value is to be written.
     fn clearest_ray_deg(&self, rings: &Rings, numbered_um: &[f64]) -> f64 {
-        const NEAR_DEG: f64 = 9.0;
-        const NEAR_PX: f64 = 8.0;
-        let numbers_px: Vec<f64> = numbered_um.iter().map(|um| rings.radius_px(*um)).collect();
+        const HALF_PX: Point = [24.0, 9.0];
+        let centre = [0.0, 0.0];
+        let points: Vec<Point> = self
+            .series
+            .iter()
+            .flat_map(RadialSeries::points)
+            .map(|[deg, um]| self.on_circle(centre, deg, rings.radius_px(um)))
+            .collect();
         let crowd = |ray: f64| -> usize {
-            let near_ray = |deg: f64| ((deg - ray + 540.0).rem_euclid(360.0) - 180.0).abs() < NEAR_DEG;
-            let near_number = |um: f64| {
-                let radius = rings.radius_px(um);
-                numbers_px.iter().any(|number| (radius - number).abs() < NEAR_PX)
+            let numbers = numbered_um
+                .iter()
+                .map(|um| self.on_circle(centre, ray, rings.radius_px(*um)));
+            let covered = |n: Point| {
+                let under = |p: &&Point| (0..2).all(|k| (p[k] - n[k]).abs() < HALF_PX[k]);
+                points.iter().filter(under).count()
             };
-            let points = self.series.iter().flat_map(RadialSeries::points);
-            points
-                .filter(|[deg, um]| near_ray(*deg) && near_number(*um))
-                .count()
+            numbers.map(covered).sum()
         };
         let rays = [75.0, 105.0, 255.0, 285.0, 45.0, 135.0, 225.0, 315.0];
         rays.into_iter().min_by_key(|ray| crowd(*ray)).unwrap_or(75.0)
@@ -169,7 +173,7 @@ struct Rings {
 }
 
 impl Rings {
-    /// Rings at nice values from `low_um` to `high_um` and at least one to either side of the nominal circle.
+    /// Rings at nice values from `low_um` (0 or less) to `high_um` (0 or more) and at least one to either side of the nominal circle.
     fn covering(low_um: f64, high_um: f64) -> Self {
         let step = nice_step((high_um - low_um).max(1e-6), 4.0);
         let first = (low_um / step).floor().min(-1.0) * step;
@@ -235,7 +239,7 @@ mod tests {
 
     #[test]
     fn rings_reach_from_the_hole_to_the_rim_and_hold_the_nominal_circle() {
-        for (low, high) in [(-3.0, 71.0), (5.0, 6.0), (-1e-9, 0.0), (-400.0, -390.0)] {
+        for (low, high) in [(-3.0, 71.0), (0.0, 6.0), (-1e-9, 0.0), (-400.0, 0.0)] {
             let rings = Rings::covering(low, high);
             let [first, last] = rings.ends_um;
             assert!(first <= low && last >= high && first < 0.0 && last > 0.0);

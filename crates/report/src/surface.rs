@@ -3,6 +3,9 @@
 //! Values: piecewise cubic Hermite along rows, then along columns, slopes after Fritsch and Butland (1984): exact at the points,
 //! and on each lattice line never outside the two neighbouring values. Points without a value are filled from their neighbours
 //! first and masked afterwards; what is reached is known bilinearly, half-way between a point inside and a point outside.
+//!
+//! For a smooth field on a grid of equal steps h the error between the points goes with h^3, and with h^2 next to an extremum, where
+//! the slope is set to zero.
 
 use crate::axis::extent;
 use crate::contours::Lattice;

@@ -299,7 +299,12 @@ fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
         .collect();
     let inner = area.shrunk(6.0);
     for spot in &scene.body.joints {
-        let badge = best_badge(spot, place, (&taken, &arm, inner));
+        let around = Around {
+            taken: &taken,
+            arm: &arm,
+            inner,
+        };
+        let badge = best_badge(spot, place, &around);
         let Some((badge, joint)) = badge else { continue };
         let c = badge.centre();
         let away = (c[0] - joint[0]).hypot(c[1] - joint[1]).max(1.0);
@@ -320,11 +325,15 @@ fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
     }
 }
 
-fn best_badge(
-    spot: &JointSpot,
-    place: &Placed,
-    (taken, arm, inner): (&[Rect], &[Point], Rect),
-) -> Option<(Rect, Point)> {
+/// What a badge keeps clear of, and the part of the drawing that it stands in.
+struct Around<'a> {
+    taken: &'a [Rect],
+    arm: &'a [Point],
+    inner: Rect,
+}
+
+/// The badge of a joint and the point it belongs to; `None` without a name or without room.
+fn best_badge(spot: &JointSpot, place: &Placed, around: &Around<'_>) -> Option<(Rect, Point)> {
     if spot.name.is_empty() {
         return None;
     }
@@ -344,14 +353,15 @@ fn best_badge(
                 h: 18.0,
             };
             let room = badge.shrunk(-5.0);
-            if taken.iter().any(|t| t.overlaps(&room))
-                || !inner.contains([badge.x, badge.y])
-                || !inner.contains([badge.right(), badge.bottom()])
+            if around.taken.iter().any(|t| t.overlaps(&room))
+                || !around.inner.contains([badge.x, badge.y])
+                || !around.inner.contains([badge.right(), badge.bottom()])
             {
                 continue;
             }
             let keep = spot.radius * place.px_per_mm;
-            let crowd: f64 = arm
+            let crowd: f64 = around
+                .arm
                 .iter()
                 .map(|p| (keep + 14.0 - (p[0] - c[0]).hypot(p[1] - c[1])).max(0.0))
                 .sum();
