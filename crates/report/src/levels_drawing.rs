@@ -68,7 +68,7 @@ impl<'a> Placed<'a> {
 /// The lines between the bands, and the line of the limit.
 pub(crate) struct LevelLines<'a> {
     levels: &'a Levels,
-    limit_um: f64,
+    limit_um: Option<f64>,
     /// One list of lines for each inner level.
     iso: Vec<Vec<Vec<Point>>>,
     limit: Vec<Vec<Point>>,
@@ -77,10 +77,11 @@ pub(crate) struct LevelLines<'a> {
 impl<'a> LevelLines<'a> {
     /// No line stands for a limit that is not finite.
     pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, limit_um: Option<f64>) -> Self {
-        let limit: Vec<f64> = limit_um.into_iter().filter(|limit| limit.is_finite()).collect();
+        let limit_um = limit_um.filter(|limit| limit.is_finite());
+        let limit: Vec<f64> = limit_um.into_iter().collect();
         Self {
             levels,
-            limit_um: limit.first().copied().unwrap_or(f64::NAN),
+            limit_um,
             iso: placed.lines_at(levels.inner_um()),
             limit: placed.lines_at(&limit).into_iter().flatten().collect(),
         }
@@ -105,13 +106,17 @@ impl<'a> LevelLines<'a> {
     pub(crate) fn labels(&self) -> Vec<Labelled> {
         let on_limit = self.limit.iter().map(|points| Labelled {
             points: points.clone(),
-            text: limit::label(self.limit_um),
+            text: self.limit_um.map(limit::label).unwrap_or_default(),
             look: limit::text(),
         });
         let step_um = self.levels.step_um;
+        let is_apart = |level: f64| {
+            self.limit_um
+                .is_none_or(|limit| (level - limit).abs() >= COINCIDES * step_um)
+        };
         let iso = self.iso.iter().zip(self.levels.inner_um());
         let on_iso = iso
-            .filter(|(_, level)| !((*level - self.limit_um).abs() < COINCIDES * step_um))
+            .filter(|(_, level)| is_apart(**level))
             .flat_map(|(lines, level)| {
                 lines.iter().map(|points| Labelled {
                     points: points.clone(),
