@@ -5,7 +5,7 @@
 /// Longest list of ticks; more cannot be read.
 const MOST_TICKS: usize = 60;
 
-/// The nice step nearest above `span / count`.
+/// The smallest nice step that is not below `span / count`; 1 for a span of nothing.
 pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
     let raw = span.abs() / count.max(1.0);
     if !raw.is_finite() || raw <= f64::MIN_POSITIVE {
@@ -21,7 +21,7 @@ pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
     nice * decade
 }
 
-/// The nice number (1, 2 or 5 times a power of ten) nearest below `value`.
+/// The greatest number 1, 2 or 5 times a power of ten that is not above `value`; 1 for a value that is not positive.
 pub(crate) fn nice_below(value: f64) -> f64 {
     if !value.is_finite() || value <= f64::MIN_POSITIVE {
         return 1.0;
@@ -48,12 +48,6 @@ pub(crate) fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
     (0..count as usize).map(|k| (first + k as f64) * step).collect()
 }
 
-/// About `count` nice ticks between `low` and `high`, with their step.
-pub(crate) fn ticks(low: f64, high: f64, count: f64) -> (Vec<f64>, f64) {
-    let step = nice_step(high - low, count);
-    (multiples(low, high, step), step)
-}
-
 /// `value` with the decimals that `step` needs.
 pub(crate) fn tick_label(value: f64, step: f64) -> String {
     let decimals = (0..6).find(|d| {
@@ -63,17 +57,13 @@ pub(crate) fn tick_label(value: f64, step: f64) -> String {
     number(value, decimals.unwrap_or(6).unsigned_abs() as usize)
 }
 
-/// `value` with three significant digits, for labels next to a drawing.
+/// `value` with three significant digits, whole from 100 on, and six decimals at most; for labels next to a drawing.
 pub(crate) fn three_digits(value: f64) -> String {
     let size = value.abs();
-    let decimals = if size == 0.0 || size >= 100.0 {
+    let decimals = if size == 0.0 {
         0
-    } else if size >= 10.0 {
-        1
-    } else if size >= 1.0 {
-        2
     } else {
-        3
+        (2.0 - size.log10().floor()).clamp(0.0, 6.0) as usize
     };
     number(value, decimals)
 }
@@ -124,9 +114,12 @@ mod tests {
 
     #[test]
     fn ticks_are_multiples_of_a_nice_step_inside_the_range() {
-        let (at, step) = ticks(-430.0, 410.0, 6.0);
+        let step = nice_step(410.0 - -430.0, 6.0);
         assert!((step - 200.0).abs() < 1e-9);
-        assert_eq!(at, [-400.0, -200.0, 0.0, 200.0, 400.0]);
+        assert_eq!(
+            multiples(-430.0, 410.0, step),
+            [-400.0, -200.0, 0.0, 200.0, 400.0]
+        );
     }
 
     #[test]
@@ -141,8 +134,27 @@ mod tests {
     fn nothing_loops_on_ranges_without_sense() {
         assert!(multiples(f64::NAN, 1.0, 1.0).is_empty());
         assert!(multiples(0.0, 1e300, 1.0).is_empty());
-        assert!(ticks(3.0, 3.0, 5.0).0.len() <= 1);
-        assert!(ticks(f64::NEG_INFINITY, f64::INFINITY, 5.0).0.is_empty());
+        assert!(multiples(3.0, 3.0, nice_step(0.0, 5.0)).len() <= 1);
+        let endless = [f64::NEG_INFINITY, f64::INFINITY];
+        assert!(multiples(endless[0], endless[1], nice_step(f64::INFINITY, 5.0)).is_empty());
+    }
+
+    #[test]
+    fn three_digits_mean_something_on_every_scale() {
+        let told = [1234.4, 123.4, 12.34, 1.234, 0.4, 0.0456, 0.001234, -0.05, 0.0].map(three_digits);
+        let expected = [
+            "1234",
+            "123",
+            "12.3",
+            "1.23",
+            "0.400",
+            "0.0456",
+            "0.00123",
+            "\u{2212}0.0500",
+            "0",
+        ];
+        assert_eq!(told, expected);
+        assert_eq!(three_digits(f64::NAN), "–");
     }
 
     #[test]

@@ -1,10 +1,14 @@
 //! A chart with two independent axes: frame, ticks, grid lines, and lines broken where a value is missing.
 
-use crate::axis::{extent, tick_label, ticks};
-use crate::colour::{GRID, INK};
-use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, SMALL_PX};
+use crate::axis::extent;
+use crate::colour::INK;
+use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
+use crate::plane::{AxisLabels, LABEL_BELOW_PX, LABEL_LEFT_PX, LEFT_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
+use crate::ticks::{Across, Axis, Overhang, Ticks};
+
+/// Pixels that each tick gets at least, about: across, up.
+pub(crate) const APART_PX: [f64; 2] = [75.0, 42.0];
 
 /// A chart placed on the picture; `low` and `high` are left and right, bottom and top.
 #[derive(Clone, Copy, Debug)]
@@ -15,6 +19,28 @@ pub(crate) struct Chart {
 }
 
 impl Chart {
+    /// A chart of `size` pixels at the left border of a page, with room for its axis; its y is still 0.
+    pub(crate) fn beside_axis(size: [f64; 2], across: [f64; 2], up: [f64; 2]) -> Self {
+        let mut chart = Self {
+            area: Rect {
+                x: 0.0,
+                y: 0.0,
+                w: size[0],
+                h: size[1],
+            },
+            low: [across[0], up[0]],
+            high: [across[1], up[1]],
+        };
+        chart.area.x = BORDER_PX + chart.left_room_px();
+        chart
+    }
+
+    /// The same chart with its upper edge at `y`.
+    pub(crate) fn lowered_to(self, y: f64) -> Self {
+        let area = Rect { y, ..self.area };
+        Self { area, ..self }
+    }
+
     pub(crate) fn at(&self, v: [f64; 2]) -> Point {
         let t = |k: usize| (v[k] - self.low[k]) / (self.high[k] - self.low[k]);
         [
@@ -24,55 +50,36 @@ impl Chart {
     }
 
     /// Grid lines, ticks, numbers and frame; axis labels below and left.
-    pub(crate) fn draw(&self, svg: &mut Svg, horizontal: &str, vertical: &str) {
-        let (at_x, step_x) = self.ticks(0);
-        let (at_y, step_y) = self.ticks(1);
-        let (ink, grid) = (Style::line(INK, 1.0), Style::line(GRID, 1.0));
-        let bottom = self.area.bottom();
-        for v in at_x {
-            let x = self.at([v, 0.0])[0];
-            svg.line([x, self.area.y], [x, bottom], &grid);
-            svg.line([x, bottom], [x, bottom + 5.0], &ink);
-            svg.text(
-                [x, bottom + 17.0],
-                &tick_label(v, step_x),
-                &Text::new(SMALL_PX).middle(),
-            );
-        }
-        for v in at_y {
-            let y = self.at([0.0, v])[1];
-            svg.line([self.area.x, y], [self.area.right(), y], &grid);
-            svg.line([self.area.x - 5.0, y], [self.area.x, y], &ink);
-            svg.text(
-                [self.area.x - 8.0, y + 4.0],
-                &tick_label(v, step_y),
-                &Text::new(SMALL_PX).end(),
-            );
-        }
-        svg.rect(self.area, &ink);
+    pub(crate) fn draw_axes(&self, svg: &mut Svg, labels: &AxisLabels) {
+        let axis = |k: usize| Axis {
+            ticks: self.ticks(k),
+            area: self.area,
+            font_px: SMALL_PX,
+            across: Across::Lines,
+            overhang: Overhang::Allowed,
+        };
+        axis(0).draw_below(svg, |v| self.at([v, 0.0])[0]);
+        axis(1).draw_left(svg, |v| self.at([0.0, v])[1]);
+        svg.rect(self.area, &Style::line(INK, 1.0));
         let c = self.area.centre();
         let text = Text::new(BODY_PX).middle();
-        svg.text([c[0], bottom + 36.0], horizontal, &text);
-        let x = self.area.x - self.left_room_px() + 14.0;
-        svg.text([x, c[1]], vertical, &text.turned(-90.0));
+        svg.text(
+            [c[0], self.area.bottom() + LABEL_BELOW_PX],
+            &labels.horizontal,
+            &text,
+        );
+        let x = self.area.x - self.left_room_px() + LABEL_LEFT_PX;
+        svg.text([x, c[1]], &labels.vertical, &text.turned(-90.0));
     }
 
     /// Room left of the chart for numbers and label.
-    pub(crate) fn left_room_px(&self) -> f64 {
-        let (at, step) = self.ticks(1);
-        let widths = at
-            .iter()
-            .map(|v| text_width_px(&tick_label(*v, step), SMALL_PX, Weight::Regular));
-        widths.fold(0.0, f64::max) + 36.0
+    fn left_room_px(&self) -> f64 {
+        self.ticks(1).width_px(SMALL_PX) + LEFT_PX
     }
 
-    fn ticks(&self, k: usize) -> (Vec<f64>, f64) {
-        let count = if k == 0 {
-            self.area.w / 75.0
-        } else {
-            self.area.h / 42.0
-        };
-        ticks(self.low[k], self.high[k], count.max(2.0))
+    fn ticks(&self, k: usize) -> Ticks {
+        let count = [self.area.w / APART_PX[0], self.area.h / APART_PX[1]][k];
+        Ticks::about(count.max(2.0), [self.low[k], self.high[k]])
     }
 }
 
@@ -101,4 +108,32 @@ pub(crate) fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     }
     runs.retain(|run| !run.is_empty());
     runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_range_is_widened_on_both_sides_and_never_empty() {
+        assert_eq!(range([1.0, f64::NAN, 3.0], 0.5), Some([0.0, 4.0]));
+        assert_eq!(range([0.0, 0.0], 0.1), Some([-1.0, 1.0]));
+        assert_eq!(range([-20.0], 0.0), Some([-22.0, -18.0]));
+        assert_eq!(range([f64::NAN], 0.1), None);
+    }
+
+    #[test]
+    fn a_run_ends_where_a_value_is_missing() {
+        let nan = f64::NAN;
+        let points = [
+            [nan, 0.0],
+            [0.0, 0.0],
+            [1.0, 1.0],
+            [2.0, nan],
+            [nan, 3.0],
+            [4.0, 4.0],
+        ];
+        assert_eq!(runs(points), [vec![[0.0, 0.0], [1.0, 1.0]], vec![[4.0, 4.0]]]);
+        assert!(runs([[nan, nan]]).is_empty());
+    }
 }

@@ -6,10 +6,20 @@
 pub(crate) const INK: &str = "#1b1b1b";
 /// Secondary text.
 pub(crate) const MUTED: &str = "#5a5a5a";
+/// What was meant, behind what came of it: nominal paths, places that no tool reaches.
+pub(crate) const NOMINAL: &str = "#9a9a9a";
+/// Lines that help to read a drawing of a few lines.
+pub(crate) const FAINT: &str = "#c9c9c9";
+/// The ground where a drawing would stand, had it anything to show.
+pub(crate) const EMPTY: &str = "#f6f6f6";
+/// Edges of the fields in a legend.
+pub(crate) const KEY_EDGE: &str = "#8a8a8a";
 /// Grid lines inside charts.
 pub(crate) const GRID: &str = "#e3e3e3";
+/// What the eye shall find first.
+pub(crate) const SIGNAL: &str = "#c8102e";
 /// The limit, on every picture.
-pub(crate) const LIMIT: &str = "#c8102e";
+pub(crate) const LIMIT: &str = SIGNAL;
 /// Permissible region.
 pub(crate) const WITHIN: &str = "#b7dcc9";
 /// Within the limit or over it: the uncertainty does not tell.
@@ -32,7 +42,7 @@ pub enum ColourScale {
     /// Dark violet over green to yellow.
     #[default]
     Viridis,
-    /// Dark blue over grey to yellow; looks the same to almost everybody.
+    /// Dark blue over grey to yellow; looks the same to almost everybody. The pictures of a study do not ask for it.
     Cividis,
 }
 
@@ -50,7 +60,7 @@ impl ColourScale {
 }
 
 /// Colour of the `index`-th case, joint or series.
-pub(crate) fn category(index: usize) -> &'static str {
+pub(crate) const fn category(index: usize) -> &'static str {
     CATEGORIES[index % CATEGORIES.len()]
 }
 

@@ -1,13 +1,17 @@
 //! The colour bar of a filled map: one box a band, numbers at the edges, the limit as a line across.
 
 use crate::axis::plain;
-use crate::colour::{ColourScale, INK, LIMIT};
+use crate::colour::{ColourScale, INK};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::levels::Levels;
+use crate::limit;
 use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Rect, Style, Svg, Text};
 
 const BAR_PX: f64 = 16.0;
+/// From a drawing to the bar beside it, and the least height that such a bar has.
+const GAP_PX: f64 = 22.0;
+const LEAST_PX: f64 = 150.0;
 const QUANTITY_LINE_PX: f64 = 15.0;
 
 /// A colour bar with its quantity and limit.
@@ -24,7 +28,18 @@ impl ColourBar<'_> {
         self.numbers_px() + 10.0 + QUANTITY_LINE_PX * self.quantity_lines(height_px).len() as f64
     }
 
-    /// Draws the bar in `area`; its quantity reads upwards along the right side.
+    /// Where the bar stands beside a drawing: right of it, from its upper edge.
+    pub(crate) fn beside(&self, drawing: Rect) -> Rect {
+        let h = drawing.h.max(LEAST_PX);
+        Rect {
+            x: drawing.right() + GAP_PX,
+            y: drawing.y,
+            w: self.width_px(h),
+            h,
+        }
+    }
+
+    /// Draws the bar at the left of `area`; its quantity reads upwards along the right side.
     pub(crate) fn draw(&self, svg: &mut Svg, area: Rect) {
         let edges = &self.levels.edge_um;
         let (Some(low), Some(high)) = (edges.first(), edges.last()) else {
@@ -59,10 +74,9 @@ impl ColourBar<'_> {
         }
         if let Some(l) = limit {
             let (a, b) = ([area.x - 3.0, y(l)], [area.x + BAR_PX + 6.0, y(l)]);
-            svg.line(a, b, &Style::line("#fff", 4.6).opacity(0.9));
-            svg.line(a, b, &Style::line(LIMIT, 2.4));
-            let text = Text::new(SMALL_PX).bold().colour(LIMIT);
-            svg.text([b[0] + 4.0, y(l) + 4.0], &format!("limit {}", plain(l)), &text);
+            svg.line(a, b, &limit::ground_style());
+            svg.line(a, b, &limit::style());
+            svg.text([b[0] + 4.0, y(l) + 4.0], &limit_number(l), &limit::text());
         }
         let lines = self.quantity_lines(area.h);
         for (k, line) in lines.iter().enumerate() {
@@ -88,7 +102,7 @@ impl ColourBar<'_> {
             .map(|v| text_width_px(&self.levels.label(*v), SMALL_PX, Weight::Regular))
             .fold(0.0, f64::max);
         let limit = self.limit_inside().map_or(0.0, |l| {
-            text_width_px(&format!("limit {}", plain(l)), SMALL_PX, Weight::Bold) + 4.0
+            text_width_px(&limit_number(l), SMALL_PX, Weight::Bold) + 4.0
         });
         BAR_PX + 8.0 + numbers.max(limit)
     }
@@ -97,4 +111,9 @@ impl ColourBar<'_> {
         let (low, high) = (self.levels.edge_um.first()?, self.levels.edge_um.last()?);
         self.limit_um.filter(|l| l >= low && l <= high)
     }
+}
+
+/// The limit among the numbers of the bar, whose unit stands in its quantity.
+fn limit_number(limit_um: f64) -> String {
+    format!("limit {}", plain(limit_um))
 }

@@ -1,18 +1,19 @@
-//! Level lines of a fine lattice, as closed areas and as open lines, in mm.
+//! Level lines of a fine lattice, as closed areas and as open lines, in the units of its axes.
 //!
 //! The crate `contour` places a sample at the centre of its cell and closes areas half a cell outside the lattice:
 //! taking half a step off and cutting at the lattice's edge puts every sample where it belongs.
 
-/// A point in mm.
-pub(crate) type Mm = [f64; 2];
+/// A horizontal and a vertical value.
+type Pair = [f64; 2];
 
 /// One closed line around an area, or around a hole in it.
-pub(crate) type Ring = Vec<Mm>;
+pub(crate) type Ring = Vec<Pair>;
 
-/// A lattice of samples, row by row.
+/// A lattice of samples, row by row. Not checked: that each axis rises or falls steadily.
+#[derive(Clone, Copy)]
 pub(crate) struct Lattice<'a> {
-    pub(crate) horizontal_mm: &'a [f64],
-    pub(crate) vertical_mm: &'a [f64],
+    pub(crate) horizontal: &'a [f64],
+    pub(crate) vertical: &'a [f64],
     pub(crate) samples: &'a [f64],
 }
 
@@ -20,29 +21,29 @@ impl Lattice<'_> {
     /// For each level, the rings of the area where the samples are at least that level (even-odd rule).
     pub(crate) fn areas_from(&self, levels: &[f64]) -> Vec<Vec<Ring>> {
         let index_rings = self.index_rings(levels);
-        let to_mm = |ring: Vec<Mm>| ring.into_iter().map(|p| self.mm(p)).collect();
+        let on_lattice = |ring: Vec<Pair>| ring.into_iter().map(|p| self.at(p)).collect();
         index_rings
             .into_iter()
-            .map(|rings| rings.into_iter().map(to_mm).collect())
+            .map(|rings| rings.into_iter().map(on_lattice).collect())
             .collect()
     }
 
     /// For each level, the lines along which the samples equal it; the edge of the lattice is not part of them.
-    pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Mm>>> {
+    pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Pair>>> {
         let index_rings = self.index_rings(levels);
         index_rings
             .into_iter()
             .map(|rings| {
                 let lines = rings.iter().flat_map(|ring| self.inner_lines(ring));
                 lines
-                    .map(|line| line.into_iter().map(|p| self.mm(p)).collect())
+                    .map(|line| line.into_iter().map(|p| self.at(p)).collect())
                     .collect()
             })
             .collect()
     }
 
-    fn index_rings(&self, levels: &[f64]) -> Vec<Vec<Vec<Mm>>> {
-        let (nx, ny) = (self.horizontal_mm.len(), self.vertical_mm.len());
+    fn index_rings(&self, levels: &[f64]) -> Vec<Vec<Vec<Pair>>> {
+        let (nx, ny) = (self.horizontal.len(), self.vertical.len());
         if nx < 2 || ny < 2 || self.samples.len() != nx * ny || self.samples.iter().any(|s| !s.is_finite()) {
             return vec![Vec::new(); levels.len()];
         }
@@ -55,7 +56,7 @@ impl Lattice<'_> {
         for (rings, contour) in all.iter_mut().zip(contours) {
             for polygon in contour.geometry() {
                 for line in std::iter::once(polygon.exterior()).chain(polygon.interiors()) {
-                    let ring: Vec<Mm> = line
+                    let ring: Vec<Pair> = line
                         .coords()
                         .map(|c| [(c.x - 0.5).clamp(0.0, edge[0]), (c.y - 0.5).clamp(0.0, edge[1])])
                         .collect();
@@ -67,14 +68,14 @@ impl Lattice<'_> {
     }
 
     /// The parts of a ring that do not run along the edge.
-    fn inner_lines(&self, ring: &[Mm]) -> Vec<Vec<Mm>> {
+    fn inner_lines(&self, ring: &[Pair]) -> Vec<Vec<Pair>> {
         let edge = [
-            (self.horizontal_mm.len() - 1) as f64,
-            (self.vertical_mm.len() - 1) as f64,
+            (self.horizontal.len() - 1) as f64,
+            (self.vertical.len() - 1) as f64,
         ];
         let along_edge =
-            |a: Mm, b: Mm| a == b || (0..2).any(|k| a[k] == b[k] && (a[k] == 0.0 || a[k] == edge[k]));
-        let mut lines: Vec<Vec<Mm>> = Vec::new();
+            |a: Pair, b: Pair| a == b || (0..2).any(|k| a[k] == b[k] && (a[k] == 0.0 || a[k] == edge[k]));
+        let mut lines: Vec<Vec<Pair>> = Vec::new();
         let mut open = false;
         for w in ring.windows(2) {
             if along_edge(w[0], w[1]) {
@@ -98,10 +99,10 @@ impl Lattice<'_> {
         lines
     }
 
-    fn mm(&self, index: Mm) -> Mm {
+    fn at(&self, index: Pair) -> Pair {
         [
-            between(self.horizontal_mm, index[0]),
-            between(self.vertical_mm, index[1]),
+            between(self.horizontal, index[0]),
+            between(self.vertical, index[1]),
         ]
     }
 }
@@ -121,8 +122,8 @@ mod tests {
 
     fn lattice(samples: &[f64]) -> Lattice<'_> {
         Lattice {
-            horizontal_mm: &X,
-            vertical_mm: &Y,
+            horizontal: &X,
+            vertical: &Y,
             samples,
         }
     }

@@ -1,14 +1,19 @@
 //! One field in one plane: bands or region, iso-lines with labels, the limit, and the zones that cannot be used.
+//!
+//! What is drawn between the grid points is the monotone cubic of [`crate::surface`]: exact at the points, between the two
+//! neighbours in between. How far a line lies from that of the true field is not known here; a finer grid tells. Zones
+//! end half-way between a point inside and a point outside.
 
-use crate::colour::{ColourScale, DOUBTFUL, INK, LIMIT, OVER, WITHIN};
-use crate::contours::{Lattice, Ring};
+use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
 use crate::grid::{Grid, PointState};
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::line_label::{Labelled, Room, write_labels};
-use crate::page::{Entry, Key};
+use crate::levels_drawing::{LevelLines, Placed};
+use crate::limit;
+use crate::line_label::{Room, write_labels};
 use crate::plane::{Plane, Window};
 use crate::surface::Surface;
-use crate::svg::{Ends, Hatch, Point, Style, Svg, Text, trace};
+use crate::svg::{Hatch, Point, Style, Svg};
 
 /// How the area of a field is painted.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,111 +48,75 @@ pub(crate) struct Look<'a> {
 pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<'_>) {
     let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64) as usize;
     let surface = Surface::refine(grid, steps);
-    let values = lattice(&surface);
-    let level_lines = |levels: &[f64]| -> Vec<Vec<Vec<Point>>> {
-        let all = values.lines_at(levels);
-        all.into_iter()
-            .map(|lines| lines.into_iter().map(|l| on_picture(plane, &l)).collect())
-            .collect()
+    let at = |mm: [f64; 2]| plane.at(mm);
+    let placed = Placed {
+        lattice: surface.lattice(),
+        at: &at,
+        area: plane.area,
     };
-    let limit: Vec<f64> = look.limit_um.into_iter().filter(|l| l.is_finite()).collect();
-    let iso_levels: &[f64] = match (look.iso_lines, look.paint) {
-        (IsoLines::Off, _) => &[],
-        _ => look.levels.inner_um(),
-    };
-    let iso = level_lines(iso_levels);
-    let limit_lines: Vec<Vec<Point>> = level_lines(&limit).into_iter().flatten().collect();
-
+    let lines = LevelLines::of(&placed, look.levels, look.limit_um);
     svg.clipped(plane.area, |svg| {
         match look.paint {
-            Paint::Bands(scale) => {
-                svg.rect(plane.area, &Style::fill(look.levels.colour(0, scale)));
-                let areas = values.areas_from(look.levels.inner_um());
-                for (band, rings) in areas.iter().enumerate() {
-                    svg.path(
-                        &rings_path(plane, rings),
-                        &Style::fill(look.levels.colour(band + 1, scale)),
-                    );
-                }
-            }
-            Paint::Region => {
-                svg.rect(plane.area, &Style::fill(WITHIN));
-                let over_limit = |svg: &mut Svg, values: &Lattice<'_>, colour: &str| {
-                    for rings in values.areas_from(&limit) {
-                        svg.path(&rings_path(plane, &rings), &Style::fill(colour));
-                    }
-                };
-                match look.doubt {
-                    Some([least, greatest]) => {
-                        for (of, colour) in [(greatest, DOUBTFUL), (least, OVER)] {
-                            let surface = Surface::refine(of, steps);
-                            over_limit(svg, &lattice(&surface), colour);
-                        }
-                    }
-                    None => over_limit(svg, &values, OVER),
-                }
-            }
+            Paint::Bands(scale) => placed.draw_bands(svg, look.levels, scale),
+            Paint::Region => draw_region(svg, &placed, look, steps),
         }
-        let thin = match look.iso_lines {
-            IsoLines::Labelled => Style::line(INK, 0.8).opacity(0.6),
-            _ => Style::line(INK, 0.5).opacity(0.45),
+        match look.iso_lines {
+            IsoLines::Off => {}
+            IsoLines::Thin => lines.draw_iso(svg, &Style::line(INK, 0.5).opacity(0.45)),
+            IsoLines::Labelled => lines.draw_iso(svg, &Style::line(INK, 0.8).opacity(0.6)),
+        }
+        let zone = |inside: fn(PointState) -> bool| -> Vec<f64> {
+            grid.points.iter().map(|p| f64::from(inside(*p))).collect()
         };
-        for line in iso.iter().flatten() {
-            svg.polyline(line, &thin);
-        }
         if grid.has_outside_limits() {
+            let samples = zone(|p| matches!(p, PointState::OutsideJointLimits(_)));
             let fill = svg.hatch(&outside_hatch(look.paint));
-            draw_zone(
-                svg,
-                plane,
-                grid,
-                &Zone {
-                    class: "outside-joint-limits",
-                    fill,
-                },
-                |p| matches!(p, PointState::OutsideJointLimits(_)),
-            );
+            svg.layer("outside-joint-limits", 1.0, |svg| {
+                draw_zone(svg, &placed.with(grid.lattice(&samples)), &fill);
+            });
         }
-        for line in &limit_lines {
-            svg.polyline(line, &Style::line("#fff", 4.6).opacity(0.9));
-        }
-        for line in &limit_lines {
-            svg.polyline(line, &limit_style());
-        }
+        lines.draw_limit(svg, &[limit::ground_style(), limit::style()]);
         if grid.has_unreachable() {
+            let samples = zone(|p| p.value_um().is_none());
             let fill = svg.hatch(&unreachable_hatch());
-            draw_zone(
-                svg,
-                plane,
-                grid,
-                &Zone {
-                    class: "unreachable",
-                    fill,
-                },
-                |p| p.value_um().is_none(),
-            );
+            svg.layer("unreachable", 1.0, |svg| {
+                draw_zone(svg, &placed.with(grid.lattice(&samples)), &fill);
+            });
         }
     });
     if look.iso_lines == IsoLines::Labelled {
-        let labels = labels_of(&limit_lines, &iso, iso_levels, look);
         let free = |p: Point| surface.is_reached_at(plane.mm(p));
-        write_labels(
-            svg,
-            &labels,
-            &Room {
-                area: plane.area,
-                free: &free,
-                obstacles: look.obstacles,
-            },
-        );
+        let room = Room {
+            area: plane.area,
+            free: &free,
+            obstacles: look.obstacles,
+        };
+        write_labels(svg, &lines.labels(), &room);
     }
 }
 
-fn lattice(surface: &Surface) -> Lattice<'_> {
-    Lattice {
-        horizontal_mm: &surface.horizontal_mm,
-        vertical_mm: &surface.vertical_mm,
-        samples: &surface.value_um,
+/// One colour within the limit, another over it, and a third where the uncertainty does not tell.
+fn draw_region(svg: &mut Svg, values: &Placed<'_>, look: &Look<'_>, steps: usize) {
+    svg.rect(values.area, &Style::fill(WITHIN));
+    let Some(limit_um) = look.limit_um.filter(|limit| limit.is_finite()) else {
+        return;
+    };
+    match look.doubt {
+        Some([least, greatest]) => {
+            for (grid, colour) in [(greatest, DOUBTFUL), (least, OVER)] {
+                let surface = Surface::refine(grid, steps);
+                values.with(surface.lattice()).fill_from(svg, limit_um, colour);
+            }
+        }
+        None => values.fill_from(svg, limit_um, OVER),
+    }
+}
+
+/// Fills the zone around the points whose sample is 1, half-way to their neighbours.
+fn draw_zone(svg: &mut Svg, zone: &Placed<'_>, fill: &str) {
+    zone.fill_from(svg, 0.5, fill);
+    for line in zone.lines_at(&[0.5]).into_iter().flatten() {
+        svg.polyline(&line, &Style::line("#6f6f6f", 0.9));
     }
 }
 
@@ -169,11 +138,6 @@ pub(crate) fn window_of(grid: &Grid) -> Window {
     }
 }
 
-/// How the limit is drawn, on maps and in their legends.
-pub(crate) fn limit_style() -> Style {
-    Style::line(LIMIT, 2.4)
-}
-
 /// Legend entries for the zones of these grids that cannot be used.
 pub(crate) fn zone_entries<'a>(
     svg: &mut Svg,
@@ -183,10 +147,7 @@ pub(crate) fn zone_entries<'a>(
     let mut entries = Vec::new();
     let mut add = |svg: &mut Svg, hatch: Hatch, label: &str| {
         let fill = svg.hatch(&hatch);
-        entries.push(Entry::new(
-            Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8)),
-            label,
-        ));
+        entries.push(Entry::new(Key::field(&fill), label));
     };
     if grids.clone().any(Grid::has_unreachable) {
         add(svg, unreachable_hatch(), "out of reach");
@@ -202,7 +163,7 @@ fn unreachable_hatch() -> Hatch {
         turn_deg: 45.0,
         pitch_px: 6.0,
         width_px: 0.8,
-        colour: "#9a9a9a",
+        colour: NOMINAL,
         ground: Some("#fafafa"),
     }
 }
@@ -219,83 +180,4 @@ fn outside_hatch(paint: Paint) -> Hatch {
         colour: "#3a3a3a",
         ground,
     }
-}
-
-/// How a zone of points is drawn.
-struct Zone {
-    class: &'static str,
-    fill: String,
-}
-
-/// Fills the zone around the points where `inside` holds, half-way to their neighbours.
-fn draw_zone(svg: &mut Svg, plane: &Plane, grid: &Grid, zone: &Zone, inside: impl Fn(PointState) -> bool) {
-    let samples: Vec<f64> = grid
-        .points
-        .iter()
-        .map(|p| if inside(*p) { 1.0 } else { 0.0 })
-        .collect();
-    let lattice = Lattice {
-        horizontal_mm: &grid.horizontal_mm,
-        vertical_mm: &grid.vertical_mm,
-        samples: &samples,
-    };
-    svg.layer(zone.class, 1.0, |svg| {
-        for rings in lattice.areas_from(&[0.5]) {
-            svg.path(&rings_path(plane, &rings), &Style::fill(zone.fill.as_str()));
-        }
-        for line in lattice.lines_at(&[0.5]).into_iter().flatten() {
-            svg.polyline(&on_picture(plane, &line), &Style::line("#6f6f6f", 0.9));
-        }
-    });
-}
-
-fn labels_of(
-    limit: &[Vec<Point>],
-    iso: &[Vec<Vec<Point>>],
-    levels: &[f64],
-    look: &Look<'_>,
-) -> Vec<Labelled> {
-    let limit_um = look.limit_um.unwrap_or(f64::NAN);
-    let limit_label = |points: &Vec<Point>| Labelled {
-        points: points.clone(),
-        text: format!("limit {} µm", crate::axis::plain(limit_um)),
-        look: Text::new(11.0).bold().colour(LIMIT),
-    };
-    let mut labels: Vec<Labelled> = limit.iter().map(limit_label).collect();
-    for (lines, level) in iso.iter().zip(levels) {
-        // A line that coincides with the limit carries the limit's label.
-        if (level - limit_um).abs() < 0.05 * look.levels.step_um {
-            continue;
-        }
-        labels.extend(lines.iter().map(|points| Labelled {
-            points: points.clone(),
-            text: look.levels.label(*level),
-            look: Text::new(10.0).halo(3.0),
-        }));
-    }
-    labels
-}
-
-fn rings_path(plane: &Plane, rings: &[Ring]) -> String {
-    rings
-        .iter()
-        .map(|ring| trace(&on_picture(plane, ring), Ends::Closed))
-        .collect()
-}
-
-/// A line in pixels, without the points that would not be seen.
-fn on_picture(plane: &Plane, line: &[[f64; 2]]) -> Vec<Point> {
-    // Half of the two decimals that are written.
-    const SAME_PX: f64 = 0.3;
-    let mut out: Vec<Point> = Vec::with_capacity(line.len());
-    for (k, mm) in line.iter().enumerate() {
-        let p = plane.at(*mm);
-        let near = out
-            .last()
-            .is_some_and(|q| (p[0] - q[0]).hypot(p[1] - q[1]) < SAME_PX);
-        if !near || k + 1 == line.len() {
-            out.push(p);
-        }
-    }
-    out
 }

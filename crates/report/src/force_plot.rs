@@ -6,26 +6,33 @@
 
 use std::fmt::Write;
 
-use crate::axis::{extent, tick_label, ticks};
-use crate::chart::range;
-use crate::colour::{GRID, INK, category};
+use crate::axis::extent;
+use crate::chart::{APART_PX, range};
+use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::legend::{Entry, Key};
+use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
+use crate::plane::LABEL_BELOW_PX;
 use crate::svg::{Rect, Style, Svg, Text, num};
+use crate::ticks::{Across, Axis, Overhang, Ticks};
 
 /// Columns of pixels: what a trace is drawn in.
 const COLUMNS: usize = 640;
 /// Height of one chart, and the gap to the next.
 const CHART_PX: f64 = 108.0;
 const GAP_PX: f64 = 14.0;
+/// Height that each tick of a force gets at least, about.
+const TICK_PX: f64 = 30.0;
 /// What was measured, behind what became of it.
 const BEFORE: &str = "#b9b9b9";
 /// A stretch where nothing is cut.
 const AIR: &str = "#e3eef7";
+const NOTHING: &str = "There is nothing to draw: the record has no values.";
 
-/// Least and greatest value in each column of pixels.
+/// Least and greatest value in each column of pixels, over a span of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
+    span_s: [f64; 2],
     columns: Vec<Option<[f64; 2]>>,
 }
 
@@ -48,7 +55,7 @@ impl Envelope {
             columns[column] = Some([value.min(low), value.max(high)]);
             last = Some((column, value));
         }
-        Envelope { columns }
+        Envelope { span_s, columns }
     }
 
     fn values(&self) -> impl Iterator<Item = f64> + '_ {
@@ -74,9 +81,7 @@ pub struct ForcePlot {
     pub title: String,
     /// Second line: file, sampling rate, what was done.
     pub subtitle: String,
-    /// The time that is shown, s.
-    pub span_s: [f64; 2],
-    /// One below the other.
+    /// One below the other; all envelopes are of one span, which is the time that is shown.
     pub traces: Vec<ForceTrace>,
     /// Stretches where nothing is cut, s.
     pub air_s: Vec<[f64; 2]>,
@@ -87,136 +92,87 @@ pub struct ForcePlot {
 impl ForcePlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let scales: Option<Vec<[f64; 2]>> = self.traces.iter().map(scale).collect();
-        let Some(scales) = scales.filter(|scales| !scales.is_empty() && self.span_s[1] > self.span_s[0])
-        else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the record has no values.",
-            );
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let mut spans = self.traces.iter().flat_map(|t| [t.before.span_s, t.after.span_s]);
+        let Some(span_s) = spans.next().filter(|[from, to]| to > from) else {
+            return heading.notice(NOTHING);
         };
-        let labels = scales.iter().map(|scale| {
-            let (at, step) = force_ticks(scale);
-            let widths = at.iter().map(|v| tick_width_px(*v, step));
-            widths.fold(0.0, f64::max)
-        });
-        let left = BORDER_PX + 32.0 + labels.fold(0.0, f64::max);
-        let width = left + COLUMNS as f64 + BORDER_PX + 8.0;
-        let mut svg = Svg::new();
-        let mut top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
-        if !self.marks_s.is_empty() {
-            top += SMALL_PX + 2.0;
+        if spans.any(|other| other != span_s) {
+            return heading.notice("The traces are not of one span of time.");
         }
-        let mut area = Rect {
-            x: left,
-            y: top,
-            w: COLUMNS as f64,
-            h: CHART_PX,
+        let strips: Option<Vec<Strip<'_>>> = self.traces.iter().enumerate().map(strip).collect();
+        let Some(mut strips) = strips else {
+            return heading.notice(NOTHING);
         };
-        for (index, (trace, scale)) in self.traces.iter().zip(&scales).enumerate() {
-            area.y = top + index as f64 * (CHART_PX + GAP_PX);
-            self.draw_trace(&mut svg, area, trace, (*scale, category(index)));
-        }
-        self.draw_marks(&mut svg, [top, area.bottom()], left);
-        let bottom = self.draw_time(&mut svg, area);
-        let bottom = legend(&mut svg, &self.entries(), [left, bottom + 8.0], COLUMNS as f64);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
-    }
-
-    fn x(&self, time_s: f64, area: &Rect) -> f64 {
-        let part = (time_s - self.span_s[0]) / (self.span_s[1] - self.span_s[0]);
-        area.x + part.clamp(0.0, 1.0) * area.w
-    }
-
-    fn draw_trace(
-        &self,
-        svg: &mut Svg,
-        area: Rect,
-        trace: &ForceTrace,
-        ([low, high], colour): ([f64; 2], &'static str),
-    ) {
-        for [from, to] in &self.air_s {
-            let x = self.x(*from, &area);
-            let air = Rect {
-                x,
-                w: self.x(*to, &area) - x,
-                ..area
+        let numbers = strips.iter().map(|strip| strip.ticks().width_px(SMALL_PX));
+        let left = BORDER_PX + 32.0 + numbers.fold(0.0, f64::max);
+        let mut page = heading.page(left + COLUMNS as f64 + BORDER_PX + 8.0);
+        let names = if self.marks_s.is_empty() {
+            0.0
+        } else {
+            SMALL_PX + 2.0
+        };
+        let top = page.top_px + 4.0 + names;
+        for (index, strip) in strips.iter_mut().enumerate() {
+            strip.area.x = left;
+            strip.area.y = top + index as f64 * (CHART_PX + GAP_PX);
+            let time = TimeAxis {
+                span_s,
+                area: strip.area,
             };
-            svg.rect(air, &Style::fill(AIR));
+            self.draw_air(&mut page.svg, &time);
+            strip.draw(&mut page.svg);
         }
-        let y = |value: f64| area.bottom() - (value - low) / (high - low) * area.h;
-        let (at, step) = force_ticks(&[low, high]);
-        for v in at {
-            svg.line([area.x, y(v)], [area.right(), y(v)], &Style::line(GRID, 1.0));
-            svg.line([area.x - 5.0, y(v)], [area.x, y(v)], &Style::line(INK, 1.0));
-            svg.text(
-                [area.x - 8.0, y(v) + 4.0],
-                &tick_label(v, step),
-                &Text::new(SMALL_PX).end(),
-            );
-        }
-        for (envelope, style) in [
-            (&trace.before, Style::line(BEFORE, 1.0)),
-            (&trace.after, Style::line(colour, 1.0)),
-        ] {
-            svg.path(&zigzag(envelope, area.x, &y), &style);
-        }
-        svg.rect(area, &Style::line(INK, 1.0));
-        svg.text(
-            [BORDER_PX + 12.0, area.centre()[1]],
-            &trace.name,
-            &Text::new(BODY_PX).middle().turned(-90.0),
-        );
-    }
-
-    /// Instants as dashed lines through all charts, each with its name above where there is room.
-    fn draw_marks(&self, svg: &mut Svg, [top, bottom]: [f64; 2], left: f64) {
         let area = Rect {
             x: left,
             y: top,
             w: COLUMNS as f64,
-            h: bottom - top,
+            h: strips.len() as f64 * (CHART_PX + GAP_PX) - GAP_PX,
         };
+        let time = TimeAxis { span_s, area };
+        self.draw_marks(&mut page.svg, &time);
+        time.draw(&mut page.svg);
+        page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
+    }
+
+    fn draw_air(&self, svg: &mut Svg, time: &TimeAxis) {
+        for [from, to] in &self.air_s {
+            let x = time.x(*from);
+            let air = Rect {
+                x,
+                w: time.x(*to) - x,
+                ..time.area
+            };
+            svg.rect(air, &Style::fill(AIR));
+        }
+    }
+
+    /// Instants as dashed lines through all charts, each with its name above where there is room.
+    fn draw_marks(&self, svg: &mut Svg, time: &TimeAxis) {
+        let area = time.area;
         let mut taken = f64::NEG_INFINITY;
-        for (time, name) in &self.marks_s {
-            let x = self.x(*time, &area);
-            svg.line([x, top], [x, bottom], &Style::line(INK, 1.0).dashed("4 3"));
+        for (instant, name) in &self.marks_s {
+            let x = time.x(*instant);
+            svg.line(
+                [x, area.y],
+                [x, area.bottom()],
+                &Style::line(INK, 1.0).dashed("4 3"),
+            );
             let half = text_width_px(name, SMALL_PX, Weight::Regular) / 2.0;
-            let at = x.clamp(left + half, (area.right() - half).max(left + half));
+            let at = x.clamp(area.x + half, (area.right() - half).max(area.x + half));
             if at - half > taken {
-                svg.text([at, top - 5.0], name, &Text::new(SMALL_PX).middle());
+                svg.text([at, area.y - 5.0], name, &Text::new(SMALL_PX).middle());
                 taken = at + half + 6.0;
             }
         }
     }
 
-    fn draw_time(&self, svg: &mut Svg, area: Rect) -> f64 {
-        let (at, step) = ticks(self.span_s[0], self.span_s[1], COLUMNS as f64 / 75.0);
-        let bottom = area.bottom();
-        for v in at {
-            let x = self.x(v, &area);
-            svg.line([x, bottom], [x, bottom + 5.0], &Style::line(INK, 1.0));
-            svg.text(
-                [x, bottom + 17.0],
-                &tick_label(v, step),
-                &Text::new(SMALL_PX).middle(),
-            );
-        }
-        let text = Text::new(BODY_PX).middle();
-        svg.text([area.centre()[0], bottom + 36.0], "time (s)", &text);
-        bottom + 42.0
-    }
-
     fn entries(&self) -> Vec<Entry> {
-        let line = |colour: &str| Key::Line(vec![Style::line(colour, 2.4)]);
-        let after = (0..self.traces.len()).map(|k| Style::line(category(k), 2.4));
-        let mut entries = vec![Entry::new(line(BEFORE), "as measured")];
-        entries.extend(
-            after
-                .take(1)
-                .map(|style| Entry::new(Key::Line(vec![style]), "as used")),
-        );
+        let used = (0..self.traces.len()).map(|k| Style::line(category(k), 2.4));
+        let mut entries = vec![
+            Entry::line(Style::line(BEFORE, 2.4), "as measured"),
+            Entry::new(Key::Pieces(used.collect()), "as used"),
+        ];
         if !self.air_s.is_empty() {
             entries.push(Entry::new(Key::Field(Style::fill(AIR)), "nothing is cut"));
         }
@@ -224,19 +180,85 @@ impl ForcePlot {
     }
 }
 
-/// Range of a chart: both traces and zero.
-fn scale(trace: &ForceTrace) -> Option<[f64; 2]> {
+/// The time across a chart, or across all of them.
+struct TimeAxis {
+    span_s: [f64; 2],
+    area: Rect,
+}
+
+impl TimeAxis {
+    /// Where an instant stands; one outside the span at the nearer end.
+    fn x(&self, time_s: f64) -> f64 {
+        let [from, to] = self.span_s;
+        self.area.x + ((time_s - from) / (to - from)).clamp(0.0, 1.0) * self.area.w
+    }
+
+    /// Ticks, numbers and label below the lowest chart.
+    fn draw(&self, svg: &mut Svg) {
+        let axis = Axis {
+            ticks: Ticks::about(COLUMNS as f64 / APART_PX[0], self.span_s),
+            area: self.area,
+            font_px: SMALL_PX,
+            across: Across::Nothing,
+            overhang: Overhang::Allowed,
+        };
+        axis.draw_below(svg, |time_s| self.x(time_s));
+        let at = [self.area.centre()[0], self.area.bottom() + LABEL_BELOW_PX];
+        svg.text(at, "time (s)", &Text::new(BODY_PX).middle());
+    }
+}
+
+/// One trace with its scale, in its place.
+struct Strip<'a> {
+    trace: &'a ForceTrace,
+    colour: &'static str,
+    /// Values at the lower and at the upper edge.
+    ends: [f64; 2],
+    area: Rect,
+}
+
+/// The strip of a trace, still without its place: its scale shows both envelopes and zero. `None` without values.
+fn strip((index, trace): (usize, &ForceTrace)) -> Option<Strip<'_>> {
     let values = || trace.before.values().chain(trace.after.values());
     extent(values())?;
-    range(values().chain([0.0]), 0.05)
+    Some(Strip {
+        trace,
+        colour: category(index),
+        ends: range(values().chain([0.0]), 0.05)?,
+        area: Rect {
+            x: 0.0,
+            y: 0.0,
+            w: COLUMNS as f64,
+            h: CHART_PX,
+        },
+    })
 }
 
-fn force_ticks([low, high]: &[f64; 2]) -> (Vec<f64>, f64) {
-    ticks(*low, *high, CHART_PX / 30.0)
-}
+impl Strip<'_> {
+    fn ticks(&self) -> Ticks {
+        Ticks::about(CHART_PX / TICK_PX, self.ends)
+    }
 
-fn tick_width_px(value: f64, step: f64) -> f64 {
-    text_width_px(&tick_label(value, step), SMALL_PX, Weight::Regular)
+    fn draw(&self, svg: &mut Svg) {
+        let area = self.area;
+        let [low, high] = self.ends;
+        let y = |value: f64| area.bottom() - (value - low) / (high - low) * area.h;
+        let axis = Axis {
+            ticks: self.ticks(),
+            area,
+            font_px: SMALL_PX,
+            across: Across::Lines,
+            overhang: Overhang::Allowed,
+        };
+        axis.draw_left(svg, y);
+        for (envelope, colour) in [(&self.trace.before, BEFORE), (&self.trace.after, self.colour)] {
+            svg.path(&zigzag(envelope, area.x, &y), &Style::line(colour, 1.0));
+        }
+        svg.rect(area, &Style::line(INK, 1.0));
+        let at = [BORDER_PX + 12.0, area.centre()[1]];
+        let text = Text::new(BODY_PX).middle().turned(-90.0);
+        svg.text(at, &self.trace.name, &text);
+    }
 }
 
 /// Up one column and down the next: a line one pixel wide fills what lies between least and greatest.
@@ -284,7 +306,6 @@ mod tests {
         };
         ForcePlot {
             title: "a record".to_owned(),
-            span_s: [0.0, 10.0],
             traces: ["Fx (N)", "Fy (N)", "Fz (N)", "size (N)"].map(trace).to_vec(),
             air_s: vec![[0.0, 1.0], [9.0, 10.0]],
             marks_s: vec![(1.5, "first cut".to_owned())],
@@ -324,13 +345,33 @@ mod tests {
         let empty = ForceTrace {
             name: "Fx (N)".to_owned(),
             before: Envelope::of([0.0, 1.0], []),
-            after: Envelope::of([0.0, 0.0], [(0.0, 1.0)]),
+            after: Envelope::of([0.0, 1.0], []),
         };
-        let plot = ForcePlot {
-            span_s: [0.0, 1.0],
-            traces: vec![empty],
+        let of = |traces| ForcePlot {
+            traces,
             ..ForcePlot::default()
         };
-        assert!(plot.to_svg().contains("no values"));
+        assert!(of(vec![empty.clone()]).to_svg().contains("no values"));
+        let turned = ForceTrace {
+            before: Envelope::of([1.0, 0.0], []),
+            ..empty
+        };
+        assert!(of(vec![turned]).to_svg().contains("no values"));
+    }
+
+    #[test]
+    fn traces_of_different_times_are_not_drawn_as_if_they_were_of_one() {
+        let mut plot = plot();
+        plot.traces[3].after = Envelope::of([0.0, 5.0], [(1.0, 2.0)]);
+        assert!(plot.to_svg().contains("not of one span of time"));
+    }
+
+    #[test]
+    fn what_was_used_is_in_the_legend_in_the_colour_of_every_trace() {
+        let svg = plot().to_svg();
+        for index in 0..4 {
+            let key = format!("stroke=\"{}\" stroke-width=\"2.4\"", category(index));
+            assert_eq!(svg.matches(&key).count(), 1, "{index}");
+        }
     }
 }

@@ -1,5 +1,7 @@
 //! The grid of points behind every map: axis values in mm and the state of each point.
 
+use crate::contours::Lattice;
+
 /// What is known at one grid point. A point out of reach is a state, not a number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PointState {
@@ -80,6 +82,15 @@ impl Grid {
         }
     }
 
+    /// Samples of these points, one each.
+    pub(crate) fn lattice<'a>(&'a self, samples: &'a [f64]) -> Lattice<'a> {
+        Lattice {
+            horizontal: &self.horizontal_mm,
+            vertical: &self.vertical_mm,
+            samples,
+        }
+    }
+
     /// The finite values in um.
     pub(crate) fn values_um(&self) -> impl Iterator<Item = f64> + '_ {
         self.points.iter().filter_map(|p| p.value_um())
@@ -98,7 +109,8 @@ impl Grid {
     }
 }
 
-fn is_steady(values: &[f64]) -> bool {
+/// Whether values rise steadily or fall steadily; none of them is missing.
+pub(crate) fn is_steady(values: &[f64]) -> bool {
     values.iter().all(|v| v.is_finite())
         && (values.windows(2).all(|w| w[1] > w[0]) || values.windows(2).all(|w| w[1] < w[0]))
 }

@@ -1,4 +1,6 @@
 //! The levels of a filled map: 6 to 12 bands between nice numbers, shared by all panels of a sheet.
+//!
+//! Edges are multiples of the nice step `s >= (high - low) / 11`, from `floor(low / s) s` to `ceil(high / s) s`, um.
 
 use crate::axis::{extent, multiples, nice_step, tick_label};
 use crate::colour::ColourScale;
@@ -41,6 +43,7 @@ impl Levels {
         Some(Self { edge_um, step_um })
     }
 
+    /// How many there are.
     pub(crate) fn bands(&self) -> usize {
         self.edge_um.len().saturating_sub(1)
     }
@@ -50,11 +53,13 @@ impl Levels {
         self.edge_um.get(1..self.bands()).unwrap_or(&[])
     }
 
+    /// Colour of a band: the lowest has the first of the scale, the highest the last.
     pub(crate) fn colour(&self, band: usize, scale: ColourScale) -> String {
         let last = self.bands().saturating_sub(1).max(1) as f64;
         scale.at(band as f64 / last)
     }
 
+    /// A value (um) with the decimals that the step needs.
     pub(crate) fn label(&self, value_um: f64) -> String {
         tick_label(value_um, self.step_um)
     }

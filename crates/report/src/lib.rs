@@ -7,9 +7,11 @@
 //! |---|---|
 //! | how large is the deviation over a plane? | [`DeviationMap`] |
 //! | where does it keep within the limit, what part fits there? | [`RegionMap`] |
-//! | how does that change with distance or tilt? | [`Sheet`] |
+//! | how does that change with distance or tilt? | [`MapSeries`] |
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
+//! | where on a tool path, seen from above? | [`TrackMap`] |
+//! | what depth and feed hold the limit? | [`ProcessMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
@@ -17,8 +19,8 @@
 
 mod grid;
 mod map;
+mod map_series;
 mod region;
-mod sheet;
 
 mod force_plot;
 mod path_plot;
@@ -41,31 +43,39 @@ mod colour_bar;
 mod contours;
 mod field;
 mod levels;
+mod levels_drawing;
+mod limit;
+mod line;
 mod line_label;
+mod marker;
 mod surface;
 
 mod advances;
+mod arrow;
 mod axis;
 mod colour;
 mod error;
 mod font;
+mod legend;
 mod page;
 mod plane;
 mod svg;
+mod ticks;
 
-pub use arm::{ArmDrawing, ArmJoint, Posture, View};
+pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
 pub use colour::ColourScale;
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use grid::{Grid, PointState};
-pub use map::{DeviationMap, Marker, MarkerKind, Overlay};
+pub use map::{DeviationMap, Overlay};
+pub use map_series::{MapSeries, Panel};
+pub use marker::{Marker, MarkerKind};
 pub use path_plot::{PathPlot, Series};
-pub use plane::AxisLabels;
+pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialSeries};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
-pub use shares::{Arrangement, ShareBar, ShareBars};
-pub use sheet::{Panel, Sheet};
+pub use shares::{ShareBar, ShareBars};
 pub use track::{Stretch, TrackMap};
-pub use vector_field::{Arrow, ArrowCase, Growth, VectorField};
+pub use vector_field::{Arrow, ArrowCase, VectorField};

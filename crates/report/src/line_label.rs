@@ -1,6 +1,7 @@
 //! Labels on lines: rotated along the line, where it is straight, clear of each other, of other lines and of masked zones.
 
 use crate::font::{Weight, text_width_px};
+use crate::line::Stations;
 use crate::page::text_box;
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
@@ -10,6 +11,20 @@ const TRIAL_STEP_PX: f64 = 6.0;
 const LINE_PER_LABEL_PX: f64 = 560.0;
 /// Least distance of two labels of the same line.
 const SAME_LINE_PX: f64 = 190.0;
+
+/// Trial places of a line at most.
+const MOST_TRIALS: f64 = 400.0;
+/// Shortest line that is labelled, and shortest chord under a label, in half widths of the label.
+const SHORTEST: f64 = 2.6;
+const STRAIGHTEST: f64 = 1.7;
+/// What a place costs: each point of another line under the label, half the line away from its middle, a vertical label.
+const PER_CROSSED: f64 = 0.8;
+const OFF_MIDDLE: f64 = 2.5;
+const STEEP: f64 = 1.5;
+/// A label that costs more is left out.
+const MOST_COST: f64 = 14.0;
+/// A label turned further clockwise is turned over.
+const STEEPEST_DEG: f64 = 78.0;
 
 /// A line that wants a label.
 pub(crate) struct Labelled {
@@ -27,26 +42,6 @@ pub(crate) struct Room<'a> {
     pub(crate) obstacles: &'a [Point],
 }
 
-/// Points every few pixels along a line, as obstacles for labels.
-pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
-    const EVERY_PX: f64 = 3.0;
-    let mut points = Vec::new();
-    for w in line.windows(2) {
-        let length = (w[1][0] - w[0][0]).hypot(w[1][1] - w[0][1]);
-        // Far more than fit on a picture: the line runs out of it.
-        let count = (length / EVERY_PX).ceil().clamp(1.0, 2000.0) as usize;
-        points.extend((0..=count).map(|k| {
-            let t = k as f64 / count as f64;
-            [
-                w[0][0] + (w[1][0] - w[0][0]) * t,
-                w[0][1] + (w[1][1] - w[0][1]) * t,
-            ]
-        }));
-    }
-    points.retain(|p| p[0].is_finite() && p[1].is_finite());
-    points
-}
-
 /// Points all over a centred text, as obstacles for labels.
 pub(crate) fn points_under(at: Point, content: &str, size_px: f64) -> Vec<Point> {
     let area = text_box(at, content, size_px * 1.1, Anchor::Middle);
@@ -60,16 +55,10 @@ pub(crate) fn points_under(at: Point, content: &str, size_px: f64) -> Vec<Point>
 pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
     let mut taken: Vec<(Point, f64)> = Vec::new();
     for (index, line) in lines.iter().enumerate() {
-        let stations = Stations::along(&line.points);
         let half = [
             text_width_px(&line.text, line.look.size_px, line.look.weight) / 2.0 + 3.0,
             line.look.size_px * 0.62,
         ];
-        let most = if line.look.weight == Weight::Bold {
-            1
-        } else {
-            (stations.length / LINE_PER_LABEL_PX).ceil() as usize
-        };
         let others: Vec<Point> = lines
             .iter()
             .enumerate()
@@ -77,10 +66,21 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
             .flat_map(|(_, l)| l.points.iter().copied())
             .chain(room.obstacles.iter().copied())
             .collect();
+        let wish = Wish {
+            line: Stations::along(&line.points),
+            half,
+            room,
+            others: &others,
+        };
+        let most = if line.look.weight == Weight::Bold {
+            1
+        } else {
+            (wish.line.length / LINE_PER_LABEL_PX).ceil() as usize
+        };
         let mut own: Vec<(Point, f64)> = Vec::new();
         for _ in 0..most.min(4) {
             let blocked: Vec<(Point, f64)> = taken.iter().chain(&own).copied().collect();
-            let Some((at, turn_deg)) = best_place(&stations, half, room, &blocked, &others) else {
+            let Some((at, turn_deg)) = wish.best_place(&blocked) else {
                 break;
             };
             own.push((at, SAME_LINE_PX));
@@ -109,128 +109,129 @@ pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
     }
 }
 
-/// A line with the way from its start to each of its points.
-struct Stations<'a> {
-    points: &'a [Point],
-    way: Vec<f64>,
-    length: f64,
-}
-
-impl<'a> Stations<'a> {
-    fn along(points: &'a [Point]) -> Self {
-        let mut way = Vec::with_capacity(points.len());
-        let mut length = 0.0;
-        for (k, p) in points.iter().enumerate() {
-            if k > 0 {
-                length += (p[0] - points[k - 1][0]).hypot(p[1] - points[k - 1][1]);
-            }
-            way.push(length);
-        }
-        Self { points, way, length }
-    }
-
-    fn at(&self, s: f64) -> Point {
-        let k = self
-            .way
-            .partition_point(|w| *w < s)
-            .clamp(1, self.points.len() - 1);
-        let (a, b) = (self.points[k - 1], self.points[k]);
-        let span = self.way[k] - self.way[k - 1];
-        let t = if span > 0.0 {
-            ((s - self.way[k - 1]) / span).clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        [a[0] + (b[0] - a[0]) * t, a[1] + (b[1] - a[1]) * t]
-    }
-}
-
-fn best_place(
-    line: &Stations<'_>,
+/// A label that asks for a place on its line.
+struct Wish<'a> {
+    line: Stations<'a>,
+    /// Half the width and half the height of the label.
     half: [f64; 2],
-    room: &Room<'_>,
-    taken: &[(Point, f64)],
-    others: &[Point],
-) -> Option<(Point, f64)> {
-    if line.points.len() < 2 || line.length < 2.6 * half[0] {
-        return None;
+    room: &'a Room<'a>,
+    /// Points of other lines and things, better not covered.
+    others: &'a [Point],
+}
+
+/// Where a label may stand: its middle, and the direction along the line.
+#[derive(Clone, Copy)]
+struct Place {
+    at: Point,
+    cos: f64,
+    sin: f64,
+}
+
+impl Place {
+    /// `u` half widths along the label and `v` half heights down from its middle.
+    fn corner(&self, [u, v]: [f64; 2], half: [f64; 2]) -> Point {
+        [
+            self.at[0] + u * half[0] * self.cos - v * half[1] * self.sin,
+            self.at[1] + u * half[0] * self.sin + v * half[1] * self.cos,
+        ]
     }
-    let inner = room.area.shrunk(4.0);
-    let trials = ((line.length - 2.0 * half[0]) / TRIAL_STEP_PX)
-        .floor()
-        .clamp(0.0, 400.0) as usize;
-    let mut best: Option<(f64, Point, f64)> = None;
-    for k in 0..=trials {
-        let s = half[0] + k as f64 * TRIAL_STEP_PX;
-        let (a, b) = (line.at(s - half[0]), line.at(s + half[0]));
+
+    /// The turn of the text: steep lines read upwards, like the vertical axis.
+    fn turn_deg(&self) -> f64 {
+        let turn = self.sin.atan2(self.cos).to_degrees();
+        if turn > STEEPEST_DEG {
+            turn - 180.0
+        } else if turn <= STEEPEST_DEG - 180.0 {
+            turn + 180.0
+        } else {
+            turn
+        }
+    }
+}
+
+impl Wish<'_> {
+    /// The middle and the turn (deg) of the cheapest place that is free of `taken` discs; `None` where there is none, or
+    /// none worth its cost.
+    fn best_place(&self, taken: &[(Point, f64)]) -> Option<(Point, f64)> {
+        let [half, _] = self.half;
+        if self.line.points.len() < 2 || self.line.length < SHORTEST * half {
+            return None;
+        }
+        let trials = ((self.line.length - 2.0 * half) / TRIAL_STEP_PX)
+            .floor()
+            .clamp(0.0, MOST_TRIALS) as usize;
+        let mut best: Option<(f64, Place)> = None;
+        for k in 0..=trials {
+            let s = half + k as f64 * TRIAL_STEP_PX;
+            let Some(place) = self.place_at(s) else { continue };
+            if !self.is_free(&place, taken) {
+                continue;
+            }
+            let cost = self.cost(s, &place);
+            if best.is_none_or(|(least, _)| cost < least) {
+                best = Some((cost, place));
+            }
+        }
+        best.filter(|(cost, _)| *cost < MOST_COST)
+            .map(|(_, place)| (place.at, place.turn_deg()))
+    }
+
+    /// The place about the point `s` px along the line; `None` where the line is too crooked.
+    fn place_at(&self, s: f64) -> Option<Place> {
+        let [half, _] = self.half;
+        let (a, b) = (self.line.at(s - half), self.line.at(s + half));
         let chord = (b[0] - a[0]).hypot(b[1] - a[1]);
-        if chord < 1.7 * half[0] {
-            continue;
-        }
-        let (cos, sin) = ((b[0] - a[0]) / chord, (b[1] - a[1]) / chord);
-        let bow = (1..6)
-            .map(|m| {
-                let p = line.at(s - half[0] + 2.0 * half[0] * f64::from(m) / 6.0);
-                ((p[0] - a[0]) * sin - (p[1] - a[1]) * cos).abs()
-            })
-            .fold(0.0, f64::max);
-        let middle = line.at(s);
-        let at = [
-            (middle[0] + (a[0] + b[0]) / 2.0) / 2.0,
-            (middle[1] + (a[1] + b[1]) / 2.0) / 2.0,
+        let middle = self.line.at(s);
+        (chord >= STRAIGHTEST * half).then(|| Place {
+            at: [0, 1].map(|k| (middle[k] + (a[k] + b[k]) / 2.0) / 2.0),
+            cos: (b[0] - a[0]) / chord,
+            sin: (b[1] - a[1]) / chord,
+        })
+    }
+
+    /// Whether the label lies inside the drawing, where it may stand, and clear of other labels.
+    fn is_free(&self, place: &Place, taken: &[(Point, f64)]) -> bool {
+        const OUTLINE: [[f64; 2]; 6] = [
+            [-1.0, -1.0],
+            [1.0, -1.0],
+            [1.0, 1.0],
+            [-1.0, 1.0],
+            [0.0, -1.0],
+            [0.0, 1.0],
         ];
-        let corner = |u: f64, v: f64| {
-            [
-                at[0] + u * half[0] * cos - v * half[1] * sin,
-                at[1] + u * half[0] * sin + v * half[1] * cos,
-            ]
+        let inner = self.room.area.shrunk(4.0);
+        let stands = |uv: &[f64; 2]| {
+            let p = place.corner(*uv, self.half);
+            inner.contains(p) && (self.room.free)(p)
         };
-        let outline = [
-            (-1.0, -1.0),
-            (1.0, -1.0),
-            (1.0, 1.0),
-            (-1.0, 1.0),
-            (0.0, -1.0),
-            (0.0, 1.0),
-        ];
-        if !outline
-            .iter()
-            .all(|(u, v)| inner.contains(corner(*u, *v)) && (room.free)(corner(*u, *v)))
-        {
-            continue;
-        }
-        let hits = [-1.0, -0.5, 0.0, 0.5, 1.0].iter().any(|u| {
-            let p = corner(*u, 0.0);
+        let hits = |u: f64| {
+            let p = place.corner([u, 0.0], self.half);
             taken
                 .iter()
-                .any(|(c, r)| (p[0] - c[0]).hypot(p[1] - c[1]) < half[1] + r)
-        });
-        if hits {
-            continue;
-        }
-        let crossed = others
-            .iter()
-            .filter(|p| {
-                let (dx, dy) = (p[0] - at[0], p[1] - at[1]);
-                (dx * cos + dy * sin).abs() < half[0] && (dy * cos - dx * sin).abs() < half[1]
-            })
-            .count();
-        // Straight first, then clear of other lines, then near the middle, then near the horizontal.
-        let off_middle = (s / line.length - 0.5).abs();
-        let cost = bow + 0.8 * crossed as f64 + 2.5 * off_middle + 1.5 * sin.abs();
-        if best.is_none_or(|(c, _, _)| cost < c) {
-            let mut turn = sin.atan2(cos).to_degrees();
-            // Steep lines read upwards, like the vertical axis.
-            if turn > 78.0 {
-                turn -= 180.0;
-            } else if turn <= -102.0 {
-                turn += 180.0;
-            }
-            best = Some((cost, at, turn));
-        }
+                .any(|(c, r)| (p[0] - c[0]).hypot(p[1] - c[1]) < self.half[1] + r)
+        };
+        OUTLINE.iter().all(stands) && ![-1.0, -0.5, 0.0, 0.5, 1.0].into_iter().any(hits)
     }
-    best.filter(|(cost, _, _)| *cost < 14.0)
-        .map(|(_, at, turn)| (at, turn))
+
+    /// Straight first, then clear of other lines, then near the middle of the line, then near the horizontal:
+    /// `bow + 0.8 crossed + 2.5 |s / length - 1/2| + 1.5 |sin|`, `bow` the farthest that the line strays from its chord, px.
+    fn cost(&self, s: f64, place: &Place) -> f64 {
+        let [half, high] = self.half;
+        let a = self.line.at(s - half);
+        let bow = (1..6)
+            .map(|m| {
+                let p = self.line.at(s - half + 2.0 * half * f64::from(m) / 6.0);
+                ((p[0] - a[0]) * place.sin - (p[1] - a[1]) * place.cos).abs()
+            })
+            .fold(0.0, f64::max);
+        let is_under = |p: &&Point| {
+            let (dx, dy) = (p[0] - place.at[0], p[1] - place.at[1]);
+            (dx * place.cos + dy * place.sin).abs() < half && (dy * place.cos - dx * place.sin).abs() < high
+        };
+        let crossed = self.others.iter().filter(is_under).count();
+        let off_middle = (s / self.line.length - 0.5).abs();
+        bow + PER_CROSSED * crossed as f64 + OFF_MIDDLE * off_middle + STEEP * place.sin.abs()
+    }
 }
 
 #[cfg(test)]

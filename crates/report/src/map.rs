@@ -2,18 +2,19 @@
 
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::line_label::points_along;
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, diamond, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane};
-use crate::svg::{Rect, Style, Svg, Text};
+use crate::limit;
+use crate::line::points_along;
+use crate::marker::{Marker, draw_marker, marker_entries};
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Plane};
+use crate::svg::{Point, Style, Svg};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [600.0, 470.0];
-/// A map is at least this wide, for its title and legend.
-const LEAST_WIDTH_PX: f64 = 430.0;
 
 /// A line drawn on a map, such as the path of the cut.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -22,27 +23,6 @@ pub struct Overlay {
     pub label: String,
     /// Points in mm: horizontal, vertical.
     pub points_mm: Vec<[f64; 2]>,
-}
-
-/// What a marked point stands for; decides its sign.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum MarkerKind {
-    /// A point of interest: a ring.
-    #[default]
-    Point,
-    /// The best point: a filled diamond.
-    Best,
-}
-
-/// A marked point on a map.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marker {
-    /// Horizontal and vertical value in mm.
-    pub at_mm: [f64; 2],
-    /// What is marked, for the legend; markers with the same label share an entry.
-    pub label: String,
-    /// Its sign.
-    pub kind: MarkerKind,
 }
 
 /// What a deviation map shows.
@@ -73,11 +53,12 @@ pub struct DeviationMap {
 impl DeviationMap {
     /// The map as a complete SVG document; a grid that cannot be drawn gives a picture that says why.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         if let Some(reason) = self.grid.obstacle() {
-            return notice(&self.title, &self.subtitle, &reason);
+            return heading.notice(&reason);
         }
         let Some(levels) = Levels::covering(self.grid.values_um()) else {
-            return notice(&self.title, &self.subtitle, "No point has a value.");
+            return heading.notice("No point has a value.");
         };
         let bar = ColourBar {
             levels: &levels,
@@ -85,105 +66,90 @@ impl DeviationMap {
             quantity: &self.quantity,
             limit_um: self.limit_um,
         };
-        let window = window_of(&self.grid);
-        let left = BORDER_PX + Plane::left_room_px(&window);
-        let plane = Plane::fit(window, [left, 0.0], MOST_PX);
-        let bar_height = plane.area.h.max(150.0);
-        let width = (plane.area.right() + 22.0 + bar.width_px(bar_height) + BORDER_PX).max(LEAST_WIDTH_PX);
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
+        let plane = Plane::beside_axis(window_of(&self.grid), MOST_PX);
+        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
+        let bar_area = bar.beside(plane.area);
         let paint = Paint::Bands(self.scale);
-        let marked = self.markers.iter().flat_map(|m| {
-            let [x, y] = plane.at(m.at_mm);
-            points_along(&[[x - 8.0, y], [x + 8.0, y], [x, y - 8.0], [x, y + 8.0]])
-        });
-        let drawn = self.overlays.iter().flat_map(|o| {
-            let line: Vec<_> = o.points_mm.iter().map(|p| plane.at(*p)).collect();
-            points_along(&line)
-        });
-        let obstacles: Vec<_> = drawn.chain(marked).collect();
         let look = Look {
             levels: &levels,
             paint,
             iso_lines: IsoLines::Labelled,
             limit_um: self.limit_um,
             doubt: None,
-            obstacles: &obstacles,
+            obstacles: &self.obstacles(&plane),
         };
-        draw_field(&mut svg, &plane, &self.grid, &look);
-        let mut entries = zone_entries(&mut svg, std::iter::once(&self.grid), paint);
-        if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
-            let label = format!(
-                "limit {} µm{}",
-                crate::axis::plain(limit),
-                self.where_limit(limit)
-            );
-            entries.insert(0, Entry::new(Key::Line(vec![limit_style()]), label));
-        }
-        draw_on_top(&mut svg, &plane, self, &mut entries);
-        plane.draw_frame(&mut svg, Marks::ALL);
-        plane.draw_labels(&mut svg, &self.axes);
-        bar.draw(
-            &mut svg,
-            Rect {
-                x: plane.area.right() + 22.0,
-                y: plane.area.y,
-                w: 0.0,
-                h: bar_height,
-            },
-        );
-        let below = plane.area.y + bar_height.max(plane.area.h + BELOW_PX) + 8.0;
-        let bottom = legend(&mut svg, &entries, [left, below], width - left - BORDER_PX);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        draw_field(&mut page.svg, &plane, &self.grid, &look);
+        let limit = limit::entry_over(self.limit_um, self.grid.values_um());
+        let mut entries: Vec<Entry> = limit.into_iter().collect();
+        entries.extend(zone_entries(&mut page.svg, std::iter::once(&self.grid), paint));
+        entries.extend(self.entries_on_top());
+        self.draw_on_top(&mut page.svg, &plane);
+        plane.draw_axes(&mut page.svg, &self.axes);
+        bar.draw(&mut page.svg, bar_area);
+        let below = bar_area.bottom().max(plane.area.bottom() + BELOW_PX) + 8.0;
+        page.finish_with_legend(&entries, [plane.area.x, below])
     }
 
-    /// A remark for a limit that no line shows.
-    fn where_limit(&self, limit: f64) -> &'static str {
-        match crate::axis::extent(self.grid.values_um()) {
-            Some((low, _)) if limit <= low => " (exceeded everywhere)",
-            Some((_, high)) if limit > high => " (kept everywhere)",
-            _ => "",
+    /// What labels keep clear of: points along the overlays, and a cross over each marker.
+    fn obstacles(&self, plane: &Plane) -> Vec<Point> {
+        const HALF_PX: f64 = 8.0;
+        let drawn = self
+            .overlays
+            .iter()
+            .flat_map(|o| points_along(&on_picture(plane, o)));
+        let marked = self.markers.iter().flat_map(|m| {
+            let [x, y] = plane.at(m.at_mm);
+            points_along(&[
+                [x - HALF_PX, y],
+                [x + HALF_PX, y],
+                [x, y - HALF_PX],
+                [x, y + HALF_PX],
+            ])
+        });
+        drawn.chain(marked).collect()
+    }
+
+    fn draw_on_top(&self, svg: &mut Svg, plane: &Plane) {
+        svg.clipped(plane.area, |svg| {
+            if self.show_grid_points {
+                for y in &self.grid.vertical_mm {
+                    for x in &self.grid.horizontal_mm {
+                        svg.circle(plane.at([*x, *y]), 2.0, &computed_style());
+                    }
+                }
+            }
+            for overlay in &self.overlays {
+                let line = on_picture(plane, overlay);
+                for style in overlay_styles() {
+                    svg.polyline(&line, &style);
+                }
+            }
+            for marker in &self.markers {
+                draw_marker(svg, plane, marker);
+            }
+        });
+    }
+
+    fn entries_on_top(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        if self.show_grid_points {
+            entries.push(Entry::new(Key::Dot(computed_style()), "computed point"));
         }
+        for overlay in self.overlays.iter().filter(|o| !o.label.is_empty()) {
+            entries.push(Entry::new(
+                Key::Line(overlay_styles().into()),
+                overlay.label.clone(),
+            ));
+        }
+        entries.extend(marker_entries(&self.markers));
+        entries
     }
 }
 
-fn draw_on_top(svg: &mut Svg, plane: &Plane, map: &DeviationMap, entries: &mut Vec<Entry>) {
-    svg.clipped(plane.area, |svg| {
-        if map.show_grid_points {
-            for y in &map.grid.vertical_mm {
-                for x in &map.grid.horizontal_mm {
-                    svg.circle(plane.at([*x, *y]), 2.0, &computed_style());
-                }
-            }
-        }
-        for overlay in &map.overlays {
-            let line: Vec<_> = overlay.points_mm.iter().map(|p| plane.at(*p)).collect();
-            for style in overlay_styles() {
-                svg.polyline(&line, &style);
-            }
-        }
-        for marker in &map.markers {
-            draw_marker(svg, plane, marker);
-        }
-    });
-    if map.show_grid_points {
-        entries.push(Entry::new(Key::Dot(computed_style()), "computed point"));
-    }
-    for overlay in map.overlays.iter().filter(|o| !o.label.is_empty()) {
-        entries.push(Entry::new(
-            Key::Line(overlay_styles().into()),
-            overlay.label.clone(),
-        ));
-    }
-    let mut named: Vec<&str> = Vec::new();
-    for marker in map.markers.iter().filter(|m| !m.label.is_empty()) {
-        if !named.contains(&marker.label.as_str()) {
-            named.push(&marker.label);
-            entries.push(Entry::new(marker_key(marker.kind), marker.label.clone()));
-        }
-    }
+fn on_picture(plane: &Plane, overlay: &Overlay) -> Vec<Point> {
+    overlay.points_mm.iter().map(|p| plane.at(*p)).collect()
 }
 
 fn computed_style() -> Style {
@@ -195,34 +161,4 @@ fn overlay_styles() -> [Style; 2] {
         Style::line("#fff", 4.0).opacity(0.8),
         Style::line(INK, 1.6).dashed("6 4"),
     ]
-}
-
-fn marker_style(kind: MarkerKind) -> Style {
-    match kind {
-        MarkerKind::Point => Style::fill("#fff").outlined(INK, 1.6),
-        MarkerKind::Best => Style::fill("#E69F00").outlined(INK, 1.2),
-    }
-}
-
-fn marker_key(kind: MarkerKind) -> Key {
-    match kind {
-        MarkerKind::Point => Key::Dot(marker_style(kind)),
-        MarkerKind::Best => Key::Diamond(marker_style(kind)),
-    }
-}
-
-fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
-    if !marker.at_mm.iter().all(|v| v.is_finite()) {
-        return;
-    }
-    let at = plane.at(marker.at_mm);
-    match marker.kind {
-        MarkerKind::Point => svg.circle(at, 3.5, &marker_style(marker.kind)),
-        MarkerKind::Best => svg.polygon(&diamond(at, 7.0), &marker_style(marker.kind)),
-    }
-}
-
-/// A small text at a place on a map, readable on any band.
-pub(crate) fn write_on_map(svg: &mut Svg, at: [f64; 2], content: &str) {
-    svg.text(at, content, &Text::new(SMALL_PX).bold().middle().halo(3.5));
 }

@@ -1,7 +1,11 @@
-//! What every picture has around its drawing: title block, legend, and the picture that says why there is nothing to draw.
+//! What every picture has around its drawing: title block, border and legend; and the picture that says why there is
+//! nothing to draw.
+//!
+//! All lengths are pixels of the picture, y downwards.
 
-use crate::colour::{INK, MUTED};
+use crate::colour::{EMPTY, INK, MUTED};
 use crate::font::{Weight, text_width_px, wrap};
+use crate::legend::{Entry, draw_legend};
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
 /// Blank border of every picture.
@@ -10,133 +14,99 @@ pub(crate) const BORDER_PX: f64 = 18.0;
 pub(crate) const TITLE_PX: f64 = 15.0;
 pub(crate) const BODY_PX: f64 = 12.0;
 pub(crate) const SMALL_PX: f64 = 11.0;
+/// A map is at least this wide, for its title and legend.
+pub(crate) const LEAST_WIDTH_PX: f64 = 430.0;
 
-const LEGEND_ROW_PX: f64 = 20.0;
-const KEY_PX: f64 = 24.0;
+/// Under each line of title and subtitle, and under both.
+const TITLE_GAP_PX: f64 = 5.0;
+const SUBTITLE_GAP_PX: f64 = 4.0;
+const UNDER_TITLE_PX: f64 = 8.0;
 
-/// Writes title and subtitle at the top left; the answer is the y below them.
-pub(crate) fn title_block(svg: &mut Svg, title: &str, subtitle: &str, width_px: f64) -> f64 {
-    let room = width_px - 2.0 * BORDER_PX;
-    let mut y = BORDER_PX;
-    for line in wrap(title, TITLE_PX, Weight::Bold, room) {
-        y += TITLE_PX;
-        svg.text([BORDER_PX, y], &line, &Text::new(TITLE_PX).bold());
-        y += 5.0;
+/// The picture that says why: its width, the border of its card, the height of a line, and the room above and below.
+const NOTICE_PX: f64 = 520.0;
+const NOTICE_INSET_PX: f64 = 20.0;
+const NOTICE_LINE_PX: f64 = 18.0;
+const NOTICE_ROOM_PX: f64 = 60.0;
+const NOTICE_FIRST_LINE_PX: f64 = 38.0;
+
+/// First and second line of a picture.
+#[derive(Clone, Copy)]
+pub(crate) struct Heading<'a> {
+    pub(crate) title: &'a str,
+    pub(crate) subtitle: &'a str,
+}
+
+/// A picture that has its title block and waits for its drawing.
+pub(crate) struct Page<'a> {
+    pub(crate) svg: Svg,
+    /// Where the title block ends.
+    pub(crate) top_px: f64,
+    width_px: f64,
+    title: &'a str,
+}
+
+impl<'a> Heading<'a> {
+    pub(crate) fn new(title: &'a str, subtitle: &'a str) -> Self {
+        Self { title, subtitle }
     }
-    for line in wrap(subtitle, BODY_PX, Weight::Regular, room) {
-        y += BODY_PX;
-        svg.text([BORDER_PX, y], &line, &Text::new(BODY_PX).colour(MUTED));
-        y += 4.0;
-    }
-    y + 8.0
-}
 
-/// The sign in front of a legend entry.
-pub(crate) enum Key {
-    /// A filled field.
-    Field(Style),
-    /// Lines drawn over each other.
-    Line(Vec<Style>),
-    /// A filled dot.
-    Dot(Style),
-    /// A diamond.
-    Diamond(Style),
-}
-
-/// One entry of a legend.
-pub(crate) struct Entry {
-    pub(crate) key: Key,
-    pub(crate) label: String,
-}
-
-impl Entry {
-    pub(crate) fn new(key: Key, label: impl Into<String>) -> Self {
-        Self {
-            key,
-            label: label.into(),
+    /// A picture of this width with title and subtitle at its top left.
+    pub(crate) fn page(self, width_px: f64) -> Page<'a> {
+        let mut svg = Svg::new();
+        let room = width_px - 2.0 * BORDER_PX;
+        let mut y = BORDER_PX;
+        for line in wrap(self.title, TITLE_PX, Weight::Bold, room) {
+            y += TITLE_PX;
+            svg.text([BORDER_PX, y], &line, &Text::new(TITLE_PX).bold());
+            y += TITLE_GAP_PX;
+        }
+        for line in wrap(self.subtitle, BODY_PX, Weight::Regular, room) {
+            y += BODY_PX;
+            svg.text([BORDER_PX, y], &line, &Text::new(BODY_PX).colour(MUTED));
+            y += SUBTITLE_GAP_PX;
+        }
+        Page {
+            svg,
+            top_px: y + UNDER_TITLE_PX,
+            width_px,
+            title: self.title,
         }
     }
 
-    fn width_px(&self) -> f64 {
-        KEY_PX + 6.0 + text_width_px(&self.label, SMALL_PX, Weight::Regular) + 18.0
-    }
-}
-
-/// Writes the entries in rows no wider than `width_px`, from `at` (top left); the answer is the y below them.
-pub(crate) fn legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px: f64) -> f64 {
-    if entries.is_empty() {
-        return at[1];
-    }
-    let (mut x, mut y) = (at[0], at[1]);
-    for entry in entries {
-        if x > at[0] && x + entry.width_px() - 18.0 > at[0] + width_px {
-            x = at[0];
-            y += LEGEND_ROW_PX;
+    /// A picture that says why there is nothing to draw.
+    pub(crate) fn notice(self, reason: &str) -> String {
+        let mut page = self.page(NOTICE_PX);
+        let width = NOTICE_PX - 2.0 * BORDER_PX;
+        let lines = wrap(reason, BODY_PX, Weight::Regular, width - 2.0 * NOTICE_INSET_PX);
+        let card = Rect {
+            x: BORDER_PX,
+            y: page.top_px,
+            w: width,
+            h: NOTICE_ROOM_PX + NOTICE_LINE_PX * lines.len() as f64,
+        };
+        page.svg
+            .rounded(card, 4.0, &Style::fill(EMPTY).outlined("#c4c4c4", 1.0));
+        for (k, line) in lines.iter().enumerate() {
+            let y = card.y + NOTICE_FIRST_LINE_PX + NOTICE_LINE_PX * k as f64;
+            let text = Text::new(BODY_PX).middle().colour(INK);
+            page.svg.text([card.centre()[0], y], line, &text);
         }
-        let middle = y + LEGEND_ROW_PX / 2.0;
-        let centre = [x + KEY_PX / 2.0, middle];
-        match &entry.key {
-            Key::Field(style) => svg.rect(
-                Rect {
-                    x,
-                    y: middle - 6.5,
-                    w: KEY_PX,
-                    h: 13.0,
-                },
-                style,
-            ),
-            Key::Line(styles) => {
-                for style in styles {
-                    svg.line([x + 2.0, middle], [x + KEY_PX - 2.0, middle], style);
-                }
-            }
-            Key::Dot(style) => svg.circle(centre, 3.5, style),
-            Key::Diamond(style) => svg.polygon(&diamond(centre, 5.0), style),
-        }
-        svg.text(
-            [x + KEY_PX + 6.0, middle + 4.0],
-            &entry.label,
-            &Text::new(SMALL_PX),
-        );
-        x += entry.width_px();
+        page.finish(card.bottom())
     }
-    y + LEGEND_ROW_PX
 }
 
-/// The four corners of a diamond.
-pub(crate) fn diamond(centre: Point, half_px: f64) -> [Point; 4] {
-    let [x, y] = centre;
-    [
-        [x, y - half_px],
-        [x + half_px, y],
-        [x, y + half_px],
-        [x - half_px, y],
-    ]
-}
-
-/// A picture that says why there is nothing to draw.
-pub(crate) fn notice(title: &str, subtitle: &str, reason: &str) -> String {
-    let width = 520.0;
-    let mut svg = Svg::new();
-    let top = title_block(&mut svg, title, subtitle, width);
-    let lines = wrap(reason, BODY_PX, Weight::Regular, width - 2.0 * BORDER_PX - 40.0);
-    let height = 60.0 + 18.0 * lines.len() as f64;
-    let card = Rect {
-        x: BORDER_PX,
-        y: top,
-        w: width - 2.0 * BORDER_PX,
-        h: height,
-    };
-    svg.rounded(card, 4.0, &Style::fill("#f6f6f6").outlined("#c4c4c4", 1.0));
-    for (k, line) in lines.iter().enumerate() {
-        let y = top + 38.0 + 18.0 * k as f64;
-        svg.text(
-            [card.centre()[0], y],
-            line,
-            &Text::new(BODY_PX).middle().colour(INK),
-        );
+impl Page<'_> {
+    /// The complete document, with a legend whose top left corner stands at `at` and which runs to the right border.
+    pub(crate) fn finish_with_legend(mut self, entries: &[Entry], at: Point) -> String {
+        let width = self.width_px - at[0] - BORDER_PX;
+        let bottom = draw_legend(&mut self.svg, entries, at, width);
+        self.finish(bottom)
     }
-    svg.finish(width, top + height + BORDER_PX, title)
+
+    /// The complete document; what is drawn ends at `bottom_px`.
+    pub(crate) fn finish(self, bottom_px: f64) -> String {
+        self.svg.finish(self.width_px, bottom_px + BORDER_PX, self.title)
+    }
 }
 
 /// The rectangle that a text takes up, for keeping labels apart.
@@ -155,7 +125,36 @@ pub(crate) fn text_box(at: Point, content: &str, size_px: f64, anchor: Anchor) -
     }
 }
 
-/// Whether two rectangles share a point.
-pub(crate) fn overlap(a: &Rect, b: &Rect) -> bool {
-    a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_box_stands_where_its_anchor_says_and_keeps_its_size() {
+        let boxes = [Anchor::Start, Anchor::Middle, Anchor::End]
+            .map(|anchor| text_box([100.0, 50.0], "deviation", 10.0, anchor));
+        let w = text_width_px("deviation", 10.0, Weight::Regular);
+        assert!(
+            boxes
+                .iter()
+                .all(|b| (b.w - w).abs() < 1e-9 && (b.h - 10.0).abs() < 1e-9)
+        );
+        assert!((boxes[0].x - 100.0).abs() < 1e-9);
+        assert!((boxes[1].centre()[0] - 100.0).abs() < 1e-9);
+        assert!((boxes[2].right() - 100.0).abs() < 1e-9);
+        // Letters stand on the baseline, their tails below it.
+        assert!(boxes.iter().all(|b| b.y < 50.0 && b.bottom() > 50.0));
+    }
+
+    #[test]
+    fn a_longer_title_pushes_the_drawing_down_and_a_longer_reason_makes_the_notice_higher() {
+        let top = |title: &str| Heading::new(title, "").page(200.0).top_px;
+        assert!(top(&"word ".repeat(30)) > top("word"));
+        let height = |reason: &str| {
+            let svg = Heading::new("t", "").notice(reason);
+            let text = svg.split("height=\"").nth(1).and_then(|s| s.split('"').next());
+            text.and_then(|t| t.parse::<f64>().ok()).expect("our own SVG")
+        };
+        assert!(height(&"word ".repeat(60)) > height("word"));
+    }
 }

@@ -1,12 +1,13 @@
 //! The deviation along a path: one line a load case, their envelope, and the limit.
 
-use crate::axis::plain;
 use crate::chart::{Chart, range, runs};
-use crate::colour::{INK, LIMIT, category};
-use crate::field::limit_style;
+use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
-use crate::svg::{Rect, Style, Svg, Text};
+use crate::legend::Entry;
+use crate::limit;
+use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::plane::AxisLabels;
+use crate::svg::{Point, Style, Svg};
 
 const AREA_PX: [f64; 2] = [560.0, 300.0];
 
@@ -55,12 +56,8 @@ pub struct PathPlot {
 impl PathPlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let lines = || self.series.iter().chain(&self.envelope);
-        let finite = || {
-            lines()
-                .flat_map(Series::points)
-                .filter(|p| p.iter().all(|v| v.is_finite()))
-        };
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let finite = || self.points().filter(|p| p.iter().all(|v| v.is_finite()));
         let limit = self.limit_um.filter(|l| l.is_finite());
         let largest = finite().map(|p| p[1].abs()).fold(0.0, f64::max);
         let (limit, far_limit) = match limit {
@@ -69,65 +66,44 @@ impl PathPlot {
         };
         let x = range(finite().map(|p| p[0]), 0.0);
         let y = range(finite().map(|p| p[1]).chain([0.0]).chain(limit), 0.06);
-        let (Some(x), Some(y), Some(_)) = (x, y, finite().next()) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the path has no values.",
-            );
+        let (Some(x), Some([low, high]), Some(_)) = (x, y, finite().next()) else {
+            return heading.notice("There is nothing to draw: the path has no values.");
         };
         // Values that are all positive stand on the axis.
-        let lowest = if finite().all(|p| p[1] >= 0.0) { 0.0 } else { y[0] };
-        let area = Rect {
-            x: 0.0,
-            y: 0.0,
-            w: AREA_PX[0],
-            h: AREA_PX[1],
+        let lowest = if finite().all(|p| p[1] >= 0.0) { 0.0 } else { low };
+        let chart = Chart::beside_axis(AREA_PX, x, [lowest, high]);
+        let mut page = heading.page(chart.area.right() + BORDER_PX + 8.0);
+        let chart = chart.lowered_to(page.top_px + 4.0);
+        let labels = AxisLabels {
+            horizontal: self.position_label.clone(),
+            vertical: self.quantity.clone(),
         };
-        let chart = Chart {
-            area,
-            low: [x[0], lowest],
-            high: [x[1], y[1]],
-        };
-        let left = BORDER_PX + chart.left_room_px();
-        let width = left + AREA_PX[0] + BORDER_PX + 8.0;
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let chart = Chart {
-            area: Rect {
-                x: left,
-                y: top + 4.0,
-                ..area
-            },
-            ..chart
-        };
-        chart.draw(&mut svg, &self.position_label, &self.quantity);
-        svg.clipped(chart.area, |svg| self.draw_lines(svg, &chart));
+        chart.draw_axes(&mut page.svg, &labels);
+        page.svg.clipped(chart.area, |svg| self.draw_lines(svg, &chart));
         if let Some(limit) = limit {
-            self.draw_limit(&mut svg, &chart, limit);
+            self.draw_limit(&mut page.svg, &chart, limit);
         }
         if let Some(limit) = far_limit {
-            let label = format!("limit {} µm, above this chart", plain(limit));
+            let label = format!("{}, above this chart", limit::label(limit));
             let at = [chart.area.right() - 6.0, chart.area.y + 15.0];
-            let text = Text::new(SMALL_PX).bold().end().colour(LIMIT).halo(3.0);
-            svg.text(at, &label, &text);
+            page.svg.text(at, &label, &limit::text().end().halo(3.0));
         }
-        let mut entries: Vec<Entry> = Vec::new();
-        for (k, series) in self.series.iter().enumerate() {
-            entries.push(Entry::new(
-                Key::Line(vec![Style::line(category(k), 1.8)]),
-                series.name.clone(),
-            ));
-        }
-        if let Some(envelope) = &self.envelope {
-            entries.push(Entry::new(
-                Key::Line(vec![Style::line(INK, 2.4).opacity(0.75)]),
-                envelope.name.clone(),
-            ));
-        }
-        let bottom = legend(&mut svg, &entries, [left, chart.area.bottom() + 50.0], AREA_PX[0]);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        page.finish_with_legend(&self.entries(), [chart.area.x, chart.area.bottom() + 50.0])
+    }
+
+    /// The points of all lines.
+    fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.series.iter().chain(&self.envelope).flat_map(Series::points)
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let cases = self.series.iter().enumerate();
+        let mut entries: Vec<Entry> = cases
+            .map(|(k, series)| Entry::line(case_style(k), series.name.clone()))
+            .collect();
+        let envelope = self.envelope.iter();
+        entries.extend(envelope.map(|series| Entry::line(envelope_style(), series.name.clone())));
+        entries
     }
 
     fn draw_lines(&self, svg: &mut Svg, chart: &Chart) {
@@ -138,14 +114,14 @@ impl PathPlot {
                 area.extend(run.last().map(|p| [p[0], zero]));
                 area.extend(run.first().map(|p| [p[0], zero]));
                 svg.polygon(&area, &Style::fill(INK).opacity(0.07));
-                svg.polyline(&run, &Style::line(INK, 2.4).opacity(0.75));
+                svg.polyline(&run, &envelope_style());
             }
         }
         for (k, series) in self.series.iter().enumerate() {
             for run in runs(series.points().map(|p| chart.at(p))) {
                 match run.as_slice() {
                     [single] => svg.circle(*single, 2.5, &Style::fill(category(k))),
-                    _ => svg.polyline(&run, &Style::line(category(k), 1.8)),
+                    _ => svg.polyline(&run, &case_style(k)),
                 }
             }
         }
@@ -154,16 +130,10 @@ impl PathPlot {
     /// The limit with its label at the right end, on the side with fewer lines.
     fn draw_limit(&self, svg: &mut Svg, chart: &Chart, limit: f64) {
         let y = chart.at([0.0, limit])[1];
-        svg.line([chart.area.x, y], [chart.area.right(), y], &limit_style());
-        let label = format!("limit {} µm", plain(limit));
+        svg.line([chart.area.x, y], [chart.area.right(), y], &limit::style());
+        let label = limit::label(limit);
         let half = text_width_px(&label, SMALL_PX, Weight::Bold) / 2.0 + 4.0;
-        let all: Vec<_> = self
-            .series
-            .iter()
-            .chain(&self.envelope)
-            .flat_map(Series::points)
-            .map(|p| chart.at(p))
-            .collect();
+        let all: Vec<Point> = self.points().map(|p| chart.at(p)).collect();
         let crowd = |x: f64, text_y: f64| {
             all.iter()
                 .filter(|p| (p[0] - x).abs() < half && (p[1] - text_y + 4.0).abs() < 11.0)
@@ -179,12 +149,16 @@ impl PathPlot {
             .filter(inside)
             .min_by_key(|p| crowd(p[0], p[1]));
         let at = best.unwrap_or([places[0], y - 6.0]);
-        svg.text(
-            at,
-            &label,
-            &Text::new(SMALL_PX).bold().middle().colour(LIMIT).halo(3.0),
-        );
+        svg.text(at, &label, &limit::text().middle().halo(3.0));
     }
+}
+
+fn case_style(index: usize) -> Style {
+    Style::line(category(index), 1.8)
+}
+
+fn envelope_style() -> Style {
+    Style::line(INK, 2.4).opacity(0.75)
 }
 
 #[cfg(test)]

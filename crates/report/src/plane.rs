@@ -2,11 +2,12 @@
 //!
 //! The horizontal axis may run either way: maps are seen from the tool side, where base y grows to the left.
 
-use crate::axis::{multiples, nice_step, tick_label};
+use crate::axis::{nice_step, tick_label};
 use crate::colour::INK;
 use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, SMALL_PX};
+use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
+use crate::ticks::{Across, Axis, Overhang, Ticks};
 
 /// The labels of the two axes, with units: `base y (mm)`.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,6 +16,34 @@ pub struct AxisLabels {
     pub horizontal: String,
     /// Label left of the drawing, reading upwards.
     pub vertical: String,
+}
+
+/// Direction in which an axis grows on the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Growth {
+    /// To the right.
+    #[default]
+    Right,
+    /// To the left, as base y does when seen from the tool side.
+    Left,
+}
+
+impl Growth {
+    /// The two ends of a range as they stand from left to right.
+    pub(crate) fn ends(self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self {
+            Self::Right => [low, high],
+            Self::Left => [high, low],
+        }
+    }
+
+    /// 1 to the right, -1 to the left.
+    pub(crate) fn sign(self) -> f64 {
+        match self {
+            Self::Right => 1.0,
+            Self::Left => -1.0,
+        }
+    }
 }
 
 /// The part of a plane that is drawn; `left_mm` may be greater than `right_mm`.
@@ -35,27 +64,30 @@ pub(crate) struct Plane {
 }
 
 /// How much is written around a drawing: panels of a sheet share their labels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Marks {
     pub(crate) horizontal_numbers: bool,
     pub(crate) vertical_numbers: bool,
-    pub(crate) font_px_tenths: u16,
+    pub(crate) font_px: f64,
+    pub(crate) overhang: Overhang,
 }
 
 impl Marks {
     pub(crate) const ALL: Self = Self {
         horizontal_numbers: true,
         vertical_numbers: true,
-        font_px_tenths: (SMALL_PX * 10.0) as u16,
+        font_px: SMALL_PX,
+        overhang: Overhang::Allowed,
     };
-
-    fn font_px(self) -> f64 {
-        f64::from(self.font_px_tenths) / 10.0
-    }
 }
 
 /// Room below a drawing for tick labels and axis label.
 pub(crate) const BELOW_PX: f64 = 44.0;
+/// Room left of a drawing for ticks and axis label, without the numbers.
+pub(crate) const LEFT_PX: f64 = 36.0;
+/// Baselines of the axis labels: below the drawing, and right of the room left of it.
+pub(crate) const LABEL_BELOW_PX: f64 = 36.0;
+pub(crate) const LABEL_LEFT_PX: f64 = 14.0;
 
 /// Thinnest drawing; a window that would be thinner shows more of the plane.
 const THINNEST_PX: f64 = 70.0;
@@ -92,42 +124,47 @@ impl Plane {
         }
     }
 
+    /// The window inside a box of `most` pixels, at the left border of a page with room for the axis; its y is still 0.
+    pub(crate) fn beside_axis(window: Window, most: [f64; 2]) -> Self {
+        let left = BORDER_PX + Self::left_room_px(&window);
+        Self::fit(window, [left, 0.0], most)
+    }
+
+    /// The same drawing with its upper edge at `y`.
+    pub(crate) fn lowered_to(self, y: f64) -> Self {
+        let area = Rect { y, ..self.area };
+        Self { area, ..self }
+    }
+
     /// Where a point of the plane stands on the picture.
     pub(crate) fn at(&self, mm: [f64; 2]) -> Point {
-        let w = &self.window;
-        let across = if w.right_mm >= w.left_mm {
-            self.px_per_mm
-        } else {
-            -self.px_per_mm
-        };
-        let up = if w.top_mm >= w.bottom_mm {
-            self.px_per_mm
-        } else {
-            -self.px_per_mm
-        };
+        let [across, up] = self.px_per_mm_signed();
         [
-            self.area.x + (mm[0] - w.left_mm) * across,
-            self.area.bottom() - (mm[1] - w.bottom_mm) * up,
+            self.area.x + (mm[0] - self.window.left_mm) * across,
+            self.area.bottom() - (mm[1] - self.window.bottom_mm) * up,
         ]
     }
 
     /// The point of the plane that stands at a point of the picture.
     pub(crate) fn mm(&self, at: Point) -> [f64; 2] {
-        let w = &self.window;
-        let across = if w.right_mm >= w.left_mm {
-            self.px_per_mm
-        } else {
-            -self.px_per_mm
-        };
-        let up = if w.top_mm >= w.bottom_mm {
-            self.px_per_mm
-        } else {
-            -self.px_per_mm
-        };
+        let [across, up] = self.px_per_mm_signed();
         [
-            w.left_mm + (at[0] - self.area.x) / across,
-            w.bottom_mm + (self.area.bottom() - at[1]) / up,
+            self.window.left_mm + (at[0] - self.area.x) / across,
+            self.window.bottom_mm + (self.area.bottom() - at[1]) / up,
         ]
+    }
+
+    /// Pixels to the right and up for each mm; negative along an axis that falls.
+    fn px_per_mm_signed(&self) -> [f64; 2] {
+        let w = &self.window;
+        let signed = |from: f64, to: f64| {
+            if to >= from {
+                self.px_per_mm
+            } else {
+                -self.px_per_mm
+            }
+        };
+        [signed(w.left_mm, w.right_mm), signed(w.bottom_mm, w.top_mm)]
     }
 
     /// Room left of the drawing for tick labels and axis label.
@@ -140,53 +177,41 @@ impl Plane {
                 Weight::Regular,
             )
         });
-        widest[0].max(widest[1]) + 36.0
+        widest[0].max(widest[1]) + LEFT_PX
+    }
+
+    /// Frame, ticks with numbers, and the labels of both axes.
+    pub(crate) fn draw_axes(&self, svg: &mut Svg, labels: &AxisLabels) {
+        self.draw_frame(svg, Marks::ALL);
+        let c = self.area.centre();
+        let text = Text::new(BODY_PX).middle();
+        svg.text(
+            [c[0], self.area.bottom() + LABEL_BELOW_PX],
+            &labels.horizontal,
+            &text,
+        );
+        let x = self.area.x - Self::left_room_px(&self.window) + LABEL_LEFT_PX;
+        svg.text([x, c[1]], &labels.vertical, &text.turned(-90.0));
     }
 
     /// Frame and ticks with numbers.
     pub(crate) fn draw_frame(&self, svg: &mut Svg, marks: Marks) {
-        let font = marks.font_px();
         let w = &self.window;
-        let ink = Style::line(INK, 1.0);
-        let step = self.tick_step_mm(font);
+        let step = self.tick_step_mm(marks.font_px);
+        let axis = |step: f64, ends: [f64; 2]| Axis {
+            ticks: Ticks::every(step, ends),
+            area: self.area,
+            font_px: marks.font_px,
+            across: Across::Nothing,
+            overhang: marks.overhang,
+        };
         if marks.horizontal_numbers {
-            for mm in multiples(w.left_mm, w.right_mm, step[0]) {
-                let x = self.at([mm, w.bottom_mm])[0];
-                let y = self.area.bottom();
-                svg.line([x, y], [x, y + 5.0], &ink);
-                // Panels stand close together: a number that leaves its panel runs into the next.
-                let half = text_width_px(&tick_label(mm, step[0]), font, Weight::Regular) / 2.0 - 4.0;
-                if font < SMALL_PX && (x - half < self.area.x || x + half > self.area.right()) {
-                    continue;
-                }
-                svg.text(
-                    [x, y + 6.0 + font],
-                    &tick_label(mm, step[0]),
-                    &Text::new(font).middle(),
-                );
-            }
+            axis(step[0], [w.left_mm, w.right_mm]).draw_below(svg, |mm| self.at([mm, w.bottom_mm])[0]);
         }
         if marks.vertical_numbers {
-            for mm in multiples(w.bottom_mm, w.top_mm, step[1]) {
-                let y = self.at([w.left_mm, mm])[1];
-                svg.line([self.area.x - 5.0, y], [self.area.x, y], &ink);
-                svg.text(
-                    [self.area.x - 8.0, y + font * 0.36],
-                    &tick_label(mm, step[1]),
-                    &Text::new(font).end(),
-                );
-            }
+            axis(step[1], [w.bottom_mm, w.top_mm]).draw_left(svg, |mm| self.at([w.left_mm, mm])[1]);
         }
-        svg.rect(self.area, &ink);
-    }
-
-    /// Axis labels below and left of the drawing.
-    pub(crate) fn draw_labels(&self, svg: &mut Svg, labels: &AxisLabels) {
-        let c = self.area.centre();
-        let text = Text::new(BODY_PX).middle();
-        svg.text([c[0], self.area.bottom() + 36.0], &labels.horizontal, &text);
-        let x = self.area.x - Self::left_room_px(&self.window) + 14.0;
-        svg.text([x, c[1]], &labels.vertical, &text.turned(-90.0));
+        svg.rect(self.area, &Style::line(INK, 1.0));
     }
 
     /// Ticks far enough apart for their numbers; the same step both ways where that fits.

@@ -1,16 +1,21 @@
 //! How round a circle comes out: the radial deviation, magnified, around the nominal circle.
 
-use crate::axis::{extent, multiples, nice_step, tick_label};
+use crate::axis::{extent, nice_step};
 use crate::chart::runs;
-use crate::colour::{GRID, INK, MUTED, category};
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::colour::{FAINT, GRID, INK, MUTED, category};
+use crate::legend::Entry;
+use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
-use crate::vector_field::Growth;
+use crate::ticks::Ticks;
 
 const RADIUS_PX: f64 = 190.0;
 const WIDTH_PX: f64 = 500.0;
-/// Where the nominal circle stands if deviations are as large inwards as outwards.
-const NOMINAL_SHARE: f64 = 0.6;
+/// Radius of the innermost ring, which keeps clear of the centre.
+const HOLE_PX: f64 = 0.22 * RADIUS_PX;
+/// Font size of the rings' values, and the least distance of two of them.
+const NUMBER_PX: f64 = 10.0;
+const APART_PX: f64 = 16.0;
 
 /// The radial deviation around a circle under one load case.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +26,14 @@ pub struct RadialSeries {
     pub angle_deg: Vec<f64>,
     /// Deviation along the radius in um, outwards positive.
     pub radial_um: Vec<f64>,
+}
+
+impl RadialSeries {
+    /// Angle and deviation of each point.
+    fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let pairs = self.angle_deg.iter().zip(&self.radial_um);
+        pairs.map(|(deg, um)| [*deg, *um])
+    }
 }
 
 /// What a polar plot shows.
@@ -43,78 +56,51 @@ pub struct PolarPlot {
 impl PolarPlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         let finite = self.series.iter().flat_map(|s| &s.radial_um).copied();
         let Some((low, high)) = extent(finite.chain([0.0])).filter(|_| self.has_values()) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the circle has no values.",
-            );
+            return heading.notice("There is nothing to draw: the circle has no values.");
         };
-        let step = nice_step((high - low).max(1e-6), 4.0);
-        let first = (low / step).floor().min(-1.0) * step;
-        let last = (high / step).ceil().max(1.0) * step;
-        // The innermost ring keeps clear of the centre.
-        let hole = RADIUS_PX * (1.0 - NOMINAL_SHARE) * 0.55;
-        let radius = |um: f64| hole + (um - first) / (last - first) * (RADIUS_PX - hole);
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, WIDTH_PX);
-        let centre = [WIDTH_PX / 2.0, top + RADIUS_PX + 24.0];
-        self.draw_rings(&mut svg, centre, (&multiples(first, last, step), step), radius);
+        let mut page = heading.page(WIDTH_PX);
+        let rings = Rings::covering(low, high);
+        let centre = [WIDTH_PX / 2.0, page.top_px + RADIUS_PX + 24.0];
+        self.draw_spokes(&mut page.svg, centre, &rings);
+        rings.draw(&mut page.svg, centre);
         for (k, series) in self.series.iter().enumerate() {
-            let points = series.angle_deg.iter().zip(&series.radial_um).map(|(a, um)| {
-                let r = radius(*um);
-                self.on_circle(centre, *a, r)
-            });
+            let points = series
+                .points()
+                .map(|[deg, um]| self.on_circle(centre, deg, rings.radius_px(um)));
             for run in runs(points) {
-                svg.polyline(&run, &Style::line(category(k), 1.9));
+                page.svg.polyline(&run, &case_style(k));
             }
         }
-        self.write_scale(&mut svg, centre, (&multiples(first, last, step), step), radius);
-        let mut entries = vec![Entry::new(Key::Line(vec![nominal_style()]), "nominal circle")];
-        for (k, series) in self.series.iter().enumerate() {
-            entries.push(Entry::new(
-                Key::Line(vec![Style::line(category(k), 1.9)]),
-                series.name.clone(),
-            ));
-        }
-        let y = centre[1] + RADIUS_PX + 32.0;
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [BORDER_PX + 20.0, y],
-            WIDTH_PX - 2.0 * BORDER_PX - 20.0,
-        );
-        svg.finish(WIDTH_PX, bottom + BORDER_PX, &self.title)
+        self.write_scale(&mut page.svg, centre, &rings);
+        let mut entries = vec![Entry::line(nominal_style(), "nominal circle")];
+        let cases = self.series.iter().enumerate();
+        entries.extend(cases.map(|(k, series)| Entry::line(case_style(k), series.name.clone())));
+        page.finish_with_legend(&entries, [BORDER_PX + 20.0, centre[1] + RADIUS_PX + 32.0])
     }
 
     fn has_values(&self) -> bool {
-        let paired = self
-            .series
-            .iter()
-            .flat_map(|s| s.angle_deg.iter().zip(&s.radial_um));
-        paired.into_iter().any(|(a, r)| a.is_finite() && r.is_finite())
+        let mut points = self.series.iter().flat_map(RadialSeries::points);
+        points.any(|p| p.iter().all(|v| v.is_finite()))
     }
 
     fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
-        let across = match self.growth {
-            Growth::Right => 1.0,
-            Growth::Left => -1.0,
-        };
-        [centre[0] + across * radius_px * cos, centre[1] - radius_px * sin]
+        [
+            centre[0] + self.growth.sign() * radius_px * cos,
+            centre[1] - radius_px * sin,
+        ]
     }
 
-    fn draw_rings(&self, svg: &mut Svg, centre: Point, rings: (&[f64], f64), radius: impl Fn(f64) -> f64) {
+    /// Rays from the innermost ring outwards, every 30 degrees, with their names.
+    fn draw_spokes(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
         for spoke in 0..12 {
             let angle = f64::from(spoke) * 30.0;
+            let inner = self.on_circle(centre, angle, rings.radius_px(rings.first_um()));
             let outer = self.on_circle(centre, angle, RADIUS_PX);
-            svg.line(
-                self.on_circle(centre, angle, radius(rings.0[0])),
-                outer,
-                &Style::line(GRID, 1.0),
-            );
+            svg.line(inner, outer, &Style::line(GRID, 1.0));
             let at = self.on_circle(centre, angle, RADIUS_PX + 14.0);
             let name = match spoke {
                 0 => format!("+{}", self.horizontal),
@@ -126,68 +112,158 @@ impl PolarPlot {
             let text = if spoke % 3 == 0 {
                 Text::new(SMALL_PX).bold()
             } else {
-                Text::new(10.0).colour(MUTED)
+                Text::new(NUMBER_PX).colour(MUTED)
             };
+            // Names at the sides stand away from the circle, all others above or below their ray.
             let side = (at[0] - centre[0]) / RADIUS_PX;
-            let text = if side > 0.9 {
-                text
+            let (text, nudge) = if side > 0.9 {
+                (text, -6.0)
             } else if side < -0.9 {
-                text.end()
+                (text.end(), 6.0)
             } else {
-                text.middle()
-            };
-            let nudge = if side.abs() > 0.9 {
-                -6.0 * side.signum()
-            } else {
-                0.0
+                (text.middle(), 0.0)
             };
             svg.text([at[0] + nudge, at[1] + 4.0], &name, &text);
         }
-        for um in rings.0 {
-            let is_nominal = um.abs() < rings.1 * 1e-6;
-            let style = if is_nominal {
-                nominal_style()
-            } else {
-                Style::line("#c9c9c9", 0.9)
-            };
-            svg.circle(centre, radius(*um), &style);
-        }
     }
 
-    /// The ray between two spokes where the lines keep farthest from the rings' values.
-    fn clearest_ray_deg(&self, radius: impl Fn(f64) -> f64) -> f64 {
-        let step = RADIUS_PX / 5.0;
+    /// The ray between two spokes along which the fewest points stand where a ring's value is to be written.
+    fn clearest_ray_deg(&self, rings: &Rings, numbered_um: &[f64]) -> f64 {
+        const HALF_PX: Point = [24.0, 9.0];
+        let centre = [0.0, 0.0];
+        let points: Vec<Point> = self
+            .series
+            .iter()
+            .flat_map(RadialSeries::points)
+            .map(|[deg, um]| self.on_circle(centre, deg, rings.radius_px(um)))
+            .collect();
         let crowd = |ray: f64| -> usize {
-            let near = |a: f64| ((a - ray + 540.0).rem_euclid(360.0) - 180.0).abs() < 9.0;
-            let lines = self
-                .series
+            let numbers = numbered_um
                 .iter()
-                .flat_map(|s| s.angle_deg.iter().zip(&s.radial_um));
-            let hits = lines.filter(|(a, um)| near(**a) && (radius(**um) / step).fract().abs() < 0.4);
-            hits.count()
+                .map(|um| self.on_circle(centre, ray, rings.radius_px(*um)));
+            let covered = |n: Point| {
+                let under = |p: &&Point| (0..2).all(|k| (p[k] - n[k]).abs() < HALF_PX[k]);
+                points.iter().filter(under).count()
+            };
+            numbers.map(covered).sum()
         };
         let rays = [75.0, 105.0, 255.0, 285.0, 45.0, 135.0, 225.0, 315.0];
         rays.into_iter().min_by_key(|ray| crowd(*ray)).unwrap_or(75.0)
     }
 
     /// The rings' values, along a ray between two spokes.
-    fn write_scale(&self, svg: &mut Svg, centre: Point, rings: (&[f64], f64), radius: impl Fn(f64) -> f64) {
-        let ray_deg = self.clearest_ray_deg(&radius);
-        let mut last_r = f64::NEG_INFINITY;
-        for um in rings.0 {
-            let r = radius(*um);
-            if r - last_r < 16.0 {
-                continue;
-            }
-            last_r = r;
-            let at = self.on_circle(centre, ray_deg, r);
-            let sign = if *um > rings.1 * 1e-6 { "+" } else { "" };
-            let label = format!("{sign}{} µm", tick_label(*um, rings.1));
-            svg.text([at[0], at[1] + 3.5], &label, &Text::new(10.0).middle().halo(4.0));
+    fn write_scale(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
+        let numbered_um = rings.numbered_um();
+        let ray_deg = self.clearest_ray_deg(rings, &numbered_um);
+        for um in numbered_um {
+            let at = self.on_circle(centre, ray_deg, rings.radius_px(um));
+            let sign = if um > rings.slack_um() { "+" } else { "" };
+            let label = format!("{sign}{} µm", rings.ticks.label(um));
+            let text = Text::new(NUMBER_PX).middle().halo(4.0);
+            svg.text([at[0], at[1] + 3.5], &label, &text);
         }
     }
 }
 
+/// Rings of equal deviation around the nominal circle.
+struct Rings {
+    ticks: Ticks,
+    /// The deviations of the innermost and of the outermost ring.
+    ends_um: [f64; 2],
+}
+
+impl Rings {
+    /// Rings at nice values from `low_um` (0 or less) to `high_um` (0 or more) and at least one to either side of the nominal circle.
+    fn covering(low_um: f64, high_um: f64) -> Self {
+        let step = nice_step((high_um - low_um).max(1e-6), 4.0);
+        let first = (low_um / step).floor().min(-1.0) * step;
+        let last = (high_um / step).ceil().max(1.0) * step;
+        Self {
+            ticks: Ticks::every(step, [first, last]),
+            ends_um: [first, last],
+        }
+    }
+
+    /// Distance from the centre.
+    fn radius_px(&self, um: f64) -> f64 {
+        let [first, last] = self.ends_um;
+        HOLE_PX + (um - first) / (last - first) * (RADIUS_PX - HOLE_PX)
+    }
+
+    fn first_um(&self) -> f64 {
+        self.ends_um[0]
+    }
+
+    /// Less than this is nothing.
+    fn slack_um(&self) -> f64 {
+        self.ticks.step * 1e-6
+    }
+
+    fn draw(&self, svg: &mut Svg, centre: Point) {
+        for um in &self.ticks.at {
+            let style = if um.abs() < self.slack_um() {
+                nominal_style()
+            } else {
+                Style::line(FAINT, 0.9)
+            };
+            svg.circle(centre, self.radius_px(*um), &style);
+        }
+    }
+
+    /// The rings far enough from the last number for one of their own, from the inside.
+    fn numbered_um(&self) -> Vec<f64> {
+        let mut last_px = f64::NEG_INFINITY;
+        let mut numbered = Vec::new();
+        for um in &self.ticks.at {
+            let radius = self.radius_px(*um);
+            if radius - last_px >= APART_PX {
+                last_px = radius;
+                numbered.push(*um);
+            }
+        }
+        numbered
+    }
+}
+
+fn case_style(index: usize) -> Style {
+    Style::line(category(index), 1.9)
+}
+
 fn nominal_style() -> Style {
     Style::line(INK, 1.3).dashed("6 4")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_reach_from_the_hole_to_the_rim_and_hold_the_nominal_circle() {
+        for (low, high) in [(-3.0, 71.0), (0.0, 6.0), (-1e-9, 0.0), (-400.0, 0.0)] {
+            let rings = Rings::covering(low, high);
+            let [first, last] = rings.ends_um;
+            assert!(first <= low && last >= high && first < 0.0 && last > 0.0);
+            assert!((rings.radius_px(first) - HOLE_PX).abs() < 1e-9);
+            assert!((rings.radius_px(last) - RADIUS_PX).abs() < 1e-9);
+            assert!(rings.ticks.at.iter().any(|um| um.abs() < rings.slack_um()));
+        }
+    }
+
+    #[test]
+    fn values_are_written_where_the_line_is_not() {
+        let rings = Rings::covering(-10.0, 10.0);
+        let numbered = rings.numbered_um();
+        let on_ring = |deg: f64| RadialSeries {
+            angle_deg: vec![deg; 5],
+            radial_um: vec![numbered[1]; 5],
+            ..RadialSeries::default()
+        };
+        let plot = |series| PolarPlot {
+            series,
+            ..PolarPlot::default()
+        };
+        let ray = |series| plot(series).clearest_ray_deg(&rings, &numbered);
+        assert!((ray(Vec::new()) - 75.0).abs() < 1e-9);
+        assert!((ray(vec![on_ring(75.0), on_ring(105.0)]) - 255.0).abs() < 1e-9);
+    }
 }

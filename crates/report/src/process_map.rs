@@ -1,20 +1,24 @@
 //! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut as it stands.
 
-use crate::axis::{extent, plain};
+use crate::axis::extent;
 use crate::chart::Chart;
-use crate::colour::{ColourScale, INK, LIMIT};
+use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
-use crate::contours::{Lattice, Ring};
-use crate::field::limit_style;
+use crate::contours::Lattice;
+use crate::grid::is_steady;
+use crate::legend::{Entry, Key, diamond};
 use crate::levels::Levels;
-use crate::line_label::{Labelled, Room, write_labels};
-use crate::page::{BORDER_PX, Entry, Key, diamond, legend, notice, title_block};
+use crate::levels_drawing::{LevelLines, Placed};
+use crate::limit;
+use crate::line_label::{Room, write_labels};
+use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
-use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
+use crate::svg::{Style, Svg};
 
 const AREA_PX: [f64; 2] = [480.0, 360.0];
 /// Deviations beyond this many times the limit have one colour: nobody cuts there.
 const MOST_LIMITS: f64 = 4.0;
+const NOTHING: &str = "There is nothing to draw: no cut has a value.";
 
 /// What a picture of permitted cuts shows.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -27,9 +31,9 @@ pub struct ProcessMap {
     pub axes: AxisLabels,
     /// What is drawn, with its unit: `largest deviation across the tool (µm)`.
     pub quantity: String,
-    /// Values along the horizontal axis, rising.
+    /// Values along the horizontal axis, rising or falling steadily; at least two.
     pub horizontal: Vec<f64>,
-    /// Values along the vertical axis, rising.
+    /// Values along the vertical axis, rising or falling steadily; at least two.
     pub vertical: Vec<f64>,
     /// Deviation in um, row by row from the bottom; infinite where the cut cannot be held at all.
     pub deviation_um: Vec<f64>,
@@ -40,20 +44,18 @@ pub struct ProcessMap {
 }
 
 impl ProcessMap {
-    /// The picture as a complete SVG document; no values give one that says so.
+    /// The picture as a complete SVG document; values that cannot be drawn give one that says why.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
+        if let Some(reason) = self.obstacle() {
+            return heading.notice(reason);
+        }
         let most = MOST_LIMITS * self.limit_um;
         let shown: Vec<f64> = self.deviation_um.iter().map(|um| um.min(most)).collect();
-        let sizes = [self.horizontal.len(), self.vertical.len()];
-        let is_field = sizes[0] >= 2 && sizes[1] >= 2 && shown.len() == sizes[0] * sizes[1];
-        let levels = Levels::covering(shown.iter().copied()).filter(|_| is_field);
+        let levels = Levels::covering(shown.iter().copied());
         let ranges = extent(self.horizontal.iter().copied()).zip(extent(self.vertical.iter().copied()));
         let (Some(levels), Some((across, up))) = (levels, ranges) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: no cut has a value.",
-            );
+            return heading.notice(NOTHING);
         };
         let bar = ColourBar {
             levels: &levels,
@@ -61,105 +63,59 @@ impl ProcessMap {
             quantity: &self.quantity,
             limit_um: Some(self.limit_um),
         };
-        let area = Rect {
-            x: 0.0,
-            y: 0.0,
-            w: AREA_PX[0],
-            h: AREA_PX[1],
-        };
-        let chart = Chart {
-            area,
-            low: [across.0, up.0],
-            high: [across.1, up.1],
-        };
-        let left = BORDER_PX + chart.left_room_px();
-        let width = left + AREA_PX[0] + 22.0 + bar.width_px(AREA_PX[1]) + BORDER_PX;
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let chart = Chart {
-            area: Rect {
-                x: left,
-                y: top + 4.0,
-                ..area
-            },
-            ..chart
-        };
-        chart.draw(&mut svg, &self.axes.horizontal, &self.axes.vertical);
-        svg.clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
-        svg.rect(chart.area, &Style::line(INK, 1.0));
-        let bar_area = Rect {
-            x: chart.area.right() + 22.0,
-            w: 0.0,
-            ..chart.area
-        };
-        bar.draw(&mut svg, bar_area);
-        let mut entries = vec![Entry::new(
-            Key::Line(vec![limit_style()]),
-            format!("limit {} µm: cuts below hold it", plain(self.limit_um)),
-        )];
-        if let Some(at) = self.drawn {
+        let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
+        let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
+        let chart = chart.lowered_to(page.top_px + 4.0);
+        chart.draw_axes(&mut page.svg, &self.axes);
+        page.svg
+            .clipped(chart.area, |svg| self.draw_field(svg, &chart, &levels, &shown));
+        page.svg.rect(chart.area, &Style::line(INK, 1.0));
+        bar.draw(&mut page.svg, bar.beside(chart.area));
+        let mut entries = vec![limit::entry(self.limit_um, ": cuts below hold it")];
+        if let Some(at) = self.drawn.filter(|at| at.iter().all(|v| v.is_finite())) {
             let style = Style::fill("#ffffff").outlined(INK, 1.6);
-            svg.polygon(&diamond(chart.at(at), 6.0), &style);
+            page.svg.polygon(&diamond(chart.at(at), 6.0), &style);
             entries.push(Entry::new(Key::Diamond(style), "the cut as it stands"));
         }
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [left, chart.area.bottom() + 48.0],
-            width - left - BORDER_PX,
-        );
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        page.finish_with_legend(&entries, [chart.area.x, chart.area.bottom() + 48.0])
+    }
+
+    /// Why there is nothing to draw.
+    fn obstacle(&self) -> Option<&'static str> {
+        let sizes = [self.horizontal.len(), self.vertical.len()];
+        if sizes[0] < 2 || sizes[1] < 2 || self.deviation_um.len() != sizes[0] * sizes[1] {
+            return Some(NOTHING);
+        }
+        if !(is_steady(&self.horizontal) && is_steady(&self.vertical)) {
+            return Some("The values along an axis neither rise steadily nor fall steadily.");
+        }
+        if self.deviation_um.iter().any(|um| um.is_nan()) {
+            return Some("A deviation is not a number.");
+        }
+        (!self.limit_um.is_finite()).then_some("The limit is not a number.")
     }
 
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
-        let lattice = Lattice {
-            horizontal_mm: &self.horizontal,
-            vertical_mm: &self.vertical,
-            samples: shown,
+        let at = |values: [f64; 2]| chart.at(values);
+        let placed = Placed {
+            lattice: Lattice {
+                horizontal: &self.horizontal,
+                vertical: &self.vertical,
+                samples: shown,
+            },
+            at: &at,
+            area: chart.area,
         };
-        let line = |points: &[[f64; 2]]| points.iter().map(|v| chart.at(*v)).collect::<Vec<Point>>();
-        let path = |rings: &[Ring]| {
-            rings
-                .iter()
-                .map(|ring| trace(&line(ring), Ends::Closed))
-                .collect::<String>()
-        };
-        let scale = ColourScale::default();
-        svg.rect(chart.area, &Style::fill(levels.colour(0, scale)));
-        for (band, rings) in lattice.areas_from(levels.inner_um()).iter().enumerate() {
-            svg.path(&path(rings), &Style::fill(levels.colour(band + 1, scale)));
-        }
-        let mut labels = Vec::new();
-        for (lines, level) in lattice.lines_at(levels.inner_um()).iter().zip(levels.inner_um()) {
-            for points in lines.iter().map(|points| line(points)) {
-                svg.polyline(&points, &Style::line(INK, 0.6).opacity(0.55));
-                // A line that coincides with the limit carries the limit's label.
-                if (level - self.limit_um).abs() < 0.05 * levels.step_um {
-                    continue;
-                }
-                labels.push(Labelled {
-                    points,
-                    text: levels.label(*level),
-                    look: Text::new(10.0).halo(3.0),
-                });
-            }
-        }
-        for points in lattice.lines_at(&[self.limit_um]).into_iter().flatten() {
-            let points = line(&points);
-            svg.polyline(&points, &limit_style());
-            let label = Labelled {
-                points,
-                text: format!("limit {} µm", plain(self.limit_um)),
-                look: Text::new(11.0).bold().colour(LIMIT),
-            };
-            labels.insert(0, label);
-        }
+        placed.draw_bands(svg, levels, ColourScale::default());
+        let lines = LevelLines::of(&placed, levels, Some(self.limit_um));
+        lines.draw_iso(svg, &Style::line(INK, 0.6).opacity(0.55));
+        lines.draw_limit(svg, &[limit::style()]);
         let room = Room {
             area: chart.area,
             free: &|_| true,
             obstacles: &[],
         };
-        write_labels(svg, &labels, &room);
+        write_labels(svg, &lines.labels(), &room);
     }
 }
 
@@ -216,5 +172,31 @@ mod tests {
         ] {
             assert!(empty.to_svg().contains("nothing to draw"));
         }
+    }
+
+    #[test]
+    fn values_that_stand_still_and_numbers_that_are_none_are_refused() {
+        let axis = vec![0.05; 12];
+        let odd = [
+            ProcessMap {
+                horizontal: axis.clone(),
+                ..map()
+            },
+            ProcessMap {
+                vertical: axis,
+                ..map()
+            },
+        ];
+        for odd in odd {
+            assert!(odd.to_svg().contains("neither rise steadily nor fall"));
+        }
+        let limitless = ProcessMap {
+            limit_um: f64::NAN,
+            ..map()
+        };
+        assert!(limitless.to_svg().contains("The limit is not a number"));
+        let mut unknown = map();
+        unknown.deviation_um[7] = f64::NAN;
+        assert!(unknown.to_svg().contains("A deviation is not a number"));
     }
 }

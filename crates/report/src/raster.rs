@@ -17,18 +17,7 @@ const LARGEST_PX: u32 = 10_000;
 /// # Errors
 /// The text is no SVG, or the picture has no pixels or more than 10 000 a side.
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
-    let mut fonts = usvg::fontdb::Database::new();
-    fonts.load_font_data(REGULAR.to_vec());
-    fonts.load_font_data(BOLD.to_vec());
-    fonts.set_sans_serif_family("DejaVu Sans");
-    let options = usvg::Options {
-        font_family: "DejaVu Sans".to_owned(),
-        fontdb: Arc::new(fonts),
-        ..Default::default()
-    };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| ReportError::UnreadableSvg {
-        reason: e.to_string(),
-    })?;
+    let tree = read(svg)?;
     let (width_px, height_px) = (
         f64::from(tree.size().width()) * scale,
         f64::from(tree.size().height()) * scale,
@@ -49,4 +38,69 @@ pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
     pixels.encode_png().map_err(|e| ReportError::Encoding {
         reason: e.to_string(),
     })
+}
+
+/// The picture as resvg sees it, with the embedded fonts.
+fn read(svg: &str) -> Result<usvg::Tree, ReportError> {
+    let mut fonts = usvg::fontdb::Database::new();
+    fonts.load_font_data(REGULAR.to_vec());
+    fonts.load_font_data(BOLD.to_vec());
+    fonts.set_sans_serif_family("DejaVu Sans");
+    let options = usvg::Options {
+        font_family: "DejaVu Sans".to_owned(),
+        fontdb: Arc::new(fonts),
+        ..Default::default()
+    };
+    usvg::Tree::from_str(svg, &options).map_err(|e| ReportError::UnreadableSvg {
+        reason: e.to_string(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::font::{Weight, text_width_px};
+    use crate::svg::{Style, Svg, Text};
+
+    /// Where the ink of the last text of a picture ends, px.
+    fn right_px(content: &str, text: &Text) -> f64 {
+        let mut svg = Svg::new();
+        svg.line([0.0, 0.0], [1.0, 0.0], &Style::line("#fff", 1.0));
+        svg.text([0.0, 50.0], content, text);
+        let tree = read(&svg.finish(4000.0, 100.0, "")).expect("our own SVG");
+        f64::from(
+            tree.root()
+                .children()
+                .last()
+                .map_or(0.0, |node| node.abs_bounding_box().right()),
+        )
+    }
+
+    #[test]
+    fn the_table_of_widths_is_that_of_the_embedded_fonts() {
+        const SIZE_PX: f64 = 40.0;
+        for weight in [Weight::Regular, Weight::Bold] {
+            let text = match weight {
+                Weight::Regular => Text::new(SIZE_PX),
+                Weight::Bold => Text::new(SIZE_PX).bold(),
+            };
+            for content in [
+                "deviation (µm)",
+                "0123456789",
+                "limit \u{2212}50 µm ± 2",
+                "Ø 270 mm × 3°",
+                "αβδ ≤ ‰",
+            ] {
+                // Ten times the text between two bars: what the second bar ends at grows by their widths alone.
+                let bar = |times: usize| right_px(&format!("|{}|", content.repeat(times)), &text);
+                let drawn = (bar(10) - bar(0)) / 10.0;
+                let told = text_width_px(content, SIZE_PX, weight);
+                // Kerning of a few pairs is left out.
+                assert!(
+                    (drawn - told).abs() < 0.02 * told,
+                    "{content} {weight:?}: {drawn} {told}"
+                );
+            }
+        }
+    }
 }

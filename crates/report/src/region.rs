@@ -2,17 +2,18 @@
 
 use crate::axis::plain;
 use crate::colour::{DOUBTFUL, INK, OVER, WITHIN};
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::grid::Grid;
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
+use crate::limit;
 use crate::line_label::points_under;
-use crate::map::write_on_map;
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane};
+use crate::marker::write_on_map;
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Plane};
 use crate::svg::{Point, Style, Svg};
 
 const MOST_PX: [f64; 2] = [600.0, 470.0];
-const LEAST_WIDTH_PX: f64 = 430.0;
 
 /// An axis-parallel rectangle in mm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,54 +60,47 @@ pub struct RegionMap {
 impl RegionMap {
     /// The map as a complete SVG document; a grid that cannot be drawn gives a picture that says why.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         if let Some(reason) = self.grid.obstacle() {
-            return notice(&self.title, &self.subtitle, &reason);
+            return heading.notice(&reason);
         }
         let levels = Levels::covering(self.grid.values_um()).filter(|_| self.limit_um.is_finite());
         let Some(levels) = levels else {
-            return notice(&self.title, &self.subtitle, "The limit is not a number.");
+            return heading.notice("The limit is not a number.");
         };
-        let window = window_of(&self.grid);
-        let left = BORDER_PX + Plane::left_room_px(&window);
-        let plane = Plane::fit(window, [left, 0.0], MOST_PX);
-        let width = (plane.area.right() + BORDER_PX + 12.0).max(LEAST_WIDTH_PX);
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
-        let iso_lines = if self.show_iso_lines {
-            IsoLines::Labelled
-        } else {
-            IsoLines::Off
-        };
+        let plane = Plane::beside_axis(window_of(&self.grid), MOST_PX);
+        let width = plane.area.right() + BORDER_PX + 12.0;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
         let sizes = self.size_labels(&plane);
-        let obstacles: Vec<_> = sizes
-            .iter()
-            .flat_map(|(at, text)| points_under(*at, text, SMALL_PX))
-            .collect();
+        let under = |(at, text): &(Point, String)| points_under(*at, text, SMALL_PX);
+        let obstacles: Vec<_> = sizes.iter().flat_map(under).collect();
         let doubt = self
             .is_doubtful()
             .then(|| [-1.0, 1.0].map(|times| self.grid.raised(&self.spread_um, times)));
         let look = Look {
             levels: &levels,
             paint: Paint::Region,
-            iso_lines,
+            iso_lines: if self.show_iso_lines {
+                IsoLines::Labelled
+            } else {
+                IsoLines::Off
+            },
             limit_um: Some(self.limit_um),
             doubt: doubt.as_ref(),
             obstacles: &obstacles,
         };
-        draw_field(&mut svg, &plane, &self.grid, &look);
-        self.draw_fits(&mut svg, &plane);
+        draw_field(&mut page.svg, &plane, &self.grid, &look);
+        self.draw_fits(&mut page.svg, &plane);
         for (at, text) in &sizes {
-            write_on_map(&mut svg, *at, text);
+            write_on_map(&mut page.svg, *at, text);
         }
-        plane.draw_frame(&mut svg, Marks::ALL);
-        plane.draw_labels(&mut svg, &self.axes);
+        plane.draw_axes(&mut page.svg, &self.axes);
         let mut entries = self.entries();
-        entries.extend(zone_entries(&mut svg, std::iter::once(&self.grid), Paint::Region));
+        let zones = zone_entries(&mut page.svg, std::iter::once(&self.grid), Paint::Region);
+        entries.extend(zones);
         let below = plane.area.bottom() + BELOW_PX + 8.0;
-        let bottom = legend(&mut svg, &entries, [left, below], width - left - BORDER_PX);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        page.finish_with_legend(&entries, [plane.area.x, below])
     }
 
     fn is_doubtful(&self) -> bool {
@@ -116,26 +110,22 @@ impl RegionMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
         let limit = plain(self.limit_um);
         let doubtful = self.is_doubtful();
         let within = if doubtful { "surely within" } else { "within" };
-        let mut entries = vec![Entry::new(field(WITHIN), format!("{within} {limit} µm"))];
+        let mut entries = vec![Entry::new(Key::field(WITHIN), format!("{within} {limit} µm"))];
         if doubtful {
-            entries.push(Entry::new(field(DOUBTFUL), "within the uncertainty (95 %)"));
+            entries.push(Entry::new(Key::field(DOUBTFUL), "within the uncertainty (95 %)"));
         }
         entries.extend([
-            Entry::new(field(OVER), format!("over {limit} µm")),
-            Entry::new(Key::Line(vec![limit_style()]), format!("limit {limit} µm")),
+            Entry::new(Key::field(OVER), format!("over {limit} µm")),
+            limit::entry(self.limit_um, ""),
         ]);
         if self.rectangle.is_some() {
-            entries.push(Entry::new(
-                Key::Line(vec![rectangle_style()]),
-                "largest rectangle",
-            ));
+            entries.push(Entry::line(rectangle_style(), "largest rectangle"));
         }
         if self.circle.is_some() {
-            entries.push(Entry::new(Key::Line(vec![circle_style()]), "largest circle"));
+            entries.push(Entry::line(circle_style(), "largest circle"));
         }
         entries
     }

@@ -1,28 +1,23 @@
 //! Which joint is to blame: the share of each joint in a deviation, signed, with its uncertainty and the total.
 
-use crate::axis::{multiples, nice_step, number, tick_label};
+use crate::axis::number;
 use crate::chart::range;
 use crate::colour::{GRID, INK, category};
 use crate::font::{Weight, text_width_px};
-use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, diamond, legend, notice, title_block};
+use crate::legend::{Entry, Key, diamond};
+use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
+use crate::ticks::Ticks;
 
 const AREA_WIDTH_PX: f64 = 470.0;
+/// Height of a bar, and of the row under it for the mark of its total.
 const BAR_PX: f64 = 22.0;
 const TOTAL_PX: f64 = 16.0;
-const THIN_BAR_PX: f64 = 13.0;
-/// Longest bar label in pixels; longer ones are cut.
+/// Longest bar label in pixels; longer ones are cut. Room for the labels, where all are short.
 const LABEL_PX: f64 = 190.0;
-
-/// How the shares of one bar stand.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Arrangement {
-    /// End to end from zero: positive to the right, negative to the left.
-    #[default]
-    Stacked,
-    /// One thin bar a share, each from zero.
-    Grouped,
-}
+const LEAST_LABEL_PX: f64 = 30.0;
+/// Room right of the bars for the totals in numbers.
+const NUMBER_PX: f64 = 92.0;
 
 /// The shares at one point or under one condition.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,8 +26,6 @@ pub struct ShareBar {
     pub label: String,
     /// Signed share of each part in um, in the order of [`ShareBars::parts`].
     pub shares_um: Vec<f64>,
-    /// Standard uncertainty of each share in um; empty for none. Drawn when grouped.
-    pub share_uncertainty_um: Vec<f64>,
     /// Total in um, marked by a diamond.
     pub total_um: Option<f64>,
     /// Standard uncertainty of the total in um, drawn as a whisker.
@@ -52,8 +45,6 @@ pub struct ShareBars {
     pub parts: Vec<String>,
     /// The bars from top to bottom.
     pub bars: Vec<ShareBar>,
-    /// How shares stand in a bar.
-    pub arrangement: Arrangement,
 }
 
 /// The value axis placed on the picture.
@@ -71,66 +62,56 @@ impl Scale {
 impl ShareBars {
     /// The picture as a complete SVG document; no shares gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let ends = self.bars.iter().flat_map(|b| self.ends_um(b));
-        let has_values = self
-            .bars
-            .iter()
-            .any(|b| b.shares_um.iter().any(|v| v.is_finite()));
-        let Some(mut range) = range(ends.chain([0.0]), 0.0).filter(|_| has_values) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: no shares were given.",
-            );
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let Some(range) = self.range_um() else {
+            return heading.notice("There is nothing to draw: no shares were given.");
         };
-        let room = 0.04 * (range[1] - range[0]);
-        range = [
-            if range[0] < 0.0 { range[0] - room } else { 0.0 },
-            if range[1] > 0.0 { range[1] + room } else { 0.0 },
-        ];
         let labels = self
             .bars
             .iter()
             .map(|b| text_width_px(&b.label, BODY_PX, Weight::Regular));
-        let left = BORDER_PX + labels.fold(30.0, f64::max).min(LABEL_PX) + 12.0;
-        let right_room = 92.0;
-        let width = left + AREA_WIDTH_PX + right_room + BORDER_PX;
-        let row = self.row_px();
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width) + 4.0;
+        let left = BORDER_PX + labels.fold(LEAST_LABEL_PX, f64::max).min(LABEL_PX) + 12.0;
+        let row = BAR_PX + self.total_row_px() + 14.0;
+        let mut page = heading.page(left + AREA_WIDTH_PX + NUMBER_PX + BORDER_PX);
         let area = Rect {
             x: left,
-            y: top,
+            y: page.top_px + 4.0,
             w: AREA_WIDTH_PX,
             h: row * self.bars.len() as f64,
         };
         let scale = Scale { area, range };
-        self.draw_axis(&mut svg, &scale);
+        self.draw_axis(&mut page.svg, &scale);
         for (k, bar) in self.bars.iter().enumerate() {
-            let middle = top + row * (k as f64 + 0.5) - self.total_row_px() / 2.0;
-            svg.text(
-                [left - 10.0, middle + 4.0],
-                &cut(&bar.label),
-                &Text::new(BODY_PX).end(),
-            );
-            svg.layer("share-bar", 1.0, |svg| match self.arrangement {
-                Arrangement::Stacked => draw_stacked(svg, &scale, bar, middle),
-                Arrangement::Grouped => draw_grouped(svg, &scale, bar, middle),
-            });
-            draw_total(
-                &mut svg,
-                &scale,
-                bar,
-                top + row * (k as f64 + 1.0) - 6.0 - TOTAL_PX / 2.0,
-            );
+            let middle = area.y + row * (k as f64 + 0.5) - self.total_row_px() / 2.0;
+            let text = Text::new(BODY_PX).end();
+            page.svg
+                .text([left - 10.0, middle + 4.0], &cut(&bar.label), &text);
+            page.svg
+                .layer("share-bar", 1.0, |svg| draw_stacked(svg, &scale, bar, middle));
+            let below = area.y + row * (k as f64 + 1.0) - 6.0 - TOTAL_PX / 2.0;
+            draw_total(&mut page.svg, &scale, bar, below);
         }
         let zero = scale.x(0.0);
-        svg.line([zero, area.y], [zero, area.bottom()], &Style::line(INK, 1.2));
-        let mut entries: Vec<Entry> = self
-            .parts
-            .iter()
-            .enumerate()
+        page.svg
+            .line([zero, area.y], [zero, area.bottom()], &Style::line(INK, 1.2));
+        page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
+    }
+
+    /// What the value axis shows: all ends of bars and zero, with room beyond; `None` where no bar has a value.
+    fn range_um(&self) -> Option<[f64; 2]> {
+        let mut shares = self.bars.iter().flat_map(|b| &b.shares_um);
+        shares.find(|v| v.is_finite())?;
+        let [low, high] = range(self.bars.iter().flat_map(ends_um).chain([0.0]), 0.0)?;
+        let room = 0.04 * (high - low);
+        Some([
+            if low < 0.0 { low - room } else { 0.0 },
+            if high > 0.0 { high + room } else { 0.0 },
+        ])
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let parts = self.parts.iter().enumerate();
+        let mut entries: Vec<Entry> = parts
             .map(|(k, name)| Entry::new(Key::Field(Style::fill(category(k))), name.clone()))
             .collect();
         if self.bars.iter().any(|b| b.total_um.is_some()) {
@@ -141,13 +122,7 @@ impl ShareBars {
             };
             entries.push(Entry::new(Key::Diamond(total_style()), remark));
         }
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [left, area.bottom() + 50.0],
-            AREA_WIDTH_PX + right_room,
-        );
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        entries
     }
 
     /// Room under each bar for the mark of its total.
@@ -159,55 +134,15 @@ impl ShareBars {
         }
     }
 
-    fn row_px(&self) -> f64 {
-        match self.arrangement {
-            Arrangement::Stacked => BAR_PX + self.total_row_px() + 14.0,
-            Arrangement::Grouped => {
-                let most = self.bars.iter().map(|b| b.shares_um.len()).max().unwrap_or(1);
-                THIN_BAR_PX * most.max(1) as f64 + self.total_row_px() + 16.0
-            }
-        }
-    }
-
-    /// The values that a bar reaches.
-    fn ends_um(&self, bar: &ShareBar) -> Vec<f64> {
-        let mut ends = Vec::new();
-        match self.arrangement {
-            Arrangement::Stacked => {
-                let sum = |sign: f64| {
-                    bar.shares_um
-                        .iter()
-                        .filter(|v| v.is_finite() && **v * sign > 0.0)
-                        .sum::<f64>()
-                };
-                ends.extend([sum(1.0), sum(-1.0)]);
-            }
-            Arrangement::Grouped => {
-                for (k, v) in bar.shares_um.iter().enumerate() {
-                    let u = bar
-                        .share_uncertainty_um
-                        .get(k)
-                        .copied()
-                        .filter(|u| u.is_finite())
-                        .unwrap_or(0.0);
-                    ends.extend([v - u, v + u]);
-                }
-            }
-        }
-        let u = bar.total_uncertainty_um.filter(|u| u.is_finite()).unwrap_or(0.0);
-        ends.extend(bar.total_um.into_iter().flat_map(|t| [t - u, t + u]));
-        ends
-    }
-
     fn draw_axis(&self, svg: &mut Svg, scale: &Scale) {
         let area = scale.area;
-        let step = nice_step(scale.range[1] - scale.range[0], 6.0);
-        for um in multiples(scale.range[0], scale.range[1], step) {
-            let x = scale.x(um);
+        let ticks = Ticks::about(6.0, scale.range);
+        for um in &ticks.at {
+            let x = scale.x(*um);
             svg.line([x, area.y], [x, area.bottom()], &Style::line(GRID, 1.0));
             svg.text(
                 [x, area.bottom() + 16.0],
-                &tick_label(um, step),
+                &ticks.label(*um),
                 &Text::new(SMALL_PX).middle(),
             );
         }
@@ -220,6 +155,20 @@ impl ShareBars {
     }
 }
 
+/// The values that a bar reaches.
+fn ends_um(bar: &ShareBar) -> Vec<f64> {
+    let sum = |sign: f64| {
+        bar.shares_um
+            .iter()
+            .filter(|v| v.is_finite() && **v * sign > 0.0)
+            .sum::<f64>()
+    };
+    let u = bar.total_uncertainty_um.filter(|u| u.is_finite()).unwrap_or(0.0);
+    let total = bar.total_um.into_iter().flat_map(|t| [t - u, t + u]);
+    [sum(1.0), sum(-1.0)].into_iter().chain(total).collect()
+}
+
+/// End to end from zero: positive to the right, negative to the left.
 fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     let mut end = [0.0, 0.0];
     for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
@@ -240,35 +189,6 @@ fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
             if cell.w > text_width_px(&label, 10.0, Weight::Bold) + 6.0 {
                 svg.text([cell.centre()[0], middle + 3.6], &label, &text);
             }
-        }
-    }
-}
-
-fn draw_grouped(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
-    let top = middle - THIN_BAR_PX * bar.shares_um.len() as f64 / 2.0;
-    for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
-        let y = top + THIN_BAR_PX * k as f64;
-        let (a, b) = (scale.x(share.min(0.0)), scale.x(share.max(0.0)));
-        svg.rect(
-            Rect {
-                x: a,
-                y: y + 1.0,
-                w: b - a,
-                h: THIN_BAR_PX - 2.0,
-            },
-            &Style::fill(category(k)),
-        );
-        if let Some(u) = bar
-            .share_uncertainty_um
-            .get(k)
-            .filter(|u| u.is_finite() && **u > 0.0)
-        {
-            draw_whisker(
-                svg,
-                [scale.x(share - u), scale.x(share + u)],
-                y + THIN_BAR_PX / 2.0,
-                3.0,
-            );
         }
     }
 }

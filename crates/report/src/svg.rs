@@ -1,5 +1,7 @@
 //! A small writer of SVG: shapes, text and hatches; every text is escaped, every number is finite and short.
 //!
+//! Everything is in pixels with y downwards; angles are in degrees, clockwise.
+//!
 //! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures can stand in one HTML page.
 
 use std::fmt::Write;
@@ -41,6 +43,11 @@ impl Rect {
         p[0] >= self.x && p[0] <= self.right() && p[1] >= self.y && p[1] <= self.bottom()
     }
 
+    /// Whether the two share more than an edge.
+    pub(crate) fn overlaps(&self, other: &Self) -> bool {
+        self.x < other.right() && other.x < self.right() && self.y < other.bottom() && other.y < self.bottom()
+    }
+
     /// The rectangle with `by` pixels taken off each side.
     pub(crate) fn shrunk(&self, by: f64) -> Self {
         Self {
@@ -62,6 +69,7 @@ pub(crate) struct Style {
 }
 
 impl Style {
+    /// Filled, without an edge; `colour` is any value of a `fill`.
     pub(crate) fn fill(colour: impl Into<String>) -> Self {
         Self {
             fill: colour.into(),
@@ -71,6 +79,7 @@ impl Style {
         }
     }
 
+    /// A line with round ends and corners, nothing filled.
     pub(crate) fn line(colour: impl Into<String>, width_px: f64) -> Self {
         Self {
             fill: "none".to_owned(),
@@ -80,16 +89,19 @@ impl Style {
         }
     }
 
+    /// With an edge, half of it inside.
     pub(crate) fn outlined(mut self, colour: impl Into<String>, width_px: f64) -> Self {
         self.stroke = Some((colour.into(), width_px));
         self
     }
 
+    /// From 0 (not seen) to 1.
     pub(crate) fn opacity(mut self, opacity: f64) -> Self {
         self.opacity = opacity;
         self
     }
 
+    /// Lengths of dashes and gaps in turn: `6 4`.
     pub(crate) fn dashed(mut self, pattern: &'static str) -> Self {
         self.dash = Some(pattern);
         self
@@ -134,6 +146,7 @@ pub(crate) struct Text {
 }
 
 impl Text {
+    /// In ink, from its position to the right.
     pub(crate) fn new(size_px: f64) -> Self {
         Self {
             size_px,
@@ -145,11 +158,13 @@ impl Text {
         }
     }
 
+    /// Centred on its position.
     pub(crate) fn middle(mut self) -> Self {
         self.anchor = Anchor::Middle;
         self
     }
 
+    /// Up to its position.
     pub(crate) fn end(mut self) -> Self {
         self.anchor = Anchor::End;
         self
@@ -165,11 +180,13 @@ impl Text {
         self
     }
 
+    /// About its position; -90 reads upwards.
     pub(crate) fn turned(mut self, deg: f64) -> Self {
         self.turn_deg = deg;
         self
     }
 
+    /// With a white edge that sets it off from what lies under it; its width counts both sides.
     pub(crate) fn halo(mut self, width_px: f64) -> Self {
         self.halo_px = width_px;
         self
@@ -192,6 +209,7 @@ impl Svg {
         }
     }
 
+    /// A side that is less than nothing is nothing.
     pub(crate) fn rect(&mut self, r: Rect, style: &Style) {
         self.rounded(r, 0.0, style);
     }
@@ -236,10 +254,12 @@ impl Svg {
         );
     }
 
+    /// An open line; points that are not finite are left out.
     pub(crate) fn polyline(&mut self, points: &[Point], style: &Style) {
         self.path(&trace(points, Ends::Open), style);
     }
 
+    /// A closed line; points that are not finite are left out.
     pub(crate) fn polygon(&mut self, points: &[Point], style: &Style) {
         self.path(&trace(points, Ends::Closed), style);
     }
@@ -255,6 +275,7 @@ impl Svg {
         }
     }
 
+    /// `content` with its baseline at `at`.
     pub(crate) fn text(&mut self, at: Point, content: &str, text: &Text) {
         let mut attributes = format!(
             " x=\"{}\" y=\"{}\" font-size=\"{}\"",
@@ -443,7 +464,7 @@ pub(crate) fn escape(text: &str) -> String {
     out
 }
 
-/// FNV-1a over the texts, folded to 32 bits: the same content gives the same prefix on every machine.
+/// FNV-1a of 32 bits over the texts: the same content gives the same prefix on every machine.
 fn fingerprint(texts: &[&str]) -> u32 {
     let mut hash = 0x811c_9dc5_u32;
     for byte in texts.iter().flat_map(|t| t.bytes()) {

@@ -1,18 +1,19 @@
 //! A tool path seen from above, coloured by the deviation along it; where there is no posture it is drawn in grey.
 
-use crate::axis::{extent, plain};
-use crate::colour::{ColourScale, INK, MUTED};
+use crate::axis::extent;
+use crate::colour::{ColourScale, MUTED};
 use crate::colour_bar::ColourBar;
+use crate::legend::Entry;
 use crate::levels::Levels;
-use crate::map::{Marker, MarkerKind, write_on_map};
-use crate::page::{BORDER_PX, Entry, Key, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
-use crate::svg::{Point, Rect, Style, Svg};
+use crate::limit;
+use crate::line::without_straight;
+use crate::marker::{Marker, draw_marker, marker_entries};
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Plane, Window};
+use crate::svg::{Point, Style, Svg};
 
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [620.0, 520.0];
-/// A picture is at least this wide, for its title and legend.
-const LEAST_WIDTH_PX: f64 = 430.0;
 /// White around the path, part of its size.
 const MARGIN: f64 = 0.06;
 
@@ -42,27 +43,19 @@ pub struct TrackMap {
     pub scale: ColourScale,
     /// The path.
     pub stretches: Vec<Stretch>,
-    /// Points drawn on top, each with its label beside it.
+    /// Points drawn on top.
     pub markers: Vec<Marker>,
 }
 
 impl TrackMap {
     /// The picture as a complete SVG document; a path without points gives one that says so.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         let Some(window) = self.window() else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the path has no points.",
-            );
+            return heading.notice("There is nothing to draw: the path has no points.");
         };
-        let values = self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
-        let Some(levels) = Levels::covering(values) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "The robot reaches no point of the path.",
-            );
+        let Some(levels) = Levels::covering(self.values_um()) else {
+            return heading.notice("The robot reaches no point of the path.");
         };
         let bar = ColourBar {
             levels: &levels,
@@ -70,40 +63,25 @@ impl TrackMap {
             quantity: &self.quantity,
             limit_um: self.limit_um,
         };
-        let left = BORDER_PX + Plane::left_room_px(&window);
-        let plane = Plane::fit(window, [left, 0.0], MOST_PX);
-        let bar_height = plane.area.h.max(150.0);
-        let width = (plane.area.right() + 22.0 + bar.width_px(bar_height) + BORDER_PX).max(LEAST_WIDTH_PX);
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
-        svg.clipped(plane.area, |svg| {
+        let plane = Plane::beside_axis(window, MOST_PX);
+        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
+        let bar_area = bar.beside(plane.area);
+        page.svg.clipped(plane.area, |svg| {
             self.draw_path(svg, &plane, &levels);
             for marker in &self.markers {
-                let at = plane.at(marker.at_mm);
-                svg.circle(at, 4.0, &Style::fill("#fff").outlined(INK, 1.6));
-                write_on_map(svg, [at[0], at[1] - 8.0], &marker.label);
+                draw_marker(svg, &plane, marker);
             }
         });
-        plane.draw_frame(&mut svg, Marks::ALL);
-        plane.draw_labels(&mut svg, &self.axes);
-        bar.draw(
-            &mut svg,
-            Rect {
-                x: plane.area.right() + 22.0,
-                y: plane.area.y,
-                w: 0.0,
-                h: bar_height,
-            },
-        );
-        let below = plane.area.y + bar_height.max(plane.area.h + BELOW_PX) + 8.0;
-        let entries = self.entries();
-        let bottom = if entries.is_empty() {
-            below
-        } else {
-            legend(&mut svg, &entries, [left, below], width - left - BORDER_PX)
-        };
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+        plane.draw_axes(&mut page.svg, &self.axes);
+        bar.draw(&mut page.svg, bar_area);
+        let below = bar_area.bottom().max(plane.area.bottom() + BELOW_PX) + 8.0;
+        page.finish_with_legend(&self.entries(), [plane.area.x, below])
+    }
+
+    fn values_um(&self) -> impl Iterator<Item = f64> + '_ {
+        self.stretches.iter().flat_map(|s| &s.deviation_um).copied()
     }
 
     fn window(&self) -> Option<Window> {
@@ -129,7 +107,7 @@ impl TrackMap {
                 svg.polyline(&without_straight(&line), style);
             }
         };
-        draw(None, &Style::line(MUTED, 1.2).dashed("2 3"));
+        draw(None, &lost_style());
         for band in 0..levels.bands() {
             draw(Some(band), &Style::line(levels.colour(band, self.scale), 2.0));
         }
@@ -160,74 +138,26 @@ impl TrackMap {
     }
 
     fn entries(&self) -> Vec<Entry> {
-        let mut entries = Vec::new();
-        let values = || self.stretches.iter().flat_map(|s| &s.deviation_um).copied();
-        if let (Some(limit), Some((low, high))) = (self.limit_um, extent(values())) {
-            let remark = if limit <= low {
-                " (exceeded everywhere)"
-            } else if limit > high {
-                " (kept everywhere)"
-            } else {
-                ""
-            };
-            let label = format!("limit {} µm{remark}", plain(limit));
-            entries.push(Entry::new(Key::Line(vec![crate::field::limit_style()]), label));
+        let mut entries: Vec<Entry> = limit::entry_over(self.limit_um, self.values_um())
+            .into_iter()
+            .collect();
+        if self.values_um().any(|value| !value.is_finite()) {
+            entries.push(Entry::line(lost_style(), "no posture"));
         }
-        if values().any(|value| !value.is_finite()) {
-            let style = Style::line(MUTED, 1.2).dashed("2 3");
-            entries.push(Entry::new(Key::Line(vec![style]), "no posture"));
-        }
-        if self.markers.iter().any(|marker| marker.kind == MarkerKind::Point) {
-            let style = Style::fill("#fff").outlined(INK, 1.6);
-            entries.push(Entry::new(Key::Dot(style), "worst points"));
-        }
+        entries.extend(marker_entries(&self.markers));
         entries
     }
 }
 
-/// Farthest that a point which is left out lies from the line drawn, px.
-const SEEN_PX: f64 = 0.25;
-
-/// A line without the points that nobody would miss: each kept point is joined to the farthest one for which all points
-/// between lie in a cone about the line.
-fn without_straight(line: &[Point]) -> Vec<Point> {
-    let mut kept: Vec<Point> = line.first().copied().into_iter().collect();
-    let mut cone: Option<(f64, f64)> = None;
-    for pair in line.windows(2) {
-        let Some(&[x, y]) = kept.last() else { break };
-        let [dx, dy] = [pair[1][0] - x, pair[1][1] - y];
-        let distance = dx.hypot(dy);
-        if distance <= SEEN_PX {
-            continue;
-        }
-        let (towards, half) = (dy.atan2(dx), (SEEN_PX / distance).asin());
-        cone = match cone {
-            None => Some((towards - half, towards + half)),
-            Some((low, high)) => {
-                // The same direction, told near the middle of the cone.
-                let turns = ((0.5 * (low + high) - towards) / std::f64::consts::TAU).round();
-                let towards = towards + turns * std::f64::consts::TAU;
-                let back = [pair[0][0] - x, pair[0][1] - y];
-                let goes_on = back[0].hypot(back[1]) <= distance;
-                if goes_on && towards >= low && towards <= high {
-                    Some((low.max(towards - half), high.min(towards + half)))
-                } else {
-                    kept.push(pair[0]);
-                    let [dx, dy] = [pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]];
-                    let distance = dx.hypot(dy).max(SEEN_PX);
-                    let (towards, half) = (dy.atan2(dx), (SEEN_PX / distance).asin());
-                    Some((towards - half, towards + half))
-                }
-            }
-        };
-    }
-    kept.extend(line.last().copied().filter(|_| line.len() > 1));
-    kept
+/// Where there is no posture.
+fn lost_style() -> Style {
+    Style::line(MUTED, 1.2).dashed("2 3")
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::marker::MarkerKind;
 
     fn track(values: [f64; 5]) -> TrackMap {
         TrackMap {
@@ -259,30 +189,27 @@ mod tests {
     }
 
     #[test]
-    fn points_on_a_straight_line_are_left_out_and_corners_are_kept() {
-        let there: Vec<Point> = (0..=1000).map(|i| [f64::from(i), 0.0]).collect();
-        let up: Vec<Point> = (1..=1000).map(|i| [1000.0, f64::from(i)]).collect();
-        let corner = without_straight(&[there.clone(), up].concat());
-        assert_eq!(corner, [[0.0, 0.0], [1000.0, 0.0], [1000.0, 1000.0]]);
-        // There and back again: the turning point stays.
-        let back: Vec<Point> = there.iter().rev().copied().collect();
-        let both = without_straight(&[there, back].concat());
-        assert!(both.contains(&[1000.0, 0.0]) && both.len() <= 4, "{both:?}");
-    }
-
-    #[test]
-    fn a_curve_keeps_within_a_quarter_of_a_pixel() {
-        let on = |i: u32| {
-            let phi = f64::from(i) * 1e-3;
-            [300.0 * phi.cos(), 300.0 * phi.sin()]
+    fn markers_have_their_own_signs_and_one_that_stands_nowhere_is_left_out() {
+        let marker = |at_mm, kind, name: &str| Marker {
+            at_mm,
+            label: format!("{kind:?}"),
+            kind,
+            name: name.to_owned(),
         };
-        let line: Vec<Point> = (0..6000).map(on).collect();
-        let kept = without_straight(&line);
-        assert!(kept.len() < 200, "{}", kept.len());
-        for pair in kept.windows(2) {
-            let middle = [0.5 * (pair[0][0] + pair[1][0]), 0.5 * (pair[0][1] + pair[1][1])];
-            assert!(300.0 - middle[0].hypot(middle[1]) < 2.0 * SEEN_PX);
-        }
+        let picture = TrackMap {
+            markers: vec![
+                marker([10.0, 1.0], MarkerKind::Point, "first"),
+                marker([20.0, 0.0], MarkerKind::Best, "second"),
+                marker([f64::NAN, 0.0], MarkerKind::Point, "third"),
+            ],
+            ..track([10.0; 5])
+        };
+        let svg = picture.to_svg();
+        assert!(svg.contains(">first<") && svg.contains(">second<") && !svg.contains(">third<"));
+        assert!(svg.contains(">Point<") && svg.contains(">Best<"));
+        // Two rings and two diamonds: each on the path and in the legend.
+        assert_eq!(svg.matches("<circle").count(), 2);
+        assert_eq!(svg.matches("#E69F00").count(), 2);
     }
 
     #[test]

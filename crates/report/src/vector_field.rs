@@ -1,25 +1,16 @@
 //! Which way the tool is pushed: a path with the deviation as an arrow at sampled points, one colour a load case.
 
+use crate::arrow::draw_arrow;
 use crate::axis::{extent, nice_below, plain};
-use crate::colour::{INK, category};
-use crate::page::{BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
-use crate::plane::{AxisLabels, BELOW_PX, Marks, Plane, Window};
+use crate::colour::{INK, NOMINAL, category};
+use crate::legend::Entry;
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Growth, Plane, Window};
 use crate::svg::{Point, Style, Svg, Text};
 
 const MOST_PX: [f64; 2] = [560.0, 480.0];
-const LEAST_WIDTH_PX: f64 = 430.0;
 /// The longest arrow, as a share of the drawing.
 const LONGEST_ARROW: f64 = 0.16;
-
-/// Direction in which an axis grows on the picture.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Growth {
-    /// To the right.
-    #[default]
-    Right,
-    /// To the left, as base y does when seen from the tool side.
-    Left,
-}
 
 /// The deviation at one point of a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,134 +50,118 @@ pub struct VectorField {
 impl VectorField {
     /// The picture as a complete SVG document; no arrows gives a picture that says so.
     pub fn to_svg(&self) -> String {
-        let arrows = || self.cases.iter().flat_map(|c| &c.arrows).filter(|a| is_finite(a));
-        let longest_um = arrows()
-            .map(|a| a.deviation_um[0].hypot(a.deviation_um[1]))
-            .fold(0.0, f64::max);
-        let points = || {
-            let path = self
-                .path_mm
-                .iter()
-                .filter(|p| p.iter().all(|v| v.is_finite()))
-                .copied();
-            path.chain(arrows().map(|a| a.at_mm))
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let Some(([across, up], span_mm)) = self.extent_mm() else {
+            return heading.notice("There is nothing to draw: the path has no points.");
         };
-        let (Some(x), Some(y)) = (extent(points().map(|p| p[0])), extent(points().map(|p| p[1]))) else {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the path has no points.",
-            );
+        let margin = 1.25 * LONGEST_ARROW * span_mm;
+        let [left_mm, right_mm] = self.growth.ends([across.0 - margin, across.1 + margin]);
+        let window = Window {
+            left_mm,
+            right_mm,
+            bottom_mm: up.0 - margin,
+            top_mm: up.1 + margin,
         };
-        let span_mm = (x.1 - x.0).max(y.1 - y.0).max(1.0);
-        let factor = if longest_um > 0.0 {
+        let plane = Plane::beside_axis(window, MOST_PX);
+        let width = plane.area.right() + BORDER_PX + 10.0;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
+        let magnified = Magnified::new(self.longest_um(), span_mm);
+        page.svg.clipped(plane.area, |svg| {
+            let path: Vec<Point> = self.path_mm.iter().map(|p| plane.at(*p)).collect();
+            svg.polyline(&path, &nominal_style());
+            for (k, case) in self.cases.iter().enumerate() {
+                svg.layer("load-case", 1.0, |svg| {
+                    for arrow in case.arrows.iter().filter(|a| is_finite(a)) {
+                        let ends = [plane.at(arrow.at_mm), plane.at(magnified.tip_mm(arrow))];
+                        draw_arrow(svg, ends, category(k));
+                    }
+                    for arrow in case.arrows.iter().filter(|a| is_finite(a)) {
+                        svg.circle(plane.at(arrow.at_mm), 1.6, &Style::fill(INK));
+                    }
+                });
+            }
+        });
+        plane.draw_axes(&mut page.svg, &self.axes);
+        let left = plane.area.x;
+        let scale_y = plane.area.bottom() + BELOW_PX + 14.0;
+        magnified.draw_scale(&mut page.svg, [left, scale_y], plane.px_per_mm);
+        page.finish_with_legend(&self.entries(), [left, scale_y + 10.0])
+    }
+
+    fn finite_arrows(&self) -> impl Iterator<Item = &Arrow> {
+        self.cases.iter().flat_map(|c| &c.arrows).filter(|a| is_finite(a))
+    }
+
+    fn longest_um(&self) -> f64 {
+        let sizes = self
+            .finite_arrows()
+            .map(|a| a.deviation_um[0].hypot(a.deviation_um[1]));
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Least and greatest of path and arrows across and up, and the longer of the two ways, never nothing.
+    fn extent_mm(&self) -> Option<([(f64, f64); 2], f64)> {
+        let path = self.path_mm.iter().filter(|p| p.iter().all(|v| v.is_finite()));
+        let points: Vec<[f64; 2]> = path
+            .copied()
+            .chain(self.finite_arrows().map(|a| a.at_mm))
+            .collect();
+        let along = |k: usize| extent(points.iter().map(|p| p[k]));
+        let (across, up) = (along(0)?, along(1)?);
+        Some(([across, up], (across.1 - across.0).max(up.1 - up.0).max(1.0)))
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let cases = self.cases.iter().enumerate();
+        let cases = cases.map(|(k, case)| Entry::line(Style::line(category(k), 2.0), case.name.clone()));
+        let mut entries = vec![Entry::line(nominal_style(), "nominal path")];
+        entries.extend(cases);
+        entries
+    }
+}
+
+/// Deviations drawn so many times as long as they are.
+struct Magnified {
+    longest_um: f64,
+    times: f64,
+}
+
+impl Magnified {
+    /// A nice factor that draws the longest deviation as a part of the picture.
+    fn new(longest_um: f64, span_mm: f64) -> Self {
+        let times = if longest_um > 0.0 {
             nice_below(LONGEST_ARROW * span_mm * 1000.0 / longest_um)
         } else {
             1.0
         };
-        let margin = 1.25 * LONGEST_ARROW * span_mm;
-        let (left_mm, right_mm) = match self.growth {
-            Growth::Right => (x.0 - margin, x.1 + margin),
-            Growth::Left => (x.1 + margin, x.0 - margin),
-        };
-        let window = Window {
-            left_mm,
-            right_mm,
-            bottom_mm: y.0 - margin,
-            top_mm: y.1 + margin,
-        };
-        let left = BORDER_PX + Plane::left_room_px(&window);
-        let width =
-            (Plane::fit(window, [left, 0.0], MOST_PX).area.right() + BORDER_PX + 10.0).max(LEAST_WIDTH_PX);
+        Self { longest_um, times }
+    }
 
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
-        let plane = Plane::fit(window, [left, top + 4.0], MOST_PX);
-        svg.clipped(plane.area, |svg| {
-            let path: Vec<Point> = self.path_mm.iter().map(|p| plane.at(*p)).collect();
-            svg.polyline(&path, &Style::line("#9a9a9a", 1.4));
-            for (k, case) in self.cases.iter().enumerate() {
-                svg.layer("load-case", 1.0, |svg| {
-                    self.draw_case(svg, &plane, case, (factor, category(k)));
-                });
-            }
-        });
-        plane.draw_frame(&mut svg, Marks::ALL);
-        plane.draw_labels(&mut svg, &self.axes);
-        let scale_y = plane.area.bottom() + BELOW_PX + 14.0;
-        if longest_um > 0.0 {
-            draw_scale(
-                &mut svg,
-                [left, scale_y],
-                factor * plane.px_per_mm / 1000.0,
-                (longest_um, factor),
-            );
+    fn tip_mm(&self, arrow: &Arrow) -> [f64; 2] {
+        let mm = self.times / 1000.0;
+        [0, 1].map(|k| arrow.at_mm[k] + arrow.deviation_um[k] * mm)
+    }
+
+    /// The arrow that says how long a nice deviation is drawn, from `at`.
+    fn draw_scale(&self, svg: &mut Svg, at: Point, px_per_mm: f64) {
+        if self.longest_um <= 0.0 {
+            return;
         }
-        let mut entries = vec![Entry::new(
-            Key::Line(vec![Style::line("#9a9a9a", 1.4)]),
-            "nominal path",
-        )];
-        for (k, case) in self.cases.iter().enumerate() {
-            entries.push(Entry::new(
-                Key::Line(vec![Style::line(category(k), 2.0)]),
-                case.name.clone(),
-            ));
-        }
-        let bottom = legend(
-            &mut svg,
-            &entries,
-            [left, scale_y + 10.0],
-            width - left - BORDER_PX,
+        let shown_um = nice_below(self.longest_um);
+        let tip = [at[0] + shown_um * (self.times * px_per_mm / 1000.0), at[1]];
+        draw_arrow(svg, [at, tip], INK);
+        let text = format!(
+            "{} µm (deviations drawn × {})",
+            plain(shown_um),
+            plain(self.times)
         );
-        svg.finish(width, bottom + BORDER_PX, &self.title)
-    }
-
-    fn draw_case(&self, svg: &mut Svg, plane: &Plane, case: &ArrowCase, (factor, colour): (f64, &str)) {
-        let mm = factor / 1000.0;
-        let tip = |a: &Arrow| {
-            plane.at([
-                a.at_mm[0] + a.deviation_um[0] * mm,
-                a.at_mm[1] + a.deviation_um[1] * mm,
-            ])
-        };
-        for arrow in case.arrows.iter().filter(|a| is_finite(a)) {
-            draw_arrow(svg, [plane.at(arrow.at_mm), tip(arrow)], colour);
-        }
-        for arrow in case.arrows.iter().filter(|a| is_finite(a)) {
-            svg.circle(plane.at(arrow.at_mm), 1.6, &Style::fill(INK));
-        }
+        svg.text([tip[0] + 8.0, at[1] + 4.0], &text, &Text::new(SMALL_PX));
     }
 }
 
-/// The arrow that says how long a nice deviation is drawn, from `at`.
-fn draw_scale(svg: &mut Svg, at: Point, px_per_um: f64, (longest_um, factor): (f64, f64)) {
-    let shown_um = nice_below(longest_um);
-    let tip = [at[0] + shown_um * px_per_um, at[1]];
-    draw_arrow(svg, [at, tip], INK);
-    let text = format!("{} µm (deviations drawn × {})", plain(shown_um), plain(factor));
-    svg.text([tip[0] + 8.0, at[1] + 4.0], &text, &Text::new(SMALL_PX));
-}
-
-/// A shaft with a filled head; the head of a short arrow shrinks with it.
-pub(crate) fn draw_arrow(svg: &mut Svg, [from, to]: [Point; 2], colour: &str) {
-    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
-    if length < 0.3 || !length.is_finite() {
-        return;
-    }
-    let (cos, sin) = ((to[0] - from[0]) / length, (to[1] - from[1]) / length);
-    let head = 8.0_f64.min(length * 0.6);
-    let half = head * 0.36;
-    let neck = [to[0] - head * cos, to[1] - head * sin];
-    svg.line(
-        from,
-        [to[0] - 0.8 * head * cos, to[1] - 0.8 * head * sin],
-        &Style::line(colour, 1.5),
-    );
-    let wings = [
-        [neck[0] - half * sin, neck[1] + half * cos],
-        [neck[0] + half * sin, neck[1] - half * cos],
-    ];
-    svg.polygon(&[to, wings[0], wings[1]], &Style::fill(colour));
+fn nominal_style() -> Style {
+    Style::line(NOMINAL, 1.4)
 }
 
 fn is_finite(arrow: &Arrow) -> bool {

@@ -1,11 +1,11 @@
 //! A made-up arm of six joints, solved by hand for a wrist that keeps its direction.
 
-use armill_report::{ArmDrawing, ArmJoint, Posture, View};
+use armill_report::{ArmDrawing, ArmJoint, ArmPosture, View};
 
 type Vec3 = [f64; 3];
 
 /// The arm with its tool at `tip`, tool along +x: shoulder 150 mm off the column at 505 mm, upper arm 760 mm, forearm 795 mm.
-fn posture(tip: Vec3) -> Posture {
+fn posture(tip: Vec3) -> ArmPosture {
     let (flange, wrist) = ([tip[0] - 210.0, tip[1], tip[2]], [tip[0] - 315.0, tip[1], tip[2]]);
     let turn = wrist[1].atan2(wrist[0]);
     let radial = wrist[0].hypot(wrist[1]) - 150.0;
@@ -24,7 +24,7 @@ fn posture(tip: Vec3) -> Posture {
         origin_mm,
         axis,
     };
-    Posture {
+    ArmPosture {
         base_mm: [0.0; 3],
         joints: vec![
             joint("S", [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]),

@@ -1,8 +1,8 @@
 //! Made-up deviation fields and the pictures of them.
 
 use armill_report::{
-    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState,
-    RectangleMm, RegionMap, Sheet,
+    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, MapSeries, Marker, MarkerKind, Overlay, Panel,
+    PointState, RectangleMm, RegionMap,
 };
 
 /// A field that looks like an arm's: soft far out and high up, out of reach beyond a sphere, a joint limit low on one side.
@@ -75,6 +75,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
             at_mm: [-80.0, 20.0],
             label: "best point".into(),
             kind: MarkerKind::Best,
+            name: String::new(),
         }],
         ..map(81, 900.0)
     };
@@ -118,20 +119,21 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         note: format!("{:.0} % within", 130.0 - x / 10.0),
         grid: grid(n, x),
     };
-    let sheet = Sheet {
+    let sheet = MapSeries {
         title: "Distance series: in-plane deviation and permissible region".into(),
         subtitle: "Vertical plate, envelope of four feed directions, 120 N".into(),
         panels: [600.0, 800.0, 900.0, 1000.0, 1200.0].map(|x| panel(x, 21)).into(),
-        columns: 0,
+        columns: 5,
         axes: axes(),
         quantity: "in-plane deviation (µm)".into(),
         limit_um: Some(50.0),
         scale: ColourScale::Viridis,
         show_regions: true,
     };
-    let many = Sheet {
+    let many = MapSeries {
         title: "Volume in slices of 40 mm".into(),
         panels: (0..15).map(|k| panel(500.0 + 40.0 * f64::from(k), 15)).collect(),
+        columns: 4,
         show_regions: false,
         ..sheet.clone()
     };

@@ -1,8 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot,
-    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, VectorField,
+    Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, Marker, MarkerKind,
+    PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch,
+    TrackMap, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -20,11 +21,11 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     vec![
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
+        ("track_map", track_map().to_svg()),
         ("process_map", process_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
-        ("shares_stacked", shares(Arrangement::Stacked).to_svg()),
-        ("shares_grouped", shares(Arrangement::Grouped).to_svg()),
+        ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
     ]
 }
@@ -54,6 +55,47 @@ fn vector_field() -> VectorField {
             .map(|k| on_circle(turn * f64::from(k) / 128.0))
             .collect(),
         cases: cases.collect(),
+    }
+}
+
+/// Contours of a part and a finer one inside; the arm does not reach one corner.
+fn track_map() -> TrackMap {
+    let turn = std::f64::consts::TAU;
+    let ring = |radius: f64, corners: u32| -> Stretch {
+        let points_mm: Vec<[f64; 2]> = (0..=corners)
+            .map(|k| turn * f64::from(k) / f64::from(corners))
+            .map(|a| {
+                let r = radius * (1.0 + 0.18 * (4.0 * a).cos());
+                [r * a.cos(), 0.7 * r * a.sin()]
+            })
+            .collect();
+        let deviation = |p: &[f64; 2]| {
+            let value = 34.0 + 0.12 * p[0] + 0.002 * p[1].powi(2);
+            if p[0] + p[1] > 225.0 { f64::NAN } else { value }
+        };
+        Stretch {
+            deviation_um: points_mm.iter().map(deviation).collect(),
+            points_mm,
+        }
+    };
+    let marker = |name: &str, at_mm| Marker {
+        at_mm,
+        label: "worst points".to_owned(),
+        kind: MarkerKind::Point,
+        name: name.to_owned(),
+    };
+    TrackMap {
+        title: "A part with an island".to_owned(),
+        subtitle: "front elbow-up no-flip, 120 N".to_owned(),
+        axes: AxisLabels {
+            horizontal: "program x (mm)".to_owned(),
+            vertical: "program y (mm)".to_owned(),
+        },
+        quantity: "deviation across the tool (µm)".to_owned(),
+        limit_um: Some(60.0),
+        scale: ColourScale::Viridis,
+        stretches: vec![ring(210.0, 2000), ring(150.0, 400), ring(60.0, 24)],
+        markers: vec![marker("1", [0.0, 120.5]), marker("2", [0.0, -173.5])],
     }
 }
 
@@ -160,7 +202,6 @@ fn force_plot() -> ForcePlot {
     ForcePlot {
         title: "Force on the tool while a groove is milled".into(),
         subtitle: "groove.txt, 50000 Hz; drift taken off; low-pass 50 Hz".into(),
-        span_s: SPAN_S,
         traces: vec![
             component("Fx (N)", 0),
             component("Fy (N)", 1),
@@ -198,29 +239,24 @@ fn polar_plot() -> PolarPlot {
     }
 }
 
-fn shares(arrangement: Arrangement) -> ShareBars {
+fn shares() -> ShareBars {
     let bar = |label: &str, shares_um: [f64; 6]| ShareBar {
         label: label.into(),
         shares_um: shares_um.into(),
-        share_uncertainty_um: shares_um.iter().map(|s| 0.12 * s.abs() + 0.4).collect(),
         total_um: Some(shares_um.iter().sum()),
         total_uncertainty_um: Some(4.2),
     };
-    let mut bars = vec![
+    let bars = vec![
         bar("centre of the plate", [11.0, 16.5, 9.2, 2.1, -3.4, 0.6]),
         bar("upper left corner", [24.0, 21.5, 14.0, 4.8, -9.0, 1.2]),
         bar("lower right corner, elbow down", [8.0, -6.5, 5.2, 1.1, 2.4, 0.2]),
     ];
-    if arrangement == Arrangement::Grouped {
-        bars.truncate(2);
-    }
     ShareBars {
         title: "Which joint is to blame?".into(),
         subtitle: "Share of each joint in the in-plane deviation, feed +y, 120 N".into(),
         quantity: "share of in-plane deviation (µm)".into(),
         parts: ["S", "L", "U", "R", "B", "T"].map(String::from).into(),
         bars,
-        arrangement,
     }
 }
 

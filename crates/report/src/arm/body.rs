@@ -3,8 +3,8 @@
 //! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its own link is drawn
 //! as a collar on that link, since its origin may stand anywhere along the axis.
 
-use super::Posture;
 use super::view::{Vec3, along, between, dot, length, unit};
+use super::{ArmJoint, ArmPosture};
 
 /// What a solid belongs to; decides its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,77 +50,134 @@ pub(crate) struct Body {
     pub(crate) joints: Vec<JointSpot>,
 }
 
+/// What is too short to be drawn, as a share of the arm's length.
+const NEAR: f64 = 0.02;
 /// Half the height of the foot as a share of the arm's length.
 const FOOT: f64 = 0.022;
 /// Half the length of a collar as a share of its link's radius.
 const COLLAR: f64 = 0.42;
 /// Where a collar stands on the link above its joint.
 const COLLAR_ABOVE: f64 = 0.45;
-/// Radius of the first and of the last link as shares of the arm's length.
+/// Radius of the first and of the last link, schematic like all sizes here, as shares of the arm's length.
 const THICK: f64 = 0.046;
 const THIN: f64 = 0.022;
 
 impl Body {
-    pub(crate) fn of(posture: &Posture) -> Self {
-        let size = arm_length(posture).max(1.0);
-        let nodes: Vec<Vec3> = posture
-            .joints
-            .iter()
-            .map(|j| j.origin_mm)
-            .chain([posture.flange_mm])
-            .collect();
-        let near = 0.02 * size;
-        let last = (nodes.len() - 1).max(1) as f64;
-        let radius = |k: f64| size * (THICK + (THIN - THICK) * k / last);
-        let mut solids = vec![foot(posture, size)];
+    pub(crate) fn of(posture: &ArmPosture) -> Self {
+        let skeleton = Skeleton::of(posture);
+        let mut solids = vec![foot(posture, skeleton.size_mm)];
+        solids.extend(skeleton.column());
         let mut joints = Vec::new();
-        // The line of each link: straight, or round the corner where the next joint stands off the axis.
-        let routes: Vec<Vec<Vec3>> = (0..nodes.len() - 1)
-            .map(|k| route(nodes[k], unit(posture.joints[k].axis), nodes[k + 1], near))
-            .collect();
-        let from_base = between(posture.base_mm, nodes[0]);
-        if length(from_base) > near {
-            let axis = unit(from_base);
-            let half_length = length(from_base) / 2.0;
-            let centre = along(posture.base_mm, axis, half_length);
-            solids.push(Solid::Cylinder {
-                centre,
-                axis,
-                radius: 1.1 * radius(0.0),
-                half_length,
-                part: Part::Link,
-            });
-        }
         let mut collars = Vec::new();
         for (k, joint) in posture.joints.iter().enumerate() {
-            let axis = unit(joint.axis);
-            let r = radius(k as f64);
-            let collar = collar_of(&routes, k, axis, COLLAR * r);
-            let (centre, drawn_radius, half_length, part) = match &collar {
-                Some(collar) => (collar.at, 1.22 * r, COLLAR * r, Part::Collar),
-                None => (joint.origin_mm, 1.25 * r, 1.3 * r, Part::Joint),
-            };
-            solids.push(Solid::Cylinder {
-                centre,
-                axis,
-                radius: drawn_radius,
-                half_length,
-                part,
-            });
-            joints.push(JointSpot {
-                name: joint.name.clone(),
-                at: centre,
-                radius: drawn_radius.max(half_length),
-            });
+            let (solid, spot, collar) = skeleton.joint(k, joint);
+            solids.push(solid);
+            joints.push(spot);
             collars.extend(collar);
         }
-        for (k, line) in routes.iter().enumerate() {
+        solids.extend(skeleton.links(&collars));
+        solids.extend(skeleton.tool());
+        Self { solids, joints }
+    }
+}
+
+/// The lines of an arm, and how thick it is along them.
+struct Skeleton<'a> {
+    posture: &'a ArmPosture,
+    /// Length of the arm, and what is too short to be drawn.
+    size_mm: f64,
+    near_mm: f64,
+    /// The line of each link: straight, or round the corner where the next joint stands off the axis.
+    routes: Vec<Vec<Vec3>>,
+    /// From the foot to the first joint.
+    from_base: Vec3,
+}
+
+impl<'a> Skeleton<'a> {
+    /// Of a posture that has a joint.
+    fn of(posture: &'a ArmPosture) -> Self {
+        let size_mm = arm_length(posture).max(1.0);
+        let near_mm = NEAR * size_mm;
+        let joints = &posture.joints;
+        let after = joints
+            .iter()
+            .skip(1)
+            .map(|j| j.origin_mm)
+            .chain([posture.flange_mm]);
+        let routes = joints
+            .iter()
+            .zip(after)
+            .map(|(joint, next)| route(joint.origin_mm, unit(joint.axis), next, near_mm))
+            .collect();
+        let first = joints.first().map_or(posture.flange_mm, |j| j.origin_mm);
+        Self {
+            posture,
+            size_mm,
+            near_mm,
+            routes,
+            from_base: between(posture.base_mm, first),
+        }
+    }
+
+    /// Radius of the arm after `k` links, which need not be whole.
+    fn radius_mm(&self, k: f64) -> f64 {
+        self.size_mm * (THICK + (THIN - THICK) * k / self.last())
+    }
+
+    fn last(&self) -> f64 {
+        self.posture.joints.len().max(1) as f64
+    }
+
+    fn stands_on_foot(&self) -> bool {
+        length(self.from_base) <= self.near_mm
+    }
+
+    /// What carries a first joint that stands off the foot.
+    fn column(&self) -> Option<Solid> {
+        let axis = unit(self.from_base);
+        let half_length = length(self.from_base) / 2.0;
+        (!self.stands_on_foot()).then(|| Solid::Cylinder {
+            centre: along(self.posture.base_mm, axis, half_length),
+            axis,
+            radius: 1.1 * self.radius_mm(0.0),
+            half_length,
+            part: Part::Link,
+        })
+    }
+
+    /// A joint: a cylinder about its axis, or a collar on the link that it turns.
+    fn joint(&self, k: usize, joint: &ArmJoint) -> (Solid, JointSpot, Option<Collar>) {
+        let axis = unit(joint.axis);
+        let r = self.radius_mm(k as f64);
+        let collar = collar_of(&self.routes, k, axis, COLLAR * r);
+        let (centre, radius, half_length, part) = match &collar {
+            Some(collar) => (collar.at, 1.22 * r, COLLAR * r, Part::Collar),
+            None => (joint.origin_mm, 1.25 * r, 1.3 * r, Part::Joint),
+        };
+        let solid = Solid::Cylinder {
+            centre,
+            axis,
+            radius,
+            half_length,
+            part,
+        };
+        let spot = JointSpot {
+            name: joint.name.clone(),
+            at: centre,
+            radius: radius.max(half_length),
+        };
+        (solid, spot, collar)
+    }
+
+    /// The straight parts of all links, from the top of the foot on.
+    fn links(&self, collars: &[Collar]) -> Vec<Solid> {
+        let mut solids = Vec::new();
+        for (k, line) in self.routes.iter().enumerate() {
             for (m, w) in line.windows(2).enumerate() {
                 let share = |m: usize| k as f64 + m as f64 / (line.len() - 1) as f64;
-                let radii = [radius(share(m)), radius(share(m + 1))];
-                let on_foot = k == 0 && m == 0 && length(from_base) <= near;
-                let start = if on_foot {
-                    along(w[0], unit(between(w[0], w[1])), 2.0 * FOOT * size)
+                let radii = [self.radius_mm(share(m)), self.radius_mm(share(m + 1))];
+                let start = if k == 0 && m == 0 && self.stands_on_foot() {
+                    along(w[0], unit(between(w[0], w[1])), 2.0 * FOOT * self.size_mm)
                 } else {
                     w[0]
                 };
@@ -128,28 +185,31 @@ impl Body {
                 solids.extend(link([start, w[1]], radii, &here));
             }
         }
-        let reach = between(posture.flange_mm, posture.tool_mm);
-        if length(reach) > near * 0.1 {
-            let axis = unit(reach);
-            let r = radius(last);
-            let cylinder = |from: f64, to: f64, radius: f64, part: Part| Solid::Cylinder {
-                centre: along(posture.flange_mm, axis, (from + to) / 2.0),
-                axis,
-                radius,
-                half_length: (to - from) / 2.0,
-                part,
-            };
-            let total = length(reach);
-            solids.push(cylinder(0.0, (0.3 * r).min(total * 0.2), 1.1 * r, Part::Flange));
-            solids.push(cylinder(
-                (0.3 * r).min(total * 0.2),
-                total * 0.72,
-                0.72 * r,
-                Part::Tool,
-            ));
-            solids.push(cylinder(total * 0.72, total, 0.24 * r, Part::Tool));
+        solids
+    }
+
+    /// Flange, tool and its tip, from the flange to the tool centre point; nothing where they are one.
+    fn tool(&self) -> Vec<Solid> {
+        let reach = between(self.posture.flange_mm, self.posture.tool_mm);
+        let total = length(reach);
+        if total <= self.near_mm * 0.1 {
+            return Vec::new();
         }
-        Self { solids, joints }
+        let axis = unit(reach);
+        let r = self.radius_mm(self.last());
+        let cylinder = |[from, to]: [f64; 2], radius: f64, part: Part| Solid::Cylinder {
+            centre: along(self.posture.flange_mm, axis, (from + to) / 2.0),
+            axis,
+            radius,
+            half_length: (to - from) / 2.0,
+            part,
+        };
+        let (flange, tip) = ((0.3 * r).min(total * 0.2), total * 0.72);
+        vec![
+            cylinder([0.0, flange], 1.1 * r, Part::Flange),
+            cylinder([flange, tip], 0.72 * r, Part::Tool),
+            cylinder([tip, total], 0.24 * r, Part::Tool),
+        ]
     }
 }
 
@@ -223,7 +283,7 @@ fn link(ends: [Vec3; 2], radii: [f64; 2], collars: &[&Collar]) -> Vec<Solid> {
 }
 
 /// The way from base over all joints to the flange.
-pub(crate) fn arm_length(posture: &Posture) -> f64 {
+pub(crate) fn arm_length(posture: &ArmPosture) -> f64 {
     let mut total = 0.0;
     let mut at = posture.base_mm;
     for next in posture
@@ -238,7 +298,7 @@ pub(crate) fn arm_length(posture: &Posture) -> f64 {
     total
 }
 
-fn foot(posture: &Posture, size: f64) -> Solid {
+fn foot(posture: &ArmPosture, size: f64) -> Solid {
     let half_length = FOOT * size;
     let axis = posture.joints.first().map_or([0.0, 0.0, 1.0], |j| unit(j.axis));
     Solid::Cylinder {

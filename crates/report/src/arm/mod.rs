@@ -7,8 +7,8 @@ mod view;
 
 pub use view::View;
 
-use crate::page::{BORDER_PX, SMALL_PX, notice, title_block};
-use crate::svg::{Rect, Svg, Text};
+use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::svg::{Rect, Text};
 use scene::{Scene, draw_scene, wanted_height_px};
 
 /// One joint of a posture, in the base frame.
@@ -24,7 +24,7 @@ pub struct ArmJoint {
 
 /// The arm in one posture, in the base frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Posture {
+pub struct ArmPosture {
     /// Where the foot stands, in mm.
     pub base_mm: [f64; 3],
     /// The joints from base to flange.
@@ -43,9 +43,9 @@ pub struct ArmDrawing {
     /// Second line.
     pub subtitle: String,
     /// The posture drawn in full.
-    pub posture: Posture,
+    pub posture: ArmPosture,
     /// Further postures, drawn faintly behind it.
-    pub ghosts: Vec<Posture>,
+    pub ghosts: Vec<ArmPosture>,
     /// Corners of a plate in mm, in order around it.
     pub plate_mm: Option<[[f64; 3]; 4]>,
     /// Path of the tool in mm.
@@ -69,19 +69,12 @@ impl ArmDrawing {
     }
 
     fn drawn(&self, views: &[View], panel_px: [f64; 2]) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         if self.posture.joints.is_empty() || views.is_empty() {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the arm has no joints.",
-            );
+            return heading.notice("There is nothing to draw: the arm has no joints.");
         }
         if !is_finite(&self.posture) {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "The arm cannot be drawn: a joint stands nowhere.",
-            );
+            return heading.notice("The arm cannot be drawn: a joint stands nowhere.");
         }
         let scene = Scene::of(self);
         let panel_px = match views {
@@ -94,35 +87,31 @@ impl ArmDrawing {
         let columns = views.len().min(2);
         let gap = 16.0;
         let width = 2.0 * BORDER_PX + columns as f64 * (panel_px[0] + gap) - gap;
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        let mut page = heading.page(width);
+        let top = page.top_px;
         let title_row = if views.len() > 1 { 20.0 } else { 0.0 };
         for (k, view) in views.iter().enumerate() {
             let x = BORDER_PX + (k % columns) as f64 * (panel_px[0] + gap);
             let y = top + (k / columns) as f64 * (panel_px[1] + title_row + gap) + title_row;
             if views.len() > 1 {
-                svg.text([x, y - 7.0], view.name(), &Text::new(SMALL_PX).bold());
+                page.svg
+                    .text([x, y - 7.0], view.name(), &Text::new(SMALL_PX).bold());
             }
-            draw_scene(
-                &mut svg,
-                &scene,
-                *view,
-                Rect {
-                    x,
-                    y,
-                    w: panel_px[0],
-                    h: panel_px[1],
-                },
-            );
+            let area = Rect {
+                x,
+                y,
+                w: panel_px[0],
+                h: panel_px[1],
+            };
+            draw_scene(&mut page.svg, &scene, *view, area);
         }
         let rows = views.len().div_ceil(columns) as f64;
-        let height = top + rows * (panel_px[1] + title_row + gap) - gap;
-        svg.finish(width, height + BORDER_PX, &self.title)
+        page.finish(top + rows * (panel_px[1] + title_row + gap) - gap)
     }
 }
 
 /// Whether every point of a posture is a number.
-fn is_finite(posture: &Posture) -> bool {
+fn is_finite(posture: &ArmPosture) -> bool {
     let points = posture.joints.iter().flat_map(|j| [j.origin_mm, j.axis]);
     points
         .chain([posture.base_mm, posture.flange_mm, posture.tool_mm])

@@ -3,13 +3,13 @@
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
 use super::shapes::{Place, corners, draw_solid, hull, paint_depth};
 use super::view::{Projection, Vec3, View};
-use super::{ArmDrawing, Posture, is_finite};
+use super::{ArmDrawing, ArmPosture, is_finite};
+use crate::arrow::draw_arrow;
 use crate::axis::{extent, multiples, nice_step};
-use crate::colour::{INK, LIMIT, MUTED};
+use crate::colour::{INK, MUTED, SIGNAL};
 use crate::font::{Weight, text_width_px};
-use crate::page::{SMALL_PX, overlap};
+use crate::page::SMALL_PX;
 use crate::svg::{Point, Rect, Style, Svg, Text};
-use crate::vector_field::draw_arrow;
 
 /// Everything that is drawn, in the base frame.
 pub(crate) struct Scene {
@@ -25,7 +25,7 @@ pub(crate) struct Scene {
 
 impl Scene {
     pub(crate) fn of(drawing: &ArmDrawing) -> Self {
-        let ghosts: Vec<&Posture> = drawing
+        let ghosts: Vec<&ArmPosture> = drawing
             .ghosts
             .iter()
             .filter(|g| !g.joints.is_empty() && is_finite(g))
@@ -97,6 +97,8 @@ impl Scene {
 
 /// Blank border inside a drawing.
 const INSET_PX: f64 = 26.0;
+/// Red, green and blue for x, y and z, as everywhere.
+const AXIS_COLOURS: [&str; 3] = ["#c8102e", "#2e8b57", "#1f5fa8"];
 /// Strip below it for the base directions.
 const DIRECTIONS_PX: f64 = 46.0;
 
@@ -201,7 +203,7 @@ pub(crate) fn draw_scene(svg: &mut Svg, scene: &Scene, view: View, area: Rect) {
             Item::Path => {
                 let points: Vec<Point> = scene.path_mm.iter().map(|p| place.at(*p)).collect();
                 svg.polyline(&points, &Style::line("#fff", 4.4).opacity(0.85));
-                svg.polyline(&points, &Style::line(LIMIT, 2.2));
+                svg.polyline(&points, &Style::line(SIGNAL, 2.2));
             }
         }
     }
@@ -297,7 +299,12 @@ fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
         .collect();
     let inner = area.shrunk(6.0);
     for spot in &scene.body.joints {
-        let badge = best_badge(spot, place, (&taken, &arm, inner));
+        let around = Around {
+            taken: &taken,
+            arm: &arm,
+            inner,
+        };
+        let badge = best_badge(spot, place, &around);
         let Some((badge, joint)) = badge else { continue };
         let c = badge.centre();
         let away = (c[0] - joint[0]).hypot(c[1] - joint[1]).max(1.0);
@@ -318,11 +325,15 @@ fn draw_names(svg: &mut Svg, scene: &Scene, place: &Placed, area: Rect) {
     }
 }
 
-fn best_badge(
-    spot: &JointSpot,
-    place: &Placed,
-    (taken, arm, inner): (&[Rect], &[Point], Rect),
-) -> Option<(Rect, Point)> {
+/// What a badge keeps clear of, and the part of the drawing that it stands in.
+struct Around<'a> {
+    taken: &'a [Rect],
+    arm: &'a [Point],
+    inner: Rect,
+}
+
+/// The badge of a joint and the point it belongs to; `None` without a name or without room.
+fn best_badge(spot: &JointSpot, place: &Placed, around: &Around<'_>) -> Option<(Rect, Point)> {
     if spot.name.is_empty() {
         return None;
     }
@@ -342,14 +353,15 @@ fn best_badge(
                 h: 18.0,
             };
             let room = badge.shrunk(-5.0);
-            if taken.iter().any(|t| overlap(t, &room))
-                || !inner.contains([badge.x, badge.y])
-                || !inner.contains([badge.right(), badge.bottom()])
+            if around.taken.iter().any(|t| t.overlaps(&room))
+                || !around.inner.contains([badge.x, badge.y])
+                || !around.inner.contains([badge.right(), badge.bottom()])
             {
                 continue;
             }
             let keep = spot.radius * place.px_per_mm;
-            let crowd: f64 = arm
+            let crowd: f64 = around
+                .arm
                 .iter()
                 .map(|p| (keep + 14.0 - (p[0] - c[0]).hypot(p[1] - c[1])).max(0.0))
                 .sum();
@@ -368,9 +380,9 @@ fn draw_directions(svg: &mut Svg, view: View, area: Rect) {
     let projection = view.projection();
     let at = [area.x + 36.0, area.bottom() - 20.0];
     let axes = [
-        ("x", [1.0, 0.0, 0.0], "#c8102e"),
-        ("y", [0.0, 1.0, 0.0], "#2e8b57"),
-        ("z", [0.0, 0.0, 1.0], "#1f5fa8"),
+        ("x", [1.0, 0.0, 0.0], AXIS_COLOURS[0]),
+        ("y", [0.0, 1.0, 0.0], AXIS_COLOURS[1]),
+        ("z", [0.0, 0.0, 1.0], AXIS_COLOURS[2]),
     ];
     for (name, axis, colour) in axes {
         let flat = projection.flat(axis);

@@ -63,18 +63,15 @@ pub(crate) fn draw_solid(svg: &mut Svg, solid: &Solid, place: &impl Place) {
             half_length,
             part,
         } => {
-            let caps = [1.0, -1.0]
-                .map(|side| disc(along(*centre, *axis, side * half_length), *axis, *radius, place));
-            draw_cylinder(
-                svg,
-                caps,
-                [
-                    place.at(along(*centre, *axis, *half_length)),
-                    place.at(along(*centre, *axis, -half_length)),
-                ],
-                (*part, radius * place.px_per_mm(), *axis),
-                place,
-            );
+            let ends = [1.0, -1.0].map(|side| along(*centre, *axis, side * half_length));
+            let flat = FlatCylinder {
+                caps: ends.map(|end| disc(end, *axis, *radius, place)),
+                centres: ends.map(|end| place.at(end)),
+                near: usize::from(place.depth(*axis) - place.depth([0.0; 3]) < 0.0),
+                radius_px: radius * place.px_per_mm(),
+                part: *part,
+            };
+            draw_cylinder(svg, &flat);
         }
     }
 }
@@ -122,14 +119,27 @@ fn draw_capsule(svg: &mut Svg, [a, b]: [Point; 2], radii: [f64; 2], part: Part) 
     svg.polygon(&hull(outline), &Style::fill(fill).outlined(edge, 0.9));
 }
 
-fn draw_cylinder(
-    svg: &mut Svg,
+/// A cylinder on the picture.
+struct FlatCylinder {
+    /// Outlines and middles of both ends.
     caps: [Vec<Point>; 2],
     centres: [Point; 2],
-    (part, radius_px, axis): (Part, f64, Vec3),
-    place: &impl Place,
-) {
-    let [edge, light, middle, dark] = colours(part);
+    /// The end that faces the viewer.
+    near: usize,
+    radius_px: f64,
+    part: Part,
+}
+
+fn draw_cylinder(svg: &mut Svg, cylinder: &FlatCylinder) {
+    let FlatCylinder {
+        caps,
+        centres,
+        near,
+        radius_px,
+        part,
+    } = cylinder;
+    let (near, radius_px) = (*near, *radius_px);
+    let [edge, light, middle, dark] = colours(*part);
     let across = across_lit(centres[0], centres[1]);
     let c = centres[0];
     let side = svg.gradient(
@@ -145,7 +155,6 @@ fn draw_cylinder(
     let outline: Vec<Point> = caps.iter().flatten().copied().collect();
     let outer = hull(outline);
     svg.polygon(&outer, &Style::fill(side).outlined(edge, 0.9));
-    let near = usize::from(place.depth(axis) - place.depth([0.0; 3]) < 0.0);
     let cap = &caps[near];
     let face = svg.gradient(
         [
@@ -168,7 +177,7 @@ fn draw_cylinder(
             ]
         })
         .collect();
-    if part == Part::Joint {
+    if *part == Part::Joint {
         svg.polygon(&inner, &Style::fill(dark).opacity(0.55));
     }
 }

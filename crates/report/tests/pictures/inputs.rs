@@ -1,9 +1,10 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, Arrangement, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Grid, Overlay,
-    Panel, PathPlot, PointState, PolarPlot, Posture, RadialSeries, RectangleMm, RegionMap, Series, ShareBar,
-    ShareBars, Sheet, StiffnessEllipse, VectorField, View,
+    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope,
+    ForcePlot, ForceTrace, Grid, MapSeries, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState,
+    PolarPlot, ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars,
+    StiffnessEllipse, Stretch, TrackMap, VectorField, View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -72,7 +73,7 @@ pub fn arm() -> ArmDrawing {
     };
     ArmDrawing {
         title: NASTY.into(),
-        posture: Posture {
+        posture: ArmPosture {
             base_mm: [0.0; 3],
             joints: vec![
                 joint(NASTY, [0.0; 3], [0.0, 0.0, 1.0]),
@@ -98,10 +99,9 @@ pub fn arm() -> ArmDrawing {
     }
 }
 
-pub fn bars(arrangement: Arrangement, shares_um: Vec<f64>) -> ShareBars {
+pub fn bars(shares_um: Vec<f64>) -> ShareBars {
     let bar = ShareBar {
         label: NASTY.repeat(9),
-        share_uncertainty_um: vec![1.0, f64::NAN],
         total_um: Some(shares_um.iter().sum()),
         total_uncertainty_um: Some(2.0),
         shares_um,
@@ -110,7 +110,6 @@ pub fn bars(arrangement: Arrangement, shares_um: Vec<f64>) -> ShareBars {
         title: NASTY.into(),
         parts: vec![NASTY.into()],
         bars: vec![bar],
-        arrangement,
         ..ShareBars::default()
     }
 }
@@ -158,17 +157,78 @@ pub fn ellipse(compliance_um_per_n: [[f64; 2]; 2]) -> StiffnessEllipse {
     }
 }
 
-pub fn sheet(grids: Vec<Grid>) -> Sheet {
+pub fn sheet(grids: Vec<Grid>) -> MapSeries {
     let panels = grids.into_iter().map(|grid| Panel {
         title: NASTY.into(),
         note: "n".into(),
         grid,
     });
-    Sheet {
+    MapSeries {
         panels: panels.collect(),
         limit_um: Some(50.0),
         show_regions: true,
-        ..Sheet::default()
+        columns: 4,
+        ..MapSeries::default()
+    }
+}
+
+pub fn track(deviation_um: Vec<f64>) -> TrackMap {
+    let marker = |at_mm, kind| Marker {
+        at_mm,
+        label: NASTY.into(),
+        kind,
+        name: NASTY.into(),
+    };
+    let at = |k: usize| [10.0 * k as f64, 7.0 * (k % 2) as f64];
+    TrackMap {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        quantity: NASTY.into(),
+        limit_um: Some(50.0),
+        stretches: vec![Stretch {
+            points_mm: (0..deviation_um.len()).map(at).collect(),
+            deviation_um,
+        }],
+        markers: vec![
+            marker([1.0, 2.0], MarkerKind::Point),
+            marker([f64::NAN, 2.0], MarkerKind::Point),
+            marker([9.0, 3.0], MarkerKind::Best),
+        ],
+        ..TrackMap::default()
+    }
+}
+
+pub fn process(deviation_um: Vec<f64>) -> ProcessMap {
+    ProcessMap {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        quantity: NASTY.into(),
+        axes: AxisLabels {
+            horizontal: NASTY.into(),
+            vertical: NASTY.into(),
+        },
+        horizontal: vec![0.05, 0.10, 0.20],
+        vertical: vec![1.0, 3.0],
+        deviation_um,
+        limit_um: 50.0,
+        drawn: Some([0.1, 2.0]),
+    }
+}
+
+pub fn forces(newtons: Vec<f64>) -> ForcePlot {
+    const SPAN_S: [f64; 2] = [0.0, 10.0];
+    let samples = || newtons.iter().enumerate().map(|(k, n)| (k as f64, *n));
+    let trace = |times: f64| ForceTrace {
+        name: NASTY.into(),
+        before: Envelope::of(SPAN_S, samples()),
+        after: Envelope::of(SPAN_S, samples().map(|(time, n)| (time, times * n))),
+    };
+    ForcePlot {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        traces: vec![trace(0.5), trace(-1.0)],
+        air_s: vec![[0.0, 1.0], [f64::NAN, 2.0]],
+        marks_s: vec![(0.5, NASTY.into()), (f64::NAN, "never".into())],
     }
 }
 
@@ -209,16 +269,14 @@ pub fn everything() -> Vec<String> {
         sheet(Vec::new()).to_svg(),
         sheet(vec![Grid::default()]).to_svg(),
     ]);
-    for arrangement in [Arrangement::Stacked, Arrangement::Grouped] {
-        let shares = [
-            vec![3.0, -1.0, 0.5],
-            vec![],
-            vec![f64::NAN],
-            vec![0.0],
-            vec![-4.0],
-        ];
-        all.extend(shares.map(|s| bars(arrangement, s).to_svg()));
-    }
+    let shares = [
+        vec![3.0, -1.0, 0.5],
+        vec![],
+        vec![f64::NAN],
+        vec![0.0],
+        vec![-4.0],
+    ];
+    all.extend(shares.map(|s| bars(s).to_svg()));
     let rows = [
         vec![1.0, f64::NAN, 3.0, 4.0],
         vec![],
@@ -229,6 +287,31 @@ pub fn everything() -> Vec<String> {
     ];
     all.extend(rows.iter().map(|r| path_plot(r.clone()).to_svg()));
     all.extend(rows.iter().map(|r| polar(r.clone()).to_svg()));
+    all.extend(rows.iter().map(|r| track(r.clone()).to_svg()));
+    all.extend(rows.iter().map(|r| forces(r.clone()).to_svg()));
+    all.extend(
+        [
+            process(vec![10.0, 20.0, 90.0, 30.0, f64::INFINITY, 400.0]),
+            process(vec![f64::NAN; 6]),
+            process(vec![1.0]),
+            process(vec![7.0; 6]),
+            process(vec![0.0, f64::NAN, 1e300, -1e300, 3.0, 4.0]),
+            ProcessMap {
+                limit_um: f64::NAN,
+                drawn: Some([f64::NAN, 2.0]),
+                ..process(vec![10.0, 20.0, 90.0, 30.0, 40.0, 50.0])
+            },
+            ProcessMap {
+                horizontal: vec![0.05; 3],
+                ..process(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+            },
+            ProcessMap {
+                vertical: vec![1.0, f64::NAN],
+                ..process(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
+            },
+        ]
+        .map(|map| map.to_svg()),
+    );
     let arrow = |v: f64| Arrow {
         at_mm: [v, 1.0],
         deviation_um: [v, 3.0],
@@ -248,7 +331,7 @@ pub fn everything() -> Vec<String> {
         [[1.0, 2.0], [2.0, 1.0]],
     ];
     all.extend(compliances.map(|c| ellipse(c).to_svg()));
-    let nowhere = Posture {
+    let nowhere = ArmPosture {
         tool_mm: [f64::NAN; 3],
         ..arm().posture
     };
@@ -263,9 +346,9 @@ pub fn everything() -> Vec<String> {
         .to_svg(),
         ArmDrawing::default().to_svg(),
         ArmDrawing {
-            posture: Posture {
+            posture: ArmPosture {
                 joints: vec![ArmJoint::default(); 6],
-                ..Posture::default()
+                ..ArmPosture::default()
             },
             ..arm()
         }

@@ -2,7 +2,7 @@
 
 mod inputs;
 
-use armill_report::{ArmDrawing, Arrangement, Arrow, DeviationMap, Grid, PointState, RegionMap, Sheet};
+use armill_report::{ArmDrawing, Arrow, DeviationMap, Grid, MapSeries, PointState, RegionMap};
 
 use inputs::{NASTY, arm, bars, ellipse, everything, field, grid, map, path_plot, region, sheet, slope};
 
@@ -190,7 +190,7 @@ fn what_is_doubtful_is_painted_and_named_only_where_values_are_uncertain() {
 #[test]
 fn a_sheet_has_one_colour_bar_and_a_region_under_each_map() {
     let grids = vec![grid(5, 4, slope), grid(5, 4, slope), Grid::default()];
-    let svg = Sheet {
+    let svg = MapSeries {
         quantity: "deviation (µm)".into(),
         ..sheet(grids.clone())
     }
@@ -198,7 +198,7 @@ fn a_sheet_has_one_colour_bar_and_a_region_under_each_map() {
     assert_eq!(svg.matches(">deviation (µm)<").count(), 1);
     assert_eq!(svg.matches("<clipPath").count(), 4, "two maps and two regions");
     assert!(svg.contains("no points"));
-    let maps_only = Sheet {
+    let maps_only = MapSeries {
         show_regions: false,
         ..sheet(grids)
     }
@@ -245,11 +245,7 @@ fn principal_compliances_are_written() {
 
 #[test]
 fn the_total_of_the_shares_is_written_with_its_uncertainty() {
-    assert!(
-        bars(Arrangement::Stacked, vec![30.0, -10.0])
-            .to_svg()
-            .contains(">20 ± 2 µm<")
-    );
+    assert!(bars(vec![30.0, -10.0]).to_svg().contains(">20 ± 2 µm<"));
 }
 
 #[test]

@@ -96,7 +96,6 @@ pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> Fo
     ForcePlot {
         title,
         subtitle,
-        span_s,
         traces: vec![
             trace("Fx (N)", |force| force.x),
             trace("Fy (N)", |force| force.y),

@@ -5,16 +5,16 @@ use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::robot::Robot;
 use armill_core::robot::forward::{forward, joint_axis};
 use armill_core::robot::inverse::{posture_at, tool_on};
-use armill_report::{ArmDrawing, ArmJoint, Posture, View};
+use armill_report::{ArmDrawing, ArmJoint, ArmPosture, View};
 
 use crate::pose::{PoseAnswer, PostureAnswer};
 
 /// The arm at these joint positions (rad, m), base frame.
-pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> Posture {
+pub fn arm_posture(robot: &Robot, joints: &[f64], flange_from_tool: &Isometry) -> ArmPosture {
     let frames = forward(robot, joints);
     let mm = |v: &Vector3<f64>| -> [f64; 3] { (v * 1e3).into() };
     let base_from_tool = tool_on(&frames, flange_from_tool);
-    Posture {
+    ArmPosture {
         base_mm: [0.0; 3],
         joints: (0..robot.joints().len())
             .map(|i| ArmJoint {

@@ -130,11 +130,12 @@ impl Drawing<'_> {
                 (x - at_mm[0]).hypot(y - at_mm[1]) < apart_mm
             };
             match markers.iter_mut().find(near) {
-                Some(other) => other.label += &format!(", {}", i + 1),
+                Some(other) => other.name += &format!(", {}", i + 1),
                 None => markers.push(Marker {
                     at_mm,
-                    label: (i + 1).to_string(),
+                    label: "worst points".to_owned(),
                     kind: MarkerKind::Point,
+                    name: (i + 1).to_string(),
                 }),
             }
         }

@@ -163,7 +163,6 @@ pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     ShareBar {
         label: label.to_owned(),
         shares_um: point.joint_share_um.clone(),
-        share_uncertainty_um: Vec::new(),
         total_um: Some(point.in_plane_um),
         total_uncertainty_um: Some(point.in_plane_u_um),
     }

@@ -6,8 +6,8 @@ use armill_core::kernel::Held;
 use armill_core::map::{COVERAGE, PlaneMap, VolumeMap};
 use armill_core::robot::Unreachable;
 use armill_report::{
-    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, Marker, MarkerKind, Overlay, Panel, PointState,
-    RectangleMm, RegionMap, Sheet,
+    AxisLabels, CircleMm, ColourScale, DeviationMap, Grid, MapSeries, Marker, MarkerKind, Overlay, Panel,
+    PointState, RectangleMm, RegionMap,
 };
 
 use super::pictures::Picture;
@@ -107,6 +107,7 @@ pub(super) fn map_pictures(
         at_mm,
         label: label.to_owned(),
         kind,
+        name: String::new(),
     };
     let markers = [
         answer
@@ -180,7 +181,7 @@ pub(super) fn map_pictures(
 /// A series of plates on one sheet, each above its permissible region.
 pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: AxisLabels) -> Picture {
     let rows = panels.len().div_ceil(COLUMNS).max(1);
-    let sheet = Sheet {
+    let sheet = MapSeries {
         title: name.to_owned(),
         subtitle: subtitle_without_tilt(setting),
         columns: panels.len().div_ceil(rows),

@@ -1,21 +1,36 @@
 //! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one colour bar.
 
-use crate::colour::{ColourScale, MUTED, OVER, WITHIN};
+use crate::colour::{ColourScale, EMPTY, MUTED, OVER, WITHIN};
 use crate::colour_bar::ColourBar;
-use crate::field::{IsoLines, Look, Paint, draw_field, limit_style, window_of, zone_entries};
+use crate::field::{IsoLines, Look, Paint, draw_field, window_of, zone_entries};
 use crate::font::{Weight, text_width_px, wrap};
 use crate::grid::Grid;
+use crate::legend::{Entry, Key};
 use crate::levels::Levels;
-use crate::page::{BODY_PX, BORDER_PX, Entry, Key, SMALL_PX, legend, notice, title_block};
+use crate::limit;
+use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::plane::{AxisLabels, Marks, Plane, Window};
 use crate::svg::{Rect, Style, Svg, Text};
+use crate::ticks::Overhang;
 
+/// Panels in a row at most: more would be too small to read.
+const MOST_COLUMNS: usize = 8;
 const GAP_PX: f64 = 14.0;
 /// Gap between a map and the region under it.
 const PAIR_PX: f64 = 16.0;
 const TITLE_ROW_PX: f64 = 18.0;
-/// Font size of panel numbers in tenths of a pixel.
-const PANEL_FONT: u16 = 95;
+/// Font sizes of the numbers and of the notes of panels.
+const PANEL_PX: f64 = 9.5;
+const NOTE_PX: f64 = 10.0;
+/// Width of all panels of a row with their gaps, and the longest side of a panel.
+const ROW_PX: f64 = 900.0;
+const MOST_PANEL_PX: f64 = 300.0;
+/// From the lowest panel to the label of the horizontal axis.
+const LABELS_PX: f64 = 38.0;
+/// From the last panel of a row to the colour bar, and the greatest height of the bar.
+const BAR_GAP_PX: f64 = 18.0;
+const MOST_BAR_PX: f64 = 420.0;
+const LEAST_SHEET_PX: f64 = 480.0;
 
 /// One map of a sheet.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,14 +45,14 @@ pub struct Panel {
 
 /// What a sheet shows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Sheet {
+pub struct MapSeries {
     /// First line, bold.
     pub title: String,
     /// Second line: load, posture.
     pub subtitle: String,
     /// The maps in reading order.
     pub panels: Vec<Panel>,
-    /// Panels in a row; 0 chooses.
+    /// Panels in a row, 1 to 8; any other number stands for the nearer of the two.
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
     pub axes: AxisLabels,
@@ -51,34 +66,19 @@ pub struct Sheet {
     pub show_regions: bool,
 }
 
-impl Sheet {
+impl MapSeries {
     /// The sheet as a complete SVG document; a panel that cannot be drawn says why.
     pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
         if self.panels.is_empty() {
-            return notice(
-                &self.title,
-                &self.subtitle,
-                "There is nothing to draw: the series has no maps.",
-            );
+            return heading.notice("There is nothing to draw: the series has no maps.");
         }
-        let drawable: Vec<&Grid> = self
-            .panels
-            .iter()
-            .map(|p| &p.grid)
-            .filter(|g| g.obstacle().is_none())
-            .collect();
+        let grids = || self.panels.iter().map(|p| &p.grid);
+        let drawable: Vec<&Grid> = grids().filter(|g| g.obstacle().is_none()).collect();
         let levels = Levels::covering(drawable.iter().flat_map(|g| g.values_um()));
         let (Some(levels), Some(window)) = (levels, common_window(&drawable)) else {
-            let reason = self
-                .panels
-                .iter()
-                .find_map(|p| p.grid.obstacle())
-                .unwrap_or_default();
-            return notice(
-                &self.title,
-                &self.subtitle,
-                &format!("No map of this series can be drawn. {reason}"),
-            );
+            let reason = grids().find_map(Grid::obstacle).unwrap_or_default();
+            return heading.notice(&format!("No map of this series can be drawn. {reason}"));
         };
         let layout = Layout::new(self, window);
         let bar = ColourBar {
@@ -87,43 +87,38 @@ impl Sheet {
             quantity: &self.quantity,
             limit_um: self.limit_um,
         };
-        let bar_height = layout.height_px.min(420.0);
-        let bar_x = layout.left_px + layout.width_px + 18.0;
-        let width = (bar_x + bar.width_px(bar_height) + BORDER_PX).max(480.0);
-
-        let mut svg = Svg::new();
-        let top = title_block(&mut svg, &self.title, &self.subtitle, width);
+        let bar_height = layout.height_px.min(MOST_BAR_PX);
+        let bar_x = layout.left_px + layout.width_px + BAR_GAP_PX;
+        let width = bar_x + bar.width_px(bar_height) + BORDER_PX;
+        let mut page = heading.page(width.max(LEAST_SHEET_PX));
+        let top = page.top_px;
         for (index, panel) in self.panels.iter().enumerate() {
-            self.draw_panel(&mut svg, panel, &layout.cell(index, top), &levels);
+            self.draw_panel(&mut page.svg, panel, &layout.cell(index, top), &levels);
         }
-        let middle_x = layout.left_px + layout.width_px / 2.0;
-        let labels_y = top + layout.height_px + 38.0;
-        svg.text(
-            [middle_x, labels_y],
-            &self.axes.horizontal,
-            &Text::new(BODY_PX).middle(),
-        );
-        let up = Text::new(BODY_PX).middle().turned(-90.0);
-        svg.text(
-            [BORDER_PX + 12.0, top + layout.height_px / 2.0],
-            &self.axes.vertical,
-            &up,
-        );
-        let bar_y = top + TITLE_ROW_PX + (layout.height_px - TITLE_ROW_PX - bar_height).max(0.0) / 2.0;
-        bar.draw(
-            &mut svg,
-            Rect {
-                x: bar_x,
-                y: bar_y,
-                w: 0.0,
-                h: bar_height - TITLE_ROW_PX,
-            },
-        );
+        self.write_labels(&mut page.svg, &layout, top);
+        let bar_area = Rect {
+            x: bar_x,
+            y: top + TITLE_ROW_PX + (layout.height_px - TITLE_ROW_PX - bar_height).max(0.0) / 2.0,
+            w: 0.0,
+            h: bar_height - TITLE_ROW_PX,
+        };
+        bar.draw(&mut page.svg, bar_area);
+        let entries = self.entries(&mut page.svg, &drawable);
+        let below = top + layout.height_px + LABELS_PX + 12.0;
+        page.finish_with_legend(&entries, [layout.left_px, below])
+    }
 
-        let entries = self.entries(&mut svg, &drawable);
-        let room = width - layout.left_px - BORDER_PX;
-        let bottom = legend(&mut svg, &entries, [layout.left_px, labels_y + 12.0], room);
-        svg.finish(width, bottom + BORDER_PX, &self.title)
+    /// The labels of the axes, once for all panels.
+    fn write_labels(&self, svg: &mut Svg, layout: &Layout, top: f64) {
+        let text = Text::new(BODY_PX).middle();
+        let middle = [
+            layout.left_px + layout.width_px / 2.0,
+            top + layout.height_px / 2.0,
+        ];
+        let below = [middle[0], top + layout.height_px + LABELS_PX];
+        svg.text(below, &self.axes.horizontal, &text);
+        let left = [BORDER_PX + 12.0, middle[1]];
+        svg.text(left, &self.axes.vertical, &text.turned(-90.0));
     }
 
     fn has_regions(&self) -> bool {
@@ -132,26 +127,20 @@ impl Sheet {
 
     fn draw_panel(&self, svg: &mut Svg, panel: &Panel, cell: &Cell, levels: &Levels) {
         let area = cell.planes[0].area;
-        let room = area.w - text_width_px(&panel.note, 10.0, Weight::Regular) - 6.0;
+        let room = area.w - text_width_px(&panel.note, NOTE_PX, Weight::Regular) - 6.0;
         let title_fits = text_width_px(&panel.title, SMALL_PX, Weight::Bold) <= room;
         svg.text([area.x, area.y - 6.0], &panel.title, &Text::new(SMALL_PX).bold());
         if title_fits {
             svg.text(
                 [area.right(), area.y - 6.0],
                 &panel.note,
-                &Text::new(10.0).end().colour(MUTED),
+                &Text::new(NOTE_PX).end().colour(MUTED),
             );
         }
         let paints = [Paint::Bands(self.scale), Paint::Region];
         for ((plane, paint), marks) in cell.planes.iter().zip(paints).zip(&cell.marks) {
             if let Some(reason) = panel.grid.obstacle() {
-                svg.rect(plane.area, &Style::fill("#f6f6f6"));
-                let lines = wrap(&reason, 10.0, Weight::Regular, plane.area.w - 16.0);
-                for (k, line) in lines.iter().enumerate() {
-                    let c = plane.area.centre();
-                    let y = c[1] + 14.0 * (k as f64 - (lines.len() as f64 - 1.0) / 2.0) + 4.0;
-                    svg.text([c[0], y], line, &Text::new(10.0).middle().colour(MUTED));
-                }
+                write_reason(svg, plane.area, &reason);
             } else {
                 let look = Look {
                     levels,
@@ -170,15 +159,11 @@ impl Sheet {
     fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
         let mut entries = Vec::new();
         if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
-            let limit = crate::axis::plain(limit);
-            entries.push(Entry::new(
-                Key::Line(vec![limit_style()]),
-                format!("limit {limit} µm"),
-            ));
+            entries.push(limit::entry(limit, ""));
             if self.has_regions() {
-                let field = |fill: &str| Key::Field(Style::fill(fill).outlined("#8a8a8a", 0.8));
-                entries.push(Entry::new(field(WITHIN), format!("within {limit} µm")));
-                entries.push(Entry::new(field(OVER), format!("over {limit} µm")));
+                let limit = crate::axis::plain(limit);
+                entries.push(Entry::new(Key::field(WITHIN), format!("within {limit} µm")));
+                entries.push(Entry::new(Key::field(OVER), format!("over {limit} µm")));
             }
         }
         entries.extend(zone_entries(
@@ -187,6 +172,18 @@ impl Sheet {
             Paint::Bands(self.scale),
         ));
         entries
+    }
+}
+
+/// Why a panel stays empty, in its middle.
+fn write_reason(svg: &mut Svg, area: Rect, reason: &str) {
+    const LINE_PX: f64 = 14.0;
+    svg.rect(area, &Style::fill(EMPTY));
+    let lines = wrap(reason, NOTE_PX, Weight::Regular, area.w - 16.0);
+    let c = area.centre();
+    for (k, line) in lines.iter().enumerate() {
+        let y = c[1] + LINE_PX * (k as f64 - (lines.len() as f64 - 1.0) / 2.0) + 4.0;
+        svg.text([c[0], y], line, &Text::new(NOTE_PX).middle().colour(MUTED));
     }
 }
 
@@ -227,17 +224,12 @@ struct Cell {
 }
 
 impl Layout {
-    fn new(sheet: &Sheet, window: Window) -> Self {
+    fn new(sheet: &MapSeries, window: Window) -> Self {
         let panels = sheet.panels.len();
-        let chosen = if panels <= 5 {
-            panels
-        } else {
-            (panels as f64).sqrt().ceil() as usize
-        };
-        let columns = if sheet.columns == 0 { chosen } else { sheet.columns }.clamp(1, panels.clamp(1, 8));
+        let columns = sheet.columns.clamp(1, panels.clamp(1, MOST_COLUMNS));
         let planes_per_panel = if sheet.has_regions() { 2 } else { 1 };
-        let most = (900.0 - GAP_PX * (columns as f64 - 1.0)) / columns as f64;
-        let area = Plane::fit(window, [0.0, 0.0], [most.min(300.0), most.min(300.0)]).area;
+        let most = ((ROW_PX - GAP_PX * (columns as f64 - 1.0)) / columns as f64).min(MOST_PANEL_PX);
+        let area = Plane::fit(window, [0.0, 0.0], [most, most]).area;
         let rows = panels.div_ceil(columns) as f64;
         let per_row = TITLE_ROW_PX + (area.h + PAIR_PX) * planes_per_panel as f64 + GAP_PX - PAIR_PX;
         Self {
@@ -267,7 +259,8 @@ impl Layout {
             .map(|k| Marks {
                 horizontal_numbers: lowest && k + 1 == self.planes_per_panel,
                 vertical_numbers: column == 0,
-                font_px_tenths: PANEL_FONT,
+                font_px: PANEL_PX,
+                overhang: Overhang::LeftOut,
             })
             .collect();
         Cell { planes, marks }

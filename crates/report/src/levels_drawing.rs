@@ -1,0 +1,129 @@
+//! A field drawn by its levels, wherever its lattice stands on the picture: bands, iso-lines, the line of the limit, and
+//! the labels of these lines.
+
+use crate::colour::ColourScale;
+use crate::contours::{Lattice, Ring};
+use crate::levels::Levels;
+use crate::limit;
+use crate::line::without_straight;
+use crate::line_label::Labelled;
+use crate::svg::{Ends, Point, Rect, Style, Svg, Text, trace};
+
+/// A line that coincides with the limit, within this part of a step, carries the limit's label alone.
+const COINCIDES: f64 = 0.05;
+
+/// A lattice of samples, and where it stands on the picture.
+#[derive(Clone, Copy)]
+pub(crate) struct Placed<'a> {
+    pub(crate) lattice: Lattice<'a>,
+    /// Where a point of the lattice stands on the picture.
+    pub(crate) at: &'a dyn Fn([f64; 2]) -> Point,
+    /// What the lattice covers.
+    pub(crate) area: Rect,
+}
+
+impl<'a> Placed<'a> {
+    /// Other samples in the same place.
+    pub(crate) fn with(&self, lattice: Lattice<'a>) -> Placed<'a> {
+        Placed { lattice, ..*self }
+    }
+
+    /// One colour a band, the lowest under all others.
+    pub(crate) fn draw_bands(&self, svg: &mut Svg, levels: &Levels, scale: ColourScale) {
+        svg.rect(self.area, &Style::fill(levels.colour(0, scale)));
+        for (band, rings) in self.lattice.areas_from(levels.inner_um()).iter().enumerate() {
+            self.fill(svg, rings, &levels.colour(band + 1, scale));
+        }
+    }
+
+    /// Fills where the samples are at least `level`; `colour` is any value of a `fill`.
+    pub(crate) fn fill_from(&self, svg: &mut Svg, level: f64, colour: &str) {
+        for rings in self.lattice.areas_from(&[level]) {
+            self.fill(svg, &rings, colour);
+        }
+    }
+
+    /// For each level the lines along which the samples equal it, px.
+    pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Point>>> {
+        let all = self.lattice.lines_at(levels);
+        let on_picture = |lines: &Vec<Ring>| lines.iter().map(|line| self.on_picture(line)).collect();
+        all.iter().map(on_picture).collect()
+    }
+
+    /// A line in pixels, without the points that would not be seen.
+    fn on_picture(&self, line: &[[f64; 2]]) -> Vec<Point> {
+        let line: Vec<Point> = line.iter().map(|values| (self.at)(*values)).collect();
+        without_straight(&line)
+    }
+
+    fn fill(&self, svg: &mut Svg, rings: &[Ring], colour: &str) {
+        let data: String = rings
+            .iter()
+            .map(|ring| trace(&self.on_picture(ring), Ends::Closed))
+            .collect();
+        svg.path(&data, &Style::fill(colour));
+    }
+}
+
+/// The lines between the bands, and the line of the limit.
+pub(crate) struct LevelLines<'a> {
+    levels: &'a Levels,
+    limit_um: Option<f64>,
+    /// One list of lines for each inner level.
+    iso: Vec<Vec<Vec<Point>>>,
+    limit: Vec<Vec<Point>>,
+}
+
+impl<'a> LevelLines<'a> {
+    /// No line stands for a limit that is not finite.
+    pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, limit_um: Option<f64>) -> Self {
+        let limit_um = limit_um.filter(|limit| limit.is_finite());
+        let limit: Vec<f64> = limit_um.into_iter().collect();
+        Self {
+            levels,
+            limit_um,
+            iso: placed.lines_at(levels.inner_um()),
+            limit: placed.lines_at(&limit).into_iter().flatten().collect(),
+        }
+    }
+
+    pub(crate) fn draw_iso(&self, svg: &mut Svg, style: &Style) {
+        for line in self.iso.iter().flatten() {
+            svg.polyline(line, style);
+        }
+    }
+
+    /// Each of `styles` along the whole limit before the next.
+    pub(crate) fn draw_limit(&self, svg: &mut Svg, styles: &[Style]) {
+        for style in styles {
+            for line in &self.limit {
+                svg.polyline(line, style);
+            }
+        }
+    }
+
+    /// What is written on the lines, the limit first.
+    pub(crate) fn labels(&self) -> Vec<Labelled> {
+        let on_limit = self.limit.iter().map(|points| Labelled {
+            points: points.clone(),
+            text: self.limit_um.map(limit::label).unwrap_or_default(),
+            look: limit::text(),
+        });
+        let step_um = self.levels.step_um;
+        let is_apart = |level: f64| {
+            self.limit_um
+                .is_none_or(|limit| (level - limit).abs() >= COINCIDES * step_um)
+        };
+        let iso = self.iso.iter().zip(self.levels.inner_um());
+        let on_iso = iso
+            .filter(|(_, level)| is_apart(**level))
+            .flat_map(|(lines, level)| {
+                lines.iter().map(|points| Labelled {
+                    points: points.clone(),
+                    text: self.levels.label(*level),
+                    look: Text::new(10.0).halo(3.0),
+                })
+            });
+        on_limit.chain(on_iso).collect()
+    }
+}

@@ -1,0 +1,64 @@
+//! The limit on a picture: its line, what is written on it, and its entry in a legend.
+
+use crate::axis::{extent, plain};
+use crate::colour::LIMIT;
+use crate::legend::Entry;
+use crate::page::SMALL_PX;
+use crate::svg::{Style, Text};
+
+/// The line of the limit, on drawings and in their legends.
+pub(crate) fn style() -> Style {
+    Style::line(LIMIT, 2.4)
+}
+
+/// What lies under the line where it runs over bands of colour.
+pub(crate) fn ground_style() -> Style {
+    Style::line("#fff", 4.6).opacity(0.9)
+}
+
+/// How a text on the limit is set.
+pub(crate) fn text() -> Text {
+    Text::new(SMALL_PX).bold().colour(LIMIT)
+}
+
+/// `limit 50 µm`.
+pub(crate) fn label(limit_um: f64) -> String {
+    format!("limit {} µm", plain(limit_um))
+}
+
+/// The legend's entry: the line, its label, and a remark that follows the label as it stands.
+pub(crate) fn entry(limit_um: f64, remark: &str) -> Entry {
+    Entry::line(style(), format!("{}{remark}", label(limit_um)))
+}
+
+/// The entry of a limit over these values, with a remark where no line shows it; none for a limit that is no number.
+pub(crate) fn entry_over(limit_um: Option<f64>, values_um: impl Iterator<Item = f64>) -> Option<Entry> {
+    let limit = limit_um.filter(|limit| limit.is_finite())?;
+    let remark = match extent(values_um) {
+        Some((low, _)) if limit <= low => " (exceeded everywhere)",
+        Some((_, high)) if limit > high => " (kept everywhere)",
+        _ => "",
+    };
+    Some(entry(limit, remark))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_limit_outside_the_values_says_so_and_one_that_is_no_number_says_nothing() {
+        let told = |limit| entry_over(limit, [10.0, f64::NAN, 20.0].into_iter()).map(|entry| entry.label);
+        assert_eq!(
+            told(Some(10.0)).as_deref(),
+            Some("limit 10 µm (exceeded everywhere)")
+        );
+        assert_eq!(told(Some(15.0)).as_deref(), Some("limit 15 µm"));
+        assert_eq!(
+            told(Some(20.5)).as_deref(),
+            Some("limit 20.5 µm (kept everywhere)")
+        );
+        assert_eq!(told(Some(f64::INFINITY)), None);
+        assert_eq!(told(None), None);
+    }
+}
