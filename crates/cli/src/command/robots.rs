@@ -1,6 +1,6 @@
 //! `armill robots`: one robot with everything that is known of it.
 
-use armill_core::robot::{Amount, Axis, Motion, reach};
+use armill_core::robot::{Amount, Motion, reach};
 use armill_formats::robot::RobotDescription;
 use armill_study::output::arm_drawing;
 use armill_study::{StudyError, robots};
@@ -31,14 +31,6 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-fn axis_name(axis: Axis) -> &'static str {
-    match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
-        Axis::Z => "z",
-    }
-}
-
 /// One elementary motion in words: `along z 450 mm (H)`, `about y by U, counted -`.
 fn motion(found: &RobotDescription, index: usize) -> String {
     let symbol = found.symbols[index]
@@ -65,16 +57,16 @@ fn motion(found: &RobotDescription, index: usize) -> String {
     };
     match found.robot.chain().motions()[index] {
         Motion::Along(axis, Amount::Constant(m)) => {
-            format!("along {} {} mm{symbol}", axis_name(axis), tidy(m * 1e3))
+            format!("along {} {} mm{symbol}", axis.letter(), tidy(m * 1e3))
         }
         Motion::Along(axis, Amount::Joint(joint)) => {
-            format!("along {} by {}{symbol}", axis_name(axis), of_joint(joint))
+            format!("along {} by {}{symbol}", axis.letter(), of_joint(joint))
         }
         Motion::About(axis, Amount::Constant(rad)) => {
-            format!("about {} {} deg{symbol}", axis_name(axis), tidy(rad.to_degrees()))
+            format!("about {} {} deg{symbol}", axis.letter(), tidy(rad.to_degrees()))
         }
         Motion::About(axis, Amount::Joint(joint)) => {
-            format!("about {} by {}{symbol}", axis_name(axis), of_joint(joint))
+            format!("about {} by {}{symbol}", axis.letter(), of_joint(joint))
         }
     }
 }

@@ -20,7 +20,7 @@ pub use self::write::write;
 use super::description::{JointNote, RobotDescription, Source};
 use crate::document::{Document, Problems};
 
-pub use self::identified::{IdentifiedSpring, Yields, with_springs};
+pub use self::identified::{Identified, IdentifiedSpring, Yields, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
