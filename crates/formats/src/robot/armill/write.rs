@@ -5,8 +5,8 @@
 
 use std::fmt::Write;
 
-use armill_core::frame::Isometry;
-use armill_core::robot::{Amount, Axis, Joint, Motion};
+use armill_core::frame::{Isometry, fixed_angles};
+use armill_core::robot::{Amount, Joint, Motion};
 
 use super::super::description::RobotDescription;
 use super::checks::exact_radians;
@@ -112,11 +112,7 @@ fn chain(text: &mut String, found: &RobotDescription) {
             Motion::Along(axis, _) => ("along", axis),
             Motion::About(axis, _) => ("about", axis),
         };
-        let axis = match axis {
-            Axis::X => "x",
-            Axis::Y => "y",
-            Axis::Z => "z",
-        };
+        let axis = axis.letter();
         let amount = match (motion, motion.amount()) {
             (Motion::Along(..), Amount::Constant(m)) => format!("length_mm = {}", millimetres(m, CHAIN)),
             (Motion::About(..), Amount::Constant(rad)) => format!("angle_deg = {}", degrees(rad, CHAIN)),
@@ -194,18 +190,14 @@ fn source(found: &RobotDescription) -> &str {
     found.sources.first().map_or("", |source| source.key.as_str())
 }
 
+/// Origin and turns about the fixed axes x, y, z, as the file has them.
 fn pose(base_from_frame: &Isometry) -> (String, String) {
     let at = base_from_frame.translation.vector;
-    let m = base_from_frame.rotation.to_rotation_matrix();
-    // By arc tangents alone, and the first angle after the others: good to rounding also where y turns by 90 deg.
-    let ry = (-m[(2, 0)]).atan2(m[(0, 0)].hypot(m[(1, 0)]));
-    let rz = m[(1, 0)].atan2(m[(0, 0)]);
-    let (sin, cos) = rz.sin_cos();
-    let rx = (sin * m[(0, 2)] - cos * m[(1, 2)]).atan2(cos * m[(1, 1)] - sin * m[(0, 1)]);
+    let angles: [f64; 3] = fixed_angles(&base_from_frame.rotation).into();
     let three = |values: [String; 3]| format!("[{}]", values.join(", "));
     (
         three([at.x, at.y, at.z].map(|m| millimetres(m, CHAIN))),
-        three([rx, ry, rz].map(|rad| degrees(rad, CHAIN))),
+        three(angles.map(|rad| degrees(rad, CHAIN))),
     )
 }
 
