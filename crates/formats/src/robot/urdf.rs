@@ -11,7 +11,7 @@ mod joints;
 mod tree;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
-use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::nalgebra::Vector3;
 use armill_core::robot::joint::Sign;
 use armill_core::robot::model::NamedFrame;
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
@@ -24,8 +24,9 @@ use crate::document::{self, Problems};
 /// Joints of a chain, fixed ones included: a few stand between two that move.
 const MOST_ELEMENTS: usize = 4 * MOST_JOINTS;
 
-/// A component of an axis below this counts as none: files print six digits and more.
-const ALIGNED: f64 = 1e-9;
+/// An axis of unit length whose components are all within this of a coordinate axis is that axis: files print six
+/// digits and more.
+const ALIGNED: f64 = 1e-6;
 
 /// The robot of this URDF text; `path` is what errors show, `id` the robot's name in results.
 ///
@@ -60,51 +61,10 @@ pub fn read_to_tip(
     let tree = tree::Tree::new(&file, root, &elements)?;
     let chain = tree.chain(&file, tip)?;
 
-    let mut problems = Vec::new();
-    let mut motions = Vec::new();
-    let mut moving = Vec::new();
-    if let Some(joint) = chain.joints.get(MOST_ELEMENTS) {
-        let message = format!("the chain has more than {MOST_ELEMENTS} joints, fixed ones included");
-        return Err(file.problem(joint.place.clone(), message, None).into());
-    }
-    for joint in &chain.joints {
-        motions.extend(displacement(joint));
-        match moved(joint, moving.len()) {
-            Ok(Some(_)) if moving.len() >= MOST_JOINTS => {
-                let message = format!("more than {MOST_JOINTS} joints move");
-                problems.push(file.problem(joint.place.clone(), message, None));
-                break;
-            }
-            Ok(Some((motion, described))) => {
-                if moving.iter().any(|other: &Joint| other.name == described.name) {
-                    let message = format!("another joint is called `{}`", described.name);
-                    problems.push(file.problem(joint.place.clone(), message, None));
-                }
-                motions.extend(motion);
-                moving.push(described);
-            }
-            Ok(None) => {}
-            Err((message, hint)) => {
-                problems.push(file.problem(joint.place.clone(), message, hint.map(str::to_owned)));
-            }
-        }
-    }
-    Problems::from(problems).into_result()?;
+    let arm = arm(&file, &chain.joints)?;
     let frames = controller_frame(&tree);
-    let mut remarks = vec![format!(
-        "the base is link `{}`, the flange link `{}`",
-        tree.root, chain.tip
-    )];
-    if !frames.is_empty() {
-        remarks.push("the frame `controller` is the link `base`, as ROS-Industrial has it".to_owned());
-    }
-    if !chain.left_out.is_empty() {
-        remarks.push(format!(
-            "moving joints off the chain are left out: {}",
-            chain.left_out.join(", ")
-        ));
-    }
-    let robot = Robot::new(id, motions, moving)
+    let remarks = remarks(&tree, &chain, &arm, &frames);
+    let robot = Robot::new(id, arm.motions, arm.joints)
         .map_err(|error| {
             let hint = "the file describes no robot that could move".to_owned();
             Problems::from(file.problem(xml::tag(root), error.to_string(), Some(hint)))
@@ -117,6 +77,51 @@ pub fn read_to_tip(
     found.note = Some("URDF: no compliance; the base is its root link".to_owned());
     found.remarks = remarks;
     Ok(found)
+}
+
+/// A chain in the words of the core, and the names of joints that were not taken as they stand.
+#[derive(Default)]
+struct Arm {
+    motions: Vec<Motion>,
+    joints: Vec<Joint>,
+    /// Their axis lies nearly along a coordinate axis, and is taken as that.
+    aligned: Vec<String>,
+    /// Their limits are no range.
+    unlimited: Vec<String>,
+}
+
+/// # Errors
+/// All joints that no serial arm has, or that share a name; more joints than any arm has.
+fn arm(file: &document::Source, chain: &[&JointElement]) -> Result<Arm, Problems> {
+    if let Some(joint) = chain.get(MOST_ELEMENTS) {
+        let message = format!("the chain has more than {MOST_ELEMENTS} joints, fixed ones included");
+        return Err(file.problem(joint.place.clone(), message, None).into());
+    }
+    let mut problems = Vec::new();
+    let mut arm = Arm::default();
+    for joint in chain {
+        let mut refuse = |message: String, hint: Option<&str>| {
+            problems.push(file.problem(joint.place.clone(), message, hint.map(str::to_owned)));
+        };
+        arm.motions.extend(displacement(joint));
+        let motion = match motion(joint) {
+            Ok(Some(motion)) => motion,
+            Ok(None) => continue,
+            Err((message, hint)) => {
+                refuse(message, Some(hint));
+                continue;
+            }
+        };
+        if arm.joints.len() >= MOST_JOINTS {
+            refuse(format!("more than {MOST_JOINTS} joints move"), None);
+            break;
+        }
+        if arm.joints.iter().any(|other| other.name == joint.name) {
+            refuse(format!("another joint is called `{}`", joint.name), None);
+        }
+        arm.add(joint, motion);
+    }
+    Problems::from(problems).into_result().map(|()| arm)
 }
 
 /// The link `base`, if it hangs rigidly on the root link and is not the root itself.
@@ -137,65 +142,110 @@ fn controller_frame(tree: &tree::Tree<'_>) -> Vec<NamedFrame> {
         .collect()
 }
 
-/// The motion of a moving joint, turned so that its axis is a coordinate axis, and what is known of it; nothing
-/// for a fixed one.
-#[allow(
-    clippy::type_complexity,
-    reason = "a motion with its joint, or a message with its hint"
-)]
-fn moved(
-    joint: &JointElement,
-    index: usize,
-) -> Result<Option<(Vec<Motion>, Joint)>, (String, Option<&'static str>)> {
+/// What a reader should know of the arm.
+fn remarks(tree: &tree::Tree<'_>, chain: &tree::Chain<'_>, arm: &Arm, frames: &[NamedFrame]) -> Vec<String> {
+    let mut remarks = vec![format!(
+        "the base is link `{}`, the flange link `{}`",
+        tree.root, chain.tip
+    )];
+    if !frames.is_empty() {
+        remarks.push("the frame `controller` is the link `base`, as ROS-Industrial has it".to_owned());
+    }
+    let named = [
+        (
+            "moving joints off the chain are left out",
+            chain.left_out.join(", "),
+        ),
+        (
+            "axes within 1e-6 of a coordinate axis are taken as that axis",
+            arm.aligned.join(", "),
+        ),
+        ("limits that are no range are left out", arm.unlimited.join(", ")),
+    ];
+    let named = named.into_iter().filter(|(_, joints)| !joints.is_empty());
+    remarks.extend(named.map(|(what, joints)| format!("{what}: {joints}")));
+    remarks
+}
+
+/// How a moving joint moves the links behind it.
+struct Moving {
+    /// A turn or slide by the amount.
+    motion: fn(Axis, Amount) -> Motion,
+    /// Unit vector.
+    axis: Vector3<f64>,
+}
+
+/// How this joint moves; nothing for a fixed one.
+///
+/// # Errors
+/// Message and hint for a joint that no serial arm has.
+fn motion(joint: &JointElement) -> Result<Option<Moving>, (String, &'static str)> {
     let name = &joint.name;
-    let slides = match &joint.kind {
+    let motion = match &joint.kind {
         Kind::Fixed => return Ok(None),
-        Kind::Turning => false,
-        Kind::Sliding => true,
+        Kind::Turning => Motion::About,
+        Kind::Sliding => Motion::Along,
         Kind::Other(kind) => {
             let message = format!(
                 "joint `{name}` is of type `{kind}`: a serial arm has revolute, continuous, prismatic and fixed joints"
             );
-            return Err((message, Some("--tip LINK ends the chain before it")));
+            return Err((message, "--tip LINK ends the chain before it"));
         }
     };
     if let Some(other) = &joint.mimics {
         let message =
             format!("joint `{name}` on the way to the tip mimics `{other}`: it has no position of its own");
-        return Err((message, Some("--tip LINK ends the chain at another link")));
+        return Err((message, "--tip LINK ends the chain at another link"));
     }
-    let Some(unit) = Vector3::from(joint.axis).try_normalize(1e-12) else {
-        let message = format!("joint `{name}` has an axis of length zero");
-        return Err((message, Some("an axis is a direction such as xyz=\"0 0 1\"")));
-    };
-    let motion = |axis| match slides {
-        true => Motion::Along(axis, Amount::Joint(index)),
-        false => Motion::About(axis, Amount::Joint(index)),
-    };
-    let along = |axis: Axis| unit.dot(&axis.unit());
-    let aligned = [Axis::X, Axis::Y, Axis::Z]
-        .into_iter()
-        .find(|a| 1.0 - along(*a).abs() < ALIGNED);
-    let (motions, sign) = match aligned {
-        Some(axis) if along(axis) < 0.0 => (vec![motion(axis)], Sign::Negative),
-        Some(axis) => (vec![motion(axis)], Sign::Positive),
+    match Vector3::from(joint.axis).try_normalize(1e-12) {
+        Some(axis) => Ok(Some(Moving { motion, axis })),
         None => {
-            let turn = UnitQuaternion::rotation_between(&Vector3::z(), &unit).unwrap_or_default();
-            let mut motions = rotation(turn);
-            motions.push(motion(Axis::Z));
-            motions.extend(rotation(turn.inverse()));
-            (motions, Sign::Positive)
+            let message = format!("joint `{name}` has an axis of length zero");
+            Err((message, "an axis is a direction such as xyz=\"0 0 1\""))
         }
-    };
-    Ok(Some((
-        motions,
-        Joint {
+    }
+}
+
+impl Arm {
+    /// Adds a joint that moves, turned so that its axis is a coordinate axis.
+    fn add(&mut self, joint: &JointElement, Moving { motion, axis }: Moving) {
+        let amount = Amount::Joint(self.joints.len());
+        let nearest = Axis::ALL[axis.iamax()];
+        let sign = if axis[nearest.index()] < 0.0 {
+            Sign::Negative
+        } else {
+            Sign::Positive
+        };
+        let off = axis - nearest.unit() * sign.factor();
+        let sign = if off.amax() < ALIGNED {
+            self.motions.push(motion(nearest, amount));
+            if joint.axis.iter().filter(|part| **part != 0.0).count() > 1 {
+                self.aligned.push(joint.name.clone());
+            }
+            sign
+        } else {
+            // Rz(yaw) Ry(pitch) takes z to the axis; by arc tangents, which lose no digits near z.
+            let yaw = (Axis::Z, axis.y.atan2(axis.x));
+            let pitch = (Axis::Y, axis.x.hypot(axis.y).atan2(axis.z));
+            let turn = |(about, angle)| Motion::About(about, Amount::Constant(angle));
+            let back = |(about, angle): (Axis, f64)| turn((about, -angle));
+            self.motions.extend([turn(yaw), turn(pitch)]);
+            self.motions.push(motion(Axis::Z, amount));
+            self.motions.extend([back(pitch), back(yaw)]);
+            Sign::Positive
+        };
+        let range = |[lower, upper]: &[f64; 2]| lower < upper && lower.is_finite() && upper.is_finite();
+        let limits = joint.limits.filter(range);
+        if joint.limits.is_some() && limits.is_none() {
+            self.unlimited.push(joint.name.clone());
+        }
+        self.joints.push(Joint {
             sign,
-            limits: joint.limits.map(|[lower, upper]| Limits { lower, upper }),
+            limits: limits.map(|[lower, upper]| Limits { lower, upper }),
             max_speed: joint.velocity,
-            ..Joint::plain(name)
-        },
-    )))
+            ..Joint::plain(&joint.name)
+        });
+    }
 }
 
 /// Where a joint stands in its parent link.
@@ -216,15 +266,6 @@ fn displacement(joint: &JointElement) -> Vec<Motion> {
     .into_iter()
     .filter(|motion| motion.amount() != Amount::Constant(0.0))
     .collect()
-}
-
-fn rotation(turn: UnitQuaternion<f64>) -> Vec<Motion> {
-    let (roll, pitch, yaw) = turn.euler_angles();
-    let about = |(axis, angle): (Axis, f64)| Motion::About(axis, Amount::Constant(angle));
-    [(Axis::Z, yaw), (Axis::Y, pitch), (Axis::X, roll)]
-        .into_iter()
-        .map(about)
-        .collect()
 }
 
 #[cfg(test)]
