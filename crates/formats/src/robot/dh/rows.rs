@@ -194,7 +194,13 @@ impl RowReader<'_> {
             (Some(_), Some((_, cell))) => {
                 return Err(self.refused(cell, "is an upper limit not above the lower one"));
             }
-            _ => None,
+            (Some((_, cell)), None) => {
+                return Err(self.refused(cell, "is a lower limit without an upper one"));
+            }
+            (None, Some((_, cell))) => {
+                return Err(self.refused(cell, "is an upper limit without a lower one"));
+            }
+            (None, None) => None,
         };
         let (a, alpha, d, theta) = (
             self.value("a"),

@@ -197,6 +197,20 @@ fn every_cell_that_is_wrong_is_told() {
 }
 
 #[test]
+fn a_limit_on_one_side_alone_is_told() {
+    let lower = refusal(&MH12.replace("-1; ;", "-1; -120;"));
+    assert!(
+        lower.contains("`-120` is a lower limit without an upper one"),
+        "{lower}"
+    );
+    let upper = refusal(&MH12.replace("-85; 150", "; 150"));
+    assert!(
+        upper.contains("`150` is an upper limit without a lower one"),
+        "{upper}"
+    );
+}
+
+#[test]
 fn a_table_of_more_rows_than_any_arm_has_is_refused() {
     let rows = |count: usize| {
         format!(
