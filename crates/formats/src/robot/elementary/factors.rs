@@ -169,7 +169,8 @@ fn argument(
             _ if terms == 0 => false,
             _ => break,
         };
-        cursor.while_of(|c| matches!(c, '-' | '−' | '+'));
+        // One sign: `q1--90` is a slip of the pen, and nobody can say which.
+        let _ = cursor.take('-') || cursor.take('−') || cursor.take('+');
         cursor.skip_blanks();
         let at = cursor.at();
         let factor = if negative { -1.0 } else { 1.0 };
