@@ -38,6 +38,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+pub(crate) use self::path::joined;
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
 
@@ -119,8 +120,8 @@ impl Document {
             .problem(self.span(path), message, hint.map(str::to_owned))
     }
 
-    /// Where the value that `path` names stands, in bytes of [`Source::text`]; of its nearest parent if there is none.
-    pub fn span(&self, path: &str) -> Range<usize> {
+    /// Where the value that `path` names stands, in bytes of the text; of its nearest parent if there is none.
+    fn span(&self, path: &str) -> Range<usize> {
         path::nearest_span(&self.root, path)
     }
 
@@ -129,9 +130,11 @@ impl Document {
         path::exists(&self.root, path)
     }
 
-    /// The text and the path it was read from.
-    pub fn source(&self) -> &Source {
-        &self.source
+    /// Every text in the document, with its path as [`Document::problem`] takes it.
+    pub(crate) fn texts(&self) -> Vec<(String, &str)> {
+        let mut found = Vec::new();
+        tree::texts(&self.root, "", &mut found);
+        found
     }
 }
 

@@ -4,6 +4,7 @@
 //!   each with its place, its limit and a hint.
 //! - [`robot`]: robot descriptions in: our robot file, URDF.
 //! - [`material`]: what materials take to cut: our material file.
+//! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`measurement`]: measured forces in.
@@ -16,5 +17,6 @@ pub mod file;
 pub mod material;
 pub mod measurement;
 pub mod robot;
+pub mod sources;
 pub mod table;
 pub mod toolpath;

@@ -11,7 +11,7 @@ use armill_core::nalgebra::{Vector2, Vector6};
 
 use self::file::{KienzleTable, MaterialFile, MechanisticTable};
 use crate::document::{Document, Problem, Problems};
-use crate::robot::Source;
+use crate::sources::{self, Source};
 
 /// N/mm2 in Pa.
 const PA_PER_N_PER_MM2: f64 = 1e6;
@@ -118,16 +118,7 @@ pub fn read(path: &str, text: &str) -> Result<Material, Problems> {
         note: file.note,
         mechanistic: file.mechanistic.into_iter().map(mechanistic_set).collect(),
         kienzle: file.kienzle.into_iter().map(kienzle_set).collect(),
-        sources: file
-            .sources
-            .into_iter()
-            .map(|(key, s)| Source {
-                key,
-                what: s.what,
-                place: s.place,
-                licence: s.licence,
-            })
-            .collect(),
+        sources: sources::listed(file.sources),
     })
 }
 
@@ -145,32 +136,7 @@ fn problems(document: &Document, file: &MaterialFile) -> Vec<Problem> {
             problems.push(document.problem(&path, "the set has no coefficient", Some(hint)));
         }
     }
-    let mechanistic = file.mechanistic.iter().map(|table| table.source.as_str());
-    let used: Vec<(String, &str)> = mechanistic
-        .enumerate()
-        .map(|(index, source)| (format!("mechanistic[{index}].source"), source))
-        .chain(
-            file.kienzle
-                .iter()
-                .enumerate()
-                .map(|(index, table)| (format!("kienzle[{index}].source"), table.source.as_str())),
-        )
-        .collect();
-    for (path, key) in &used {
-        if !file.sources.contains_key(*key) {
-            let known: Vec<&str> = file.sources.keys().map(String::as_str).collect();
-            let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
-            let message = format!("source `{key}` is not among the sources");
-            problems.push(document.problem(path, message, Some(&hint)));
-        }
-    }
-    for key in file.sources.keys() {
-        if used.iter().all(|(_, named)| named != key) {
-            let message = format!("source `{key}` is used by no number");
-            let hint = "name it where its numbers stand, or remove it";
-            problems.push(document.problem(&format!("sources.{key}"), message, Some(hint)));
-        }
-    }
+    problems.extend(sources::problems(document, &file.sources));
     problems
 }
 

@@ -1,7 +1,7 @@
 //! `armill robots`: one robot with everything that is known of it.
 
 use armill_core::robot::{Amount, Motion, reach};
-use armill_formats::robot::RobotDescription;
+use armill_formats::robot::{OtherLimits, RobotDescription};
 use armill_study::output::arm_drawing;
 use armill_study::{StudyError, robots};
 use serde_json::{Value, json};
@@ -107,7 +107,12 @@ fn as_text(found: &RobotDescription) -> String {
             "  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}",
             joint.name, joint.name
         ));
-        for ([lower, upper], source, note) in &found.joints[i].other_limits {
+        for limits in &found.joint_notes[i].other_limits {
+            let OtherLimits {
+                limits_deg: [lower, upper],
+                source,
+                note,
+            } = limits;
             let note = note.as_ref().map_or(String::new(), |note| format!(": {note}"));
             lines.push(format!("       limits by {source}: {lower} to {upper} deg{note}"));
         }
@@ -156,9 +161,9 @@ fn as_json(found: &RobotDescription) -> Value {
                 "sign": joint.sign.factor(),
                 "compliance_rad_per_n_m": robot.compliance().map(|c| c[i].value),
                 "compliance_u_rad_per_n_m": robot.compliance().map(|c| c[i].standard_uncertainty),
-                "source": found.joints[i].source,
-                "compliance_source": found.joints[i].compliance_source,
-                "compliance_u_source": found.joints[i].compliance_u_source,
+                "source": found.joint_notes[i].source,
+                "compliance_source": found.joint_notes[i].compliance_source,
+                "compliance_u_source": found.joint_notes[i].compliance_u_source,
             });
             value[format!("zero_offset_{unit}")] = json!(tidy(joint.zero_offset * scale));
             value[format!("limits_{unit}")] = json!(

@@ -45,8 +45,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     {
         let constant = match slides {
             true => argument.constant * 1e-3,
-            // A whole quarter turn exactly.
-            false => argument.constant / 90.0 * std::f64::consts::FRAC_PI_2,
+            false => argument.constant.to_radians(),
         };
         let amount = match argument.joint {
             None => Amount::Constant(constant),

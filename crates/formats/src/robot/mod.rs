@@ -11,7 +11,7 @@ pub mod elementary;
 pub mod format;
 pub mod opw;
 pub mod pendant;
-pub mod structure;
+pub mod spring_tables;
 pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;
@@ -23,4 +23,7 @@ mod xml;
 /// have about thirty. The schema of our own robot file says the same.
 const MOST_JOINTS: usize = 64;
 
-pub use description::{JointNote, RobotDescription, Source, Symbol};
+/// An angle in rad beyond two turns is one in degrees under the wrong name.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
+pub use description::{JointNote, OtherLimits, RobotDescription, Symbol};

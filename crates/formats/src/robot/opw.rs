@@ -21,14 +21,12 @@ use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot};
 
 use self::yaml::{Entry, Scalar};
+use super::TWO_TURNS;
 use super::description::RobotDescription;
 use crate::document::{Problem, Problems, Source};
 
 /// Longest link of an arm, m: a file in mm has one beyond.
 const LONGEST_LINK: f64 = 100.0;
-
-/// Offsets beyond two turns, rad, are degrees without `deg(...)`.
-const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
 const LENGTHS: [&str; 7] = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
 const OFFSETS: &str = "opw_kinematics_joint_offsets";
@@ -188,11 +186,7 @@ fn angle(text: &str) -> Result<f64, &'static str> {
             .strip_suffix(')')
     };
     let value = match (inside("deg"), inside("rad")) {
-        // A whole quarter turn exactly.
-        (Some(degrees), _) => degrees
-            .trim()
-            .parse::<f64>()
-            .map(|deg| deg / 90.0 * std::f64::consts::FRAC_PI_2),
+        (Some(degrees), _) => degrees.trim().parse::<f64>().map(f64::to_radians),
         (_, Some(radians)) => radians.trim().parse::<f64>(),
         _ => text.parse::<f64>(),
     };

@@ -47,7 +47,7 @@ pub fn read_to_tip(
         source.key = "xacro".to_owned();
         source.place.clone_from(&shown);
     }
-    for joint in &mut found.joints {
+    for joint in &mut found.joint_notes {
         joint.source = Some("xacro".to_owned());
     }
     found.note = Some("xacro: no compliance; the base is its root link".to_owned());

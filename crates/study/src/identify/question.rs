@@ -5,7 +5,7 @@ use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Axis, Robot, Seat};
-use armill_formats::robot::armill::Yields;
+use armill_formats::robot::spring_tables::Yields;
 
 use crate::StudyError;
 

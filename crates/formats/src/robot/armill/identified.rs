@@ -3,10 +3,14 @@
 //! Everything else stays as it is: order, remarks, spelling. Springs and covariance of the file go, since they belong
 //! to the compliances that are replaced; sources that no number names any more go with them.
 
+use std::collections::BTreeSet;
+
 use armill_core::robot::Axis;
-use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
 use crate::document::{Document, Problems};
+use crate::robot::spring_tables::Yields;
+use crate::sources;
 
 /// What was identified of an arm.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,30 +36,6 @@ pub struct IdentifiedSpring {
     pub compliance: f64,
     /// Standard uncertainty, same unit.
     pub standard_uncertainty: f64,
-}
-
-/// How a spring yields.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Yields {
-    /// The drive of a turning joint.
-    Drive,
-    /// The drive of a sliding joint.
-    SlidingDrive,
-    /// About this axis of the seat.
-    About(Axis),
-    /// Along this axis of the seat.
-    Along(Axis),
-}
-
-impl Yields {
-    /// What yields at the seat `at`, as covariances name it: `A2`, `A2 about x`.
-    pub fn name_at(self, at: &str) -> String {
-        match self {
-            Yields::Drive | Yields::SlidingDrive => at.to_owned(),
-            Yields::About(axis) => format!("{at} about {}", axis.letter()),
-            Yields::Along(axis) => format!("{at} along {}", axis.letter()),
-        }
-    }
 }
 
 impl IdentifiedSpring {
@@ -107,15 +87,20 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
         let turning = springs.iter().filter(|spring| spring.turns());
         document.insert("covariance", covariance_table(turning, covariance));
     }
-    let used = sources_of(document.as_item());
+    set_sources(&mut document, identified)?;
+    let text = document.to_string();
+    super::read(&format!("{path} (identified)"), "", &text)?;
+    Ok(text)
+}
+
+/// Adds the source of the identified numbers, and removes those that no number names any more.
+fn set_sources(document: &mut DocumentMut, identified: &Identified) -> Result<(), Problems> {
+    let now = Document::parse("", &document.to_string())?;
+    let named: BTreeSet<&str> = sources::named(&now).into_iter().map(|(_, key)| key).collect();
     if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut) {
-        let unused: Vec<String> = sources
-            .iter()
-            .map(|(key, _)| key.to_owned())
-            .filter(|key| !used.contains(key))
-            .collect();
-        for key in unused {
-            sources.remove(&key);
+        let keys: Vec<String> = sources.iter().map(|(key, _)| key.to_owned()).collect();
+        for key in keys.iter().filter(|key| !named.contains(key.as_str())) {
+            sources.remove(key);
         }
         let mut entry = Table::new();
         for (key, content) in [
@@ -127,9 +112,7 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
         }
         sources.insert(KEY, Item::Table(entry));
     }
-    let text = document.to_string();
-    super::read(&format!("{path} (identified)"), "", &text)?;
-    Ok(text)
+    Ok(())
 }
 
 fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
@@ -210,51 +193,6 @@ fn number(of: f64) -> Value {
     text.parse().unwrap_or_else(|_| Value::from(of))
 }
 
-/// Keys of sources that some number names.
-fn sources_of(item: &Item) -> Vec<String> {
-    let mut found = Vec::new();
-    collect(item, &mut found);
-    found
-}
-
-fn collect(item: &Item, found: &mut Vec<String>) {
-    match item {
-        Item::Value(Value::Array(list)) => {
-            let tables = list.iter().filter_map(Value::as_inline_table);
-            tables.for_each(|table| collect_inline(table, found));
-        }
-        Item::Value(Value::InlineTable(table)) => collect_inline(table, found),
-        Item::Table(table) => {
-            for (key, entry) in table {
-                name_of(key, entry.as_str(), found);
-                // The list of sources names itself only.
-                if key != "sources" {
-                    collect(entry, found);
-                }
-            }
-        }
-        Item::ArrayOfTables(tables) => {
-            for table in tables {
-                collect(&Item::Table(table.clone()), found);
-            }
-        }
-        _ => {}
-    }
-}
-
-fn collect_inline(table: &InlineTable, found: &mut Vec<String>) {
-    for (key, entry) in table {
-        name_of(key, entry.as_str(), found);
-        collect(&Item::Value(entry.clone()), found);
-    }
-}
-
-fn name_of(key: &str, entry: Option<&str>, found: &mut Vec<String>) {
-    if key == "source" || key.ends_with("_source") {
-        found.extend(entry.map(str::to_owned));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -305,7 +243,10 @@ mod tests {
             (compliance[1].standard_uncertainty - 3e-9).abs() < 1e-18,
             "{text}"
         );
-        assert_eq!(read.joints[0].compliance_source.as_deref(), Some("identified"));
+        assert_eq!(
+            read.joint_notes[0].compliance_source.as_deref(),
+            Some("identified")
+        );
     }
 
     #[test]

@@ -9,7 +9,6 @@ use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
 
 use super::super::description::RobotDescription;
-use super::checks::exact_radians;
 
 /// How far (m, rad) a number of the chain may be from its decimal.
 const CHAIN: f64 = 1e-15;
@@ -206,7 +205,7 @@ fn millimetres(m: f64, within: f64) -> String {
 }
 
 fn degrees(rad: f64, within: f64) -> String {
-    shortest(rad, rad.to_degrees(), within, exact_radians)
+    shortest(rad, rad.to_degrees(), within, f64::to_radians)
 }
 
 /// The shortest decimal of `shown` that `to_si` takes back to `si`.

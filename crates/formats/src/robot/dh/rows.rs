@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use armill_core::robot::chain::LONGEST;
 
-use super::super::MOST_JOINTS;
+use super::super::{MOST_JOINTS, TWO_TURNS};
 use super::table::{Cell, Table};
 use crate::document::{Problems, Source};
 
@@ -62,9 +62,6 @@ const UNITS: [(&str, Kind); 4] = [
 
 /// Rows of a table, fixed ones included.
 const MOST_ROWS: usize = MOST_JOINTS;
-
-/// Angles beyond two turns, rad, are degrees under the wrong name.
-const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
 /// What an unknown column might have been.
 const COLUMNS: &str = "columns: a_mm, alpha_deg, d_mm, theta_deg (or _m, _rad); optional: joint, type, sign, lower_deg, upper_deg";
@@ -270,8 +267,7 @@ impl RowReader<'_> {
         let name = name.text.to_lowercase();
         let si = match UNITS.iter().find(|(unit, _)| name.ends_with(unit)) {
             Some(("_mm", _)) => value * 1e-3,
-            // A whole quarter turn exactly.
-            Some(("_deg", _)) => value / 90.0 * std::f64::consts::FRAC_PI_2,
+            Some(("_deg", _)) => value.to_radians(),
             _ => value,
         };
         let angle = name.ends_with("deg") || name.ends_with("rad");

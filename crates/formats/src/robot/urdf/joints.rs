@@ -19,11 +19,9 @@ use armill_core::nalgebra::{Quaternion, UnitQuaternion};
 use armill_core::robot::chain::LONGEST;
 use roxmltree::Node;
 
+use super::super::TWO_TURNS;
 use super::super::xml::{children, numbers, required, tag, value_place};
 use crate::document::{Problems, Source};
-
-/// Angles beyond two turns, rad, are degrees.
-const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
 /// An axis is a direction; squares of far larger components are none.
 const LARGEST_AXIS: f64 = 1e6;
