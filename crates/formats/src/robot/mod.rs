@@ -6,8 +6,8 @@
 //! of them a file is.
 
 pub mod armill;
+pub mod chain;
 pub mod dh;
-pub mod elementary;
 pub mod format;
 pub mod opw;
 pub mod pendant;

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use armill_core::robot::chain::LONGEST;
+use armill_core::robot::joint::Sign;
 
 use super::super::{MOST_JOINTS, TWO_TURNS};
 use super::table::{Cell, Table};
@@ -28,8 +29,8 @@ pub(super) struct Row {
     pub alpha: f64,
     pub d: f64,
     pub theta: f64,
-    /// The controller counts against the right hand.
-    pub against: bool,
+    /// Counting direction of the controller.
+    pub sign: Sign,
     pub limits: Option<[f64; 2]>,
 }
 
@@ -171,13 +172,13 @@ impl RowReader<'_> {
                 _ => return Err(self.refused(cell, "is not revolute, prismatic or fixed")),
             },
         };
-        let against = match self.cell("sign") {
+        let sign = match self.cell("sign") {
             Some((_, cell)) if moves != Moves::Not => match cell.text.as_str() {
-                "1" | "+1" => false,
-                "-1" => true,
+                "1" | "+1" => Sign::Positive,
+                "-1" => Sign::Negative,
                 _ => return Err(self.refused(cell, "is not 1 or -1")),
             },
-            _ => false,
+            _ => Sign::Positive,
         };
         let joint = match self.cell("joint") {
             Some((_, cell)) if moves != Moves::Not && cell.text.is_empty() => {
@@ -213,7 +214,7 @@ impl RowReader<'_> {
                 alpha,
                 d,
                 theta,
-                against,
+                sign,
                 limits,
             }),
             (a, alpha, d, theta) => {

@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Matrix4;
 use armill_core::robot::inverse::posture_at;
+use armill_core::robot::joint::Sign;
 
 use super::*;
 

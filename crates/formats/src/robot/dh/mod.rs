@@ -23,7 +23,6 @@
 mod rows;
 mod table;
 
-use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
 
 use self::rows::{Moves, Row};
@@ -97,11 +96,7 @@ fn joint_of(row: &Row) -> Option<Joint> {
         Moves::Not => return None,
     };
     Some(Joint {
-        sign: if row.against {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        },
+        sign: row.sign,
         zero_offset,
         limits: row.limits.map(|[lower, upper]| Limits { lower, upper }),
         ..Joint::plain(&row.joint)

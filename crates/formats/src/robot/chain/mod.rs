@@ -17,8 +17,7 @@
 mod cursor;
 mod factors;
 
-use armill_core::robot::joint::Sign;
-use armill_core::robot::{Amount, Joint, Motion, Robot};
+use armill_core::robot::{Amount, Joint, Robot};
 
 use self::factors::Factor;
 use super::MOST_JOINTS;
@@ -37,16 +36,12 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let mut symbols = Vec::new();
     let mut problems = Vec::new();
     for Factor {
-        slides,
-        axis,
+        kind,
         argument,
         place,
     } in factors
     {
-        let constant = match slides {
-            true => argument.constant * 1e-3,
-            false => argument.constant.to_radians(),
-        };
+        let constant = kind.si(argument.constant);
         let amount = match argument.joint {
             None => Amount::Constant(constant),
             Some(_) if joints.len() >= MOST_JOINTS => {
@@ -54,7 +49,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
                 problems.push(file.problem(place, message, None));
                 break;
             }
-            Some((name, against)) => {
+            Some((name, sign)) => {
                 if joints.iter().any(|joint| joint.name == name) {
                     let message = format!("joint `{name}` moves a second time");
                     let hint = "a joint moves one factor of the chain".to_owned();
@@ -62,7 +57,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
                     continue;
                 }
                 joints.push(Joint {
-                    sign: if against { Sign::Negative } else { Sign::Positive },
+                    sign,
                     zero_offset: constant,
                     ..Joint::plain(name)
                 });
@@ -70,10 +65,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
             }
         };
         symbols.push(argument.symbol);
-        motions.push(match slides {
-            true => Motion::Along(axis, amount),
-            false => Motion::About(axis, amount),
-        });
+        motions.push(kind.by(amount));
     }
     Problems::from(problems).into_result()?;
     let robot = Robot::new(id, motions, joints).map_err(|error| {

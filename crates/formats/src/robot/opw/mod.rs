@@ -17,6 +17,8 @@
 
 mod yaml;
 
+use std::ops::Range;
+
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot};
 
@@ -38,41 +40,25 @@ const SIGNS: &str = "opw_kinematics_joint_sign_corrections";
 /// A YAML file of another kind, keys that are missing or double, what is no number, length, angle or sign.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
-    let entries = yaml::entries(file.text());
-    if !entries
-        .iter()
-        .any(|entry| entry.key.starts_with("opw_kinematics"))
-    {
-        let hint = if entries.iter().any(|entry| entry.key.ends_with("joint_names")) {
-            "it lists joint names: no chain can be made of them"
-        } else {
-            "an OPW file has the keys opw_kinematics_geometric_parameters, opw_kinematics_joint_offsets and opw_kinematics_joint_sign_corrections"
-        };
-        let message = "no OPW parameters: no key begins with `opw_kinematics`";
-        return Err(file.problem(0..0, message, Some(hint.to_owned())).into());
-    }
-    let mut problems = Vec::new();
-    let mut keep = |result: Result<Vec<f64>, Vec<Problem>>| {
-        result.unwrap_or_else(|mut found| {
-            problems.append(&mut found);
-            Vec::new()
-        })
-    };
-    let lengths: Vec<f64> = LENGTHS
-        .into_iter()
-        .flat_map(|key| keep(list(&file, &entries, key, 1, length)))
-        .collect();
-    let offsets = keep(list(&file, &entries, OFFSETS, 6, angle));
-    let signs = keep(list(&file, &entries, SIGNS, 6, sign));
-    Problems::from(problems).into_result()?;
-
-    let (&[a1, a2, b, c1, c2, c3, c4], true) = (
-        <&[f64; 7]>::try_from(lengths.as_slice()).unwrap_or(&[0.0; 7]),
-        lengths.len() == 7,
-    ) else {
-        return Err(file
-            .problem(0..0, "the seven lengths are not complete", None)
-            .into());
+    let mut keys = Keys::of(&file)?;
+    let lengths = LENGTHS.map(|key| keys.values(key, length).map(|[length]| length));
+    let offsets: Option<[f64; 6]> = keys.values(OFFSETS, angle);
+    let signs: Option<[Sign; 6]> = keys.values(SIGNS, sign);
+    let (
+        [
+            Some(a1),
+            Some(a2),
+            Some(b),
+            Some(c1),
+            Some(c2),
+            Some(c3),
+            Some(c4),
+        ],
+        Some(offsets),
+        Some(signs),
+    ) = (lengths, offsets, signs)
+    else {
+        return Err(keys.problems.into());
     };
     let along = |axis, metres| Motion::Along(axis, Amount::Constant(metres));
     let about = |axis, joint| Motion::About(axis, Amount::Joint(joint));
@@ -93,19 +79,12 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     ]
     .into_iter()
     .unzip();
-    let joints = offsets
-        .iter()
-        .zip(&signs)
-        .enumerate()
-        .map(|(index, (offset, sign))| Joint {
-            sign: if *sign < 0.0 {
-                Sign::Negative
-            } else {
-                Sign::Positive
-            },
-            zero_offset: -offset,
-            ..Joint::plain(format!("joint_{}", index + 1))
-        });
+    let joints = offsets.into_iter().zip(signs).enumerate();
+    let joints = joints.map(|(index, (offset, sign))| Joint {
+        sign,
+        zero_offset: -offset,
+        ..Joint::plain(format!("joint_{}", index + 1))
+    });
     let robot = Robot::new(id, motions, joints.collect())
         .map_err(|error| Problems::from(file.problem(0..0, error.to_string(), None)))?;
     let mut found = RobotDescription::of_one_source(robot, "opw", path, "lengths, joint offsets and signs");
@@ -120,54 +99,72 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     Ok(found)
 }
 
-/// The values of a key, each judged by `of`.
-fn list(
-    file: &Source,
-    entries: &[Entry<'_>],
-    key: &str,
-    count: usize,
-    of: fn(&str) -> Result<f64, &'static str>,
-) -> Result<Vec<f64>, Vec<Problem>> {
-    let mut named = entries.iter().filter(|entry| entry.key == key);
-    let Some(entry) = named.next() else {
-        let hint = match count {
-            1 => format!("add `{key}: 0.0` below opw_kinematics_geometric_parameters, in m"),
-            _ => format!("add `{key}: [...]` with six values"),
-        };
-        return Err(vec![file.problem(
-            0..0,
-            format!("`{key}` is missing"),
-            Some(hint),
-        )]);
-    };
-    if let Some(second) = named.next() {
-        let message = format!("`{key}` stands twice");
-        let hint = "one arm a file".to_owned();
-        return Err(vec![file.problem(second.place.clone(), message, Some(hint))]);
-    }
-    if entry.values.len() != count {
-        let message = format!(
-            "`{key}` has {} values where {count} are wanted",
-            entry.values.len()
-        );
-        return Err(vec![file.problem(entry.place.clone(), message, None)]);
-    }
-    let judged = |Scalar { text, place }: &Scalar<'_>| {
-        of(text).map_err(|what| {
-            let message = format!("`{text}` of `{key}` is not {what}");
-            Box::new(file.problem(place.clone(), message, None))
-        })
-    };
-    let (mut values, mut problems) = (Vec::new(), Vec::new());
-    for scalar in &entry.values {
-        match judged(scalar) {
-            Ok(value) => values.push(value),
-            Err(problem) => problems.push(*problem),
+/// The keys of a file, and what was wrong with those that were asked for.
+struct Keys<'a> {
+    file: &'a Source,
+    entries: Vec<Entry<'a>>,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Keys<'a> {
+    /// # Errors
+    /// A YAML file of another kind.
+    fn of(file: &'a Source) -> Result<Keys<'a>, Problems> {
+        let entries = yaml::entries(file.text());
+        let has = |wanted: fn(&str) -> bool| entries.iter().any(|entry| wanted(entry.key));
+        if has(|key| key.starts_with("opw_kinematics")) {
+            return Ok(Keys {
+                file,
+                entries,
+                problems: Vec::new(),
+            });
         }
+        let hint = if has(|key| key.ends_with("joint_names")) {
+            "it lists joint names: no chain can be made of them"
+        } else {
+            "an OPW file has the keys opw_kinematics_geometric_parameters, opw_kinematics_joint_offsets and opw_kinematics_joint_sign_corrections"
+        };
+        let message = "no OPW parameters: no key begins with `opw_kinematics`";
+        Err(file.problem(0..0, message, Some(hint.to_owned())).into())
     }
-    match problems.is_empty() {
-        true => Ok(values),
-        false => Err(problems),
+
+    /// The values of a key, each judged by `of`; where there are not `N`, or one is refused, a problem is kept.
+    fn values<T, const N: usize>(
+        &mut self,
+        key: &str,
+        of: fn(&str) -> Result<T, &'static str>,
+    ) -> Option<[T; N]> {
+        let mut refuse = |place: Range<usize>, message: String, hint: Option<String>| {
+            self.problems.push(self.file.problem(place, message, hint));
+        };
+        let mut named = self.entries.iter().filter(|entry| entry.key == key);
+        let Some(entry) = named.next() else {
+            let hint = match N {
+                1 => format!("add `{key}: 0.0` below opw_kinematics_geometric_parameters, in m"),
+                _ => format!("add `{key}: [...]` with six values"),
+            };
+            refuse(0..0, format!("`{key}` is missing"), Some(hint));
+            return None;
+        };
+        if let Some(second) = named.next() {
+            let hint = "one arm a file".to_owned();
+            refuse(second.place.clone(), format!("`{key}` stands twice"), Some(hint));
+            return None;
+        }
+        if entry.values.len() != N {
+            let count = entry.values.len();
+            let message = format!("`{key}` has {count} values where {N} are wanted");
+            refuse(entry.place.clone(), message, None);
+            return None;
+        }
+        let mut values = Vec::new();
+        for Scalar { text, place } in &entry.values {
+            match of(text) {
+                Ok(value) => values.push(value),
+                Err(what) => refuse(place.clone(), format!("`{text}` of `{key}` is not {what}"), None),
+            }
+        }
+        values.try_into().ok()
     }
 }
 
@@ -194,9 +191,12 @@ fn angle(text: &str) -> Result<f64, &'static str> {
     value.ok_or("an angle within two turns, such as -1.5708 (rad) or deg(-90.0)")
 }
 
-fn sign(text: &str) -> Result<f64, &'static str> {
-    let value = text.parse::<f64>().ok();
-    value.filter(|value| value.abs() == 1.0).ok_or("1 or -1")
+fn sign(text: &str) -> Result<Sign, &'static str> {
+    match text.parse::<f64>() {
+        Ok(1.0) => Ok(Sign::Positive),
+        Ok(-1.0) => Ok(Sign::Negative),
+        _ => Err("1 or -1"),
+    }
 }
 
 #[cfg(test)]
