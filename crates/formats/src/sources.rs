@@ -114,7 +114,7 @@ mod tests {
         assert_eq!(
             told("source = \"a\"\nlist = [{ u_source = \"b\" }]", &["a", "\"c d\""]),
             [
-                "a.toml:2:21: source `b` is not among the sources",
+                "a.toml:2:22: source `b` is not among the sources",
                 "a.toml:7:1: source `c d` is used by no number",
             ]
         );

@@ -4,6 +4,11 @@
 //! schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its plane) the
 //! caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
 //!
+//! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place), `path`
+//! (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants), `check`
+//! (compares tree and shape), `unit` and `words` (units of names, and how both are said); `lines` (text that is no TOML,
+//! line by line).
+//!
 //! ```
 //! use armill_formats::document::Document;
 //!

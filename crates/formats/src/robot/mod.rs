@@ -1,9 +1,19 @@
-//! Robot descriptions in: our own robot file, URDF, xacro, OPW parameters, Denavit-Hartenberg tables, chains of
-//! elementary motions; poses as pendants show them.
+//! Which robot does a file describe, and how does a pendant write a pose?
 //!
-//! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
-//! [`RobotDescription`]: the robot of the core, with the source of its numbers. [`format`](mod@format) tells which
-//! of them a file is.
+//! | format | module |
+//! |---|---|
+//! | our own robot file, which alone knows compliances; written as well | [`armill`] |
+//! | URDF, and xacro, which becomes URDF | [`urdf`], `xacro` |
+//! | OPW parameters | [`opw`] |
+//! | Denavit-Hartenberg table | [`dh`] |
+//! | chain of elementary motions | [`chain`] |
+//!
+//! Each gives a [`RobotDescription`]: the robot of the core, with the source of its numbers and what was assumed. Each
+//! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
+//! [`format`](mod@format) tells which of them a file is, and reads it.
+//!
+//! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: poses as six makers write
+//! them. `xml` is the ground of URDF and xacro.
 
 pub mod armill;
 pub mod chain;

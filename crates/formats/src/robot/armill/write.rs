@@ -3,8 +3,6 @@
 //! Numbers are the shortest decimals that come back as the same motion: lengths and angles of the chain within
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 
-use std::fmt::Write;
-
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
 
@@ -225,20 +223,7 @@ fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
 
 /// A TOML string.
 fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => quoted.push_str("\\\""),
-            '\\' => quoted.push_str("\\\\"),
-            '\n' => quoted.push_str("\\n"),
-            '\t' => quoted.push_str("\\t"),
-            // Writing to a text cannot fail.
-            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    toml_edit::Value::from(text).to_string()
 }
 
 /// A text that fits into a comment.

@@ -12,6 +12,8 @@
 //! Factors are separated by blanks, `*` or line ends; `#` starts a comment. Inside a translation only `q1`, `q2`, ...
 //! are joints: any other name is a length that needs a value, so that a forgotten one does not become a slide.
 //!
+//! In reading order: `cursor` (walks over a text), `factors` (the words), and here the chain that they make.
+//!
 //! Source: the form-shaping function of Shneor & Chapsky 2021, eq. 6; `docs/theory/chain.md`.
 
 mod cursor;

@@ -18,6 +18,8 @@
 //! Columns: `a_mm` or `a_m`, `alpha_deg` or `alpha_rad`, `d_mm` or `d_m`, `theta_deg` or `theta_rad`; optional `joint`
 //! (name), `type` (revolute, prismatic, fixed), `sign` (1 or -1), `lower_deg`, `upper_deg` (or `_rad`, `_mm`, `_m`).
 //!
+//! In reading order: `table` (lines, header, cells), `rows` (columns, units, SI), and here the chain of motions.
+//!
 //! Source: Denavit & Hartenberg 1955; Craig, Introduction to Robotics, section 3.4.
 
 mod rows;

@@ -13,6 +13,8 @@
 //! At chain zero the arm stands upright; the flange has z out of it and at chain zero the axes of the base. The
 //! file names no joints, limits or speeds.
 //!
+//! `yaml` finds keys and values, each with its place; here they become an arm.
+//!
 //! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
 
 mod yaml;

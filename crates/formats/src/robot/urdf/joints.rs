@@ -82,6 +82,7 @@ pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement
     Problems::from(problems).into_result().map(|()| joints)
 }
 
+/// One `<joint>` element.
 fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     let name = required(file, node, "name")?.to_owned();
     let kind = match required(file, node, "type")? {
@@ -138,6 +139,7 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     })
 }
 
+/// The direction of an axis, of any length up to [`LARGEST_AXIS`].
 fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
     let xyz = numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?;
     match xyz.iter().find(|part| part.abs() > LARGEST_AXIS) {
@@ -164,6 +166,7 @@ fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result
     }
 }
 
+/// Position (m) and turns about the fixed axes x, y, z (rad).
 fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
     let xyz = numbers(file, origin, "xyz", [0.0; 3])?;
     if let Some(far) = xyz.iter().find(|value| value.abs() > LONGEST) {
@@ -184,7 +187,7 @@ fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3])
     if origin.attribute("quat_xyzw").is_none() {
         return Ok((xyz, rpy));
     }
-    // URDF 1.1.
+    // Since URDF 1.1 a quaternion may stand there, and goes before `rpy`.
     let [x, y, z, w] = numbers(file, origin, "quat_xyzw", [0.0, 0.0, 0.0, 1.0])?;
     let Some(turn) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9) else {
         let message = "a quaternion of length zero is no orientation";

@@ -6,6 +6,9 @@
 //! of negative sign. URDF knows no compliance; `effort="0"` and `velocity="0"` mean not given. A link `base` that
 //! hangs rigidly on the root is where the controller counts from (ROS-Industrial): it becomes the frame
 //! `controller`.
+//!
+//! In reading order: `joints` (the elements as they stand), `tree` (links, joints and the chain to a tip), and here the
+//! motions of that chain.
 
 mod joints;
 mod tree;

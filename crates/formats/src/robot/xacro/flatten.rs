@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::Node;
 
 use super::super::xml;
-use super::packages;
+use super::{DIRECTIVES, packages};
 use crate::document::{Problem, Problems, Source};
 
 /// Files within files deeper than this are a circle.
@@ -136,17 +136,7 @@ impl Writer<'_> {
                 self.element(file, node, true);
             }
             _ => {
-                const DIRECTIVES: [&str; 8] = [
-                    "property",
-                    "arg",
-                    "if",
-                    "unless",
-                    "insert_block",
-                    "element",
-                    "attribute",
-                    "call",
-                ];
-                self.makes_something |= !in_macro && (!DIRECTIVES.contains(&name) || name == "call");
+                self.makes_something |= !in_macro && !DIRECTIVES.contains(&name);
                 self.element(file, node, in_macro);
             }
         }
