@@ -15,6 +15,7 @@ pub(super) struct Node {
     pub(super) value: Value,
 }
 
+/// A value of TOML.
 #[derive(Debug, Clone)]
 pub(super) enum Value {
     Text(String),
@@ -23,11 +24,13 @@ pub(super) enum Value {
     /// Any other number; one that cannot be held is infinite.
     Real(f64),
     Flag(bool),
+    /// A date or time, as it is written.
     Date(String),
     List(Vec<Node>),
     Table(Table),
 }
 
+/// Fields by their keys, in the order of the alphabet.
 pub(super) type Table = BTreeMap<String, Entry>;
 
 /// A field of a table: where its key stands, and its value.

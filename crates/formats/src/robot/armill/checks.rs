@@ -1,4 +1,8 @@
 //! What no schema can say of a robot file, and its numbers in SI.
+//!
+//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as if
+//! it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every source
+//! is named and known is checked for all parts at once, by [`sources`](crate::sources).
 
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, Motion, TorqueCurve};
@@ -6,18 +10,20 @@ use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, 
 use super::file::{JointEntry, MotionEntry, RobotFile};
 use crate::document::{Document, Problem};
 
-/// What no schema can say, collected.
+/// The file, and what was wrong with it so far.
 pub(super) struct Checks<'a> {
     pub document: &'a Document,
     pub problems: Vec<Problem>,
 }
 
 impl Checks<'_> {
+    /// Keeps a problem at the value that `path` names.
     pub(super) fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
         self.problems
             .push(self.document.problem(path, message, Some(hint)));
     }
 
+    /// The chain, base to flange; every joint moves once, in the order of the tables.
     pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
         let mut motions = Vec::new();
         let mut used = 0;
@@ -36,6 +42,7 @@ impl Checks<'_> {
         motions
     }
 
+    /// One motion of the chain; `used` joints have moved before it.
     fn motion(
         &mut self,
         path: &str,
@@ -74,6 +81,7 @@ impl Checks<'_> {
         })
     }
 
+    /// The index of the joint called `name`, which must be the next that has not moved.
     fn next_joint(&mut self, path: &str, name: &str, file: &RobotFile, used: &mut usize) -> Option<usize> {
         let expected = file.joint.get(*used).map(|joint| joint.name.as_str());
         if expected == Some(name) {
@@ -92,6 +100,7 @@ impl Checks<'_> {
         None
     }
 
+    /// The joints as their controller counts them.
     pub(super) fn joints(&mut self, file: &RobotFile) -> Vec<Joint> {
         if file.joint.is_empty() {
             self.problem(
@@ -196,6 +205,7 @@ impl Checks<'_> {
         }
     }
 
+    /// What `earlier` joints add to the count of this one.
     fn coupling(&mut self, path: &str, entry: &JointEntry, earlier: &[JointEntry]) -> Vec<Coupling> {
         let mut coupling = Vec::new();
         for (index, c) in entry.coupling.iter().enumerate() {
@@ -214,6 +224,7 @@ impl Checks<'_> {
         coupling
     }
 
+    /// Limits in rad or m.
     fn limits(&mut self, path: &str, entry: &JointEntry) -> Option<Limits> {
         let (limits, key, unit) = match (entry.limits_deg, entry.limits_mm) {
             (Some(deg), _) => (deg, "limits_deg", "deg"),
@@ -242,6 +253,7 @@ impl Checks<'_> {
         })
     }
 
+    /// The compliance of every joint's drive, or `None` where the file tells none at all.
     pub(super) fn compliance(&mut self, file: &RobotFile) -> Option<Vec<JointCompliance>> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
@@ -277,6 +289,7 @@ impl Checks<'_> {
         (known.len() == file.joint.len()).then_some(known)
     }
 
+    /// The branch that stands for the robot where none is asked for.
     pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {
         let named = file.nominal_branch.as_deref().map(str::parse::<BranchPattern>);
         match named {

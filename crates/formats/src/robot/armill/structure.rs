@@ -1,4 +1,8 @@
 //! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
+//!
+//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the order
+//! of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all others stay
+//! independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};
@@ -41,10 +45,12 @@ impl Checks<'_> {
         structure
     }
 
+    /// Keeps what is wrong with a spring or mass that stands at `table`.
     fn fault(&mut self, table: &str, fault: &Fault) {
         self.problem(&fault.path_in(table), &fault.message, &fault.hint);
     }
 
+    /// Angle over torque (rad, N m) of a joint, if the file tells it.
     fn curve(&mut self, file: &RobotFile, joint: usize) -> Option<JointCurve> {
         let entry = &file.joint[joint];
         let falling = "torque_curve_falling_n_m_rad";
@@ -71,6 +77,7 @@ impl Checks<'_> {
         })
     }
 
+    /// The spring against gravity, in m, rad and N/m.
     fn compensator(&mut self, file: &RobotFile, joints: &[&str]) -> Option<Compensator> {
         let table = file.compensator.as_ref()?;
         let Some(joint) = joints.iter().position(|name| *name == table.joint) else {
@@ -165,6 +172,7 @@ impl Checks<'_> {
     }
 }
 
+/// Whether the chain has a joint of this name that slides.
 fn slides(file: &RobotFile, joint: &str) -> bool {
     let own = |motion: &&super::file::MotionEntry| motion.joint.as_deref() == Some(joint);
     let motion = file.chain.motions.iter().find(own);

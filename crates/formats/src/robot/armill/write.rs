@@ -46,6 +46,7 @@ fn line(text: &mut String, content: &str) {
     text.push('\n');
 }
 
+/// Comments on what was assumed and what is missing, and the fields of the file as a whole.
 fn head(text: &mut String, found: &RobotDescription) {
     let robot = &found.robot;
     let place = found.sources.first().map_or("", |source| source.place.as_str());
@@ -99,6 +100,7 @@ fn head(text: &mut String, found: &RobotDescription) {
     line(text, &format!("note = {}", quoted(&note)));
 }
 
+/// The table `[chain]`, a motion a line.
 fn chain(text: &mut String, found: &RobotDescription) {
     line(text, "\n[chain]");
     line(text, &format!("source = {}", quoted(source(found))));
@@ -131,6 +133,7 @@ fn chain(text: &mut String, found: &RobotDescription) {
     line(text, "]");
 }
 
+/// A table `[[joint]]`; what is not known stands in comments, ready to be filled in.
 fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     let Some(joint) = found.robot.joints().get(index) else {
         return;
@@ -183,6 +186,7 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     line(text, "# compliance_source = \"...\"");
 }
 
+/// The key of the one source.
 fn source(found: &RobotDescription) -> &str {
     found.sources.first().map_or("", |source| source.key.as_str())
 }
@@ -198,10 +202,12 @@ fn pose(base_from_frame: &Isometry) -> (String, String) {
     )
 }
 
+/// A length in m as mm.
 fn millimetres(m: f64, within: f64) -> String {
     shortest(m, m * 1e3, within, |mm| mm * 1e-3)
 }
 
+/// An angle in rad as deg.
 fn degrees(rad: f64, within: f64) -> String {
     shortest(rad, rad.to_degrees(), within, f64::to_radians)
 }

@@ -67,9 +67,11 @@ pub(super) struct Argument {
 /// More problems than this are not told: what is no chain at all has one in every word.
 const MOST_PROBLEMS: usize = 20;
 
+/// How a chain is written.
 const SHAPE: &str =
     "a factor is Tx(155), Ry(q2), or A1(155), A5(q2) as in the paper; a symbol is `H = 450` on its own line";
 
+/// Values of symbols, mm or deg.
 type Symbols<'a> = BTreeMap<&'a str, f64>;
 
 /// Every factor, in order.
@@ -128,6 +130,7 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
     Problems::from(problems).into_result().map(|()| factors)
 }
 
+/// Name and value of a line such as `H = 450`.
 fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     let name = name.trim();
     let mut cursor = Cursor::over(name, 0..name.len());
@@ -140,6 +143,7 @@ fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     whole.then_some((name, value))
 }
 
+/// The factor that begins where the cursor stands, which then stands behind it.
 fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Result<Factor, Problems> {
     let start = cursor.at();
     let word = cursor.while_of(|c| !c.is_whitespace() && c != '(' && c != ')');

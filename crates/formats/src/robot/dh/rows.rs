@@ -23,6 +23,7 @@ pub(super) enum Moves {
 /// One row; m and rad.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
+    /// Name of the joint.
     pub joint: String,
     pub moves: Moves,
     pub a: f64,
@@ -31,12 +32,16 @@ pub(super) struct Row {
     pub theta: f64,
     /// Counting direction of the controller.
     pub sign: Sign,
+    /// Lower and upper, in the controller's counting.
     pub limits: Option<[f64; 2]>,
 }
 
+/// What a column measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
+    /// mm or m.
     Length,
+    /// deg or rad.
     Angle,
     /// That of the joint.
     OfJoint,
@@ -51,6 +56,7 @@ const QUANTITIES: [(&str, Kind); 6] = [
     ("lower", Kind::OfJoint),
     ("upper", Kind::OfJoint),
 ];
+/// Columns that hold words.
 const WORDS: [&str; 3] = ["joint", "type", "sign"];
 
 /// A unit by its ending, with the kind that it measures.
@@ -126,6 +132,7 @@ fn quantity(name: &str) -> &str {
         .unwrap_or(name)
 }
 
+/// What is wrong with the name of a column, and a hint.
 fn column_problem(name: &str) -> Option<(String, String)> {
     if WORDS.contains(&name) {
         return None;
@@ -152,6 +159,7 @@ fn column_problem(name: &str) -> Option<(String, String)> {
     })
 }
 
+/// Reads one row of a table.
 struct RowReader<'a> {
     file: &'a Source,
     table: &'a Table,
@@ -159,6 +167,10 @@ struct RowReader<'a> {
 }
 
 impl RowReader<'_> {
+    /// The row, which is the one with this index from 0: a joint without name is called by it.
+    ///
+    /// # Errors
+    /// The first word or limit that is wrong, else all numbers that are.
     fn row(&self, index: usize) -> Result<Row, Problems> {
         let moves = match self
             .cell("type")
@@ -232,6 +244,7 @@ impl RowReader<'_> {
             .find(|(name, _)| quantity(&name.text.to_lowercase()) == of)
     }
 
+    /// The number below the column of a quantity, in SI; zero where there is no such column.
     fn value(&self, of: &str) -> Result<f64, Problems> {
         match self.cell(of) {
             Some((name, cell)) => self.si(name, cell),
@@ -257,6 +270,7 @@ impl RowReader<'_> {
         }
     }
 
+    /// The number in a cell, m or rad by the unit in the column's name.
     fn si(&self, name: &Cell, cell: &Cell) -> Result<f64, Problems> {
         let text = match self.table.decimal_comma {
             true => cell.text.replace(',', "."),
@@ -279,6 +293,7 @@ impl RowReader<'_> {
         }
     }
 
+    /// The problem that a cell `what`.
     fn refused(&self, cell: &Cell, what: &str) -> Problems {
         self.file
             .problem(cell.place.clone(), format!("`{}` {what}", cell.text), None)

@@ -109,6 +109,8 @@ struct Keys<'a> {
 }
 
 impl<'a> Keys<'a> {
+    /// All keys of the file.
+    ///
     /// # Errors
     /// A YAML file of another kind.
     fn of(file: &'a Source) -> Result<Keys<'a>, Problems> {

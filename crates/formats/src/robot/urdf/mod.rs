@@ -93,6 +93,8 @@ struct Arm {
     unlimited: Vec<String>,
 }
 
+/// The motions and joints of a chain.
+///
 /// # Errors
 /// All joints that no serial arm has, or that share a name; more joints than any arm has.
 fn arm(file: &document::Source, chain: &[&JointElement]) -> Result<Arm, Problems> {
