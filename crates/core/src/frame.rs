@@ -24,6 +24,21 @@ pub fn from_xyz_and_fixed_angles(xyz: Vector3<f64>, rx_ry_rz: Vector3<f64>) -> I
     Isometry::from_parts(Translation3::from(xyz), rotation)
 }
 
+/// The turns rx, ry, rz (rad) about the fixed axes x, then y, then z that make this rotation: what
+/// [`from_xyz_and_fixed_angles`] takes.
+///
+/// rx and rz lie within -pi to pi, ry within -pi/2 to pi/2. Good to rounding everywhere: where ry is 90 deg, which leaves
+/// only the sum or difference of the other two, any share of it is theirs.
+pub fn fixed_angles(rotation: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let m = rotation.to_rotation_matrix();
+    // By arc tangents alone, which lose no digits at 90 deg, and rx in the axes that ry and rz leave.
+    let ry = (-m[(2, 0)]).atan2(m[(0, 0)].hypot(m[(1, 0)]));
+    let rz = m[(1, 0)].atan2(m[(0, 0)]);
+    let (sin, cos) = rz.sin_cos();
+    let rx = (sin * m[(0, 2)] - cos * m[(1, 2)]).atan2(cos * m[(1, 1)] - sin * m[(0, 1)]);
+    Vector3::new(rx, ry, rz)
+}
+
 /// The orientation `base_from_tool` of a tool whose z axis is `axis`, turned about it by `spin` (rad).
 ///
 /// At spin zero the tool's second axis (y) lies as near as possible to base y, or to base x where the
@@ -44,8 +59,48 @@ pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use std::f64::consts::{FRAC_PI_2, PI};
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Any angle, and those near a quarter turn, where two of the three axes fall together.
+    fn angle() -> impl Strategy<Value = f64> {
+        let near = (-1e-6..1e-6f64).prop_map(|by| FRAC_PI_2 + by);
+        prop_oneof![
+            -7.0..7.0f64,
+            near.clone(),
+            near.prop_map(|angle| -angle),
+            Just(FRAC_PI_2),
+            Just(-FRAC_PI_2)
+        ]
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn fixed_angles_make_the_rotation_that_they_come_from(angles in prop::array::uniform3(angle())) {
+            let turned = |angles: Vector3<f64>| from_xyz_and_fixed_angles(Vector3::zeros(), angles).rotation;
+            let rotation = turned(Vector3::from(angles));
+            let again = fixed_angles(&rotation);
+            prop_assert!(again.x.abs() <= PI && again.y.abs() <= FRAC_PI_2 && again.z.abs() <= PI, "{again}");
+            let apart = rotation.to_rotation_matrix().matrix() - turned(again).to_rotation_matrix().matrix();
+            // Some ten roundings of numbers up to one.
+            prop_assert!(apart.amax() < 1e-14, "{again}");
+        }
+    }
+
+    #[test]
+    fn fixed_angles_of_turns_about_one_axis_are_that_turn() {
+        for axis in 0..3 {
+            let mut angles = Vector3::zeros();
+            angles[axis] = 1.25;
+            let rotation = from_xyz_and_fixed_angles(Vector3::zeros(), angles).rotation;
+            assert!((fixed_angles(&rotation) - angles).amax() < 1e-15);
+        }
+    }
 
     #[test]
     fn fixed_angles_turn_about_x_first() {

@@ -67,12 +67,12 @@ pub enum FileError {
         path: PathBuf,
     },
     /// The disk or the quota is full.
-    #[error("cannot write `{}` ({bytes} bytes): no space left; free some or choose another disk", path.display())]
+    #[error("cannot write `{}`{}: no space left; free some or choose another disk", path.display(), in_brackets(*bytes))]
     NoSpace {
         /// The path as it was given.
         path: PathBuf,
-        /// The size that was to be written; 0 for a folder.
-        bytes: usize,
+        /// The size that was to be written; `None` for a folder.
+        bytes: Option<usize>,
     },
     /// Any other refusal of the operating system, in its own words.
     #[error("cannot write `{}`: {source}", path.display())]
@@ -101,7 +101,7 @@ impl FileError {
     }
 
     /// The situation behind an error of the operating system.
-    fn of(path: &Path, bytes: usize, source: io::Error) -> Self {
+    fn of(path: &Path, bytes: Option<usize>, source: io::Error) -> Self {
         let path = path.to_owned();
         let folder = folder_of(&path);
         match source.kind() {
@@ -223,7 +223,7 @@ pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
             path: path.to_owned(),
             file,
         },
-        None => FileError::of(path, 0, source),
+        None => FileError::of(path, None, source),
     })
 }
 
@@ -242,10 +242,15 @@ impl From<io::Error> for Failure {
     }
 }
 
+/// A size behind the name of a file.
+fn in_brackets(bytes: Option<usize>) -> String {
+    bytes.map_or_else(String::new, |bytes| format!(" ({bytes} bytes)"))
+}
+
 fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
     result.map_err(|failure| match failure {
         Failure::Named(error) => error,
-        Failure::System(source) => FileError::of(path, bytes, source),
+        Failure::System(source) => FileError::of(path, Some(bytes), source),
     })
 }
 
@@ -441,7 +446,8 @@ mod tests {
 
     #[test]
     fn refusals_of_the_system_become_situations_with_advice() {
-        let said = |kind: io::ErrorKind| FileError::of(Path::new("maps/a.csv"), 12, kind.into()).to_string();
+        let said =
+            |kind: io::ErrorKind| FileError::of(Path::new("maps/a.csv"), Some(12), kind.into()).to_string();
         assert_eq!(
             said(io::ErrorKind::PermissionDenied),
             "cannot write `maps/a.csv`: no permission in `maps`; change its permissions or choose another folder"
@@ -450,10 +456,20 @@ mod tests {
             said(io::ErrorKind::StorageFull),
             "cannot write `maps/a.csv` (12 bytes): no space left; free some or choose another disk"
         );
+        let folder = FileError::of(Path::new("maps"), None, io::ErrorKind::StorageFull.into());
+        assert!(
+            folder
+                .to_string()
+                .starts_with("cannot write `maps`: no space left")
+        );
         assert!(said(io::ErrorKind::QuotaExceeded).contains("no space left"));
         assert!(said(io::ErrorKind::ReadOnlyFilesystem).contains("read-only"));
         assert!(said(io::ErrorKind::TimedOut).starts_with("cannot write `maps/a.csv`: "));
-        let error = FileError::of(Path::new("a.csv"), 12, io::ErrorKind::PermissionDenied.into());
+        let error = FileError::of(
+            Path::new("a.csv"),
+            Some(12),
+            io::ErrorKind::PermissionDenied.into(),
+        );
         assert!(error.to_string().contains("no permission in `.`"), "{error}");
         assert_eq!(error.path(), Path::new("a.csv"));
     }
@@ -480,7 +496,10 @@ mod tests {
     #[test]
     fn a_full_device_is_told_as_no_space_and_stays_a_device() {
         let error = write_atomically("/dev/full", b"12345").unwrap_err();
-        assert!(matches!(error, FileError::NoSpace { bytes: 5, .. }), "{error}");
+        assert!(
+            matches!(error, FileError::NoSpace { bytes: Some(5), .. }),
+            "{error}"
+        );
         write_atomically("/dev/null", b"12345").unwrap();
         assert!(!fs::metadata("/dev/null").unwrap().is_file());
     }

@@ -2,19 +2,22 @@
 //!
 //! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
 //!   each with its place, its limit and a hint.
-//! - [`robot`]: robot descriptions in: our robot file, URDF.
+//! - [`robot`]: robot descriptions in, of six formats; poses as the pendants of six makers show them.
 //! - [`material`]: what materials take to cut: our material file.
+//! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`measurement`]: measured forces in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
-//! Nothing in this crate prints. Same input, same bytes.
+//! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs` is
+//! caught and told as a problem of the file. Same input, same bytes.
 
 pub mod document;
 pub mod file;
 pub mod material;
 pub mod measurement;
 pub mod robot;
+pub mod sources;
 pub mod table;
 pub mod toolpath;

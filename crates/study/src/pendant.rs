@@ -1,6 +1,6 @@
 //! A robot file beside its pendant: what disagrees, in the words of the file.
 
-use armill_core::frame::Isometry;
+use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_core::robot::convention::{Apart, Change, Comparison, Explanation, Reading, Verdict, inspect};
@@ -206,7 +206,7 @@ impl Words<'_> {
                 )
             }
             Change::FlangeTurn { turn } => {
-                let (rx, ry, rz) = turn.euler_angles();
+                let [rx, ry, rz]: [f64; 3] = fixed_angles(&turn).into();
                 format!(
                     "the pendant's flange frame is turned against the file's: end the chain with about z {}, about y {}, about x {} deg",
                     degrees(rz),

@@ -13,7 +13,8 @@ use armill_core::robot::{Posture, Robot, Unreachable};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
-use armill_formats::robot::{RobotDescription, Source};
+use armill_formats::robot::RobotDescription;
+use armill_formats::sources::Source;
 use serde::Serialize;
 
 use crate::StudyError;

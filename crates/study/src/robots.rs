@@ -28,7 +28,7 @@ pub fn find(name: &str, folder: &Path) -> Result<RobotDescription, StudyError> {
             Some(like) => format!("did you mean `{like}`? `armill robots` lists all"),
             None => format!(
                 "`armill robots` lists the library; robot files end in {}",
-                format::ENDINGS
+                format::endings()
             ),
         };
         return Err(StudyError::value(message, hint));

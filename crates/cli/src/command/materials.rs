@@ -1,5 +1,6 @@
 //! `armill materials`: the material library, one line a material, or one with every set and what is used of them.
 
+use armill_core::load::Together;
 use armill_formats::material::{KienzleSet, Material, MechanisticSet};
 use armill_study::{StudyError, library};
 use serde_json::{Map, Value, json};
@@ -73,8 +74,11 @@ fn row_as_json(name: &str, found: &Material) -> Value {
 /// One set, or what is used of all: its title, and its numbers as they are read.
 type Row = (String, Vec<String>);
 
-/// Coefficients of the mechanistic law: symbol, key in the material file, size of its unit in SI.
-const MECHANISTIC: [(&str, &str, f64); 6] = [
+/// Symbol, key in the material file, and size of its unit in SI.
+type Coefficient = (&'static str, &'static str, f64);
+
+/// Coefficients of the mechanistic law.
+const MECHANISTIC: [Coefficient; 6] = [
     ("Ktc", "ktc_n_per_mm2", 1e6),
     ("Krc", "krc_n_per_mm2", 1e6),
     ("Kac", "kac_n_per_mm2", 1e6),
@@ -83,7 +87,7 @@ const MECHANISTIC: [(&str, &str, f64); 6] = [
     ("Kae", "kae_n_per_mm", 1e3),
 ];
 /// The same of Kienzle's law.
-const KIENZLE: [(&str, &str, f64); 2] = [("kc1.1", "kc1_n_per_mm2", 1e6), ("mc", "mc_exponent", 1.0)];
+const KIENZLE: [Coefficient; 2] = [("kc1.1", "kc1_n_per_mm2", 1e6), ("mc", "mc_exponent", 1.0)];
 
 fn as_text(name: &str, found: &Material) -> String {
     let mut lines = vec![format!("{} ({name})", found.name)];
@@ -95,11 +99,8 @@ fn as_text(name: &str, found: &Material) -> String {
                 .to_owned(),
         );
         let mut rows: Vec<Row> = found.mechanistic.iter().map(mechanistic_row).collect();
-        rows.push(match used_mechanistic(found) {
-            Some((sets, used)) => (
-                used_title(sets),
-                used.map(|[mean, u]| with_spread(sets, mean, u)).to_vec(),
-            ),
+        rows.push(match found.mechanistic() {
+            Some(together) => used_row(&together, &MECHANISTIC),
             None => (
                 "no force is computed from these: no set has all six".to_owned(),
                 Vec::new(),
@@ -116,12 +117,8 @@ fn as_text(name: &str, found: &Material) -> String {
         lines.push(String::new());
         lines.push("Kienzle values at 0 deg rake: kc1.1 (N/mm2), exponent mc:".to_owned());
         let mut rows: Vec<Row> = found.kienzle.iter().map(kienzle_row).collect();
-        if let Some((sets, used)) = used_kienzle(found) {
-            rows.push((
-                used_title(sets),
-                used.map(|[mean, u]| with_spread(sets, mean, u)).to_vec(),
-            ));
-        }
+        let together = found.kienzle();
+        rows.extend(together.map(|together| used_row(&together, &KIENZLE)));
         lines.extend(aligned(&KIENZLE.map(|(symbol, ..)| symbol), &rows));
     }
     lines.push(String::new());
@@ -153,21 +150,6 @@ fn kienzle_row(set: &KienzleSet) -> Row {
     (title.trim_start().to_owned(), numbers.collect())
 }
 
-fn used_title(sets: usize) -> String {
-    match sets {
-        1 => "used: the one whole set".to_owned(),
-        sets => format!("used: mean of {sets} whole sets"),
-    }
-}
-
-/// Mean and standard deviation of one set among the others, in four digits; of a single set that is not known.
-fn with_spread(sets: usize, mean: f64, u: f64) -> String {
-    match sets {
-        1 => plain(mean),
-        _ => format!("{} ± {}", four_digits(mean), four_digits(u)),
-    }
-}
-
 fn four_digits(value: f64) -> String {
     let unit = 10_f64.powf(value.abs().log10().floor() - 3.0);
     plain(if unit > 0.0 {
@@ -177,25 +159,27 @@ fn four_digits(value: f64) -> String {
     })
 }
 
-/// How many sets, and what stands for them: mean and standard deviation of each coefficient, in the units of the file.
-fn used_mechanistic(found: &Material) -> Option<(usize, [[f64; 2]; 6])> {
-    let together = found.mechanistic()?;
-    let of = |i: usize| {
-        let per = MECHANISTIC[i].2;
-        let u = together.law.covariance()[(i, i)].max(0.0).sqrt();
-        [together.law.coefficients()[i] / per, u / per]
-    };
-    Some((together.sets, std::array::from_fn(of)))
+/// What stands for all sets, in the units of the file: mean, and standard deviation of one set among the others.
+fn used<const N: usize>(together: &Together<N>, law: &[Coefficient; N]) -> [(f64, Option<f64>); N] {
+    std::array::from_fn(|i| {
+        let per = law[i].2;
+        let u = together
+            .covariance
+            .map(|covariance| covariance[(i, i)].sqrt() / per);
+        (together.mean[i] / per, u)
+    })
 }
 
-fn used_kienzle(found: &Material) -> Option<(usize, [[f64; 2]; 2])> {
-    let together = found.kienzle()?;
-    let of = |i: usize| {
-        let per = KIENZLE[i].2;
-        let estimate = together.law[i];
-        [estimate.value / per, estimate.standard_uncertainty / per]
+fn used_row<const N: usize>(together: &Together<N>, law: &[Coefficient; N]) -> Row {
+    let title = match together.sets {
+        1 => "used: the one whole set".to_owned(),
+        sets => format!("used: mean of {sets} whole sets"),
     };
-    Some((together.sets, std::array::from_fn(of)))
+    let numbers = used(together, law).map(|(mean, u)| match u {
+        None => plain(mean),
+        Some(u) => format!("{} ± {}", four_digits(mean), four_digits(u)),
+    });
+    (title, numbers.to_vec())
 }
 
 /// Rows below their heads: words to the left, numbers to the right.
@@ -250,28 +234,27 @@ fn as_json(name: &str, found: &Material) -> Value {
         row.insert("source".to_owned(), json!(set.source));
         Value::from(row)
     });
-    let used_mechanistic =
-        used_mechanistic(found).map(|(sets, used)| used_as_json(sets, &MECHANISTIC, &used));
-    let used_kienzle = used_kienzle(found).map(|(sets, used)| used_as_json(sets, &KIENZLE, &used));
     json!({
         "name": name,
         "title": found.name,
         "note": found.note,
         "mechanistic": mechanistic.collect::<Vec<_>>(),
         "kienzle": kienzle.collect::<Vec<_>>(),
-        "used": { "mechanistic": used_mechanistic, "kienzle": used_kienzle },
+        "used": {
+            "mechanistic": found.mechanistic().map(|together| used_as_json(&together, &MECHANISTIC)),
+            "kienzle": found.kienzle().map(|together| used_as_json(&together, &KIENZLE)),
+        },
         "sources": found.sources,
     })
 }
 
 /// `KEY` the mean, `spread_KEY` the standard deviation of one set among the others; none of a single set.
-fn used_as_json(sets: usize, keys: &[(&str, &str, f64)], used: &[[f64; 2]]) -> Value {
+fn used_as_json<const N: usize>(together: &Together<N>, law: &[Coefficient; N]) -> Value {
     let mut told = Map::new();
-    told.insert("sets".to_owned(), json!(sets));
-    for ((_, key, _), [mean, u]) in keys.iter().zip(used) {
-        told.insert((*key).to_owned(), json!(tidy(*mean)));
-        let spread = (sets > 1).then(|| tidy(*u));
-        told.insert(format!("spread_{key}"), json!(spread));
+    told.insert("sets".to_owned(), json!(together.sets));
+    for ((_, key, _), (mean, u)) in law.iter().zip(used(together, law)) {
+        told.insert((*key).to_owned(), json!(tidy(mean)));
+        told.insert(format!("spread_{key}"), json!(u.map(tidy)));
     }
     Value::from(told)
 }

@@ -1,7 +1,7 @@
 //! `armill robots`: one robot with everything that is known of it.
 
-use armill_core::robot::{Amount, Axis, Motion, reach};
-use armill_formats::robot::RobotDescription;
+use armill_core::robot::{Amount, Motion, reach};
+use armill_formats::robot::{OtherLimits, RobotDescription};
 use armill_study::output::arm_drawing;
 use armill_study::{StudyError, robots};
 use serde_json::{Value, json};
@@ -31,14 +31,6 @@ pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-fn axis_name(axis: Axis) -> &'static str {
-    match axis {
-        Axis::X => "x",
-        Axis::Y => "y",
-        Axis::Z => "z",
-    }
-}
-
 /// One elementary motion in words: `along z 450 mm (H)`, `about y by U, counted -`.
 fn motion(found: &RobotDescription, index: usize) -> String {
     let symbol = found.symbols[index]
@@ -65,16 +57,16 @@ fn motion(found: &RobotDescription, index: usize) -> String {
     };
     match found.robot.chain().motions()[index] {
         Motion::Along(axis, Amount::Constant(m)) => {
-            format!("along {} {} mm{symbol}", axis_name(axis), tidy(m * 1e3))
+            format!("along {} {} mm{symbol}", axis.letter(), tidy(m * 1e3))
         }
         Motion::Along(axis, Amount::Joint(joint)) => {
-            format!("along {} by {}{symbol}", axis_name(axis), of_joint(joint))
+            format!("along {} by {}{symbol}", axis.letter(), of_joint(joint))
         }
         Motion::About(axis, Amount::Constant(rad)) => {
-            format!("about {} {} deg{symbol}", axis_name(axis), tidy(rad.to_degrees()))
+            format!("about {} {} deg{symbol}", axis.letter(), tidy(rad.to_degrees()))
         }
         Motion::About(axis, Amount::Joint(joint)) => {
-            format!("about {} by {}{symbol}", axis_name(axis), of_joint(joint))
+            format!("about {} by {}{symbol}", axis.letter(), of_joint(joint))
         }
     }
 }
@@ -115,7 +107,12 @@ fn as_text(found: &RobotDescription) -> String {
             "  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}",
             joint.name, joint.name
         ));
-        for ([lower, upper], source, note) in &found.joints[i].other_limits {
+        for limits in &found.joint_notes[i].other_limits {
+            let OtherLimits {
+                limits_deg: [lower, upper],
+                source,
+                note,
+            } = limits;
             let note = note.as_ref().map_or(String::new(), |note| format!(": {note}"));
             lines.push(format!("       limits by {source}: {lower} to {upper} deg{note}"));
         }
@@ -164,9 +161,9 @@ fn as_json(found: &RobotDescription) -> Value {
                 "sign": joint.sign.factor(),
                 "compliance_rad_per_n_m": robot.compliance().map(|c| c[i].value),
                 "compliance_u_rad_per_n_m": robot.compliance().map(|c| c[i].standard_uncertainty),
-                "source": found.joints[i].source,
-                "compliance_source": found.joints[i].compliance_source,
-                "compliance_u_source": found.joints[i].compliance_u_source,
+                "source": found.joint_notes[i].source,
+                "compliance_source": found.joint_notes[i].compliance_source,
+                "compliance_u_source": found.joint_notes[i].compliance_u_source,
             });
             value[format!("zero_offset_{unit}")] = json!(tidy(joint.zero_offset * scale));
             value[format!("limits_{unit}")] = json!(

@@ -4,7 +4,7 @@
 //! from point to point. [`doubt`]: how sure they are.
 //!
 //! What a cut pushes with: [`cutter`] (the edge), [`engagement`] and [`arc`] (where and how thick it cuts),
-//! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either), [`milling`] (force at an angle of the spindle
+//! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one material), [`milling`] (force at an angle of the spindle
 //! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
 //! its way), [`straying`] (the force on a tool that it pushes off its path).
 //!
@@ -25,6 +25,7 @@ pub mod mechanistic;
 pub mod milling;
 pub mod process;
 pub mod record;
+pub mod sets;
 pub mod straying;
 
 mod quadrature;
@@ -42,4 +43,5 @@ pub use mechanistic::Mechanistic;
 pub use milling::{Cut, Milling, Peak};
 pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};
+pub use sets::Together;
 pub use straying::{Rest, Straying, TipYield};

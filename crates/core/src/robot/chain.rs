@@ -32,6 +32,18 @@ pub enum Axis {
 }
 
 impl Axis {
+    /// x, y, z.
+    pub const ALL: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
+    /// Its name: `x`, `y` or `z`.
+    pub fn letter(self) -> char {
+        match self {
+            Axis::X => 'x',
+            Axis::Y => 'y',
+            Axis::Z => 'z',
+        }
+    }
+
     /// 0, 1, 2 for x, y, z.
     pub fn index(self) -> usize {
         match self {

@@ -1,4 +1,8 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
+//!
+//! Value by value from the root: a value of the wrong kind is told and not looked into; of a table, its fields, then
+//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told which
+//! has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
 
 use std::ops::Range;
 
@@ -42,6 +46,7 @@ pub(super) fn all_problems(source: &Source, root: &Node, shapes: &Shapes) -> Vec
     checker.problems
 }
 
+/// Walks the tree and collects.
 struct Checker<'a> {
     source: &'a Source,
     shapes: &'a Shapes,
@@ -57,12 +62,14 @@ struct Place<'a> {
 }
 
 impl Place<'_> {
+    /// The unit in the field's name, as people read it.
     fn unit(&self) -> Option<String> {
         unit::split(self.field).map(|(_, unit)| unit.shown)
     }
 }
 
 impl Checker<'_> {
+    /// Keeps a problem; beyond 1000 none.
     fn report(&mut self, span: Range<usize>, message: String, hint: Option<String>) {
         if self.problems.len() < MOST_PROBLEMS {
             self.problems.push(self.source.problem(span, message, hint));
@@ -91,6 +98,7 @@ impl Checker<'_> {
         }
     }
 
+    /// Compares a value with its shape, down to its last entry.
     fn value(&mut self, value: &Node, shape: &Shape, place: &Place<'_>) {
         if place.level > MOST_LEVELS || self.problems.len() >= MOST_PROBLEMS {
             return;
@@ -125,6 +133,7 @@ impl Checker<'_> {
         }
     }
 
+    /// A value of another kind than wanted: what was expected, what was found, and the slip that is behind it.
     fn wrong_type(&mut self, value: &Node, shape: &Shape, place: &Place<'_>) {
         let expected = in_words(self.shapes, shape, place.unit().as_deref());
         let message = format!(
@@ -147,6 +156,7 @@ impl Checker<'_> {
         self.report(value.span.clone(), message, hint);
     }
 
+    /// A number outside its range, as it is written in the file, with the limit and the unit of its field.
     fn limits(&mut self, value: &Node, limits: &Limits, place: &Place<'_>, number: f64) {
         let limit = match limits {
             Limits {
@@ -171,6 +181,7 @@ impl Checker<'_> {
         self.report(value.span.clone(), message, None);
     }
 
+    /// A value that is none of those allowed, with the most similar of them.
     fn choice(&mut self, value: &Node, choices: &[Json], place: &Place<'_>) {
         let given = &value.value;
         if choices.iter().any(|choice| same(choice, given)) {
@@ -221,6 +232,7 @@ impl Checker<'_> {
         }
     }
 
+    /// The fields of a table whose header stands at `span`.
     fn table(&mut self, span: Range<usize>, table: &Table, shape: &TableShape, place: &Place<'_>) {
         let absent: Vec<&str> = shape
             .fields
@@ -267,6 +279,7 @@ impl Checker<'_> {
         }
     }
 
+    /// A table whose field `tag` says which of the variants it is; without a known tag its other fields are not judged.
     fn tagged(
         &mut self,
         span: Range<usize>,
@@ -345,6 +358,7 @@ impl Checker<'_> {
     }
 }
 
+/// Whether a value is this choice; 1 is not 1.0.
 fn same(choice: &Json, given: &Value) -> bool {
     match given {
         Value::Text(text) => choice.as_str() == Some(text),
@@ -355,6 +369,7 @@ fn same(choice: &Json, given: &Value) -> bool {
     }
 }
 
+/// A hint that lists the fields of a table, unless they are many.
 fn known_fields(shape: &TableShape) -> Option<String> {
     let names: Vec<String> = shape.fields.keys().map(|name| format!("`{name}`")).collect();
     match names.len() {

@@ -22,7 +22,7 @@ pub(super) fn exists(root: &Node, path: &str) -> bool {
 }
 
 /// A path longer by a key, which is quoted unless it is bare in TOML.
-pub(super) fn joined(path: &str, key: &str) -> String {
+pub(crate) fn joined(path: &str, key: &str) -> String {
     let bare = !key.is_empty()
         && key
             .chars()

@@ -1,5 +1,18 @@
 //! What a value must look like: a JSON schema, as schemars writes it, put into the few cases a TOML file knows.
 //!
+//! | serde | schema | shape |
+//! |---|---|---|
+//! | struct | `type: object`, `properties`, `required` | [`Shape::Table`] |
+//! | `deny_unknown_fields` | `additionalProperties` (flattened: `unevaluatedProperties`) false | [`Others::Refused`] |
+//! | map | `additionalProperties` or `patternProperties`: a schema | [`Others::Each`] |
+//! | `Vec`, array, tuple | `type: array`, `items`, `prefixItems`, `minItems`, `maxItems` | [`Shape::List`] |
+//! | `Option` | `type: [..., null]`, or `anyOf` with null | that of its content, not required |
+//! | enum of names | `enum`, or `oneOf` of `const` | [`Shape::Choice`] |
+//! | enum with a tag | `oneOf`: tables with the tag as `const` | [`Shape::Tagged`] |
+//! | untagged enum | `anyOf` | [`Shape::OneOf`] |
+//! | `flatten` | `$ref`, `oneOf` or `allOf` beside `properties` | the fields of all, merged (`merge`) |
+//! | a type used twice | `$ref` into `$defs` | [`Shape::Named`] |
+//!
 //! A part of a schema that is not understood becomes [`Shape::Any`]: it refuses nothing, and serde has the last word.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -19,11 +32,14 @@ pub(super) struct Shapes {
     named: BTreeMap<String, Shape>,
 }
 
+/// What one value must look like.
 #[derive(Debug, Clone)]
 pub(super) enum Shape {
+    /// Anything.
     Any,
     Number(Limits),
     Integer(Limits),
+    /// A text, its length counted in characters.
     Text {
         shortest: u64,
         longest: Option<u64>,
@@ -38,7 +54,9 @@ pub(super) enum Shape {
         tag: String,
         variants: Vec<(String, TableShape)>,
     },
+    /// Any of these.
     OneOf(Vec<Shape>),
+    /// One of the named shapes of [`Shapes`], which may contain itself.
     Named(String),
 }
 
@@ -51,6 +69,7 @@ pub(super) struct ListShape {
     pub(super) most: Option<u64>,
 }
 
+/// A table: its known fields, those that must be there, and what else may be.
 #[derive(Debug, Clone, Default)]
 pub(super) struct TableShape {
     pub(super) fields: BTreeMap<String, Field>,
@@ -58,6 +77,7 @@ pub(super) struct TableShape {
     pub(super) others: Others,
 }
 
+/// A known field.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
     pub(super) shape: Shape,
@@ -74,6 +94,7 @@ pub(super) enum Others {
     Each(Box<Shape>),
 }
 
+/// The range of a number; an end that is `None` is open.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Limits {
     pub(super) at_least: Option<f64>,
@@ -135,11 +156,13 @@ impl Shape {
     }
 }
 
+/// Reads schemas that may refer to these definitions.
 struct Reader<'a> {
     definitions: &'a Map<String, Value>,
 }
 
 impl Reader<'_> {
+    /// The shape of any schema, which `merges` others enclose.
     fn shape(&self, schema: &Value, merges: usize) -> Shape {
         let Some(object) = schema.as_object().filter(|_| merges < MOST_MERGES) else {
             return Shape::Any;
@@ -222,6 +245,7 @@ impl Reader<'_> {
         }
     }
 
+    /// Structs and maps: the fields of this schema itself, without those that are flattened into it.
     fn table(&self, object: &Map<String, Value>, merges: usize) -> TableShape {
         let properties = object.get("properties").and_then(Value::as_object);
         let fields = properties.into_iter().flatten().map(|(name, schema)| {
@@ -273,6 +297,7 @@ fn kind(object: &Map<String, Value>) -> Option<&str> {
     }
 }
 
+/// The values of `enum` or `const` without null; `None` where there are none, or one is a list or a table.
 fn choices(object: &Map<String, Value>) -> Option<Vec<Value>> {
     let one = object.get("const").map(|value| vec![value.clone()]);
     let some = || object.get("enum").and_then(Value::as_array).cloned();

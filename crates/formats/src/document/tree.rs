@@ -6,6 +6,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::path::joined;
+
 /// A value and the bytes it is written in; a table's are those of its header.
 #[derive(Debug, Clone)]
 pub(super) struct Node {
@@ -13,6 +15,7 @@ pub(super) struct Node {
     pub(super) value: Value,
 }
 
+/// A value of TOML.
 #[derive(Debug, Clone)]
 pub(super) enum Value {
     Text(String),
@@ -21,11 +24,13 @@ pub(super) enum Value {
     /// Any other number; one that cannot be held is infinite.
     Real(f64),
     Flag(bool),
+    /// A date or time, as it is written.
     Date(String),
     List(Vec<Node>),
     Table(Table),
 }
 
+/// Fields by their keys, in the order of the alphabet.
 pub(super) type Table = BTreeMap<String, Entry>;
 
 /// A field of a table: where its key stands, and its value.
@@ -40,6 +45,24 @@ pub(super) fn root(table: DeTable<'_>) -> Node {
     Node {
         span: 0..0,
         value: Value::Table(fields(table)),
+    }
+}
+
+/// Adds every text at or below `node`, which stands at `path`, with its own path.
+pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a str)>) {
+    match &node.value {
+        Value::Text(text) => found.push((path.to_owned(), text)),
+        Value::List(entries) => {
+            for (index, entry) in entries.iter().enumerate() {
+                texts(entry, &format!("{path}[{index}]"), found);
+            }
+        }
+        Value::Table(table) => {
+            for (key, entry) in table {
+                texts(&entry.node, &joined(path, key), found);
+            }
+        }
+        _ => {}
     }
 }
 

@@ -52,6 +52,7 @@ fn list_in_words(shapes: &Shapes, list: &ListShape, unit: Option<&str>) -> Strin
     )
 }
 
+/// What the entries of a list are called.
 fn plural(shapes: &Shapes, shape: &Shape) -> &'static str {
     match shapes.resolved(shape) {
         Shape::Number(_) => "numbers",
@@ -114,6 +115,7 @@ pub(super) fn with_unit(number: &str, unit: Option<&str>) -> String {
     }
 }
 
+/// `a number in mm`.
 fn in_unit(noun: &str, unit: Option<&str>) -> String {
     match unit {
         Some(unit) => format!("{noun} in {unit}"),

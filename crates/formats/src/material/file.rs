@@ -1,9 +1,9 @@
 //! The material file as it stands: its tables and keys.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
+
+use crate::sources::SourceTable;
 
 /// The material file.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -25,7 +25,7 @@ pub(super) struct MaterialFile {
     #[serde(default)]
     pub kienzle: Vec<KienzleTable>,
     /// Where the numbers come from, by key.
-    pub sources: BTreeMap<String, SourceEntry>,
+    pub sources: SourceTable,
 }
 
 /// Coefficients of shear (tangential, radial, axial) and of the edge, as one source gives them.
@@ -89,16 +89,4 @@ pub(super) struct KienzleTable {
     /// Exponent of the chip thickness.
     #[schemars(range(min = 0.0, max = 0.9))]
     pub mc_exponent: f64,
-}
-
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SourceEntry {
-    /// What was taken.
-    pub what: String,
-    /// Where it stands.
-    #[serde(rename = "where")]
-    pub place: String,
-    /// Under which licence, or that it is a fact.
-    pub licence: String,
 }

@@ -2,6 +2,8 @@
 
 use armill_core::robot::Robot;
 
+use crate::sources::Source;
+
 /// A robot and the origin of its numbers.
 #[derive(Clone, Debug)]
 pub struct RobotDescription {
@@ -17,8 +19,8 @@ pub struct RobotDescription {
     pub payload_kg: Option<f64>,
     /// Symbol of each elementary motion in its source, by index in the chain; empty where it has none.
     pub symbols: Vec<Symbol>,
-    /// What else is known of each joint.
-    pub joints: Vec<JointNote>,
+    /// What else is known of each joint, in the order of the robot's.
+    pub joint_notes: Vec<JointNote>,
     /// Every source, in the order of the file.
     pub sources: Vec<Source>,
 }
@@ -35,8 +37,19 @@ pub struct JointNote {
     pub compliance_source: Option<String>,
     /// Key of the source of its standard uncertainty.
     pub compliance_u_source: Option<String>,
-    /// Limits by other sources: degrees (mm), source key, note.
-    pub other_limits: Vec<([f64; 2], String, Option<String>)>,
+    /// Limits by other sources.
+    pub other_limits: Vec<OtherLimits>,
+}
+
+/// Limits that another source gives for a joint; told to the user, never enforced.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OtherLimits {
+    /// Lower and upper limit, deg.
+    pub limits_deg: [f64; 2],
+    /// Key of the source.
+    pub source: String,
+    /// What to make of them.
+    pub note: Option<String>,
 }
 
 impl RobotDescription {
@@ -52,7 +65,7 @@ impl RobotDescription {
             remarks: Vec::new(),
             payload_kg: None,
             symbols: vec![None; robot.chain().motions().len()],
-            joints: vec![note; robot.joints().len()],
+            joint_notes: vec![note; robot.joints().len()],
             sources: vec![Source {
                 key: key.to_owned(),
                 what: what.to_owned(),
@@ -62,18 +75,4 @@ impl RobotDescription {
             robot,
         }
     }
-}
-
-/// Where numbers come from.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Source {
-    /// Key inside the file.
-    pub key: String,
-    /// What was taken.
-    pub what: String,
-    /// Where it stands.
-    #[serde(rename = "where")]
-    pub place: String,
-    /// Under which licence, or that it is a fact.
-    pub licence: String,
 }

@@ -18,7 +18,7 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::description::RobotDescription;
-use super::{armill, dh, elementary, opw, urdf};
+use super::{armill, chain, dh, opw, urdf};
 use crate::document::{Document, Problems, Source};
 
 /// A kind of robot file.
@@ -38,11 +38,45 @@ pub enum Format {
     Chain,
 }
 
-/// The endings that are understood, for people.
-pub const ENDINGS: &str = ".toml, .urdf, .xacro, .xml, .yaml (OPW parameters), .dh or .csv (Denavit-Hartenberg), .chain or .fsf (elementary motions), .txt";
+/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends so.
+type Known = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
+
+/// Every ending, in the order people are told them; the header explains those that several formats share.
+const KNOWN: [Known; 8] = [
+    (&["toml"], "", |_| Some(Format::Armill)),
+    (&["urdf"], "", |text| {
+        Some(if text.contains("<xacro:") {
+            Format::Xacro
+        } else {
+            Format::Urdf
+        })
+    }),
+    (&["xacro"], "", |_| Some(Format::Xacro)),
+    (&["xml"], "", |text| {
+        let macros = text.contains("<xacro:") || text.contains("xmlns:xacro");
+        let format = if macros { Format::Xacro } else { Format::Urdf };
+        text.contains("<robot").then_some(format)
+    }),
+    (&["yaml", "yml"], " (OPW parameters)", |_| Some(Format::Opw)),
+    (&["dh", "csv"], " (Denavit-Hartenberg)", |_| Some(Format::Dh)),
+    (&["chain", "fsf"], " (elementary motions)", |_| {
+        Some(Format::Chain)
+    }),
+    (&["txt"], "", |text| {
+        let lower = text.to_lowercase();
+        let table = lower.contains("convention") || lower.contains("alpha");
+        Some(if table { Format::Dh } else { Format::Chain })
+    }),
+];
+
+/// The endings that are understood, for people: `.toml, .urdf, ..., .dh or .csv (Denavit-Hartenberg), ...`.
+pub fn endings() -> String {
+    let known = KNOWN.map(|(endings, what, _)| format!(".{}{what}", endings.join(" or .")));
+    known.join(", ")
+}
 
 impl Format {
-    /// Every format, in the order of [`ENDINGS`].
+    /// Every format.
     pub const ALL: [Format; 6] = [
         Format::Armill,
         Format::Urdf,
@@ -66,33 +100,13 @@ impl Format {
 
     /// Whether a path ends like a robot file, whatever it holds.
     pub fn has_ending(path: &Path) -> bool {
-        const KNOWN: [&str; 11] = [
-            "toml", "urdf", "xacro", "xml", "yaml", "yml", "dh", "csv", "chain", "fsf", "txt",
-        ];
-        ending(path).is_some_and(|ending| KNOWN.contains(&ending.as_str()))
+        known(path).is_some()
     }
 
     /// The format of a file by its ending and content; `None` if neither is known.
     pub fn of(path: &Path, text: &str) -> Option<Format> {
-        let macros = || text.contains("<xacro:") || text.contains("xmlns:xacro");
-        Some(match ending(path)?.as_str() {
-            "toml" => Format::Armill,
-            "urdf" if !text.contains("<xacro:") => Format::Urdf,
-            "xml" if text.contains("<robot") && !macros() => Format::Urdf,
-            "urdf" | "xacro" => Format::Xacro,
-            "xml" if text.contains("<robot") => Format::Xacro,
-            "yaml" | "yml" => Format::Opw,
-            "dh" | "csv" => Format::Dh,
-            "chain" | "fsf" => Format::Chain,
-            "txt" => {
-                let lower = text.to_lowercase();
-                match lower.contains("convention") || lower.contains("alpha") {
-                    true => Format::Dh,
-                    false => Format::Chain,
-                }
-            }
-            _ => return None,
-        })
+        let (_, _, format) = known(path)?;
+        format(text)
     }
 }
 
@@ -106,6 +120,13 @@ impl FromStr for Format {
             format!("`{name}` is none of {names}")
         })
     }
+}
+
+fn known(path: &Path) -> Option<&'static Known> {
+    let ending = ending(path)?;
+    KNOWN
+        .iter()
+        .find(|(endings, ..)| endings.contains(&ending.as_str()))
 }
 
 fn ending(path: &Path) -> Option<String> {
@@ -139,7 +160,7 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<Robo
         };
         return Err(whole(
             message,
-            &format!("understood are {ENDINGS}; or say which with --format"),
+            &format!("understood are {}; or say which with --format", endings()),
         ));
     };
     if wanted.tip.is_some() && !matches!(format, Format::Urdf | Format::Xacro) {
@@ -150,11 +171,8 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<Robo
         return Err(whole(message, "leave --tip out"));
     }
     match format {
-        Format::Armill => {
-            // Only to refuse bytes that are no text with their place.
-            Document::from_bytes(&shown, bytes)?;
-            armill::read(&shown, id, &text)
-        }
+        // Ours is UTF-8, whatever else others may be.
+        Format::Armill => armill::read(&shown, id, Document::text_of(&shown, bytes)?),
         Format::Urdf => urdf::read_to_tip(&shown, id, &text, wanted.tip.as_deref()),
         #[cfg(feature = "xacro")]
         Format::Xacro => super::xacro::read_to_tip(path, id, &text, wanted.tip.as_deref()),
@@ -165,7 +183,7 @@ pub fn read(path: &Path, id: &str, bytes: &[u8], wanted: &Wanted) -> Result<Robo
         )),
         Format::Opw => opw::read(&shown, id, &text),
         Format::Dh => dh::read(&shown, id, &text),
-        Format::Chain => elementary::read(&shown, id, &text),
+        Format::Chain => chain::read(&shown, id, &text),
     }
 }
 

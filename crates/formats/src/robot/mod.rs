@@ -1,17 +1,27 @@
-//! Robot descriptions in: our own robot file, URDF, xacro, OPW parameters, Denavit-Hartenberg tables, chains of
-//! elementary motions; poses as pendants show them.
+//! Which robot does a file describe, and how does a pendant write a pose?
 //!
-//! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
-//! [`RobotDescription`]: the robot of the core, with the source of its numbers. [`format`](mod@format) tells which
-//! of them a file is.
+//! | format | module |
+//! |---|---|
+//! | our own robot file, which alone knows compliances; written as well | [`armill`] |
+//! | URDF, and xacro, which becomes URDF | [`urdf`], `xacro` |
+//! | OPW parameters | [`opw`] |
+//! | Denavit-Hartenberg table | [`dh`] |
+//! | chain of elementary motions | [`chain`] |
+//!
+//! Each gives a [`RobotDescription`]: the robot of the core, with the source of its numbers and what was assumed. Each
+//! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
+//! [`format`](mod@format) tells which of them a file is, and reads it.
+//!
+//! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: poses as six makers write
+//! them. `xml` is the ground of URDF and xacro.
 
 pub mod armill;
+pub mod chain;
 pub mod dh;
-pub mod elementary;
 pub mod format;
 pub mod opw;
 pub mod pendant;
-pub mod structure;
+pub mod spring_tables;
 pub mod urdf;
 #[cfg(feature = "xacro")]
 pub mod xacro;
@@ -23,4 +33,7 @@ mod xml;
 /// have about thirty. The schema of our own robot file says the same.
 const MOST_JOINTS: usize = 64;
 
-pub use description::{JointNote, RobotDescription, Source, Symbol};
+/// An angle in rad beyond two turns is one in degrees under the wrong name.
+const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+
+pub use description::{JointNote, OtherLimits, RobotDescription, Symbol};

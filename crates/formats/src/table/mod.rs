@@ -196,11 +196,6 @@ impl Table {
     pub fn row_count(&self) -> usize {
         self.row_count
     }
-
-    /// The column of that name.
-    pub fn column(&self, name: &str) -> Option<&Column> {
-        self.columns.iter().find(|column| column.name == name)
-    }
 }
 
 impl Column {
@@ -324,17 +319,12 @@ mod tests {
     }
 
     #[test]
-    fn a_table_gives_its_columns_by_name() {
+    fn a_table_has_as_many_rows_as_its_columns() {
         let table = sample();
         assert_eq!(
             (table.name(), table.row_count(), table.columns().len()),
             ("map", 4, 6)
         );
-        assert_eq!(
-            table.column("count").unwrap().data,
-            ColumnData::Integer(vec![i64::MIN, 0, -1, i64::MAX])
-        );
-        assert_eq!(table.column("counts"), None);
     }
 
     #[test]

@@ -21,7 +21,8 @@ pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 
 use armill_core::load::CuttingLaw;
-use armill_formats::robot::Source;
+use armill_formats::robot::OtherLimits;
+use armill_formats::sources::Source;
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -144,7 +145,7 @@ fn robot_answer(study: &Study) -> RobotAnswer {
             compliance_u_rad_per_n_m: compliance.map_or(0.0, |c| c.standard_uncertainty),
             compliance_source: own
                 .clone()
-                .or_else(|| study.robot.joints[i].compliance_source.clone())
+                .or_else(|| study.robot.joint_notes[i].compliance_source.clone())
                 .unwrap_or_default(),
         }
     };
@@ -229,8 +230,13 @@ fn warnings(
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
-    for (i, joint) in study.robot.joints.iter().enumerate() {
-        for ([lower, upper], source, note) in &joint.other_limits {
+    for (i, joint) in study.robot.joint_notes.iter().enumerate() {
+        for limits in &joint.other_limits {
+            let OtherLimits {
+                limits_deg: [lower, upper],
+                source,
+                note,
+            } = limits;
             let name = &study.robot.robot.joints()[i].name;
             let note = note.as_ref().map_or(String::new(), |note| format!(" ({note})"));
             warnings.push(format!(

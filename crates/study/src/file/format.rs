@@ -3,7 +3,7 @@
 //! In-plane coordinates are the paper's y' (along base y on a tilted plane) and z', from the plane's centre.
 
 use armill_core::load::LoadFrame;
-use armill_formats::robot::structure::{MassTable, SpringTable};
+use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -14,7 +14,8 @@ use armill_core::robot::jacobian::screws_at;
 use armill_core::robot::model::NamedFrame;
 use armill_core::robot::{Seat, Spring};
 use armill_core::spatial::Twist;
-use armill_formats::robot::{RobotDescription, Source};
+use armill_formats::robot::RobotDescription;
+use armill_formats::sources::Source;
 
 use super::format::PositionerTable;
 use super::places::Places;

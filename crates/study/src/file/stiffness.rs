@@ -5,7 +5,7 @@ use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Gravity, StiffnessModel};
-use armill_formats::robot::structure::Fault;
+use armill_formats::robot::spring_tables::Fault;
 
 use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
 use super::places::Places;
@@ -50,12 +50,8 @@ impl ToolTable {
 
 fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
-    let mut tell = |path: String, fault: Fault| {
-        let path = match fault.key {
-            "" => path,
-            key => format!("{path}.{key}"),
-        };
-        places.problem(&path, fault.message, &fault.hint);
+    let mut tell = |table: String, fault: Fault| {
+        places.problem(&fault.path_in(&table), fault.message, &fault.hint);
     };
     for (index, table) in tool.spring.iter().enumerate() {
         match table.springs(&joints) {

@@ -4,8 +4,8 @@ use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::{Robot, Seat};
-use armill_formats::robot::armill::Yields;
+use armill_core::robot::{Axis, Robot, Seat};
+use armill_formats::robot::spring_tables::Yields;
 
 use crate::StudyError;
 
@@ -140,7 +140,7 @@ pub fn yields(unknown: &Unknown) -> Yields {
     } else {
         unknown.direction.linear
     };
-    let axis = ['x', 'y', 'z'][direction.iamax()];
+    let axis = Axis::ALL[direction.iamax()];
     match (unknown.role, unknown.turns()) {
         (Role::Drive | Role::LostMotion { .. }, true) => Yields::Drive,
         (Role::Drive | Role::LostMotion { .. }, false) => Yields::SlidingDrive,
@@ -154,8 +154,7 @@ pub fn spring_name(robot: &Robot, unknown: &Unknown) -> String {
     let seat = seat_name(robot, unknown);
     match (unknown.role, yields(unknown)) {
         (Role::LostMotion { .. }, _) => format!("{seat} lost motion"),
-        (_, Yields::About(axis)) => format!("{seat} about {axis}"),
-        (_, Yields::Along(axis)) => format!("{seat} along {axis}"),
-        _ => format!("{seat} drive"),
+        (_, Yields::Drive | Yields::SlidingDrive) => format!("{seat} drive"),
+        (_, spring) => spring.name_at(&seat),
     }
 }

@@ -2,7 +2,7 @@
 
 use armill_core::identify::Role;
 use armill_core::robot::Robot;
-use armill_formats::robot::armill::{IdentifiedSpring, with_springs};
+use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 
 use super::answer::Answer;
 use super::question::{seat_name, yields};
@@ -11,7 +11,7 @@ use crate::StudyError;
 /// The robot file `text` (at `path`) with the springs of `answer`, found from the tests in `tests_path`.
 ///
 /// # Errors
-/// A robot file that is not TOML.
+/// A robot file that is not TOML, or that no longer reads with these compliances in it.
 pub fn robot_file(
     robot: &Robot,
     [path, text]: [&str; 2],
@@ -58,11 +58,11 @@ pub fn robot_file(
         "compliances identified by armill from {} load tests with {} readings{left_out}",
         answer.tests, answer.readings
     );
-    Ok(with_springs(
-        path,
-        text,
-        &springs,
-        &covariance,
-        [&what, tests_path],
-    )?)
+    let identified = Identified {
+        springs,
+        covariance,
+        what,
+        place: tests_path.to_owned(),
+    };
+    Ok(with_springs(path, text, &identified)?)
 }

@@ -132,30 +132,19 @@ fn stretches(rows: &Rows<'_>) -> Vec<Vec<[f64; 3]>> {
 
 /// All planes of an ask as one surface.
 fn sheets(maps: &[&PlaneMap], series: &[Rows<'_>]) -> Result<PolyData, StudyError> {
-    let mut quads = Vec::new();
-    let mut first = 0;
-    for map in maps {
-        let (columns, rows) = (map.grid.columns, map.grid.rows);
-        for row in 1..rows {
-            for column in 1..columns {
-                let corner = first + (row - 1) * columns + column - 1;
-                quads.push([corner, corner + 1, corner + 1 + columns, corner + columns]);
-            }
-        }
-        first += map.grid.len();
-    }
+    let counts: Vec<[usize; 2]> = maps.iter().map(|map| [map.grid.columns, map.grid.rows]).collect();
     let points = series
         .iter()
         .flat_map(|rows| rows.at_mm.iter().copied())
         .collect();
-    Ok(PolyData::new(points, Vec::new(), quads, arrays(series))?)
+    Ok(PolyData::plane_grids(points, &counts, arrays(series))?)
 }
 
 /// Values for VTK: the envelope, and the deviation vector of each case.
 fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
     let scalar = |name: &str, um: fn(&Held) -> f64| PointArray {
         name: name.to_owned(),
-        values: PointValues::OptionalScalar(
+        values: PointValues::Scalar(
             series
                 .iter()
                 .flat_map(|rows| of_held(rows, 0..rows.at_mm.len(), |_, _, held| um(held) * 1e6))
@@ -176,7 +165,7 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
         };
         PointArray {
             name: format!("deviation_case_{}_um", case + 1),
-            values: PointValues::OptionalVector(of_points(series, vector)),
+            values: PointValues::Vector(of_points(series, vector)),
         }
     }));
     arrays

@@ -1,36 +1,30 @@
 //! What no schema can say of a robot file, and its numbers in SI.
-
-use std::collections::BTreeMap;
+//!
+//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as if
+//! it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every source
+//! is named and known is checked for all parts at once, by [`sources`](crate::sources).
 
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, Motion, TorqueCurve};
 
-use super::file::{JointEntry, MotionEntry, RobotFile, SourceEntry};
+use super::file::{JointEntry, MotionEntry, RobotFile};
 use crate::document::{Document, Problem};
 
-/// What no schema can say, collected.
+/// The file, and what was wrong with it so far.
 pub(super) struct Checks<'a> {
     pub document: &'a Document,
     pub problems: Vec<Problem>,
-    pub sources: &'a BTreeMap<String, SourceEntry>,
 }
 
 impl Checks<'_> {
+    /// Keeps a problem at the value that `path` names.
     pub(super) fn problem(&mut self, path: &str, message: impl Into<String>, hint: &str) {
         self.problems
             .push(self.document.problem(path, message, Some(hint)));
     }
 
-    pub(super) fn source(&mut self, path: &str, key: &str) {
-        if !self.sources.contains_key(key) {
-            let known: Vec<&str> = self.sources.keys().map(String::as_str).collect();
-            let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
-            self.problem(path, format!("source `{key}` is not among the sources"), &hint);
-        }
-    }
-
+    /// The chain, base to flange; every joint moves once, in the order of the tables.
     pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
-        self.source("chain.source", &file.chain.source);
         let mut motions = Vec::new();
         let mut used = 0;
         for (index, entry) in file.chain.motions.iter().enumerate() {
@@ -48,6 +42,7 @@ impl Checks<'_> {
         motions
     }
 
+    /// One motion of the chain; `used` joints have moved before it.
     fn motion(
         &mut self,
         path: &str,
@@ -66,7 +61,7 @@ impl Checks<'_> {
         };
         let amount = match (entry.length_mm, entry.angle_deg, &entry.joint) {
             (Some(length), None, None) if !turns => Amount::Constant(length * 1e-3),
-            (None, Some(angle), None) if turns => Amount::Constant(exact_radians(angle)),
+            (None, Some(angle), None) if turns => Amount::Constant(angle.to_radians()),
             (None, None, Some(name)) => Amount::Joint(self.next_joint(path, name, file, used)?),
             _ => {
                 let hint = "`along` takes `length_mm` or `joint`, `about` takes `angle_deg` or `joint`";
@@ -86,6 +81,7 @@ impl Checks<'_> {
         })
     }
 
+    /// The index of the joint called `name`, which must be the next that has not moved.
     fn next_joint(&mut self, path: &str, name: &str, file: &RobotFile, used: &mut usize) -> Option<usize> {
         let expected = file.joint.get(*used).map(|joint| joint.name.as_str());
         if expected == Some(name) {
@@ -104,6 +100,7 @@ impl Checks<'_> {
         None
     }
 
+    /// The joints as their controller counts them.
     pub(super) fn joints(&mut self, file: &RobotFile) -> Vec<Joint> {
         if file.joint.is_empty() {
             self.problem(
@@ -115,7 +112,6 @@ impl Checks<'_> {
         let mut joints = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
             let path = format!("joint[{index}]");
-            self.source(&format!("{path}.source"), &entry.source);
             if file.joint[..index]
                 .iter()
                 .any(|earlier| earlier.name == entry.name)
@@ -142,7 +138,7 @@ impl Checks<'_> {
                 } else {
                     Sign::Positive
                 },
-                zero_offset: entry.zero_offset_deg.map_or(0.0, exact_radians)
+                zero_offset: entry.zero_offset_deg.map_or(0.0, f64::to_radians)
                     + entry.zero_offset_mm.map_or(0.0, |mm| mm * 1e-3),
                 coupling: self.coupling(&path, entry, &file.joint[..index]),
                 limits: self.limits(&path, entry),
@@ -151,9 +147,6 @@ impl Checks<'_> {
                     .map(f64::to_radians)
                     .or(entry.max_speed_mm_per_s.map(|mm| mm * 1e-3)),
             });
-            for (other, limits) in entry.other_limits.iter().enumerate() {
-                self.source(&format!("{path}.other_limits[{other}].source"), &limits.source);
-            }
         }
         joints
     }
@@ -166,42 +159,53 @@ impl Checks<'_> {
         let Some(slides) = motion.map(|motion| motion.along.is_some()) else {
             return;
         };
-        let turning = [
-            ("zero_offset_deg", entry.zero_offset_deg.is_some()),
-            ("limits_deg", entry.limits_deg.is_some()),
-            ("max_speed_deg_per_s", entry.max_speed_deg_per_s.is_some()),
-            ("compliance_rad_per_n_m", entry.compliance_rad_per_n_m.is_some()),
-            (
-                "compliance_u_rad_per_n_m",
-                entry.compliance_u_rad_per_n_m.is_some(),
-            ),
-            ("torque_curve_n_m_rad", entry.torque_curve_n_m_rad.is_some()),
+        // In degrees beside in millimetres, for each quantity.
+        let quantities = [
+            [
+                ("zero_offset_deg", entry.zero_offset_deg.is_some()),
+                ("zero_offset_mm", entry.zero_offset_mm.is_some()),
+            ],
+            [
+                ("limits_deg", entry.limits_deg.is_some()),
+                ("limits_mm", entry.limits_mm.is_some()),
+            ],
+            [
+                ("max_speed_deg_per_s", entry.max_speed_deg_per_s.is_some()),
+                ("max_speed_mm_per_s", entry.max_speed_mm_per_s.is_some()),
+            ],
+            [
+                ("compliance_rad_per_n_m", entry.compliance_rad_per_n_m.is_some()),
+                ("compliance_um_per_n", entry.compliance_um_per_n.is_some()),
+            ],
+            [
+                (
+                    "compliance_u_rad_per_n_m",
+                    entry.compliance_u_rad_per_n_m.is_some(),
+                ),
+                ("compliance_u_um_per_n", entry.compliance_u_um_per_n.is_some()),
+            ],
         ];
-        let sliding = [
-            ("zero_offset_mm", entry.zero_offset_mm.is_some()),
-            ("limits_mm", entry.limits_mm.is_some()),
-            ("max_speed_mm_per_s", entry.max_speed_mm_per_s.is_some()),
-            ("compliance_um_per_n", entry.compliance_um_per_n.is_some()),
-            ("compliance_u_um_per_n", entry.compliance_u_um_per_n.is_some()),
-            ("", false),
-        ];
-        let (wrong, right, does) = if slides {
-            (turning, sliding, "slides")
-        } else {
-            (sliding, turning, "turns")
+        let does = if slides { "slides" } else { "turns" };
+        let mut refuse = |key: &str, hint: &str| {
+            let message = format!("joint {} {does}: `{key}` does not fit it", entry.name);
+            self.problem(&format!("{path}.{key}"), message, hint);
         };
-        for ((key, given), (instead, _)) in wrong.into_iter().zip(right) {
+        for [turning, sliding] in quantities {
+            let ((wrong, given), (right, _)) = if slides {
+                (turning, sliding)
+            } else {
+                (sliding, turning)
+            };
             if given {
-                let message = format!("joint {} {does}: `{key}` does not fit it", entry.name);
-                let hint = match instead {
-                    "" => "give it `compliance_um_per_n` instead".to_owned(),
-                    instead => format!("write `{instead}`"),
-                };
-                self.problem(&format!("{path}.{key}"), message, &hint);
+                refuse(wrong, &format!("write `{right}`"));
             }
+        }
+        if slides && entry.torque_curve_n_m_rad.is_some() {
+            refuse("torque_curve_n_m_rad", "give it `compliance_um_per_n` instead");
         }
     }
 
+    /// What `earlier` joints add to the count of this one.
     fn coupling(&mut self, path: &str, entry: &JointEntry, earlier: &[JointEntry]) -> Vec<Coupling> {
         let mut coupling = Vec::new();
         for (index, c) in entry.coupling.iter().enumerate() {
@@ -220,6 +224,7 @@ impl Checks<'_> {
         coupling
     }
 
+    /// Limits in rad or m.
     fn limits(&mut self, path: &str, entry: &JointEntry) -> Option<Limits> {
         let (limits, key, unit) = match (entry.limits_deg, entry.limits_mm) {
             (Some(deg), _) => (deg, "limits_deg", "deg"),
@@ -237,7 +242,7 @@ impl Checks<'_> {
         }
         let to_si = |value: f64| {
             if unit == "deg" {
-                exact_radians(value)
+                value.to_radians()
             } else {
                 value * 1e-3
             }
@@ -248,6 +253,7 @@ impl Checks<'_> {
         })
     }
 
+    /// The compliance of every joint's drive, or `None` where the file tells none at all.
     pub(super) fn compliance(&mut self, file: &RobotFile) -> Option<Vec<JointCompliance>> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
@@ -255,23 +261,18 @@ impl Checks<'_> {
             // Where a torque curve stands in place of a compliance, its slope without load is told for it.
             let points = entry.torque_curve_n_m_rad.clone();
             let curve = points.and_then(|points| TorqueCurve::new(points).ok());
-            let value = entry
-                .compliance_rad_per_n_m
-                .or(entry.compliance_um_per_n.map(|um| um * 1e-6));
+            let value = entry.compliance();
             if value.is_some() && entry.torque_curve_n_m_rad.is_some() {
                 let message = format!("joint {}: both a compliance and a torque curve", entry.name);
                 let hint = "keep one; `compliance_u_rad_per_n_m` stays with either";
                 self.problem(&format!("{path}.torque_curve_n_m_rad"), message, hint);
             }
             let value = value.or(curve.map(|curve| curve.slope(0.0)));
-            let u = entry
-                .compliance_u_rad_per_n_m
-                .or(entry.compliance_u_um_per_n.map(|um| um * 1e-6));
             match (value, &entry.compliance_source) {
                 (Some(value), Some(_)) => {
                     known.push(JointCompliance {
                         value,
-                        standard_uncertainty: u.unwrap_or(0.0),
+                        standard_uncertainty: entry.compliance_uncertainty(),
                     });
                 }
                 (Some(_), None) => {
@@ -279,14 +280,6 @@ impl Checks<'_> {
                     self.problem(&path, message, "add compliance_source = \"...\"");
                 }
                 (None, _) => {}
-            }
-            for (key, source) in [
-                ("compliance_source", &entry.compliance_source),
-                ("compliance_u_source", &entry.compliance_u_source),
-            ] {
-                if let Some(source) = source {
-                    self.source(&format!("{path}.{key}"), source);
-                }
             }
         }
         if !known.is_empty() && known.len() < file.joint.len() {
@@ -296,15 +289,7 @@ impl Checks<'_> {
         (known.len() == file.joint.len()).then_some(known)
     }
 
-    pub(super) fn frames_and_payload(&mut self, file: &RobotFile) {
-        for (index, frame) in file.frame.iter().enumerate() {
-            self.source(&format!("frame[{index}].source"), &frame.source);
-        }
-        if let Some(payload) = &file.payload {
-            self.source("payload.source", &payload.source);
-        }
-    }
-
+    /// The branch that stands for the robot where none is asked for.
     pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {
         let named = file.nominal_branch.as_deref().map(str::parse::<BranchPattern>);
         match named {
@@ -316,42 +301,4 @@ impl Checks<'_> {
             }
         }
     }
-
-    pub(super) fn unused_sources(&mut self, file: &RobotFile) {
-        let joints = file.joint.iter().flat_map(|joint| {
-            [
-                Some(&joint.source),
-                joint.compliance_source.as_ref(),
-                joint.compliance_u_source.as_ref(),
-            ]
-            .into_iter()
-            .flatten()
-            .chain(joint.other_limits.iter().map(|limits| &limits.source))
-        });
-        let others = file
-            .frame
-            .iter()
-            .map(|frame| &frame.source)
-            .chain(file.payload.iter().map(|p| &p.source));
-        let others = others
-            .chain(file.spring.iter().map(|s| &s.source))
-            .chain(file.mass.iter().map(|m| &m.source))
-            .chain(file.compensator.iter().map(|c| &c.source))
-            .chain(file.covariance.iter().map(|c| &c.source));
-        let used: Vec<&String> = joints.chain(others).chain([&file.chain.source]).collect();
-        let unused: Vec<&String> = file.sources.keys().filter(|key| !used.contains(key)).collect();
-        for key in unused {
-            let message = format!("source `{key}` is used by no number");
-            self.problem(
-                &format!("sources.{key}"),
-                message,
-                "name it where its numbers stand, or remove it",
-            );
-        }
-    }
-}
-
-/// Degrees to radians; whole quarter turns exactly.
-pub(super) fn exact_radians(degrees: f64) -> f64 {
-    degrees / 90.0 * std::f64::consts::FRAC_PI_2
 }

@@ -1,11 +1,10 @@
 //! The robot file as it stands: its tables and keys.
 
-use std::collections::BTreeMap;
-
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::robot::structure::{AxisName, MassTable, SpringTable};
+use crate::robot::spring_tables::{AxisName, MassTable, SpringTable};
+use crate::sources::SourceTable;
 
 /// The robot file.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -45,14 +44,15 @@ pub(super) struct RobotFile {
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
     /// Where the numbers come from, by key.
-    pub sources: BTreeMap<String, SourceEntry>,
+    pub sources: SourceTable,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(super) struct ChainTable {
     /// Key of the source of the lengths and angles.
-    pub source: String,
+    #[serde(rename = "source")]
+    pub _source: String,
     /// Elementary motions, base to flange.
     #[schemars(length(max = 1000))]
     pub motions: Vec<MotionEntry>,
@@ -129,7 +129,21 @@ pub(super) struct JointEntry {
     pub compliance_u_source: Option<String>,
     /// Limits by other sources; told to the user, never enforced.
     #[serde(default)]
-    pub other_limits: Vec<OtherLimits>,
+    pub other_limits: Vec<OtherLimitsEntry>,
+}
+
+impl JointEntry {
+    /// Compliance along or about the axis, m/N or rad/(N m).
+    pub(super) fn compliance(&self) -> Option<f64> {
+        let sliding = self.compliance_um_per_n.map(|um| um * 1e-6);
+        self.compliance_rad_per_n_m.or(sliding)
+    }
+
+    /// Its standard uncertainty, same unit; zero where none is told.
+    pub(super) fn compliance_uncertainty(&self) -> f64 {
+        let sliding = self.compliance_u_um_per_n.map(|um| um * 1e-6);
+        self.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
+    }
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -143,7 +157,7 @@ pub(super) struct CouplingEntry {
 
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub(super) struct OtherLimits {
+pub(super) struct OtherLimitsEntry {
     /// Lower and upper limit.
     pub limits_deg: [f64; 2],
     /// Key of the source.
@@ -164,7 +178,8 @@ pub(super) struct FrameEntry {
     #[serde(default)]
     pub rotation_deg: [f64; 3],
     /// Key of the source.
-    pub source: String,
+    #[serde(rename = "source")]
+    pub _source: String,
     /// What it is.
     #[serde(rename = "note")]
     pub _note: Option<String>,
@@ -192,7 +207,8 @@ pub(super) struct CompensatorTable {
     #[schemars(range(min = -360.0, max = 360.0))]
     pub angle_deg: f64,
     /// Key of the source.
-    pub source: String,
+    #[serde(rename = "source")]
+    pub _source: String,
 }
 
 /// Covariance of compliances that were identified together.
@@ -205,7 +221,8 @@ pub(super) struct CovarianceTable {
     #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
     pub matrix_rad2_per_n2_m2: Vec<Vec<f64>>,
     /// Key of the source.
-    pub source: String,
+    #[serde(rename = "source")]
+    pub _source: String,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -215,17 +232,6 @@ pub(super) struct PayloadTable {
     #[schemars(range(min = 0.0))]
     pub mass_kg: f64,
     /// Key of the source.
-    pub source: String,
-}
-
-#[derive(Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(super) struct SourceEntry {
-    /// What was taken.
-    pub what: String,
-    /// Where it stands.
-    #[serde(rename = "where")]
-    pub place: String,
-    /// Under which licence, or that it is a fact.
-    pub licence: String,
+    #[serde(rename = "source")]
+    pub _source: String,
 }

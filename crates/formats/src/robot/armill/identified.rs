@@ -3,9 +3,27 @@
 //! Everything else stays as it is: order, remarks, spelling. Springs and covariance of the file go, since they belong
 //! to the compliances that are replaced; sources that no number names any more go with them.
 
-use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+use std::collections::BTreeSet;
+
+use armill_core::robot::Axis;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value, value};
 
 use crate::document::{Document, Problems};
+use crate::robot::spring_tables::Yields;
+use crate::sources;
+
+/// What was identified of an arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Identified {
+    /// Its compliances, one each.
+    pub springs: Vec<IdentifiedSpring>,
+    /// Covariance of those that turn, in their order, rad^2/(N m)^2; empty if it is not known.
+    pub covariance: Vec<Vec<f64>>,
+    /// The tests they come from, for people.
+    pub what: String,
+    /// Where these tests are kept.
+    pub place: String,
+}
 
 /// One compliance that was identified.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,29 +38,7 @@ pub struct IdentifiedSpring {
     pub standard_uncertainty: f64,
 }
 
-/// How a spring yields.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Yields {
-    /// The drive of a turning joint.
-    Drive,
-    /// The drive of a sliding joint.
-    SlidingDrive,
-    /// About this axis, `x`, `y` or `z`, of the seat.
-    About(char),
-    /// Along this axis of the seat.
-    Along(char),
-}
-
 impl IdentifiedSpring {
-    /// As a covariance names it: `A2`, `A2 about x`.
-    pub fn name(&self) -> String {
-        match self.yields {
-            Yields::Drive | Yields::SlidingDrive => self.at.clone(),
-            Yields::About(axis) => format!("{} about {axis}", self.at),
-            Yields::Along(axis) => format!("{} along {axis}", self.at),
-        }
-    }
-
     fn turns(&self) -> bool {
         matches!(self.yields, Yields::Drive | Yields::About(_))
     }
@@ -53,28 +49,27 @@ const KEY: &str = "identified";
 /// Digits kept of a compliance: far more than any test gives.
 const DIGITS: usize = 7;
 
-/// The robot file `text` with these springs; `covariance` is of those that turn, in their order, `what` and `place`
-/// tell the tests they come from.
+/// The robot file `text` (at `path`) with these compliances in place of its own.
 ///
 /// # Errors
-/// A text that is not TOML.
-pub fn with_springs(
-    path: &str,
-    text: &str,
-    springs: &[IdentifiedSpring],
-    covariance: &[Vec<f64>],
-    [what, place]: [&str; 2],
-) -> Result<String, Problems> {
+/// A text that is not TOML; what no robot file may say once the compliances stand in it, as when some joints have one
+/// and others have none: such problems stand at their place in the new text, told as that of `path (identified)`.
+pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<String, Problems> {
+    let Identified {
+        springs, covariance, ..
+    } = identified;
     let checked = Document::parse(path, text)?;
     let mut document: DocumentMut = text
         .parse()
         .map_err(|error: toml_edit::TomlError| Problems::from(checked.problem("", error.message(), None)))?;
     document.remove("spring");
     document.remove("covariance");
-    if let Some(joints) = document.get_mut("joint").and_then(Item::as_array_of_tables_mut) {
-        for joint in joints.iter_mut() {
-            set_drive(joint, springs);
-        }
+    // `joint = [{ ... }]` is the same as tables of their own.
+    if let Some(joint) = document.get_mut("joint")
+        && let Ok(mut joints) = std::mem::take(joint).into_array_of_tables()
+    {
+        joints.iter_mut().for_each(|joint| set_drive(joint, springs));
+        *joint = Item::ArrayOfTables(joints);
     }
     let mut others = ArrayOfTables::new();
     for spring in springs {
@@ -92,27 +87,32 @@ pub fn with_springs(
         let turning = springs.iter().filter(|spring| spring.turns());
         document.insert("covariance", covariance_table(turning, covariance));
     }
-    let used = sources_of(document.as_item());
+    set_sources(&mut document, identified)?;
+    let text = document.to_string();
+    super::read(&format!("{path} (identified)"), "", &text)?;
+    Ok(text)
+}
+
+/// Adds the source of the identified numbers, and removes those that no number names any more.
+fn set_sources(document: &mut DocumentMut, identified: &Identified) -> Result<(), Problems> {
+    let now = Document::parse("", &document.to_string())?;
+    let named: BTreeSet<&str> = sources::named(&now).into_iter().map(|(_, key)| key).collect();
     if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut) {
-        let unused: Vec<String> = sources
-            .iter()
-            .map(|(key, _)| key.to_owned())
-            .filter(|key| !used.contains(key))
-            .collect();
-        for key in unused {
-            sources.remove(&key);
+        let keys: Vec<String> = sources.iter().map(|(key, _)| key.to_owned()).collect();
+        for key in keys.iter().filter(|key| !named.contains(key.as_str())) {
+            sources.remove(key);
         }
-        let mut identified = Table::new();
+        let mut entry = Table::new();
         for (key, content) in [
-            ("what", what),
-            ("where", place),
+            ("what", identified.what.as_str()),
+            ("where", &identified.place),
             ("licence", "your own measurement"),
         ] {
-            identified.insert(key, value(content));
+            entry.insert(key, value(content));
         }
-        sources.insert(KEY, Item::Table(identified));
+        sources.insert(KEY, Item::Table(entry));
     }
-    Ok(document.to_string())
+    Ok(())
 }
 
 fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
@@ -133,6 +133,8 @@ fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
         "compliance_um_per_n",
         "compliance_u_um_per_n",
         "compliance_u_source",
+        "torque_curve_n_m_rad",
+        "torque_curve_falling_n_m_rad",
     ] {
         joint.remove(key);
     }
@@ -150,10 +152,10 @@ fn set_compliance(table: &mut Table, spring: &IdentifiedSpring) {
     table.insert(keys[1], Item::Value(number(spring.standard_uncertainty * scale)));
 }
 
-fn spring_table(spring: &IdentifiedSpring, word: &str, axis: char) -> Table {
+fn spring_table(spring: &IdentifiedSpring, word: &str, axis: Axis) -> Table {
     let mut table = Table::new();
     table.insert("at", value(spring.at.as_str()));
-    table.insert(word, value(axis.to_string()));
+    table.insert(word, value(axis.letter().to_string()));
     set_compliance(&mut table, spring);
     table.insert("source", value(KEY));
     table
@@ -166,7 +168,11 @@ fn covariance_table<'a>(
     let mut table = Table::new();
     table.insert(
         "of",
-        value(springs.map(IdentifiedSpring::name).collect::<Array>()),
+        value(
+            springs
+                .map(|spring| spring.yields.name_at(&spring.at))
+                .collect::<Array>(),
+        ),
     );
     let mut rows = Array::new();
     for row in covariance {
@@ -185,51 +191,6 @@ fn covariance_table<'a>(
 fn number(of: f64) -> Value {
     let text = format!("{of:.*e}", DIGITS - 1);
     text.parse().unwrap_or_else(|_| Value::from(of))
-}
-
-/// Keys of sources that some number names.
-fn sources_of(item: &Item) -> Vec<String> {
-    let mut found = Vec::new();
-    collect(item, &mut found);
-    found
-}
-
-fn collect(item: &Item, found: &mut Vec<String>) {
-    match item {
-        Item::Value(Value::Array(list)) => {
-            let tables = list.iter().filter_map(Value::as_inline_table);
-            tables.for_each(|table| collect_inline(table, found));
-        }
-        Item::Value(Value::InlineTable(table)) => collect_inline(table, found),
-        Item::Table(table) => {
-            for (key, entry) in table {
-                name_of(key, entry.as_str(), found);
-                // The list of sources names itself only.
-                if key != "sources" {
-                    collect(entry, found);
-                }
-            }
-        }
-        Item::ArrayOfTables(tables) => {
-            for table in tables {
-                collect(&Item::Table(table.clone()), found);
-            }
-        }
-        _ => {}
-    }
-}
-
-fn collect_inline(table: &InlineTable, found: &mut Vec<String>) {
-    for (key, entry) in table {
-        name_of(key, entry.as_str(), found);
-        collect(&Item::Value(entry.clone()), found);
-    }
-}
-
-fn name_of(key: &str, entry: Option<&str>, found: &mut Vec<String>) {
-    if key == "source" || key.ends_with("_source") {
-        found.extend(entry.map(str::to_owned));
-    }
 }
 
 #[cfg(test)]
@@ -253,13 +214,22 @@ mod tests {
         }
     }
 
+    fn identified(springs: &[IdentifiedSpring], covariance: &[[f64; 2]]) -> Identified {
+        Identified {
+            springs: springs.to_vec(),
+            covariance: covariance.iter().map(|row| row.to_vec()).collect(),
+            what: "43 tests".to_owned(),
+            place: "tests.csv".to_owned(),
+        }
+    }
+
     #[test]
     fn drives_are_replaced_and_the_file_reads_with_them() {
         let springs = [
             spring("A", Yields::Drive, 2.5e-6),
             spring("B", Yields::SlidingDrive, 3e-8),
         ];
-        let text = with_springs("lever.toml", FILE, &springs, &[], ["43 tests", "tests.csv"]).unwrap();
+        let text = with_springs("lever.toml", FILE, &identified(&springs, &[])).unwrap();
         assert!(
             text.starts_with("# A lever.\n") && text.contains("# turns"),
             "{text}"
@@ -273,7 +243,10 @@ mod tests {
             (compliance[1].standard_uncertainty - 3e-9).abs() < 1e-18,
             "{text}"
         );
-        assert_eq!(read.joints[0].compliance_source.as_deref(), Some("identified"));
+        assert_eq!(
+            read.joint_notes[0].compliance_source.as_deref(),
+            Some("identified")
+        );
     }
 
     #[test]
@@ -287,8 +260,8 @@ mod tests {
             spring("A", Yields::Drive, 2.5e-6),
             spring("B", Yields::Drive, 3e-6),
         ];
-        let covariance = [vec![1e-14, 4e-15], vec![4e-15, 9e-14]];
-        let text = with_springs("lever.toml", &two, &springs, &covariance, ["", ""]).unwrap();
+        let known = identified(&springs, &[[1e-14, 4e-15], [4e-15, 9e-14]]);
+        let text = with_springs("lever.toml", &two, &known).unwrap();
         let read = super::super::read("lever.toml", "lever", &text).unwrap();
         let known = read.robot.structure().covariance.clone().unwrap();
         assert_eq!(known[(0, 1)], 4e-15);
@@ -299,11 +272,11 @@ mod tests {
     fn other_springs_stand_in_tables_of_their_own_with_their_covariance() {
         let springs = [
             spring("A", Yields::Drive, 2.5e-6),
-            spring("A", Yields::About('x'), 1e-7),
-            spring("flange", Yields::Along('z'), 2e-8),
+            spring("A", Yields::About(Axis::X), 1e-7),
+            spring("flange", Yields::Along(Axis::Z), 2e-8),
         ];
-        let covariance = [vec![1e-14, -2e-16], vec![-2e-16, 1e-16]];
-        let text = with_springs("lever.toml", FILE, &springs, &covariance, ["", ""]).unwrap();
+        let known = identified(&springs, &[[1e-14, -2e-16], [-2e-16, 1e-16]]);
+        let text = with_springs("lever.toml", FILE, &known).unwrap();
         let table: toml::Table = text.parse().unwrap();
         let springs = table["spring"].as_array().unwrap();
         assert_eq!(springs[0]["about"].as_str(), Some("x"));
@@ -321,17 +294,66 @@ mod tests {
         assert!((known[(0, 2)] + 2e-16).abs() < 1e-22 && known[(0, 3)] == 0.0);
         assert!((read.robot.structure().springs[1].compliance.value - 2e-8).abs() < 1e-14);
         // Identified once more, nothing of the first time is left.
-        let again = with_springs(
-            "lever.toml",
-            &text,
-            &[spring("A", Yields::Drive, 1e-6)],
-            &[vec![1e-14]],
-            ["", ""],
-        )
-        .unwrap();
+        let drives = [
+            spring("A", Yields::Drive, 1e-6),
+            spring("B", Yields::SlidingDrive, 3e-8),
+        ];
+        let again = with_springs("lever.toml", &text, &identified(&drives, &[])).unwrap();
         assert!(
             !again.contains("spring") && !again.contains("covariance"),
             "{again}"
+        );
+    }
+
+    #[test]
+    fn a_torque_curve_goes_with_the_compliance_that_it_stood_for() {
+        let curves = "torque_curve_n_m_rad = [[0, 0], [10, 1e-5]]\ntorque_curve_falling_n_m_rad = [[0, 0], [10, 2e-5]]";
+        let curved = FILE.replace("compliance_rad_per_n_m = 1e-3", curves);
+        let springs = [spring("A", Yields::Drive, 2.5e-6)];
+        let text = with_springs("lever.toml", &curved, &identified(&springs, &[])).unwrap();
+        assert!(!text.contains("torque_curve"), "{text}");
+        let robot = super::super::read("lever.toml", "lever", &text).unwrap().robot;
+        assert!(
+            (robot.compliance().unwrap()[0].value - 2.5e-6).abs() < 1e-18,
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn joints_in_one_line_each_are_joints_as_well() {
+        let start = FILE.find("[[joint]]").unwrap();
+        let end = FILE.find("[sources").unwrap();
+        let joints = r#"joint = [
+  { name = "A", sign = 1, source = "drawing", compliance_rad_per_n_m = 1e-3, compliance_source = "drawing" },
+  { name = "B", sign = 1, source = "drawing", compliance_um_per_n = 1, compliance_source = "drawing" },
+]
+"#;
+        let inline = FILE[..start].replace("format = 1\n", &format!("format = 1\n{joints}")) + &FILE[end..];
+        let inline = inline.split("[sources.guess]").next().unwrap();
+        let springs = [spring("B", Yields::SlidingDrive, 3e-8)];
+        let text = with_springs("lever.toml", inline, &identified(&springs, &[])).unwrap();
+        let robot = super::super::read("lever.toml", "lever", &text).unwrap().robot;
+        assert!(
+            (robot.compliance().unwrap()[1].value - 3e-8).abs() < 1e-18,
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn what_the_reader_would_refuse_is_refused() {
+        let bare = FILE
+            .replace(
+                "compliance_rad_per_n_m = 1e-3\ncompliance_source = \"guess\"\n",
+                "",
+            )
+            .replace("compliance_um_per_n = 1\ncompliance_source = \"guess\"\n", "");
+        let bare = bare.split("[sources.guess]").next().unwrap();
+        let springs = [spring("A", Yields::Drive, 2.5e-6)];
+        let problems = with_springs("lever.toml", bare, &identified(&springs, &[])).unwrap_err();
+        let told = problems.to_string();
+        assert!(
+            told.contains("lever.toml (identified):") && told.contains("1 of 2 joints have a compliance"),
+            "{told}"
         );
     }
 }

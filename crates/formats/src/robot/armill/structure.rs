@@ -1,11 +1,15 @@
 //! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
+//!
+//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the order
+//! of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all others stay
+//! independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};
 
-use super::checks::{Checks, exact_radians};
+use super::checks::Checks;
 use super::file::{CovarianceTable, JointEntry, RobotFile};
-use crate::robot::structure::Fault;
+use crate::robot::spring_tables::Fault;
 
 impl Checks<'_> {
     /// The structure of the arm; what is wrong goes into the problems.
@@ -16,21 +20,19 @@ impl Checks<'_> {
         let mut names: Vec<Option<String>> = joints.iter().map(|name| Some((*name).to_owned())).collect();
         for (index, table) in file.spring.iter().enumerate() {
             let path = format!("spring[{index}]");
-            self.source(&format!("{path}.source"), &table.source);
             match table.springs(&joints) {
                 Ok(springs) => {
                     names.extend(springs.iter().map(|_| table.name()));
                     structure.springs.extend(springs);
                 }
-                Err(fault) => self.fault(&path, fault),
+                Err(fault) => self.fault(&path, &fault),
             }
         }
         for (index, table) in file.mass.iter().enumerate() {
             let path = format!("mass[{index}]");
-            self.source(&format!("{path}.source"), &table.source);
             match table.mass(&joints) {
                 Ok(mass) => structure.masses.push(mass),
-                Err(fault) => self.fault(&path, fault),
+                Err(fault) => self.fault(&path, &fault),
             }
         }
         structure.curves = (0..file.joint.len())
@@ -43,14 +45,12 @@ impl Checks<'_> {
         structure
     }
 
-    fn fault(&mut self, path: &str, fault: Fault) {
-        let path = match fault.key {
-            "" => path.to_owned(),
-            key => format!("{path}.{key}"),
-        };
-        self.problem(&path, fault.message, &fault.hint);
+    /// Keeps what is wrong with a spring or mass that stands at `table`.
+    fn fault(&mut self, table: &str, fault: &Fault) {
+        self.problem(&fault.path_in(table), &fault.message, &fault.hint);
     }
 
+    /// Angle over torque (rad, N m) of a joint, if the file tells it.
     fn curve(&mut self, file: &RobotFile, joint: usize) -> Option<JointCurve> {
         let entry = &file.joint[joint];
         let falling = "torque_curve_falling_n_m_rad";
@@ -77,9 +77,9 @@ impl Checks<'_> {
         })
     }
 
+    /// The spring against gravity, in m, rad and N/m.
     fn compensator(&mut self, file: &RobotFile, joints: &[&str]) -> Option<Compensator> {
         let table = file.compensator.as_ref()?;
-        self.source("compensator.source", &table.source);
         let Some(joint) = joints.iter().position(|name| *name == table.joint) else {
             let message = format!("`{}` is no joint of the arm", table.joint);
             self.problem(
@@ -105,7 +105,7 @@ impl Checks<'_> {
             joint,
             fixed_radius: table.fixed_radius_mm * 1e-3,
             arm_radius: table.arm_radius_mm * 1e-3,
-            angle: exact_radians(table.angle_deg),
+            angle: table.angle_deg.to_radians(),
             free_length: table.free_length_mm * 1e-3,
             stiffness: table.stiffness_n_per_mm * 1e3,
         })
@@ -119,7 +119,6 @@ impl Checks<'_> {
         structure: &Structure,
         file: &RobotFile,
     ) -> Option<DMatrix<f64>> {
-        self.source("covariance.source", &table.source);
         let size = table.of.len();
         let rows = &table.matrix_rad2_per_n2_m2;
         if rows.len() != size || rows.iter().any(|row| row.len() != size) {
@@ -156,7 +155,7 @@ impl Checks<'_> {
         if places.len() != size {
             return None;
         }
-        let own = file.joint.iter().map(uncertainty).chain(
+        let own = file.joint.iter().map(JointEntry::compliance_uncertainty).chain(
             structure
                 .springs
                 .iter()
@@ -173,13 +172,9 @@ impl Checks<'_> {
     }
 }
 
+/// Whether the chain has a joint of this name that slides.
 fn slides(file: &RobotFile, joint: &str) -> bool {
     let own = |motion: &&super::file::MotionEntry| motion.joint.as_deref() == Some(joint);
     let motion = file.chain.motions.iter().find(own);
     motion.is_some_and(|motion| motion.along.is_some())
-}
-
-fn uncertainty(entry: &JointEntry) -> f64 {
-    let sliding = entry.compliance_u_um_per_n.map(|um| um * 1e-6);
-    entry.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
 }

@@ -3,13 +3,10 @@
 //! Numbers are the shortest decimals that come back as the same motion: lengths and angles of the chain within
 //! 1e-15 m and rad, limits and speeds within 1e-9.
 
-use std::fmt::Write;
-
-use armill_core::frame::Isometry;
-use armill_core::robot::{Amount, Axis, Joint, Motion};
+use armill_core::frame::{Isometry, fixed_angles};
+use armill_core::robot::{Amount, Joint, Motion};
 
 use super::super::description::RobotDescription;
-use super::checks::exact_radians;
 
 /// How far (m, rad) a number of the chain may be from its decimal.
 const CHAIN: f64 = 1e-15;
@@ -49,6 +46,7 @@ fn line(text: &mut String, content: &str) {
     text.push('\n');
 }
 
+/// Comments on what was assumed and what is missing, and the fields of the file as a whole.
 fn head(text: &mut String, found: &RobotDescription) {
     let robot = &found.robot;
     let place = found.sources.first().map_or("", |source| source.place.as_str());
@@ -102,6 +100,7 @@ fn head(text: &mut String, found: &RobotDescription) {
     line(text, &format!("note = {}", quoted(&note)));
 }
 
+/// The table `[chain]`, a motion a line.
 fn chain(text: &mut String, found: &RobotDescription) {
     line(text, "\n[chain]");
     line(text, &format!("source = {}", quoted(source(found))));
@@ -112,11 +111,7 @@ fn chain(text: &mut String, found: &RobotDescription) {
             Motion::Along(axis, _) => ("along", axis),
             Motion::About(axis, _) => ("about", axis),
         };
-        let axis = match axis {
-            Axis::X => "x",
-            Axis::Y => "y",
-            Axis::Z => "z",
-        };
+        let axis = axis.letter();
         let amount = match (motion, motion.amount()) {
             (Motion::Along(..), Amount::Constant(m)) => format!("length_mm = {}", millimetres(m, CHAIN)),
             (Motion::About(..), Amount::Constant(rad)) => format!("angle_deg = {}", degrees(rad, CHAIN)),
@@ -138,6 +133,7 @@ fn chain(text: &mut String, found: &RobotDescription) {
     line(text, "]");
 }
 
+/// A table `[[joint]]`; what is not known stands in comments, ready to be filled in.
 fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     let Some(joint) = found.robot.joints().get(index) else {
         return;
@@ -190,31 +186,30 @@ fn joint(text: &mut String, found: &RobotDescription, index: usize) {
     line(text, "# compliance_source = \"...\"");
 }
 
+/// The key of the one source.
 fn source(found: &RobotDescription) -> &str {
     found.sources.first().map_or("", |source| source.key.as_str())
 }
 
+/// Origin and turns about the fixed axes x, y, z, as the file has them.
 fn pose(base_from_frame: &Isometry) -> (String, String) {
     let at = base_from_frame.translation.vector;
-    let m = base_from_frame.rotation.to_rotation_matrix();
-    // By arc tangents alone, and the first angle after the others: good to rounding also where y turns by 90 deg.
-    let ry = (-m[(2, 0)]).atan2(m[(0, 0)].hypot(m[(1, 0)]));
-    let rz = m[(1, 0)].atan2(m[(0, 0)]);
-    let (sin, cos) = rz.sin_cos();
-    let rx = (sin * m[(0, 2)] - cos * m[(1, 2)]).atan2(cos * m[(1, 1)] - sin * m[(0, 1)]);
+    let angles: [f64; 3] = fixed_angles(&base_from_frame.rotation).into();
     let three = |values: [String; 3]| format!("[{}]", values.join(", "));
     (
         three([at.x, at.y, at.z].map(|m| millimetres(m, CHAIN))),
-        three([rx, ry, rz].map(|rad| degrees(rad, CHAIN))),
+        three(angles.map(|rad| degrees(rad, CHAIN))),
     )
 }
 
+/// A length in m as mm.
 fn millimetres(m: f64, within: f64) -> String {
     shortest(m, m * 1e3, within, |mm| mm * 1e-3)
 }
 
+/// An angle in rad as deg.
 fn degrees(rad: f64, within: f64) -> String {
-    shortest(rad, rad.to_degrees(), within, exact_radians)
+    shortest(rad, rad.to_degrees(), within, f64::to_radians)
 }
 
 /// The shortest decimal of `shown` that `to_si` takes back to `si`.
@@ -234,20 +229,7 @@ fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
 
 /// A TOML string.
 fn quoted(text: &str) -> String {
-    let mut quoted = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' => quoted.push_str("\\\""),
-            '\\' => quoted.push_str("\\\\"),
-            '\n' => quoted.push_str("\\n"),
-            '\t' => quoted.push_str("\\t"),
-            // Writing to a text cannot fail.
-            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    toml_edit::Value::from(text).to_string()
 }
 
 /// A text that fits into a comment.

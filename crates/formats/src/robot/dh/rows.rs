@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use armill_core::robot::chain::LONGEST;
+use armill_core::robot::joint::Sign;
 
-use super::super::MOST_JOINTS;
+use super::super::{MOST_JOINTS, TWO_TURNS};
 use super::table::{Cell, Table};
 use crate::document::{Problems, Source};
 
@@ -22,20 +23,25 @@ pub(super) enum Moves {
 /// One row; m and rad.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
+    /// Name of the joint.
     pub joint: String,
     pub moves: Moves,
     pub a: f64,
     pub alpha: f64,
     pub d: f64,
     pub theta: f64,
-    /// The controller counts against the right hand.
-    pub against: bool,
+    /// Counting direction of the controller.
+    pub sign: Sign,
+    /// Lower and upper, in the controller's counting.
     pub limits: Option<[f64; 2]>,
 }
 
+/// What a column measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
+    /// mm or m.
     Length,
+    /// deg or rad.
     Angle,
     /// That of the joint.
     OfJoint,
@@ -50,6 +56,7 @@ const QUANTITIES: [(&str, Kind); 6] = [
     ("lower", Kind::OfJoint),
     ("upper", Kind::OfJoint),
 ];
+/// Columns that hold words.
 const WORDS: [&str; 3] = ["joint", "type", "sign"];
 
 /// A unit by its ending, with the kind that it measures.
@@ -62,9 +69,6 @@ const UNITS: [(&str, Kind); 4] = [
 
 /// Rows of a table, fixed ones included.
 const MOST_ROWS: usize = MOST_JOINTS;
-
-/// Angles beyond two turns, rad, are degrees under the wrong name.
-const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
 
 /// What an unknown column might have been.
 const COLUMNS: &str = "columns: a_mm, alpha_deg, d_mm, theta_deg (or _m, _rad); optional: joint, type, sign, lower_deg, upper_deg";
@@ -128,6 +132,7 @@ fn quantity(name: &str) -> &str {
         .unwrap_or(name)
 }
 
+/// What is wrong with the name of a column, and a hint.
 fn column_problem(name: &str) -> Option<(String, String)> {
     if WORDS.contains(&name) {
         return None;
@@ -154,6 +159,7 @@ fn column_problem(name: &str) -> Option<(String, String)> {
     })
 }
 
+/// Reads one row of a table.
 struct RowReader<'a> {
     file: &'a Source,
     table: &'a Table,
@@ -161,6 +167,10 @@ struct RowReader<'a> {
 }
 
 impl RowReader<'_> {
+    /// The row, which is the one with this index from 0: a joint without name is called by it.
+    ///
+    /// # Errors
+    /// The first word or limit that is wrong, else all numbers that are.
     fn row(&self, index: usize) -> Result<Row, Problems> {
         let moves = match self
             .cell("type")
@@ -174,13 +184,13 @@ impl RowReader<'_> {
                 _ => return Err(self.refused(cell, "is not revolute, prismatic or fixed")),
             },
         };
-        let against = match self.cell("sign") {
+        let sign = match self.cell("sign") {
             Some((_, cell)) if moves != Moves::Not => match cell.text.as_str() {
-                "1" | "+1" => false,
-                "-1" => true,
+                "1" | "+1" => Sign::Positive,
+                "-1" => Sign::Negative,
                 _ => return Err(self.refused(cell, "is not 1 or -1")),
             },
-            _ => false,
+            _ => Sign::Positive,
         };
         let joint = match self.cell("joint") {
             Some((_, cell)) if moves != Moves::Not && cell.text.is_empty() => {
@@ -194,7 +204,13 @@ impl RowReader<'_> {
             (Some(_), Some((_, cell))) => {
                 return Err(self.refused(cell, "is an upper limit not above the lower one"));
             }
-            _ => None,
+            (Some((_, cell)), None) => {
+                return Err(self.refused(cell, "is a lower limit without an upper one"));
+            }
+            (None, Some((_, cell))) => {
+                return Err(self.refused(cell, "is an upper limit without a lower one"));
+            }
+            (None, None) => None,
         };
         let (a, alpha, d, theta) = (
             self.value("a"),
@@ -210,7 +226,7 @@ impl RowReader<'_> {
                 alpha,
                 d,
                 theta,
-                against,
+                sign,
                 limits,
             }),
             (a, alpha, d, theta) => {
@@ -228,6 +244,7 @@ impl RowReader<'_> {
             .find(|(name, _)| quantity(&name.text.to_lowercase()) == of)
     }
 
+    /// The number below the column of a quantity, in SI; zero where there is no such column.
     fn value(&self, of: &str) -> Result<f64, Problems> {
         match self.cell(of) {
             Some((name, cell)) => self.si(name, cell),
@@ -253,6 +270,7 @@ impl RowReader<'_> {
         }
     }
 
+    /// The number in a cell, m or rad by the unit in the column's name.
     fn si(&self, name: &Cell, cell: &Cell) -> Result<f64, Problems> {
         let text = match self.table.decimal_comma {
             true => cell.text.replace(',', "."),
@@ -264,8 +282,7 @@ impl RowReader<'_> {
         let name = name.text.to_lowercase();
         let si = match UNITS.iter().find(|(unit, _)| name.ends_with(unit)) {
             Some(("_mm", _)) => value * 1e-3,
-            // A whole quarter turn exactly.
-            Some(("_deg", _)) => value / 90.0 * std::f64::consts::FRAC_PI_2,
+            Some(("_deg", _)) => value.to_radians(),
             _ => value,
         };
         let angle = name.ends_with("deg") || name.ends_with("rad");
@@ -276,6 +293,7 @@ impl RowReader<'_> {
         }
     }
 
+    /// The problem that a cell `what`.
     fn refused(&self, cell: &Cell, what: &str) -> Problems {
         self.file
             .problem(cell.place.clone(), format!("`{}` {what}", cell.text), None)

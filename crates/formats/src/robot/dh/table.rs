@@ -7,13 +7,16 @@ use crate::document::{Problem, Problems, Source};
 /// What a row means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Convention {
+    /// `Rz(theta) Tz(d) Tx(a) Rx(alpha)`
     Standard,
+    /// `Rx(alpha) Tx(a) Rz(theta) Tz(d)`
     Modified,
 }
 
 /// A piece of the text and where it stands.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
+    /// Without blanks and quotes around it.
     pub text: String,
     pub place: Range<usize>,
 }
@@ -22,13 +25,17 @@ pub(super) struct Cell {
 #[derive(Debug)]
 pub(super) struct Table {
     pub convention: Convention,
+    /// What the table calls the arm.
     pub name: Option<String>,
+    /// Names of the columns.
     pub header: Vec<Cell>,
+    /// As many cells each as the header has.
     pub rows: Vec<Vec<Cell>>,
     /// A comma is a decimal sign here, because `;` separates.
     pub decimal_comma: bool,
 }
 
+/// What to write where the convention is not known.
 const CONVENTIONS: &str = "write `convention = standard` (a row is Rz(theta) Tz(d) Tx(a) Rx(alpha): a and alpha lead to the \
      next axis) or `convention = modified` (Craig: Rx(alpha) Tx(a) Rz(theta) Tz(d): a and alpha lead from the axis before)";
 
@@ -103,6 +110,7 @@ pub(super) fn read(file: &Source) -> Result<Table, Problems> {
     }
 }
 
+/// A row with more or fewer cells than the header.
 fn uneven(file: &Source, line: &Cell, found: usize, wanted: usize) -> Problem {
     let message = format!("the row has {found} cells where the header has {wanted}");
     let hint = "write 0 where nothing is; with decimal commas separate cells by `;`".to_owned();
@@ -136,12 +144,14 @@ fn lines_of(text: &str) -> Vec<Cell> {
     lines
 }
 
+/// What stands between cells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Separator {
     Char(char),
     Blanks,
 }
 
+/// The first of `;`, `,` and tab that the header holds, else blanks.
 fn separator(header: &str) -> Separator {
     match [';', ',', '\t'].into_iter().find(|c| header.contains(*c)) {
         Some(c) => Separator::Char(c),
@@ -149,6 +159,7 @@ fn separator(header: &str) -> Separator {
     }
 }
 
+/// The cells of a line; of one that ends with a separator the last is empty.
 fn cells(line: &Cell, separator: Separator) -> Vec<Cell> {
     let pieces: Vec<&str> = match separator {
         Separator::Char(c) => line.text.split_inclusive(c).collect(),

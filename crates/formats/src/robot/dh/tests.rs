@@ -3,6 +3,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Matrix4;
 use armill_core::robot::inverse::posture_at;
+use armill_core::robot::joint::Sign;
 
 use super::*;
 
@@ -194,6 +195,20 @@ fn every_cell_that_is_wrong_is_told() {
     assert!(refusal(&MH12.replace("S; 0; 0; 0;", "S; 0; 0;")).contains("7 cells where the header has 8"));
     assert!(refusal("convention = standard\n").contains("no header"));
     assert!(refusal("convention = standard\na_m, alpha_deg, d_m, theta_deg\n").contains("no row"));
+}
+
+#[test]
+fn a_limit_on_one_side_alone_is_told() {
+    let lower = refusal(&MH12.replace("-1; ;", "-1; -120;"));
+    assert!(
+        lower.contains("`-120` is a lower limit without an upper one"),
+        "{lower}"
+    );
+    let upper = refusal(&MH12.replace("-85; 150", "; 150"));
+    assert!(
+        upper.contains("`150` is an upper limit without a lower one"),
+        "{upper}"
+    );
 }
 
 #[test]

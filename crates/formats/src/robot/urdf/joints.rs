@@ -1,16 +1,30 @@
 //! The joints of a URDF as they stand in the file, each with its place.
+//!
+//! What the file leaves out is as the specification of URDF has it:
+//!
+//! | left out | taken as |
+//! |---|---|
+//! | `<origin>`, its `xyz` or `rpy` | zero |
+//! | `<axis>` | `1 0 0` |
+//! | `lower`, `upper` | 0; both 0 means no limits |
+//! | `velocity`, or `velocity="0"` | not known |
+//! | `<limit>` of a `continuous` joint | whatever it says, none |
+//!
+//! `inf`, and numbers beyond 1000, stand for an open end.
 
 use std::ops::Range;
 
+use armill_core::frame::fixed_angles;
 use armill_core::nalgebra::{Quaternion, UnitQuaternion};
 use armill_core::robot::chain::LONGEST;
 use roxmltree::Node;
 
+use super::super::TWO_TURNS;
 use super::super::xml::{children, numbers, required, tag, value_place};
 use crate::document::{Problems, Source};
 
-/// Angles beyond two turns, rad, are degrees.
-const TWO_TURNS: f64 = 4.0 * std::f64::consts::PI;
+/// An axis is a direction; squares of far larger components are none.
+const LARGEST_AXIS: f64 = 1e6;
 
 /// How a joint moves.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,6 +48,7 @@ pub(super) struct JointElement {
     pub xyz: [f64; 3],
     pub rpy: [f64; 3],
     pub axis: [f64; 3],
+    /// Lower and upper end as they are told, infinite where open; `None` where there are none.
     pub limits: Option<[f64; 2]>,
     /// Greatest speed, rad/s or m/s.
     pub velocity: Option<f64>,
@@ -67,6 +82,7 @@ pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement
     Problems::from(problems).into_result().map(|()| joints)
 }
 
+/// One `<joint>` element.
 fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     let name = required(file, node, "name")?.to_owned();
     let kind = match required(file, node, "type")? {
@@ -93,28 +109,16 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     };
     let axis_element = children(node, "axis").next();
     let axis = match axis_element {
-        Some(axis) => numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?,
+        Some(axis) => axis_of(file, axis)?,
         None => [1.0, 0.0, 0.0],
     };
     let limit = children(node, "limit").next();
-    let number = |attribute: &str| {
-        match limit.filter(|limit| limit.has_attribute(attribute)) {
-            // URDF 1.2 writes an open end so.
-            Some(limit) if matches!(limit.attribute(attribute).map(str::trim), Some("inf" | "-inf")) => {
-                Ok(None)
-            }
-            // Files without limits write numbers that nothing reaches.
-            Some(limit) => numbers(file, limit, attribute, [0.0])
-                .map(|[value]| Some(value).filter(|value| value.abs() <= LONGEST)),
-            None => Ok(None),
-        }
-    };
-    let limits = match (number("lower")?, number("upper")?) {
-        (Some(lower), Some(upper)) if lower < upper => Some([lower, upper]),
-        _ => None,
-    };
-    let velocity = number("velocity")?.filter(|velocity| *velocity > 0.0);
-    let continuous = node.attribute("type") == Some("continuous");
+    let end = |attribute: &str| end_of(file, limit, attribute);
+    let ends = [end("lower")?, end("upper")?];
+    let free = node.attribute("type") == Some("continuous")
+        || ends == [0.0, 0.0]
+        || ends == [f64::NEG_INFINITY, f64::INFINITY];
+    let velocity = Some(end("velocity")?).filter(|speed| *speed > 0.0 && speed.is_finite());
     let mimic = children(node, "mimic").next();
     Ok(JointElement {
         kind,
@@ -123,7 +127,7 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
         xyz,
         rpy,
         axis,
-        limits: limits.filter(|_| !continuous),
+        limits: (!free).then_some(ends),
         velocity,
         mimics: mimic.map(|mimic| mimic.attribute("joint").unwrap_or("another joint").to_owned()),
         place: match axis_element {
@@ -135,6 +139,34 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     })
 }
 
+/// The direction of an axis, of any length up to [`LARGEST_AXIS`].
+fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
+    let xyz = numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?;
+    match xyz.iter().find(|part| part.abs() > LARGEST_AXIS) {
+        Some(far) => {
+            let message = format!("{far:e} in an axis is beyond {LARGEST_AXIS:e}");
+            let hint = "an axis is a direction such as xyz=\"0 0 1\"".to_owned();
+            Err(file.problem(value_place(axis, "xyz"), message, Some(hint)).into())
+        }
+        None => Ok(xyz),
+    }
+}
+
+/// A number of `<limit>`, infinite where it stands for an open end; zero where it is left out.
+fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result<f64, Problems> {
+    let Some(limit) = limit else { return Ok(0.0) };
+    match limit.attribute(attribute).map(str::trim) {
+        Some("inf") => Ok(f64::INFINITY),
+        Some("-inf") => Ok(f64::NEG_INFINITY),
+        _ => match numbers(file, limit, attribute, [0.0])? {
+            // Files without limits write numbers that nothing reaches.
+            [value] if value.abs() > LONGEST => Ok(f64::INFINITY.copysign(value)),
+            [value] => Ok(value),
+        },
+    }
+}
+
+/// Position (m) and turns about the fixed axes x, y, z (rad).
 fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
     let xyz = numbers(file, origin, "xyz", [0.0; 3])?;
     if let Some(far) = xyz.iter().find(|value| value.abs() > LONGEST) {
@@ -155,7 +187,7 @@ fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3])
     if origin.attribute("quat_xyzw").is_none() {
         return Ok((xyz, rpy));
     }
-    // URDF 1.1.
+    // Since URDF 1.1 a quaternion may stand there, and goes before `rpy`.
     let [x, y, z, w] = numbers(file, origin, "quat_xyzw", [0.0, 0.0, 0.0, 1.0])?;
     let Some(turn) = UnitQuaternion::try_new(Quaternion::new(w, x, y, z), 1e-9) else {
         let message = "a quaternion of length zero is no orientation";
@@ -163,6 +195,5 @@ fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3])
             .problem(value_place(origin, "quat_xyzw"), message, None)
             .into());
     };
-    let (roll, pitch, yaw) = turn.euler_angles();
-    Ok((xyz, [roll, pitch, yaw]))
+    Ok((xyz, fixed_angles(&turn).into()))
 }

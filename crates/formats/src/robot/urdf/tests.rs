@@ -1,5 +1,6 @@
 use super::*;
 use armill_core::frame::Isometry;
+use armill_core::nalgebra::UnitQuaternion;
 use armill_core::robot::inverse::posture_at;
 
 fn urdf(joints: &str) -> String {
@@ -60,6 +61,54 @@ fn an_oblique_axis_turns_as_the_file_says() {
         * turn(Vector3::new(0.6, 0.0, 0.8), q[1])
         * origin(Vector3::new(0.1, 0.0, 0.0), Vector3::new(0.0, 1.57, 0.0));
     assert!((reached.to_homogeneous() - expected.to_homogeneous()).norm() < 1e-14);
+}
+
+#[test]
+fn an_axis_within_the_digits_of_a_file_is_a_coordinate_axis_and_any_other_keeps_its_tilt() {
+    let read = |axis: &str| {
+        let text = urdf(&sound()).replace("<axis xyz=\"0 0 -1\"/>", &format!("<axis xyz=\"{axis}\"/>"));
+        read("s.urdf", "s", &text).unwrap()
+    };
+    let told = |found: &RobotDescription| {
+        let remark = "axes within 1e-6 of a coordinate axis are taken as that axis: j1";
+        found.remarks.iter().any(|told| told == remark)
+    };
+    let near = read("0.0000005 0 -1");
+    assert!(told(&near), "{:?}", near.remarks);
+    assert_eq!(near.robot.joints()[0].sign, Sign::Negative);
+    let exact = read("0 0 -3");
+    assert!(!told(&exact) && exact.robot.chain().motions() == near.robot.chain().motions());
+    // 40 um in a metre: no rounding, and kept.
+    let tilted = read("0.00004 0 1");
+    assert!(!told(&tilted));
+    let turned = posture_at(&tilted.robot, &[1.0, 0.0], &Isometry::identity()).base_from_tool;
+    let axis = Vector3::new(4e-5, 0.0, 1.0).normalize();
+    let start = posture_at(&tilted.robot, &[0.0, 0.0], &Isometry::identity()).base_from_tool;
+    let turn = turned.rotation * start.rotation.inverse();
+    assert!((turn.scaled_axis() - axis).norm() < 1e-14, "{turn}");
+}
+
+#[test]
+fn limits_are_read_as_urdf_means_them_and_what_is_no_range_is_told() {
+    let inner = "lower=\"-1\" upper=\"2\"";
+    for (to, limits, told) in [
+        (inner, Some((-1.0, 2.0)), false),
+        ("upper=\"2\"", Some((0.0, 2.0)), false),
+        ("lower=\"0\" upper=\"0\"", None, false),
+        ("", None, false),
+        ("lower=\"-inf\" upper=\"inf\"", None, false),
+        ("lower=\"-1e16\" upper=\"1e16\"", None, false),
+        ("lower=\"2\" upper=\"-1\"", None, true),
+        ("lower=\"-1\" upper=\"inf\"", None, true),
+    ] {
+        let found = read("s.urdf", "s", &urdf(&sound()).replacen(inner, to, 1)).unwrap();
+        let joint = &found.robot.joints()[0];
+        assert_eq!(joint.limits.map(|l| (l.lower, l.upper)), limits, "{to}");
+        let remark = found
+            .remarks
+            .contains(&"limits that are no range are left out: j1".to_owned());
+        assert_eq!(remark, told, "{to}: {:?}", found.remarks);
+    }
 }
 
 #[test]
@@ -193,6 +242,11 @@ fn what_is_no_number_is_told_with_its_place() {
             "xyz=\"0 0 0.4\"",
             "xyz=\"0 0 ${h}\"",
             "save the file with the ending .xacro",
+        ),
+        (
+            "xyz=\"0 0 -1\"",
+            "xyz=\"1e200 0 0\"",
+            "1e200 in an axis is beyond 1e6",
         ),
         ("lower=\"-1\"", "lower=\"low\"", "`low` in lower"),
         (

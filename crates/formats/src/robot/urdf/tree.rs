@@ -28,6 +28,8 @@ pub(super) struct Chain<'a> {
 }
 
 impl<'a> Tree<'a> {
+    /// The tree of the links below `root` and of these joints.
+    ///
     /// # Errors
     /// A joint to a link that is not there, a link with two parents, a loop, no root or several.
     pub fn new(file: &Source, root: Node<'a, '_>, joints: &'a [JointElement]) -> Result<Tree<'a>, Problems> {
@@ -162,16 +164,20 @@ fn unreached<'a>(root: &'a str, joints: &'a [JointElement], links: &BTreeSet<&'a
     links.difference(&reached).copied().collect()
 }
 
+/// What to look for where links and joints are no tree.
 const LOOP: &str = "a serial arm has one root link and joints that lead away from it without a loop";
 
+/// Whether a joint has a position of its own.
 fn moves(joint: &JointElement) -> bool {
     joint.kind != Kind::Fixed && joint.mimics.is_none()
 }
 
+/// A hint that names the links of the file.
 fn list_of(links: &[&str]) -> String {
     format!("the links of the file: {}", listed(links))
 }
 
+/// The first of these names, and how many more there are.
 fn listed(links: &[&str]) -> String {
     let shown = links
         .iter()

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::Node;
 
 use super::super::xml;
-use super::packages;
+use super::{DIRECTIVES, packages};
 use crate::document::{Problem, Problems, Source};
 
 /// Files within files deeper than this are a circle.
@@ -32,12 +32,15 @@ const DROPPED: [&str; 5] = ["material", "gazebo", "transmission", "ros2_control"
 
 /// Everything of a xacro file in one text.
 pub(super) struct Flat {
+    /// One `<robot>` with the contents of all files.
     pub xml: String,
     /// The files included, to find the places of problems.
     pub sources: Vec<Source>,
+    /// Files that were not found and are not needed.
     pub remarks: Vec<String>,
 }
 
+/// Writes one text while it walks through all files.
 struct Writer<'a> {
     main: &'a Source,
     xml: String,
@@ -47,6 +50,8 @@ struct Writer<'a> {
     /// The files that include the one at hand, outermost first.
     inside: Vec<PathBuf>,
     macros: Vec<Macro>,
+    /// How many definitions of macros enclose the element at hand.
+    macros_around: usize,
     /// A joint outside all macros, or a call of a macro.
     makes_something: bool,
 }
@@ -82,10 +87,11 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
         problems: Vec::new(),
         inside: vec![path.to_owned()],
         macros: Vec::new(),
+        macros_around: 0,
         makes_something: false,
     };
     for child in root.children() {
-        writer.node(main, child, false);
+        writer.node(main, child);
     }
     Problems::from(std::mem::take(&mut writer.problems)).into_result()?;
     if !writer.makes_something {
@@ -105,7 +111,8 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
 }
 
 impl Writer<'_> {
-    fn node(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+    /// Any node of a file: text, an element of URDF that chains need, or one of xacro.
+    fn node(&mut self, file: &Source, node: Node<'_, '_>) {
         if node.is_text() {
             self.xml.push_str(&escaped(node.text().unwrap_or_default()));
         }
@@ -118,12 +125,12 @@ impl Writer<'_> {
             if DROPPED.contains(&name) || (inside_joint && !OF_JOINTS.contains(&name)) {
                 return;
             }
-            self.makes_something |= name == "joint" && !in_macro;
-            self.element(file, node, in_macro);
+            self.makes_something |= name == "joint" && self.macros_around == 0;
+            self.element(file, node);
             return;
         }
         match name {
-            "include" => self.include(file, node, in_macro),
+            "include" => self.include(file, node),
             "macro" => {
                 if node.descendants().any(|inner| is_plain(inner, "joint")) {
                     self.macros.push(Macro {
@@ -133,27 +140,19 @@ impl Writer<'_> {
                         of_main: self.inside.len() == 1,
                     });
                 }
-                self.element(file, node, true);
+                self.macros_around += 1;
+                self.element(file, node);
+                self.macros_around -= 1;
             }
             _ => {
-                const DIRECTIVES: [&str; 8] = [
-                    "property",
-                    "arg",
-                    "if",
-                    "unless",
-                    "insert_block",
-                    "element",
-                    "attribute",
-                    "call",
-                ];
-                self.makes_something |= !in_macro && (!DIRECTIVES.contains(&name) || name == "call");
-                self.element(file, node, in_macro);
+                self.makes_something |= self.macros_around == 0 && !DIRECTIVES.contains(&name);
+                self.element(file, node);
             }
         }
     }
 
     /// An element with its attributes; of a link its name alone.
-    fn element(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+    fn element(&mut self, file: &Source, node: Node<'_, '_>) {
         let name = node.tag_name().name();
         let prefix = if is_xacro(node) { "xacro:" } else { "" };
         self.xml.push_str(&format!("<{prefix}{name}"));
@@ -170,14 +169,14 @@ impl Writer<'_> {
         self.xml.push('>');
         if !is_plain(node, "link") {
             for child in node.children() {
-                self.node(file, child, in_macro);
+                self.node(file, child);
             }
         }
         self.xml.push_str(&format!("</{prefix}{name}>"));
     }
 
     /// The contents of an included file in place of the element.
-    fn include(&mut self, file: &Source, node: Node<'_, '_>, in_macro: bool) {
+    fn include(&mut self, file: &Source, node: Node<'_, '_>) {
         let place = xml::value_place(node, "filename");
         let Some(filename) = node.attribute("filename") else {
             self.problems
@@ -233,7 +232,7 @@ impl Writer<'_> {
             Ok(document) => {
                 self.inside.push(path.clone());
                 for child in document.root_element().children() {
-                    self.node(&source, child, in_macro);
+                    self.node(&source, child);
                 }
                 self.inside.pop();
             }
@@ -287,6 +286,7 @@ impl Writer<'_> {
     }
 }
 
+/// Whether this is an element of xacro, whatever prefix the file gives it.
 pub(super) fn is_xacro(node: Node<'_, '_>) -> bool {
     node.tag_name()
         .namespace()
@@ -298,6 +298,7 @@ fn is_plain(node: Node<'_, '_>, name: &str) -> bool {
     node.is_element() && node.tag_name().name() == name && !is_xacro(node)
 }
 
+/// Text for an attribute or between tags.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;")
         .replace('<', "&lt;")

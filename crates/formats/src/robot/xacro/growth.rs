@@ -15,6 +15,7 @@ use std::collections::BTreeMap;
 
 use roxmltree::Node;
 
+use super::DIRECTIVES;
 use super::flatten::is_xacro;
 
 /// More text than this is no robot: what a macro of ROS-Industrial expands to has 10 kB without meshes.
@@ -27,17 +28,6 @@ const LONGEST_EXPRESSION: usize = 2000;
 const NUMBER: u64 = 32;
 /// Levels that the evaluator of `xacro-rs` follows values through, and macros within macros.
 const LEVELS: usize = 100;
-
-/// Elements of xacro that are no calls.
-const DIRECTIVES: [&str; 7] = [
-    "property",
-    "arg",
-    "macro",
-    "if",
-    "unless",
-    "insert_block",
-    "include",
-];
 /// What an expression may not use: functions of the file's own, loops, and methods that lengthen a text.
 const REFUSED: [&str; 11] = [
     "lambda",

@@ -31,6 +31,10 @@ const MACRO: &str = r#"<?xml version="1.0"?>
 </robot>
 "#;
 
+fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
+    read_to_tip(Path::new(path), id, text, None)
+}
+
 fn refusal(text: &str) -> String {
     read("/nowhere/arm.xacro", "arm", text).unwrap_err().to_string()
 }

@@ -54,29 +54,35 @@ impl PolyData {
         })
     }
 
-    /// A surface through the points of a grid, `counts` along its first and second direction; the first runs fastest.
+    /// A surface through the points of each grid, one grid after the other; `counts` are its points along its first and
+    /// second direction, and the first runs fastest.
     ///
     /// # Errors
     /// A number of points that does not fit `counts`, and those of [`PolyData::new`].
-    pub fn plane_grid(
+    pub fn plane_grids(
         points_mm: Vec<[f64; 3]>,
-        counts: [usize; 2],
+        counts: &[[usize; 2]],
         arrays: Vec<PointArray>,
     ) -> Result<Self, VtkError> {
-        let [first, second] = counts;
-        if first.checked_mul(second) != Some(points_mm.len()) {
+        let sizes = counts.iter().map(|[first, second]| first.saturating_mul(*second));
+        let expected = sizes.fold(0, usize::saturating_add);
+        if expected != points_mm.len() {
             return Err(VtkError::GridPoints {
                 points: points_mm.len(),
-                counts,
+                expected,
             });
         }
-        let quad = |i: usize, j: usize| {
-            let corner = i + j * first;
-            [corner, corner + 1, corner + 1 + first, corner + first]
-        };
-        let quads = (1..second)
-            .flat_map(|j| (1..first).map(move |i| quad(i - 1, j - 1)))
-            .collect();
+        let mut quads = Vec::new();
+        let mut start = 0;
+        for [first, second] in counts {
+            for j in 1..*second {
+                for i in 1..*first {
+                    let corner = start + (i - 1) + (j - 1) * first;
+                    quads.push([corner, corner + 1, corner + 1 + first, corner + first]);
+                }
+            }
+            start += first * second;
+        }
         Self::new(points_mm, Vec::new(), quads, arrays)
     }
 

@@ -87,7 +87,7 @@ fn sample_image() -> Image {
         .iter()
         .map(|value| (*value != 11.0).then_some(*value))
         .collect();
-    let vectors = place.iter().map(|value| [*value, -value, 0.5]).collect();
+    let vectors = place.iter().map(|value| Some([*value, -value, 0.5])).collect();
     let missing_vectors = place
         .iter()
         .map(|value| (*value < 100.0).then_some([*value, 1.0, 2.0]))
@@ -97,14 +97,16 @@ fn sample_image() -> Image {
         [10.0, 20.0, 0.1],
         [3, 2, 2],
         vec![
-            array("place", PointValues::Scalar(place)),
-            array("in_plane_um", PointValues::OptionalScalar(missing)),
             array("deviation_um", PointValues::Vector(vectors)),
-            array("sometimes_um", PointValues::OptionalVector(missing_vectors)),
-            array("branch", PointValues::Integer((0..12).collect())),
+            array(
+                "place",
+                PointValues::Scalar(place.into_iter().map(Some).collect()),
+            ),
+            array("in_plane_um", PointValues::Scalar(missing)),
+            array("sometimes_um", PointValues::Vector(missing_vectors)),
             array(
                 "within <limit> & \"more\"",
-                PointValues::Flag((0..12).map(|index| index % 2 == 0).collect()),
+                PointValues::Scalar(vec![Some(1.0); 12]),
             ),
         ],
     )
@@ -118,10 +120,10 @@ fn sample_surface() -> PolyData {
     let values = (0..6)
         .map(|index| (index != 4).then(|| f64::from(index) * 1.5))
         .collect();
-    PolyData::plane_grid(
+    PolyData::plane_grids(
         points,
-        [3, 2],
-        vec![array("in_plane_um", PointValues::OptionalScalar(values))],
+        &[[3, 2]],
+        vec![array("in_plane_um", PointValues::Scalar(values))],
     )
     .unwrap()
 }
@@ -135,7 +137,7 @@ fn sample_paths() -> PolyData {
         &paths,
         vec![array(
             "feed_mm_per_min",
-            PointValues::Scalar(vec![1.0, 2.0, 3.0, 4.0, 5.0]),
+            PointValues::Scalar([1.0, 2.0, 3.0, 4.0, 5.0].map(Some).to_vec()),
         )],
     )
     .unwrap()
@@ -161,10 +163,6 @@ fn x_runs_fastest_in_an_image() {
         0.0, 1.0, 2.0, 10.0, 11.0, 12.0, 100.0, 101.0, 102.0, 110.0, 111.0, 112.0,
     ];
     assert_eq!(file.floats("PointData", "place"), expected);
-    assert_eq!(
-        file.integers("PointData", "branch"),
-        (0..12).collect::<Vec<i64>>()
-    );
 }
 
 #[test]
@@ -193,16 +191,11 @@ fn a_vector_has_three_components_side_by_side() {
 #[test]
 fn a_name_may_hold_what_xml_reserves() {
     let file = ReadBack::of(write_image(&sample_image()));
-    assert_eq!(
-        file.array("PointData", "within <limit> & \"more\"").2[..3],
-        [1, 0, 1]
-    );
-    let strange = array("a\u{0}\n\u{ffff}'b", PointValues::Flag(vec![true]));
+    assert_eq!(file.floats("PointData", "within <limit> & \"more\""), [1.0; 12]);
+    let strange = array("a\u{0}\n\u{ffff}'b", PointValues::Scalar(vec![Some(2.0)]));
     let image = Image::new([0.0; 3], [1.0; 3], [1; 3], vec![strange]).unwrap();
-    assert_eq!(
-        ReadBack::of(write_image(&image)).array("PointData", "a?\n?'b").2,
-        [1]
-    );
+    let file = ReadBack::of(write_image(&image));
+    assert_eq!(file.floats("PointData", "a?\n?'b"), [2.0]);
 }
 
 #[test]
@@ -215,6 +208,17 @@ fn a_plane_grid_is_points_and_quads() {
     assert_eq!(file.integers("Polys", "connectivity"), [0, 1, 4, 3, 1, 2, 5, 4]);
     assert_eq!(file.integers("Polys", "offsets"), [4, 8]);
     assert_eq!(file.array("PointData", "in_plane_um_valid").2, [1, 1, 1, 1, 0, 1]);
+}
+
+#[test]
+fn grids_one_after_the_other_are_not_joined() {
+    let points = (0..10).map(|index| [f64::from(index), 0.0, 0.0]).collect();
+    let surfaces = PolyData::plane_grids(points, &[[2, 2], [3, 2]], vec![]).unwrap();
+    let file = ReadBack::of(write_poly_data(&surfaces));
+    assert_eq!(
+        file.integers("Polys", "connectivity"),
+        [0, 1, 3, 2, 4, 5, 8, 7, 5, 6, 9, 8]
+    );
 }
 
 #[test]
@@ -232,7 +236,7 @@ fn paths_are_lines_one_after_the_other() {
 
 #[test]
 fn a_grid_of_one_row_and_no_points_at_all_are_files_too() {
-    let row = PolyData::plane_grid(vec![[0.0; 3], [1.0; 3]], [2, 1], vec![]).unwrap();
+    let row = PolyData::plane_grids(vec![[0.0; 3], [1.0; 3]], &[[2, 1]], vec![]).unwrap();
     assert_eq!(
         ReadBack::of(write_poly_data(&row)).attribute("Piece", "NumberOfPolys"),
         "0"
@@ -270,12 +274,12 @@ fn arrays_must_fit_the_points_and_differ_in_name() {
             .unwrap_err()
             .to_string()
     };
-    let flags = |name: &str| array(name, PointValues::Flag(vec![true, false]));
+    let two = |name: &str| array(name, PointValues::Scalar(vec![Some(1.0), None]));
     assert_eq!(
-        told(vec![array("a", PointValues::Integer(vec![1]))]),
+        told(vec![array("a", PointValues::Scalar(vec![None]))]),
         "array `a` has 1 values: there are 2 points"
     );
-    let huge = Image::new([0.0; 3], [1.0; 3], [usize::MAX, 2, 1], vec![flags("a")]);
+    let huge = Image::new([0.0; 3], [1.0; 3], [usize::MAX, 2, 1], vec![two("a")]);
     assert!(matches!(
         huge,
         Err(VtkError::ArrayLength {
@@ -284,10 +288,9 @@ fn arrays_must_fit_the_points_and_differ_in_name() {
             ..
         })
     ));
-    assert_eq!(told(vec![flags("a"), flags("a")]), "two arrays are called `a`");
-    let optional = array("a", PointValues::OptionalScalar(vec![None, None]));
+    assert_eq!(told(vec![two("a"), two("a")]), "two arrays are called `a`");
     assert_eq!(
-        told(vec![optional, flags("a_valid")]),
+        told(vec![two("a"), two("a_valid")]),
         "two arrays are called `a_valid`"
     );
 }
@@ -295,10 +298,10 @@ fn arrays_must_fit_the_points_and_differ_in_name() {
 #[test]
 fn values_that_are_not_finite_are_refused() {
     let strange = [
-        PointValues::Scalar(vec![0.0, f64::NAN]),
-        PointValues::OptionalScalar(vec![None, Some(f64::INFINITY)]),
-        PointValues::Vector(vec![[0.0; 3], [0.0, f64::NAN, 0.0]]),
-        PointValues::OptionalVector(vec![None, Some([f64::NEG_INFINITY, 0.0, 0.0])]),
+        PointValues::Scalar(vec![Some(0.0), Some(f64::NAN)]),
+        PointValues::Scalar(vec![None, Some(f64::INFINITY)]),
+        PointValues::Vector(vec![Some([0.0; 3]), Some([0.0, f64::NAN, 0.0])]),
+        PointValues::Vector(vec![None, Some([f64::NEG_INFINITY, 0.0, 0.0])]),
     ];
     for values in strange {
         let error = Image::new([0.0; 3], [1.0; 3], [2, 1, 1], vec![array("a", values)]).unwrap_err();
@@ -326,8 +329,10 @@ fn cells_must_name_points_that_exist() {
         told(vec![vec![0, 1], vec![2]], vec![]),
         "line 1 has 1 points: at least 2 are needed"
     );
-    let error = PolyData::plane_grid(points.clone(), [2, 2], vec![]).unwrap_err();
-    assert_eq!(error.to_string(), "3 points do not make a grid of 2 x 2");
+    let error = PolyData::plane_grids(points.clone(), &[[2, 2]], vec![]).unwrap_err();
+    assert_eq!(error.to_string(), "3 points do not make grids of 4");
+    let error = PolyData::plane_grids(points.clone(), &[[usize::MAX, 2], [1, 1]], vec![]).unwrap_err();
+    assert!(error.to_string().starts_with("3 points do not make grids of"));
     let error = PolyData::paths(&[vec![[0.0; 3], [f64::NAN, 0.0, 0.0]]], vec![]).unwrap_err();
     assert!(
         error.to_string().starts_with("point 1 is at (NaN, 0, 0) mm"),

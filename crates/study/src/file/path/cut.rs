@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use armill_core::load::{
-    Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Runout,
+    Cutter, CuttingError, CuttingLaw, Estimate, Hand, Immersion, Kienzle, KienzleValues, Mechanistic, Runout,
+    Together,
 };
 use armill_core::nalgebra::Point3;
 use armill_core::path::{Cutting, Greatest, Stock, StockError};
-use armill_formats::material::{Material, Together};
+use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -123,7 +124,7 @@ const RADIAL_RATIO: [f64; 2] = [0.3, 0.1];
 const AXIAL_RATIO: [f64; 2] = [0.2, 0.1];
 /// Standard uncertainty of coefficients that one set alone tells: half the scatter among sets of one alloy, whose
 /// Ktc differ by a factor of 2.2.
-pub(super) const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
+const RELATIVE_U_OF_ONE_SET: f64 = 0.3;
 
 /// A cut, worked out, and where its numbers come from.
 #[derive(Clone, Debug)]
@@ -267,19 +268,12 @@ fn law(
     remarks: &mut Vec<String>,
 ) -> Option<CuttingLaw> {
     let given = table.u_percent.map(|percent| percent / 100.0);
-    let one_set = |sets: usize| (sets == 1).then_some(RELATIVE_U_OF_ONE_SET);
     let wanted = match (table.law, material.mechanistic()) {
         (Some(LawName::Mechanistic) | None, Some(together)) => {
-            if together.sets == 1 && given.is_none() {
+            if together.covariance.is_none() && given.is_none() {
                 remarks.push(one_set_remark(&material.name));
             }
-            let law = together.law;
-            match given.or(one_set(together.sets)) {
-                Some(fraction) => law
-                    .with_relative_uncertainty(fraction)
-                    .map(CuttingLaw::Mechanistic),
-                None => Ok(CuttingLaw::Mechanistic(law)),
-            }
+            mechanistic(&together, given).map(CuttingLaw::Mechanistic)
         }
         (Some(LawName::Mechanistic), None) => {
             let message = format!("{} has no whole set of mechanistic coefficients", material.name);
@@ -298,14 +292,14 @@ fn law(
                     RADIAL_RATIO[0], RADIAL_RATIO[1], AXIAL_RATIO[0], AXIAL_RATIO[1]
                 ));
             }
-            if together.sets == 1 && given.is_none() {
+            if together.covariance.is_none() && given.is_none() {
                 remarks.push(one_set_remark(&material.name));
             }
             let ratios = [
                 table.radial_ratio.unwrap_or(RADIAL_RATIO),
                 table.axial_ratio.unwrap_or(AXIAL_RATIO),
             ];
-            kienzle(&together, given.or(one_set(together.sets)), ratios).map(CuttingLaw::Kienzle)
+            kienzle(&together, given, ratios).map(CuttingLaw::Kienzle)
         }
     };
     wanted
@@ -313,17 +307,36 @@ fn law(
         .ok()
 }
 
+/// Mechanistic law of a material; `relative` in place of the scatter of its sets.
+fn mechanistic(together: &Together<6>, relative: Option<f64>) -> Result<Mechanistic, CuttingError> {
+    let (shear, edge) = (together.mean.fixed_rows::<3>(0), together.mean.fixed_rows::<3>(3));
+    let law = Mechanistic::new(shear.into(), edge.into())?;
+    match (relative, together.covariance) {
+        (None, Some(covariance)) => law.with_covariance(covariance),
+        (relative, _) => law.with_relative_uncertainty(relative.unwrap_or(RELATIVE_U_OF_ONE_SET)),
+    }
+}
+
 /// Kienzle's law of a material; `relative` in place of the scatter of its sets, and the ratios of radial and axial to
 /// cutting force, each with its standard uncertainty.
 pub(super) fn kienzle(
-    together: &Together<[Estimate; 2]>,
+    together: &Together<2>,
     relative: Option<f64>,
     ratios: [[f64; 2]; 2],
 ) -> Result<Kienzle, CuttingError> {
-    let [mut specific_force, exponent] = together.law;
-    if let Some(fraction) = relative {
-        specific_force.standard_uncertainty = fraction * specific_force.value;
-    }
+    let [kc1, mc]: [f64; 2] = together.mean.into();
+    let [u_kc1, u_mc] = match together.covariance {
+        Some(covariance) => [covariance[(0, 0)].sqrt(), covariance[(1, 1)].sqrt()],
+        None => [RELATIVE_U_OF_ONE_SET * kc1, 0.0],
+    };
+    let specific_force = Estimate {
+        value: kc1,
+        standard_uncertainty: relative.map_or(u_kc1, |fraction| fraction * kc1),
+    };
+    let exponent = Estimate {
+        value: mc,
+        standard_uncertainty: u_mc,
+    };
     let [radial_ratio, axial_ratio] = ratios.map(|[value, standard_uncertainty]| Estimate {
         value,
         standard_uncertainty,

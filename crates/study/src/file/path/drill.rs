@@ -7,7 +7,7 @@ use armill_formats::material::Material;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::cut::{RELATIVE_U_OF_ONE_SET, kienzle, material, one_set_remark};
+use super::cut::{kienzle, material, one_set_remark};
 use crate::file::places::Places;
 
 /// A twist drill that goes into the part wherever the program moves along its axis.
@@ -65,10 +65,9 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &DrillTable) -> Option<Dri
          hole is; the way from the retract plane to the part counts as drilled"
             .to_owned(),
     ];
-    let mut relative = table.u_percent.map(|percent| percent / 100.0);
-    if together.sets == 1 && relative.is_none() {
+    let relative = table.u_percent.map(|percent| percent / 100.0);
+    if together.covariance.is_none() && relative.is_none() {
         remarks.push(one_set_remark(&material.name));
-        relative = Some(RELATIVE_U_OF_ONE_SET);
     }
     if table.normal_ratio.is_none() {
         remarks.push(format!(

@@ -42,7 +42,7 @@ pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
 }
 
 fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
-    let first = study.robot.joints.first();
+    let first = study.robot.joint_notes.first();
     let chain = first.and_then(|joint| joint.source.clone()).unwrap_or_default();
     let mut inputs = vec![input(
         "robot",

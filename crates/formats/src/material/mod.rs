@@ -3,15 +3,17 @@
 //! A material has sets of mechanistic coefficients (N/mm2, N/mm), each as somebody identified it with some tool, and
 //! sets of Kienzle values. A set may lack a coefficient; no force is computed from it then. Where several sets of one
 //! material are whole, their mean stands for the material and their scatter for its uncertainty.
+//!
+//! `file` is the file as it stands; here it is checked and turned into SI.
 
 mod file;
 
-use armill_core::load::{Estimate, Mechanistic};
-use armill_core::nalgebra::{Matrix6, Vector3, Vector6};
+use armill_core::load::Together;
+use armill_core::nalgebra::{Vector2, Vector6};
 
 use self::file::{KienzleTable, MaterialFile, MechanisticTable};
 use crate::document::{Document, Problem, Problems};
-use crate::robot::Source;
+use crate::sources::{self, Source};
 
 /// N/mm2 in Pa.
 const PA_PER_N_PER_MM2: f64 = 1e6;
@@ -61,51 +63,18 @@ pub struct KienzleSet {
     pub source: String,
 }
 
-/// What all whole sets of a material say together.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Together<T> {
-    /// Their mean, with their scatter as its uncertainty; of a single set the uncertainty is not known, and told as zero.
-    pub law: T,
-    /// How many sets.
-    pub sets: usize,
-}
-
 impl Material {
-    /// The mean of the whole sets of mechanistic coefficients, with the covariance of one set among them.
-    ///
-    /// That covariance says how far a tool that was not measured may lie from the mean. `None` without a whole set.
-    pub fn mechanistic(&self) -> Option<Together<Mechanistic>> {
-        let whole: Vec<Vector6<f64>> = self
-            .mechanistic
-            .iter()
-            .filter_map(MechanisticSet::whole)
-            .collect();
-        let sets = whole.len();
-        let mean = whole.iter().sum::<Vector6<f64>>() / sets.max(1) as f64;
-        let mut covariance = Matrix6::zeros();
-        for set in &whole {
-            let from_mean = set - mean;
-            covariance += from_mean * from_mean.transpose() / (sets.max(2) - 1) as f64;
-        }
-        let (shear, edge): (Vector3<f64>, Vector3<f64>) =
-            (mean.fixed_rows::<3>(0).into(), mean.fixed_rows::<3>(3).into());
-        let law = Mechanistic::new(shear, edge).and_then(|law| law.with_covariance(covariance));
-        law.ok().filter(|_| sets > 0).map(|law| Together { law, sets })
+    /// The whole sets of mechanistic coefficients together: Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m).
+    pub fn mechanistic(&self) -> Option<Together<6>> {
+        let whole = self.mechanistic.iter().filter_map(MechanisticSet::whole);
+        Together::of(&whole.collect::<Vec<_>>())
     }
 
-    /// Mean `kc1` (Pa) and `mc` of the sets of Kienzle values, with the standard deviation of one set among them.
-    pub fn kienzle(&self) -> Option<Together<[Estimate; 2]>> {
-        let sets = self.kienzle.len();
-        let estimate = |value: fn(&KienzleSet) -> f64| {
-            let mean = self.kienzle.iter().map(value).sum::<f64>() / sets.max(1) as f64;
-            let squares = self.kienzle.iter().map(|set| (value(set) - mean).powi(2));
-            Estimate {
-                value: mean,
-                standard_uncertainty: (squares.sum::<f64>() / (sets.max(2) - 1) as f64).sqrt(),
-            }
-        };
-        let law = [estimate(|set| set.specific_force), estimate(|set| set.exponent)];
-        (sets > 0).then_some(Together { law, sets })
+    /// The sets of Kienzle values together: `kc1` (Pa) and `mc`.
+    pub fn kienzle(&self) -> Option<Together<2>> {
+        let sets = self.kienzle.iter();
+        let values = sets.map(|set| Vector2::new(set.specific_force, set.exponent));
+        Together::of(&values.collect::<Vec<_>>())
     }
 
     /// Sources of the sets that [`Material::mechanistic`] is made of.
@@ -151,16 +120,7 @@ pub fn read(path: &str, text: &str) -> Result<Material, Problems> {
         note: file.note,
         mechanistic: file.mechanistic.into_iter().map(mechanistic_set).collect(),
         kienzle: file.kienzle.into_iter().map(kienzle_set).collect(),
-        sources: file
-            .sources
-            .into_iter()
-            .map(|(key, s)| Source {
-                key,
-                what: s.what,
-                place: s.place,
-                licence: s.licence,
-            })
-            .collect(),
+        sources: sources::listed(file.sources),
     })
 }
 
@@ -178,32 +138,7 @@ fn problems(document: &Document, file: &MaterialFile) -> Vec<Problem> {
             problems.push(document.problem(&path, "the set has no coefficient", Some(hint)));
         }
     }
-    let mechanistic = file.mechanistic.iter().map(|table| table.source.as_str());
-    let used: Vec<(String, &str)> = mechanistic
-        .enumerate()
-        .map(|(index, source)| (format!("mechanistic[{index}].source"), source))
-        .chain(
-            file.kienzle
-                .iter()
-                .enumerate()
-                .map(|(index, table)| (format!("kienzle[{index}].source"), table.source.as_str())),
-        )
-        .collect();
-    for (path, key) in &used {
-        if !file.sources.contains_key(*key) {
-            let known: Vec<&str> = file.sources.keys().map(String::as_str).collect();
-            let hint = format!("add a table [sources.{key}], or use one of: {}", known.join(", "));
-            let message = format!("source `{key}` is not among the sources");
-            problems.push(document.problem(path, message, Some(&hint)));
-        }
-    }
-    for key in file.sources.keys() {
-        if used.iter().all(|(_, named)| named != key) {
-            let message = format!("source `{key}` is used by no number");
-            let hint = "name it where its numbers stand, or remove it";
-            problems.push(document.problem(&format!("sources.{key}"), message, Some(hint)));
-        }
-    }
+    problems.extend(sources::problems(document, &file.sources));
     problems
 }
 

@@ -27,12 +27,28 @@ impl AxisName {
             AxisName::Z => Axis::Z,
         }
     }
+}
 
-    fn letter(self) -> char {
+/// How a spring yields.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Yields {
+    /// The drive of a turning joint.
+    Drive,
+    /// The drive of a sliding joint.
+    SlidingDrive,
+    /// About this axis of the seat.
+    About(Axis),
+    /// Along this axis of the seat.
+    Along(Axis),
+}
+
+impl Yields {
+    /// What yields at the seat `at`, as covariances name it: `A2`, `A2 about x`.
+    pub fn name_at(self, at: &str) -> String {
         match self {
-            AxisName::X => 'x',
-            AxisName::Y => 'y',
-            AxisName::Z => 'z',
+            Yields::Drive | Yields::SlidingDrive => at.to_owned(),
+            Yields::About(axis) => format!("{at} about {}", axis.letter()),
+            Yields::Along(axis) => format!("{at} along {}", axis.letter()),
         }
     }
 }
@@ -83,11 +99,11 @@ pub struct MassTable {
     pub source: String,
 }
 
-/// What is wrong with a table: key inside it (empty for the table itself), message, hint.
+/// What is wrong with a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
-    /// Key inside the table; empty for the table itself.
-    pub key: &'static str,
+    /// Key inside the table; `None` for the table itself.
+    pub key: Option<&'static str>,
     /// What is wrong.
     pub message: String,
     /// What to try.
@@ -95,11 +111,23 @@ pub struct Fault {
 }
 
 impl Fault {
-    fn new(key: &'static str, message: impl Into<String>, hint: impl Into<String>) -> Fault {
+    fn new(
+        key: impl Into<Option<&'static str>>,
+        message: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Fault {
         Fault {
-            key,
+            key: key.into(),
             message: message.into(),
             hint: hint.into(),
+        }
+    }
+
+    /// Where it stands in a document whose path to the table is `table`.
+    pub fn path_in(&self, table: &str) -> String {
+        match self.key {
+            None => table.to_owned(),
+            Some(key) => format!("{table}.{key}"),
         }
     }
 }
@@ -126,12 +154,12 @@ pub fn seat(at: &str, joints: &[&str]) -> Result<Seat, Fault> {
 impl SpringTable {
     /// How others name this spring: `A2 about x`; `None` for a whole matrix.
     pub fn name(&self) -> Option<String> {
-        let (word, axis) = match (self.about, self.along) {
-            (Some(axis), None) => ("about", axis),
-            (None, Some(axis)) => ("along", axis),
+        let yields = match (self.about, self.along) {
+            (Some(axis), None) => Yields::About(axis.axis()),
+            (None, Some(axis)) => Yields::Along(axis.axis()),
             _ => return None,
         };
-        Some(format!("{} {word} {}", self.at, axis.letter()))
+        Some(yields.name_at(&self.at))
     }
 
     /// The springs of the core: one, or up to six for a matrix.
@@ -166,14 +194,14 @@ impl SpringTable {
             }
             (Some(_), None) | (None, Some(_)) => {
                 return Err(Fault::new(
-                    "",
+                    None,
                     "the unit of the compliance does not fit the axis",
                     "`about` takes `compliance_rad_per_n_m`, `along` takes `compliance_um_per_n`",
                 ));
             }
             _ => {
                 return Err(Fault::new(
-                    "",
+                    None,
                     "a spring turns `about` an axis or slides `along` one",
                     "write about = \"x\", along = \"x\", or compliance_matrix = [...]",
                 ));
@@ -181,7 +209,7 @@ impl SpringTable {
         };
         let Some(value) = value else {
             return Err(Fault::new(
-                "",
+                None,
                 "the spring has no compliance",
                 "write compliance_rad_per_n_m or compliance_um_per_n",
             ));

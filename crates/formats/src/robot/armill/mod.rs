@@ -2,6 +2,9 @@
 //!
 //! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields and
 //! weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
+//!
+//! In reading order: `file` (the file as it stands), `checks` (what no schema can say, and SI), `structure`; `write` (a
+//! robot of another format as such a file), `identified` (such a file with compliances that were identified).
 
 mod checks;
 mod file;
@@ -17,10 +20,11 @@ use armill_core::robot::model::NamedFrame;
 use self::checks::Checks;
 use self::file::{FrameEntry, JointEntry, RobotFile};
 pub use self::write::write;
-use super::description::{JointNote, RobotDescription, Source};
+use super::description::{JointNote, OtherLimits, RobotDescription};
 use crate::document::{Document, Problems};
+use crate::sources;
 
-pub use self::identified::{IdentifiedSpring, Yields, with_springs};
+pub use self::identified::{Identified, IdentifiedSpring, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
@@ -31,16 +35,13 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let file: RobotFile = document.read()?;
     let mut checks = Checks {
         document: &document,
-        problems: Vec::new(),
-        sources: &file.sources,
+        problems: sources::problems(&document, &file.sources),
     };
     let motions = checks.motions(&file);
     let joints = checks.joints(&file);
     let compliance = checks.compliance(&file);
     let structure = checks.structure(&file);
-    checks.frames_and_payload(&file);
     let nominal = checks.nominal(&file);
-    checks.unused_sources(&file);
     Problems::from(std::mem::take(&mut checks.problems)).into_result()?;
 
     let refused = |error: armill_core::robot::RobotError| {
@@ -68,17 +69,8 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
             .into_iter()
             .map(|motion| motion.symbol)
             .collect(),
-        joints: file.joint.into_iter().map(joint_note).collect(),
-        sources: file
-            .sources
-            .into_iter()
-            .map(|(key, s)| Source {
-                key,
-                what: s.what,
-                place: s.place,
-                licence: s.licence,
-            })
-            .collect(),
+        joint_notes: file.joint.into_iter().map(joint_note).collect(),
+        sources: sources::listed(file.sources),
     })
 }
 
@@ -102,7 +94,11 @@ fn joint_note(entry: JointEntry) -> JointNote {
         other_limits: entry
             .other_limits
             .into_iter()
-            .map(|o| (o.limits_deg, o.source, o.note))
+            .map(|entry| OtherLimits {
+                limits_deg: entry.limits_deg,
+                source: entry.source,
+                note: entry.note,
+            })
             .collect(),
     }
 }

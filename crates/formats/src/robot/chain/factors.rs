@@ -3,17 +3,52 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use armill_core::robot::Axis;
 use armill_core::robot::chain::LONGEST;
+use armill_core::robot::joint::Sign;
+use armill_core::robot::{Amount, Axis, Motion};
 
 use super::cursor::Cursor;
 use crate::document::{Problems, Source};
 
-/// One factor: an axis, and how far along or about it.
+/// Which motion a factor makes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// A translation; constants in mm.
+    Along(Axis),
+    /// A turn; constants in deg.
+    About(Axis),
+}
+
+impl Kind {
+    /// The motion by this much, m or rad.
+    pub fn by(self, amount: Amount) -> Motion {
+        match self {
+            Kind::Along(axis) => Motion::Along(axis, amount),
+            Kind::About(axis) => Motion::About(axis, amount),
+        }
+    }
+
+    /// A constant of the file in m or rad.
+    pub fn si(self, constant: f64) -> f64 {
+        match self {
+            Kind::Along(_) => constant * 1e-3,
+            Kind::About(_) => constant.to_radians(),
+        }
+    }
+
+    /// The largest constant, and its unit.
+    fn longest(self) -> (f64, &'static str) {
+        match self {
+            Kind::Along(_) => (LONGEST * 1e3, "mm"),
+            Kind::About(_) => (360.0, "deg"),
+        }
+    }
+}
+
+/// One factor: a motion, and how far.
 #[derive(Debug)]
 pub(super) struct Factor {
-    pub slides: bool,
-    pub axis: Axis,
+    pub kind: Kind,
     pub argument: Argument,
     pub place: Range<usize>,
 }
@@ -23,8 +58,8 @@ pub(super) struct Factor {
 pub(super) struct Argument {
     /// mm or deg.
     pub constant: f64,
-    /// Name of the joint, and whether it counts against the chain.
-    pub joint: Option<(String, bool)>,
+    /// Name of the joint, and whether it counts with the chain.
+    pub joint: Option<(String, Sign)>,
     /// The symbol, where the argument is one alone.
     pub symbol: Option<String>,
 }
@@ -32,9 +67,11 @@ pub(super) struct Argument {
 /// More problems than this are not told: what is no chain at all has one in every word.
 const MOST_PROBLEMS: usize = 20;
 
+/// How a chain is written.
 const SHAPE: &str =
     "a factor is Tx(155), Ry(q2), or A1(155), A5(q2) as in the paper; a symbol is `H = 450` on its own line";
 
+/// Values of symbols, mm or deg.
 type Symbols<'a> = BTreeMap<&'a str, f64>;
 
 /// Every factor, in order.
@@ -93,6 +130,7 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
     Problems::from(problems).into_result().map(|()| factors)
 }
 
+/// Name and value of a line such as `H = 450`.
 fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     let name = name.trim();
     let mut cursor = Cursor::over(name, 0..name.len());
@@ -105,10 +143,11 @@ fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     whole.then_some((name, value))
 }
 
+/// The factor that begins where the cursor stands, which then stands behind it.
 fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Result<Factor, Problems> {
     let start = cursor.at();
     let word = cursor.while_of(|c| !c.is_whitespace() && c != '(' && c != ')');
-    let Some((slides, axis)) = motion(word) else {
+    let Some(kind) = kind(word) else {
         let message = format!("`{word}` is no elementary motion");
         return Err(file
             .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
@@ -121,7 +160,7 @@ fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Resu
             .problem(start..cursor.at(), message, Some(SHAPE.to_owned()))
             .into());
     }
-    let argument = argument(file, cursor, symbols, slides)?;
+    let argument = argument(file, cursor, symbols, kind)?;
     if !cursor.take(')') {
         let message = format!("the bracket of `{word}` is not closed");
         return Err(file
@@ -129,23 +168,22 @@ fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Resu
             .into());
     }
     Ok(Factor {
-        slides,
-        axis,
+        kind,
         argument,
         place: start..cursor.at(),
     })
 }
 
-/// Which motion a word names; true for a translation.
-fn motion(word: &str) -> Option<(bool, Axis)> {
+/// Which motion a word names.
+fn kind(word: &str) -> Option<Kind> {
     Some(
         match word.to_ascii_lowercase().replace(['^', '{', '}'], "").as_str() {
-            "tx" | "a1" => (true, Axis::X),
-            "ty" | "a2" => (true, Axis::Y),
-            "tz" | "a3" => (true, Axis::Z),
-            "rx" | "a4" => (false, Axis::X),
-            "ry" | "a5" => (false, Axis::Y),
-            "rz" | "a6" => (false, Axis::Z),
+            "tx" | "a1" => Kind::Along(Axis::X),
+            "ty" | "a2" => Kind::Along(Axis::Y),
+            "tz" | "a3" => Kind::Along(Axis::Z),
+            "rx" | "a4" => Kind::About(Axis::X),
+            "ry" | "a5" => Kind::About(Axis::Y),
+            "rz" | "a6" => Kind::About(Axis::Z),
             _ => return None,
         },
     )
@@ -156,32 +194,32 @@ fn argument(
     file: &Source,
     cursor: &mut Cursor<'_>,
     symbols: &Symbols<'_>,
-    slides: bool,
+    kind: Kind,
 ) -> Result<Argument, Problems> {
     let start = cursor.at();
     let mut found = Argument::default();
     let mut terms = 0;
     loop {
         cursor.skip_blanks();
-        let negative = match cursor.peek() {
-            Some('-' | '−') => true,
-            Some('+') => false,
-            _ if terms == 0 => false,
-            _ => break,
+        // One sign: `q1--90` is a slip of the pen, and nobody can say which.
+        let sign = if cursor.take('-') || cursor.take('−') {
+            Sign::Negative
+        } else if cursor.take('+') || terms == 0 {
+            Sign::Positive
+        } else {
+            break;
         };
-        cursor.while_of(|c| matches!(c, '-' | '−' | '+'));
         cursor.skip_blanks();
         let at = cursor.at();
-        let factor = if negative { -1.0 } else { 1.0 };
         if let Some(number) = cursor.number() {
-            found.constant += factor * number;
+            found.constant += sign.factor() * number;
         } else if let Some(name) = cursor.name() {
             match symbols.get(name) {
                 Some(value) => {
-                    found.constant += factor * value;
-                    found.symbol = (terms == 0 && !negative).then(|| name.to_owned());
+                    found.constant += sign.factor() * value;
+                    found.symbol = (terms == 0 && sign == Sign::Positive).then(|| name.to_owned());
                 }
-                None if slides && !is_joint_number(name) => {
+                None if matches!(kind, Kind::Along(_)) && !is_joint_number(name) => {
                     let message = format!("the length `{name}` has no value");
                     let hint =
                         format!("add a line `{name} = 155` (mm); joints that slide are called q1, q2, ...");
@@ -192,7 +230,7 @@ fn argument(
                     let hint = format!("if it is a constant, add a line `{name} = ...`");
                     return Err(file.problem(at..cursor.at(), message, Some(hint)).into());
                 }
-                None => found.joint = Some((name.to_owned(), negative)),
+                None => found.joint = Some((name.to_owned(), sign)),
             }
         } else {
             cursor.while_of(|c| !c.is_whitespace() && c != ')');
@@ -206,9 +244,9 @@ fn argument(
     if terms > 1 {
         found.symbol = None;
     }
-    let longest = if slides { LONGEST * 1e3 } else { 360.0 };
+    let (longest, unit) = kind.longest();
     if found.constant.abs() > longest {
-        let (value, unit) = (found.constant, if slides { "mm" } else { "deg" });
+        let value = found.constant;
         let message = format!("{value} {unit} is beyond {longest} {unit}");
         return Err(file.problem(start..cursor.at(), message, None).into());
     }

@@ -21,14 +21,17 @@ impl<'a> Cursor<'a> {
         }
     }
 
+    /// Where it stands, in bytes of the text.
     pub fn at(&self) -> usize {
         self.at
     }
 
+    /// What lies before it.
     fn rest(&self) -> &'a str {
         self.text.get(self.at..self.end).unwrap_or_default()
     }
 
+    /// The character it stands at; `None` at the end.
     pub fn peek(&self) -> Option<char> {
         self.rest().chars().next()
     }
@@ -50,6 +53,7 @@ impl<'a> Cursor<'a> {
         rest.get(..length).unwrap_or_default()
     }
 
+    /// Steps over white space.
     pub fn skip_blanks(&mut self) {
         self.while_of(char::is_whitespace);
     }

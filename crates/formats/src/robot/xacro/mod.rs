@@ -2,8 +2,11 @@
 //!
 //! A file that defines one robot macro and calls nothing is read as that robot with an empty `prefix`. Files that it
 //! includes are looked for beside it and in the packages around it; missing files of colours, materials
-//! and simulation are remarks. A file whose macros could grow without bound is refused (`growth`). What links look like and weigh is dropped before expansion, so that nothing of it can
-//! fail. Expressions are worked out by the crate `xacro-rs`; `$(env ...)` is not.
+//! and simulation are remarks. `$(env ...)` is not worked out.
+//!
+//! In reading order: `packages` (where included files may lie), `flatten` (one text of all files; what links look like
+//! and weigh is dropped, so that nothing of it can fail), `growth` (refuses macros that could grow without bound),
+//! `expand` (macros and expressions, worked out by the crate `xacro-rs`).
 
 mod expand;
 mod flatten;
@@ -18,15 +21,21 @@ use super::description::RobotDescription;
 use super::urdf;
 use crate::document::{Problems, Source};
 
-/// The robot of this xacro text, which was read from `path`; `id` is the robot's name in results.
-///
-/// # Errors
-/// As [`read_to_tip`].
-pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
-    read_to_tip(Path::new(path), id, text, None)
-}
+/// Elements of xacro that call no macro; `call` calls the one that its attribute names.
+const DIRECTIVES: [&str; 9] = [
+    "property",
+    "arg",
+    "macro",
+    "if",
+    "unless",
+    "insert_block",
+    "include",
+    "element",
+    "attribute",
+];
 
-/// The robot of this xacro text with its flange at the link `tip`.
+/// The robot of this xacro text, which was read from `path`, with its flange at the link `tip`, or at the end of the
+/// longest chain; `id` is the robot's name in results.
 ///
 /// # Errors
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
@@ -47,7 +56,7 @@ pub fn read_to_tip(
         source.key = "xacro".to_owned();
         source.place.clone_from(&shown);
     }
-    for joint in &mut found.joints {
+    for joint in &mut found.joint_notes {
         joint.source = Some("xacro".to_owned());
     }
     found.note = Some("xacro: no compliance; the base is its root link".to_owned());

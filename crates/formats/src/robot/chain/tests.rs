@@ -106,6 +106,21 @@ fn every_word_that_is_no_factor_is_told() {
 }
 
 #[test]
+fn a_second_sign_is_told_rather_than_dropped() {
+    for (text, place) in [
+        ("Rz(q1--90)", "a.chain:1:7:"),
+        ("Rz(q1) Tz(--5)", "a.chain:1:12:"),
+        ("Rz(q1 + -90)", "a.chain:1:9:"),
+    ] {
+        let told = refusal(text);
+        assert!(
+            told.contains(place) && told.contains("no number, joint or symbol stands here"),
+            "{told}"
+        );
+    }
+}
+
+#[test]
 fn more_joints_than_any_arm_has_are_refused() {
     let chain = |count: usize| {
         (0..count)

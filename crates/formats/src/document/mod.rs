@@ -4,6 +4,11 @@
 //! schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its plane) the
 //! caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
 //!
+//! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place), `path`
+//! (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants), `check`
+//! (compares tree and shape), `unit` and `words` (units of names, and how both are said); `lines` (text that is no TOML,
+//! line by line).
+//!
 //! ```
 //! use armill_formats::document::Document;
 //!
@@ -38,6 +43,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+pub(crate) use self::path::joined;
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
 
@@ -119,8 +125,8 @@ impl Document {
             .problem(self.span(path), message, hint.map(str::to_owned))
     }
 
-    /// Where the value that `path` names stands, in bytes of [`Source::text`]; of its nearest parent if there is none.
-    pub fn span(&self, path: &str) -> Range<usize> {
+    /// Where the value that `path` names stands, in bytes of the text; of its nearest parent if there is none.
+    fn span(&self, path: &str) -> Range<usize> {
         path::nearest_span(&self.root, path)
     }
 
@@ -129,9 +135,11 @@ impl Document {
         path::exists(&self.root, path)
     }
 
-    /// The text and the path it was read from.
-    pub fn source(&self) -> &Source {
-        &self.source
+    /// Every text in the document, with its path as [`Document::problem`] takes it.
+    pub(crate) fn texts(&self) -> Vec<(String, &str)> {
+        let mut found = Vec::new();
+        tree::texts(&self.root, "", &mut found);
+        found
     }
 }
 

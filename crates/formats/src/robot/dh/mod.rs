@@ -18,12 +18,13 @@
 //! Columns: `a_mm` or `a_m`, `alpha_deg` or `alpha_rad`, `d_mm` or `d_m`, `theta_deg` or `theta_rad`; optional `joint`
 //! (name), `type` (revolute, prismatic, fixed), `sign` (1 or -1), `lower_deg`, `upper_deg` (or `_rad`, `_mm`, `_m`).
 //!
+//! In reading order: `table` (lines, header, cells), `rows` (columns, units, SI), and here the chain of motions.
+//!
 //! Source: Denavit & Hartenberg 1955; Craig, Introduction to Robotics, section 3.4.
 
 mod rows;
 mod table;
 
-use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
 
 use self::rows::{Moves, Row};
@@ -97,11 +98,7 @@ fn joint_of(row: &Row) -> Option<Joint> {
         Moves::Not => return None,
     };
     Some(Joint {
-        sign: if row.against {
-            Sign::Negative
-        } else {
-            Sign::Positive
-        },
+        sign: row.sign,
         zero_offset,
         limits: row.limits.map(|[lower, upper]| Limits { lower, upper }),
         ..Joint::plain(&row.joint)

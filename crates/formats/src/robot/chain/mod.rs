@@ -12,13 +12,14 @@
 //! Factors are separated by blanks, `*` or line ends; `#` starts a comment. Inside a translation only `q1`, `q2`, ...
 //! are joints: any other name is a length that needs a value, so that a forgotten one does not become a slide.
 //!
+//! In reading order: `cursor` (walks over a text), `factors` (the words), and here the chain that they make.
+//!
 //! Source: the form-shaping function of Shneor & Chapsky 2021, eq. 6; `docs/theory/chain.md`.
 
 mod cursor;
 mod factors;
 
-use armill_core::robot::joint::Sign;
-use armill_core::robot::{Amount, Joint, Motion, Robot};
+use armill_core::robot::{Amount, Joint, Robot};
 
 use self::factors::Factor;
 use super::MOST_JOINTS;
@@ -37,17 +38,12 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     let mut symbols = Vec::new();
     let mut problems = Vec::new();
     for Factor {
-        slides,
-        axis,
+        kind,
         argument,
         place,
     } in factors
     {
-        let constant = match slides {
-            true => argument.constant * 1e-3,
-            // A whole quarter turn exactly.
-            false => argument.constant / 90.0 * std::f64::consts::FRAC_PI_2,
-        };
+        let constant = kind.si(argument.constant);
         let amount = match argument.joint {
             None => Amount::Constant(constant),
             Some(_) if joints.len() >= MOST_JOINTS => {
@@ -55,7 +51,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
                 problems.push(file.problem(place, message, None));
                 break;
             }
-            Some((name, against)) => {
+            Some((name, sign)) => {
                 if joints.iter().any(|joint| joint.name == name) {
                     let message = format!("joint `{name}` moves a second time");
                     let hint = "a joint moves one factor of the chain".to_owned();
@@ -63,7 +59,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
                     continue;
                 }
                 joints.push(Joint {
-                    sign: if against { Sign::Negative } else { Sign::Positive },
+                    sign,
                     zero_offset: constant,
                     ..Joint::plain(name)
                 });
@@ -71,10 +67,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
             }
         };
         symbols.push(argument.symbol);
-        motions.push(match slides {
-            true => Motion::Along(axis, amount),
-            false => Motion::About(axis, amount),
-        });
+        motions.push(kind.by(amount));
     }
     Problems::from(problems).into_result()?;
     let robot = Robot::new(id, motions, joints).map_err(|error| {

@@ -3,8 +3,11 @@
 //! - [`Image`]: a regular grid in three dimensions, `.vti`.
 //! - [`PolyData`]: points anywhere, joined to quadrilaterals and lines, `.vtp`.
 //!
+//! Here stand the values at the points and the bytes of an array; `image` and `poly_data` have the geometry.
+//!
 //! Lengths of the geometry are millimetres; arrays carry their unit in their name. Numbers at the points have 32 bits,
-//! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array `<name>_valid` is 1 where there is a value and 0 where there is none.
+//! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array
+//! `<name>_valid` is 1 where there is a value and 0 where there is none.
 //!
 //! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
@@ -29,21 +32,13 @@ pub struct PointArray {
     pub values: PointValues,
 }
 
-/// The values of a [`PointArray`].
+/// The values of a [`PointArray`]; `None` where there is none.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PointValues {
     /// Numbers.
-    Scalar(Vec<f64>),
-    /// Numbers, some of them missing.
-    OptionalScalar(Vec<Option<f64>>),
+    Scalar(Vec<Option<f64>>),
     /// Vectors in the frame of the points.
-    Vector(Vec<[f64; 3]>),
-    /// Vectors, some of them missing.
-    OptionalVector(Vec<Option<[f64; 3]>>),
-    /// Whole numbers, such as the code of a branch.
-    Integer(Vec<i64>),
-    /// Yes (1) or no (0).
-    Flag(Vec<bool>),
+    Vector(Vec<Option<[f64; 3]>>),
 }
 
 /// Why a grid or mesh cannot be written.
@@ -69,13 +64,13 @@ pub enum VtkError {
         /// Where it is.
         at_mm: [f64; 3],
     },
-    /// Points do not fill a grid.
-    #[error("{points} points do not make a grid of {} x {}", counts[0], counts[1])]
+    /// Points do not fill the grids that they should make.
+    #[error("{points} points do not make grids of {expected}")]
     GridPoints {
         /// How many points there are.
         points: usize,
-        /// How many there should be along both directions.
-        counts: [usize; 2],
+        /// How many all grids have together.
+        expected: usize,
     },
     /// A quadrilateral or line names a point that does not exist.
     #[error("a cell names point {index}: there are {points}")]
@@ -123,36 +118,26 @@ impl PointValues {
     fn len(&self) -> usize {
         match self {
             Self::Scalar(values) => values.len(),
-            Self::OptionalScalar(values) => values.len(),
             Self::Vector(values) => values.len(),
-            Self::OptionalVector(values) => values.len(),
-            Self::Integer(values) => values.len(),
-            Self::Flag(values) => values.len(),
         }
     }
 
     /// The first point with a value that is not finite.
     fn first_not_finite(&self) -> Option<usize> {
-        let strange = |vector: &[f64; 3]| vector.iter().any(|value| !value.is_finite());
+        let strange = |vector: [f64; 3]| vector.iter().any(|value| !value.is_finite());
         match self {
-            Self::Scalar(values) => values.iter().position(|value| !value.is_finite()),
-            Self::OptionalScalar(values) => values
+            Self::Scalar(values) => values
                 .iter()
                 .position(|value| value.is_some_and(|v| !v.is_finite())),
-            Self::Vector(values) => values.iter().position(strange),
-            Self::OptionalVector(values) => values
-                .iter()
-                .position(|value| value.as_ref().is_some_and(strange)),
-            Self::Integer(_) | Self::Flag(_) => None,
+            Self::Vector(values) => values.iter().position(|value| value.is_some_and(strange)),
         }
     }
 
-    /// Where there are values, if some may be missing.
-    fn valid(&self) -> Option<Vec<bool>> {
+    /// Where there are values.
+    fn valid(&self) -> Vec<bool> {
         match self {
-            Self::OptionalScalar(values) => Some(values.iter().map(Option::is_some).collect()),
-            Self::OptionalVector(values) => Some(values.iter().map(Option::is_some).collect()),
-            _ => None,
+            Self::Scalar(values) => values.iter().map(Option::is_some).collect(),
+            Self::Vector(values) => values.iter().map(Option::is_some).collect(),
         }
     }
 }
@@ -172,8 +157,7 @@ fn check_arrays(arrays: &[PointArray], points: usize) -> Result<(), VtkError> {
         if let Some(index) = values.first_not_finite() {
             return Err(VtkError::NotFinite { array, index });
         }
-        let mask = values.valid().map(|_| mask_name(name));
-        for name in std::iter::once(array).chain(mask) {
+        for name in [array, mask_name(name)] {
             if !names.insert(name.clone()) {
                 return Err(VtkError::SameName { array: name });
             }
@@ -210,12 +194,7 @@ fn file(kind: &str, body: impl FnOnce(&mut String)) -> Vec<u8> {
 
 /// The `PointData` element; the first scalar is the one ParaView shows first.
 fn point_data(out: &mut String, arrays: &[PointArray]) {
-    let scalar = |array: &&PointArray| {
-        matches!(
-            array.values,
-            PointValues::Scalar(_) | PointValues::OptionalScalar(_)
-        )
-    };
+    let scalar = |array: &&PointArray| matches!(array.values, PointValues::Scalar(_));
     let shown = arrays
         .iter()
         .find(scalar)
@@ -223,23 +202,16 @@ fn point_data(out: &mut String, arrays: &[PointArray]) {
     *out += &format!("<PointData{}>\n", shown.unwrap_or_default());
     for PointArray { name, values } in arrays {
         match values {
-            PointValues::Scalar(values) => floats(out, name, 1, values.iter().copied()),
-            PointValues::OptionalScalar(values) => {
-                floats(out, name, 1, values.iter().map(|v| v.unwrap_or(f64::NAN)));
+            PointValues::Scalar(values) => {
+                floats(out, name, 1, values.iter().map(|value| value.unwrap_or(f64::NAN)));
             }
-            PointValues::Vector(values) => floats(out, name, 3, values.iter().flatten().copied()),
-            PointValues::OptionalVector(values) => {
+            PointValues::Vector(values) => {
                 let all = values.iter().flat_map(|value| value.unwrap_or([f64::NAN; 3]));
                 floats(out, name, 3, all);
             }
-            PointValues::Integer(values) => {
-                data_array(out, ("Int64", name, 1), values.iter().map(|v| v.to_le_bytes()));
-            }
-            PointValues::Flag(values) => flags(out, name, values),
         }
-        if let Some(valid) = values.valid() {
-            flags(out, &mask_name(name), &valid);
-        }
+        let valid = values.valid().into_iter().map(|valid| [u8::from(valid)]);
+        data_array(out, ("UInt8", &mask_name(name), 1), valid);
     }
     *out += "</PointData>\n";
 }
@@ -247,14 +219,6 @@ fn point_data(out: &mut String, arrays: &[PointArray]) {
 fn floats(out: &mut String, name: &str, components: usize, values: impl Iterator<Item = f64>) {
     let bytes = values.map(|value| (value as f32).to_le_bytes());
     data_array(out, ("Float32", name, components), bytes);
-}
-
-fn flags(out: &mut String, name: &str, values: &[bool]) {
-    data_array(
-        out,
-        ("UInt8", name, 1),
-        values.iter().map(|value| [u8::from(*value)]),
-    );
 }
 
 /// One array (type, name, components): the count of its bytes and the bytes themselves, together in base64.

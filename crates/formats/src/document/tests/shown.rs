@@ -1,0 +1,97 @@
+//! How problems are placed and shown.
+
+use super::super::{Document, Problems, schema_json};
+use super::{GOOD, Study, read};
+
+#[test]
+fn a_problem_of_the_caller_stands_at_its_value_or_the_nearest_parent() {
+    let document = Document::parse("study.toml", GOOD).unwrap();
+    let place = |path: &str| {
+        let problem = document.problem(path, "m", Some("h"));
+        (problem.line(), problem.column(), GOOD[problem.span()].to_owned())
+    };
+    assert_eq!(place("plane.step_mm"), (10, 11, "5".to_owned()));
+    assert_eq!(place("tool.distances_mm[1]"), (15, 22, "2.0".to_owned()));
+    assert_eq!(place("ask[1].points_mm[1][2]"), (25, 32, "3".to_owned()));
+    assert_eq!(place("limits_um.\"EN AW-6082\""), (4, 30, "1e2".to_owned()));
+    assert_eq!(place("ask[1].speed"), (22, 1, "[[ask]]".to_owned()));
+    assert_eq!(place("plane.inner.step_mm"), (9, 1, "[plane]".to_owned()));
+    assert_eq!(place("nowhere.at.all"), (1, 1, String::new()));
+    assert!(document.contains("ask[2].step_mm") && !document.contains("ask[3]"));
+}
+
+#[test]
+fn problems_are_shown_as_rustc_shows_them() {
+    let shown = read(&GOOD.replace("step_mm = 5", "step = 5"))
+        .unwrap_err()
+        .to_string();
+    let expected = "\
+error: study.toml:10:1: unknown field `plane.step`
+  --> study.toml:10:1
+   |
+10 | step = 5
+   | ^^^^
+   |
+   = help: lengths carry their unit: write `step_mm`";
+    assert_eq!(shown, expected);
+}
+
+#[test]
+fn the_place_shown_above_the_source_is_that_of_the_problem() {
+    let text =
+        "\u{feff}# ä\r\n\tname = \"äö\u{1f600}\"\r\nversion = {x = 'ä', \u{22}ü\u{22} = 1, z = nan}\r\n";
+    let problems = read(text).unwrap_err();
+    for problem in problems.as_slice() {
+        let shown = Problems::from(problem.clone()).to_string();
+        let arrow = format!("--> study.toml:{}:{}", problem.line(), problem.column());
+        assert!(shown.contains(&arrow), "{shown}");
+    }
+    assert!(
+        problems.as_slice().iter().any(|problem| problem.column() == 34),
+        "{problems}"
+    );
+}
+
+#[test]
+fn colour_is_only_where_it_is_asked_for() {
+    let problems = read("").unwrap_err();
+    assert!(!problems.to_string().contains('\u{1b}'));
+    assert!(problems.in_colour().contains('\u{1b}'));
+}
+
+#[test]
+fn control_characters_of_a_file_do_not_reach_the_terminal() {
+    let problems = read("\"\\u001b[31m\" = 1\nx = '\u{7f}'\n# \u{1b}\n").unwrap_err();
+    assert!(!problems.to_string().contains('\u{1b}'));
+    let problems = read("name = \"\\u001b[31m\"\nversion = \"\\u001b[31m\"").unwrap_err();
+    assert!(!problems.to_string().contains('\u{1b}'), "{problems}");
+}
+
+#[test]
+fn problems_are_json_with_all_they_know() {
+    let problems = read(&GOOD.replace("step_mm = 5", "step = 5")).unwrap_err();
+    let expected = serde_json::json!([{
+        "file": "study.toml", "line": 10, "column": 1, "span": {"start": 140, "end": 144},
+        "message": "unknown field `plane.step`", "hint": "lengths carry their unit: write `step_mm`",
+    }]);
+    assert_eq!(problems.to_json(), expected);
+}
+
+#[test]
+fn a_thousand_problems_are_listed_and_a_hundred_shown() {
+    let text: String = (0..5000).map(|index| format!("field_{index:05} = 1\n")).collect();
+    let problems = read(&text).unwrap_err();
+    assert_eq!(problems.as_slice().len(), 1000);
+    assert!(
+        problems
+            .to_string()
+            .ends_with("... and 900 more problems in this file")
+    );
+}
+
+#[test]
+fn the_schema_is_text_for_editors() {
+    let schema = schema_json::<Study>();
+    assert!(schema.ends_with("}\n") && schema.contains("\"step_mm\""));
+    assert!(serde_json::from_str::<serde_json::Value>(&schema).is_ok());
+}

@@ -1,0 +1,207 @@
+//! OPW parameters: the seven lengths of an arm with ortho-parallel basis and spherical wrist, as MoveIt keeps them.
+//!
+//! ```text
+//! Tz(c1) Rz(1) Tx(a1) Ty(b) Ry(2) Tz(c2) Ry(3) Tx(a2) Tz(c3) Rz(4) Ry(5) Rz(6) Tz(c4)     theta = sign q - offset
+//! ```
+//!
+//! | key | holds |
+//! |---|---|
+//! | `opw_kinematics_geometric_parameters` | a1 a2 b c1 c2 c3 c4, m |
+//! | `opw_kinematics_joint_offsets` | six angles, rad or `deg(-90.0)` |
+//! | `opw_kinematics_joint_sign_corrections` | six times 1 or -1 |
+//!
+//! At chain zero the arm stands upright; the flange has z out of it and at chain zero the axes of the base. The
+//! file names no joints, limits or speeds.
+//!
+//! `yaml` finds keys and values, each with its place; here they become an arm.
+//!
+//! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
+
+mod yaml;
+
+use std::ops::Range;
+
+use armill_core::robot::joint::Sign;
+use armill_core::robot::{Amount, Axis, Joint, Motion, Robot};
+
+use self::yaml::{Entry, Scalar};
+use super::TWO_TURNS;
+use super::description::RobotDescription;
+use crate::document::{Problem, Problems, Source};
+
+/// Longest link of an arm, m: a file in mm has one beyond.
+const LONGEST_LINK: f64 = 100.0;
+
+const LENGTHS: [&str; 7] = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
+const OFFSETS: &str = "opw_kinematics_joint_offsets";
+const SIGNS: &str = "opw_kinematics_joint_sign_corrections";
+
+/// The robot of these OPW parameters; `path` is what errors show, `id` the robot's name in results.
+///
+/// # Errors
+/// A YAML file of another kind, keys that are missing or double, what is no number, length, angle or sign.
+pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
+    let file = Source::new(path, text);
+    let mut keys = Keys::of(&file)?;
+    let lengths = LENGTHS.map(|key| keys.values(key, length).map(|[length]| length));
+    let offsets: Option<[f64; 6]> = keys.values(OFFSETS, angle);
+    let signs: Option<[Sign; 6]> = keys.values(SIGNS, sign);
+    let (
+        [
+            Some(a1),
+            Some(a2),
+            Some(b),
+            Some(c1),
+            Some(c2),
+            Some(c3),
+            Some(c4),
+        ],
+        Some(offsets),
+        Some(signs),
+    ) = (lengths, offsets, signs)
+    else {
+        return Err(keys.problems.into());
+    };
+    let along = |axis, metres| Motion::Along(axis, Amount::Constant(metres));
+    let about = |axis, joint| Motion::About(axis, Amount::Joint(joint));
+    let (motions, symbols): (Vec<Motion>, Vec<Option<&str>>) = [
+        (along(Axis::Z, c1), Some("c1")),
+        (about(Axis::Z, 0), None),
+        (along(Axis::X, a1), Some("a1")),
+        (along(Axis::Y, b), Some("b")),
+        (about(Axis::Y, 1), None),
+        (along(Axis::Z, c2), Some("c2")),
+        (about(Axis::Y, 2), None),
+        (along(Axis::X, a2), Some("a2")),
+        (along(Axis::Z, c3), Some("c3")),
+        (about(Axis::Z, 3), None),
+        (about(Axis::Y, 4), None),
+        (about(Axis::Z, 5), None),
+        (along(Axis::Z, c4), Some("c4")),
+    ]
+    .into_iter()
+    .unzip();
+    let joints = offsets.into_iter().zip(signs).enumerate();
+    let joints = joints.map(|(index, (offset, sign))| Joint {
+        sign,
+        zero_offset: -offset,
+        ..Joint::plain(format!("joint_{}", index + 1))
+    });
+    let robot = Robot::new(id, motions, joints.collect())
+        .map_err(|error| Problems::from(file.problem(0..0, error.to_string(), None)))?;
+    let mut found = RobotDescription::of_one_source(robot, "opw", path, "lengths, joint offsets and signs");
+    found.symbols = symbols
+        .into_iter()
+        .map(|symbol| symbol.map(str::to_owned))
+        .collect();
+    found.remarks = vec![
+        "the file names no joints: they are called joint_1 to joint_6".to_owned(),
+        "the base lies c1 below axis 2, on axis 1; the flange has z out of it, and may be turned about z against the maker's".to_owned(),
+    ];
+    Ok(found)
+}
+
+/// The keys of a file, and what was wrong with those that were asked for.
+struct Keys<'a> {
+    file: &'a Source,
+    entries: Vec<Entry<'a>>,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Keys<'a> {
+    /// All keys of the file.
+    ///
+    /// # Errors
+    /// A YAML file of another kind.
+    fn of(file: &'a Source) -> Result<Keys<'a>, Problems> {
+        let entries = yaml::entries(file.text());
+        let has = |wanted: fn(&str) -> bool| entries.iter().any(|entry| wanted(entry.key));
+        if has(|key| key.starts_with("opw_kinematics")) {
+            return Ok(Keys {
+                file,
+                entries,
+                problems: Vec::new(),
+            });
+        }
+        let hint = if has(|key| key.ends_with("joint_names")) {
+            "it lists joint names: no chain can be made of them"
+        } else {
+            "an OPW file has the keys opw_kinematics_geometric_parameters, opw_kinematics_joint_offsets and opw_kinematics_joint_sign_corrections"
+        };
+        let message = "no OPW parameters: no key begins with `opw_kinematics`";
+        Err(file.problem(0..0, message, Some(hint.to_owned())).into())
+    }
+
+    /// The values of a key, each judged by `of`; where there are not `N`, or one is refused, a problem is kept.
+    fn values<T, const N: usize>(
+        &mut self,
+        key: &str,
+        of: fn(&str) -> Result<T, &'static str>,
+    ) -> Option<[T; N]> {
+        let mut refuse = |place: Range<usize>, message: String, hint: Option<String>| {
+            self.problems.push(self.file.problem(place, message, hint));
+        };
+        let mut named = self.entries.iter().filter(|entry| entry.key == key);
+        let Some(entry) = named.next() else {
+            let hint = match N {
+                1 => format!("add `{key}: 0.0` below opw_kinematics_geometric_parameters, in m"),
+                _ => format!("add `{key}: [...]` with six values"),
+            };
+            refuse(0..0, format!("`{key}` is missing"), Some(hint));
+            return None;
+        };
+        if let Some(second) = named.next() {
+            let hint = "one arm a file".to_owned();
+            refuse(second.place.clone(), format!("`{key}` stands twice"), Some(hint));
+            return None;
+        }
+        if entry.values.len() != N {
+            let count = entry.values.len();
+            let message = format!("`{key}` has {count} values where {N} are wanted");
+            refuse(entry.place.clone(), message, None);
+            return None;
+        }
+        let mut values = Vec::new();
+        for Scalar { text, place } in &entry.values {
+            match of(text) {
+                Ok(value) => values.push(value),
+                Err(what) => refuse(place.clone(), format!("`{text}` of `{key}` is not {what}"), None),
+            }
+        }
+        values.try_into().ok()
+    }
+}
+
+fn length(text: &str) -> Result<f64, &'static str> {
+    let value = text.parse::<f64>().ok();
+    value
+        .filter(|value| value.abs() <= LONGEST_LINK)
+        .ok_or("a length within 100 m (lengths of an OPW file are in m)")
+}
+
+fn angle(text: &str) -> Result<f64, &'static str> {
+    let inside = |name: &str| {
+        text.strip_prefix(name)?
+            .trim()
+            .strip_prefix('(')?
+            .strip_suffix(')')
+    };
+    let value = match (inside("deg"), inside("rad")) {
+        (Some(degrees), _) => degrees.trim().parse::<f64>().map(f64::to_radians),
+        (_, Some(radians)) => radians.trim().parse::<f64>(),
+        _ => text.parse::<f64>(),
+    };
+    let value = value.ok().filter(|value| value.abs() <= TWO_TURNS);
+    value.ok_or("an angle within two turns, such as -1.5708 (rad) or deg(-90.0)")
+}
+
+fn sign(text: &str) -> Result<Sign, &'static str> {
+    match text.parse::<f64>() {
+        Ok(1.0) => Ok(Sign::Positive),
+        Ok(-1.0) => Ok(Sign::Negative),
+        _ => Err("1 or -1"),
+    }
+}
+
+#[cfg(test)]
+mod tests;
