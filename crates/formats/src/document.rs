@@ -38,6 +38,7 @@ use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
+pub(crate) use self::problem::MOST_PROBLEMS;
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
 

@@ -150,7 +150,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &ProgramAsk, found: &Progra
         joint_range_deg: joint_ranges(study, answers),
         program: Some(ProgramResult {
             file: ask.file.clone(),
-            format: ask.summary.format,
+            format: ask.summary.format.name(),
             moves: ask.moves,
             cutting_length_mm: ask.length * 1e3,
             cutting_time_s: ask.time,

@@ -17,10 +17,10 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::clock::begins;
 use armill_core::path::{ForcesTold, NoForces, Operation, Placing, Sampling, Spin};
 use armill_core::watch::Watch;
-use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
+use armill_formats::toolpath::format::{self, Wanted};
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
-use armill_formats::toolpath::program::{self, Summary, Wanted};
+use armill_formats::toolpath::{LengthUnit, Summary};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -299,7 +299,7 @@ pub(super) fn read(
     };
     let mut cut_up = CutUp::new(Sampling { chord_error, step });
     let shown = path.display().to_string();
-    let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| {
+    let summary = format::read(&shown, BufReader::new(file), &wanted, &mut |step| {
         cut_up.take(step);
     })?;
     if cut_up.too_many {

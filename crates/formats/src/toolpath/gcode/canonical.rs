@@ -83,6 +83,8 @@ pub enum Canonical {
     },
     /// Units per minute, or per revolution.
     SetFeedRate(f64),
+    /// The feed of this block, told before its new unit, counts in the new one. Not a call of NISTIR 6556.
+    FeedRateInNewUnit(f64),
     SetMotionControlMode(PathControl),
     SetNaivecamTolerance(f64),
     UseToolLengthOffset(Axes),
@@ -167,6 +169,7 @@ impl fmt::Display for Canonical {
                 write!(f, "SET_FEED_MODE(0, {})", i32::from(*per_revolution))
             }
             Canonical::SetFeedRate(rate) => write!(f, "SET_FEED_RATE({rate:.4})"),
+            Canonical::FeedRateInNewUnit(rate) => write!(f, "FEED_RATE_IN_NEW_UNIT({rate:.4})"),
             Canonical::SetMotionControlMode(mode) => match mode {
                 PathControl::ExactPath => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
                 PathControl::ExactStop => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"),

@@ -14,9 +14,12 @@
 //!
 //! Source: the geometry of offset curves; entry moves: NISTIR 6556, appendix B, "cutter radius compensation".
 
+use std::f64::consts::TAU;
+
 use armill_core::nalgebra::{Point2, Vector2};
 
 use super::canonical::{ArcFeed, Canonical, Plane};
+use super::motion::sweep;
 use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
@@ -25,16 +28,24 @@ const TANGENT: f64 = 1e-3;
 const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
-/// A crossing this part of the radius before the start of its line is rounding, not gouging.
-const BEFORE_START: f64 = 1e-6;
+/// A crossing that lies this part of the radius of the cutter outside its piece is rounding, not gouging.
+const OUTSIDE: f64 = 1e-6;
 
 /// What receives canonical calls, each with its line of the program.
 pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
 #[derive(Clone, Copy, Debug)]
 enum Shape {
-    Line { towards: Vector2<f64> },
-    Circle { centre: Point2<f64>, radius: f64 },
+    Line {
+        towards: Vector2<f64>,
+    },
+    Circle {
+        centre: Point2<f64>,
+        radius: f64,
+        counterclockwise: bool,
+        /// Whole turns before the last one, rad.
+        before: f64,
+    },
 }
 
 /// A moved piece that has come, and may still end elsewhere.
@@ -81,6 +92,29 @@ pub(super) struct Cutter {
     leaving: bool,
     /// Line of the program being read.
     pub line: u32,
+}
+
+impl Piece {
+    /// Whether `at`, a point of its line or circle, lies between its start and its end, within a length of `slack`.
+    fn holds(&self, at: Point2<f64>, slack: f64) -> bool {
+        match self.shape {
+            Shape::Line { towards } => {
+                (at - self.start).dot(&towards) >= -slack && (at - self.end).dot(&towards) <= slack
+            }
+            Shape::Circle {
+                centre,
+                radius,
+                counterclockwise,
+                before,
+            } => {
+                let turn =
+                    |from: Point2<f64>, to: Point2<f64>| sweep(from - centre, to - centre, counterclockwise);
+                let slack = slack / radius;
+                let (whole, part) = (turn(self.start, self.end) + before, turn(self.start, at));
+                part <= whole + slack || part >= TAU - slack
+            }
+        }
+    }
 }
 
 fn left_of(t: Vector2<f64>) -> Vector2<f64> {
@@ -180,7 +214,9 @@ impl Cutter {
             if cross.abs() < TANGENT && onward {
                 next.start = last.end;
             } else if bends * active.side > 0.0 {
-                let crossing = crossing(last, &next, arrives).filter(|at| reached(last, *at, &active));
+                let slack = OUTSIDE * active.radius;
+                let crossing = crossing(last, &next, arrives)
+                    .filter(|at| last.holds(*at, slack) && next.holds(*at, slack));
                 let at = crossing.ok_or(Refusal::Gouging {
                     radius: active.radius,
                 })?;
@@ -281,7 +317,15 @@ fn moved(
                     radius: active.radius,
                 });
             }
-            Shape::Circle { centre, radius }
+            Shape::Circle {
+                centre,
+                radius,
+                counterclockwise,
+                before: match &call {
+                    Canonical::ArcFeed(arc) => TAU * f64::from(arc.turns.abs() - 1),
+                    _ => 0.0,
+                },
+            }
         }
     };
     end_at(&mut call, active.plane, end);
@@ -300,7 +344,15 @@ fn moved(
 /// Lets the first piece begin on the bare contour.
 fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
     piece.start = from;
-    let Contour::Arc { centre, .. } = contour else {
+    let (
+        Contour::Arc { centre, .. },
+        Shape::Circle {
+            centre: on,
+            radius: around,
+            ..
+        },
+    ) = (contour, &mut piece.shape)
+    else {
         return;
     };
     // The centre stays on the radius to the end, at u from it: |from - end - u w| = u with w towards the old centre.
@@ -311,20 +363,9 @@ fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
         return;
     }
     let centre = piece.end + w * u;
-    piece.shape = Shape::Circle {
-        centre,
-        radius: u.abs(),
-    };
+    (*on, *around) = (centre, u.abs());
     if let Canonical::ArcFeed(arc) = &mut piece.call {
         arc.centre = centre.into();
-    }
-}
-
-/// Whether the cutter comes as far as `at` before it would turn back.
-fn reached(piece: &Piece, at: Point2<f64>, active: &Active) -> bool {
-    match piece.shape {
-        Shape::Line { towards } => (at - piece.start).dot(&towards) >= -BEFORE_START * active.radius,
-        Shape::Circle { .. } => true,
     }
 }
 
@@ -343,20 +384,22 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
             let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
             along.is_finite().then(|| last.end + t1 * along)
         }
-        (Shape::Line { towards }, Shape::Circle { centre, radius }) => {
+        (Shape::Line { towards }, Shape::Circle { centre, radius, .. }) => {
             line_and_circle(last.end, towards, centre, radius).map(best)
         }
-        (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
+        (Shape::Circle { centre, radius, .. }, Shape::Line { towards }) => {
             line_and_circle(next.start, towards, centre, radius).map(best)
         }
         (
             Shape::Circle {
                 centre: c1,
                 radius: r1,
+                ..
             },
             Shape::Circle {
                 centre: c2,
                 radius: r2,
+                ..
             },
         ) => {
             let between = c2 - c1;

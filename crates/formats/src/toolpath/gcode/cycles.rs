@@ -17,9 +17,8 @@ use super::canonical::{Axes, Canonical, PathControl};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
-use super::options::Warning;
-use super::refusal::Refusal;
-use crate::toolpath::LengthUnit;
+use super::refusal::{Excess, Refusal};
+use super::wanted::Warning;
 
 /// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
 const PECK_GAP: [f64; 2] = [0.254, 0.010];
@@ -237,11 +236,11 @@ impl Machine {
         if pecks > MOST_PECKS {
             let limit = MOST_PECKS as usize;
             return Err(Refusal::TooMuch {
-                what: "steps in one hole",
+                what: Excess::Pecks,
                 limit,
             });
         }
-        let gap = PECK_GAP[usize::from(self.unit == LengthUnit::Inch)];
+        let gap = self.unit.choose(PECK_GAP);
         // At most MOST_PECKS.
         for peck in 1..=pecks.max(0.0) as u32 {
             let depth = hole.clear - step * f64::from(peck);

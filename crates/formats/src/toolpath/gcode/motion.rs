@@ -11,18 +11,18 @@
 //! `tests/interp/bad/README.arc-radius-tolerance`.
 
 use std::f64::consts::{SQRT_2, TAU};
+use std::ops::RangeInclusive;
 
-use armill_core::nalgebra::{Point2, Vector2, center};
+use armill_core::nalgebra::{Point2, Vector2, Vector3, center};
 
-use super::block::{Block, shown};
+use super::block::{Block, shown, within};
 use super::canonical::{ArcFeed, Axes, Canonical};
 use super::cutter::{Contour, Out};
 use super::groups;
 use super::machine::{FeedMode, Machine};
-use super::options::Warning;
 use super::parameters;
 use super::refusal::Refusal;
-use crate::toolpath::LengthUnit;
+use super::wanted::Warning;
 
 /// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
 const RADII_APART: [f64; 2] = [0.01, 0.001];
@@ -32,6 +32,8 @@ const RADII_FAR_APART: f64 = 100.0;
 const RADII_RELATIVE: f64 = 1e-3;
 /// Turns of one helix: a spring, not a cut.
 const MOST_TURNS: f64 = 10_000.0;
+/// A tool axis told as a vector may have any length between these: beyond, its digits are lost.
+const VECTOR_LENGTHS: RangeInclusive<f64> = 1e-6..=1e6;
 /// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
 const SAME_END: f64 = 1e-9;
 
@@ -65,7 +67,7 @@ impl Machine {
             end = self.in_program(machine);
             self.call(Canonical::MachineCoordinates, out)?;
         }
-        finite(&end)?;
+        bounded(&end)?;
         if code == 10 {
             let length = length(&self.at, &end);
             self.feed_for(code, block, length, out)?;
@@ -88,12 +90,13 @@ impl Machine {
 
     /// I, J, K under G43.5.
     fn vector_words(&mut self, block: &mut Block, out: Out<'_>) -> Result<bool, Refusal> {
-        if !self.vector || !b"ijk".iter().any(|letter| block.has(*letter)) {
+        if !self.vector || !block.has_vector() {
             return Ok(false);
         }
         let axis = b"ijk".map(|letter| block.take(letter).unwrap_or_default());
-        if Vector2::new(axis[0], axis[1]).norm() + axis[2].abs() == 0.0 {
-            return Err(Refusal::NoDirection);
+        let length = Vector3::from(axis).norm();
+        if !VECTOR_LENGTHS.contains(&length) {
+            return Err(Refusal::NoDirection { length });
         }
         self.call(Canonical::ToolAxis(axis), out)?;
         Ok(true)
@@ -117,7 +120,7 @@ impl Machine {
     pub(super) fn arc(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let end = self.target(block.axes());
-        finite(&end)?;
+        bounded(&end)?;
         let counterclockwise = code == 30;
         let start = Point2::new(self.at[first], self.at[second]);
         let stop = Point2::new(end[first], end[second]);
@@ -186,7 +189,7 @@ impl Machine {
         if radius == 0.0 {
             return Err(Refusal::ArcPoint);
         }
-        let least = RADII_APART[usize::from(self.unit == LengthUnit::Inch)] * 2.0 * SQRT_2;
+        let least = self.unit.choose(RADII_APART) * 2.0 * SQRT_2;
         let apart = (radius - end_radius).abs();
         let limit = (RADII_RELATIVE * radius.max(end_radius)).clamp(least, RADII_FAR_APART * least);
         if apart > limit {
@@ -204,18 +207,13 @@ impl Machine {
         if self.cutter.is_on() {
             return Err(Refusal::NotUnderCompensation(groups::name(b'g', code)));
         }
-        let first = if code == 280 {
-            parameters::HOME
-        } else {
-            parameters::HOME + 20
-        };
-        let stored = self.stored(first);
+        let stored = self.stored(parameters::home_of(code))?;
         if stored == [0.0; 6] {
             self.warn(Warning::HomeAssumed);
         }
         let words = block.axes();
         self.at = self.target(words);
-        finite(&self.at)?;
+        bounded(&self.at)?;
         self.call(Canonical::StraightTraverse(self.at), out)?;
         let mut machine = self.in_machine(self.at);
         let all = words.iter().all(Option::is_none);
@@ -230,20 +228,10 @@ impl Machine {
     }
 }
 
-/// Places beyond this have lost the micrometre in their last digits.
-const FARTHEST: f64 = 1e9;
-
-fn finite(end: &Axes) -> Result<(), Refusal> {
-    for (value, letter) in end.iter().zip(b"xyzabc") {
-        if value.is_nan() || value.abs() > FARTHEST {
-            return Err(Refusal::WordValue {
-                word: shown(*letter),
-                value: *value,
-                wanted: "within 1e9",
-            });
-        }
-    }
-    Ok(())
+/// Increments may add up to what no word may say.
+fn bounded(end: &Axes) -> Result<(), Refusal> {
+    let mut axes = end.iter().zip(b"xyzabc");
+    axes.try_for_each(|(value, letter)| within(shown(*letter), *value))
 }
 
 /// What the feed is counted along: the way of the tip, or degrees where it stands.

@@ -7,9 +7,9 @@ use super::canonical::{Axes, Canonical};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{Machine, scaled};
-use super::options::Warning;
 use super::parameters;
 use super::refusal::Refusal;
+use super::wanted::Warning;
 
 /// G59.3, which G10 L11 counts from.
 const FIXTURE: u8 = 9;
@@ -71,7 +71,7 @@ impl Machine {
 
     fn set_system(&mut self, system: u8, here: bool, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
-        let (zero, turn) = self.stored_system(system);
+        let (zero, turn) = self.stored_system(system)?;
         let turn = block.take(b'r').unwrap_or(turn);
         let words = block.axes();
         let zero = if here {
@@ -123,7 +123,7 @@ impl Machine {
                 self.with_system(zero, turn, |other| other.offset_for(machine, offset, words))
             }
             _ => {
-                let (zero, turn) = self.stored_system(FIXTURE);
+                let (zero, turn) = self.stored_system(FIXTURE)?;
                 self.with_system(zero, turn, |other| {
                     other.g92 = [0.0; 6];
                     other.offset_for(machine, offset, words)
@@ -176,7 +176,7 @@ impl Machine {
         if system == self.system {
             return Ok(());
         }
-        let (zero, turn) = self.stored_system(system);
+        let (zero, turn) = self.stored_system(system)?;
         self.not_compensating(&groups::name(b'g', code))?;
         self.parameters
             .set_numbered(parameters::SYSTEM, f64::from(system));
@@ -209,7 +209,7 @@ impl Machine {
                 ([0.0; 6], 0.0)
             }
             922 => ([0.0; 6], 0.0),
-            _ => (self.stored(parameters::G92_FLAG + 1), 1.0),
+            _ => (self.stored(parameters::G92_FLAG + 1)?, 1.0),
         };
         self.parameters.set_numbered(parameters::G92_FLAG, flag);
         self.recount(|machine| machine.g92 = offset);
@@ -218,13 +218,8 @@ impl Machine {
 
     /// G28.1 and G30.1.
     pub(super) fn store_home(&mut self, code: u16) {
-        let first = if code == 281 {
-            parameters::HOME
-        } else {
-            parameters::HOME + 20
-        };
         let machine = self.in_machine(self.at);
-        self.store(first, machine);
+        self.store(parameters::home_of(code), machine);
     }
 
     /// G43 to G49: length of the tool, and tool-centre control.

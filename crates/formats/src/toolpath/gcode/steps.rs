@@ -18,12 +18,12 @@ use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 
 use super::canonical::{ArcFeed, Axes, Canonical};
 use super::motion::sweep;
-use super::options::{Options, Warning, Warnings};
 use super::parameters;
 use super::refusal::Refusal;
 use super::rotaries::{Rotaries, Rotary};
-use super::summary::Summary;
+use super::wanted::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
+use crate::toolpath::notes::Notes;
 
 /// Rotary axes nearer to zero than this, deg, stand there.
 const AT_ZERO: f64 = 1e-9;
@@ -59,7 +59,8 @@ impl Frame {
 pub(super) struct Tracer<'a> {
     out: &'a mut dyn FnMut(Step),
     rotaries: Option<&'a Rotaries>,
-    told: [bool; 10],
+    /// Which systems somebody has measured: their zeros were told.
+    systems_measured: [bool; 10],
     diameters: BTreeMap<u32, f64>,
     unit: LengthUnit,
     frame: Frame,
@@ -74,7 +75,6 @@ pub(super) struct Tracer<'a> {
     in_machine: bool,
     /// m/min, or m per revolution.
     feed: f64,
-    feed_line: u32,
     per_revolution: bool,
     /// Revolutions per minute.
     speed: f64,
@@ -82,19 +82,18 @@ pub(super) struct Tracer<'a> {
     sense: Option<f64>,
     tool: Option<u32>,
     operation: Option<(Option<u32>, Option<f64>)>,
-    pub warnings: Warnings,
-    pub summary: Summary,
+    pub notes: Notes<Warning>,
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(options: &'a Options<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
-        let mut told = [false; 10];
-        for (system, told) in (0_u8..).zip(&mut told).skip(1) {
+    pub fn new(wanted: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
+        let mut systems_measured = [false; 10];
+        for (system, measured) in (0_u8..).zip(&mut systems_measured).skip(1) {
             let first = parameters::zero_of(system);
-            *told = (first..first + 10)
-                .any(|index| u16::try_from(index).is_ok_and(|index| options.parameters.contains_key(&index)));
+            *measured = (first..first + 10)
+                .any(|index| u16::try_from(index).is_ok_and(|index| wanted.parameters.contains_key(&index)));
         }
-        let diameters = options.tools.iter().flat_map(|table| {
+        let diameters = wanted.tools.iter().flat_map(|table| {
             let unit = table.unit.metres();
             table
                 .tools
@@ -103,10 +102,10 @@ impl<'a> Tracer<'a> {
         });
         Tracer {
             out,
-            rotaries: options.rotaries.as_ref(),
-            told,
+            rotaries: wanted.rotaries.as_ref(),
+            systems_measured,
             diameters: diameters.collect(),
-            unit: options.unit,
+            unit: wanted.unit,
             frame: Frame {
                 system: 1,
                 zero: Vector3::zeros(),
@@ -121,14 +120,12 @@ impl<'a> Tracer<'a> {
             vector: None,
             in_machine: false,
             feed: 0.0,
-            feed_line: 0,
             per_revolution: false,
             speed: 0.0,
             sense: None,
             tool: None,
             operation: None,
-            warnings: Warnings::default(),
-            summary: Summary::default(),
+            notes: Notes::default(),
         }
     }
 
@@ -143,28 +140,21 @@ impl<'a> Tracer<'a> {
                 self.straight(end, pace, line)?;
             }
             Canonical::ArcFeed(arc) => self.arc(&arc, line)?,
-            Canonical::UseLengthUnits(unit) => {
-                // The order of the standard sets the feed before the unit; nobody means F of that block in the old.
-                if self.feed_line == line {
-                    self.feed *= unit.metres() / self.unit.metres();
-                }
-                self.unit = unit;
-            }
+            Canonical::UseLengthUnits(unit) => self.unit = unit,
             Canonical::SetG5xOffset(system, zero) => {
                 // Said of the system in force, or away from zero: somebody has measured it.
                 let again = system == self.frame.system && self.path.is_some();
                 self.frame.zero = self.lengths(&zero);
                 self.frame.system = system;
-                if let Some(told) = self.told.get_mut(usize::from(system)) {
-                    *told |= again || self.frame.zero != Vector3::zeros();
+                if let Some(measured) = self.systems_measured.get_mut(usize::from(system)) {
+                    *measured |= again || self.frame.zero != Vector3::zeros();
                 }
             }
             Canonical::SetG92Offset(shift) => self.frame.shift = self.lengths(&shift),
             Canonical::SetXyRotation(degrees) => self.frame.turn = degrees.to_radians(),
             Canonical::SetFeedMode { per_revolution } => self.per_revolution = per_revolution,
-            Canonical::SetFeedRate(rate) => {
+            Canonical::SetFeedRate(rate) | Canonical::FeedRateInNewUnit(rate) => {
                 self.feed = rate * self.unit.metres();
-                self.feed_line = line;
             }
             Canonical::SetToolTableEntry { tool, diameter, .. } => {
                 self.diameters.insert(tool, diameter * self.unit.metres());
@@ -194,7 +184,7 @@ impl<'a> Tracer<'a> {
         let per_minute = if self.per_revolution {
             let turning = self.sense.unwrap_or_default().abs() * self.speed;
             if turning == 0.0 {
-                self.warnings.count(Warning::SpindleStands, line);
+                self.notes.count(Warning::SpindleStands, line);
             }
             self.feed * turning
         } else {
@@ -227,12 +217,15 @@ impl<'a> Tracer<'a> {
 
     /// Before every move: in which frame it is, and whether that is told.
     fn settle(&mut self, pace: Pace, rotary: [f64; 3], line: u32) -> Result<(), Refusal> {
-        let told = |system: u8| self.told.get(usize::from(system)).copied().unwrap_or_default();
-        if std::mem::take(&mut self.in_machine) && !told(self.frame.system) {
+        let measured = |system: u8| {
+            let index = usize::from(system);
+            self.systems_measured.get(index).copied().unwrap_or_default()
+        };
+        if std::mem::take(&mut self.in_machine) && !measured(self.frame.system) {
             if pace.cuts() {
                 return Err(Refusal::MachineCut);
             }
-            self.warnings.count(Warning::MachineZeroAssumed, line);
+            self.notes.count(Warning::MachineZeroAssumed, line);
         }
         if pace.cuts() {
             if let Some(path) = self
@@ -240,7 +233,7 @@ impl<'a> Tracer<'a> {
                 .filter(|path| self.cut && path.system != self.frame.system)
             {
                 let (first, now) = (path.system, self.frame.system);
-                if !told(first) || !told(now) {
+                if !measured(first) || !measured(now) {
                     let name = |system: u8| SYSTEMS.get(usize::from(system)).copied().unwrap_or_default();
                     return Err(Refusal::SystemUnknown(name(now), name(first)));
                 }
@@ -290,7 +283,6 @@ impl<'a> Tracer<'a> {
                 rotaries.map_or(Vector3::z_axis(), |rotaries| rotaries.tool_axis(rotary))
             }
         };
-        self.summary.tool_axis_told = true;
         Ok(Some(self.direction_in_path(axis)))
     }
 
@@ -314,7 +306,7 @@ impl<'a> Tracer<'a> {
         let axis = self.tool_axis(arc.rotary)?;
         let [first, second, across] = arc.plane.axes();
         if self.at.is_none() {
-            self.warnings.count(Warning::StartAssumed, line);
+            self.notes.count(Warning::StartAssumed, line);
             let origin = Point3::origin();
             self.step(
                 Pace::Rapid,
@@ -358,7 +350,6 @@ impl<'a> Tracer<'a> {
         (course, line): (Course, u32),
     ) {
         self.operate(pace, line);
-        let from = self.at.map(|(_, q)| q);
         self.at = Some((p, q));
         self.axis = axis;
         let next = Move {
@@ -369,7 +360,6 @@ impl<'a> Tracer<'a> {
             pace,
             line,
         };
-        self.summary.count(from, &next);
         (self.out)(Step::Move(next));
     }
 
@@ -384,7 +374,6 @@ impl<'a> Tracer<'a> {
             return;
         }
         self.operation = Some(now);
-        self.summary.operations += 1;
         let diameter = self.tool.and_then(|tool| self.diameters.get(&tool)).copied();
         (self.out)(Step::Operation(Operation {
             name: self.tool.map(|tool| format!("T{tool}")),

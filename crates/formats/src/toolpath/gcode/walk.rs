@@ -5,22 +5,22 @@ use std::rc::Rc;
 use super::expression::Reader;
 use super::flow::{Body, Keyword, OWord};
 use super::interpreter::{
-    Interpreter, Left, MOST_CALLS_DEEP, MOST_REPEATED_AFTER_FAULT, MOST_REPEATED_LINES,
+    Flow, Interpreter, MOST_CALLS_DEEP, MOST_REPEATED_AFTER_FAULT, MOST_REPEATED_LINES,
 };
 use super::lines::Line;
 use super::parameters;
-use super::refusal::Refusal;
+use super::refusal::{Excess, Refusal};
 
 impl Interpreter<'_> {
     /// Goes through kept lines.
-    pub(super) fn run(&mut self, body: &Rc<Body>) -> Left {
+    pub(super) fn run(&mut self, body: &Rc<Body>) -> Flow {
         let mut at = 0;
         // Repeats that are open, with the rounds still to go.
         let mut repeats: Vec<(usize, u64)> = Vec::new();
         while let Some(kept) = body.lines.get(at) {
             self.repeated += 1;
             let limit = if self.faults.is_empty() {
-                self.options.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
+                self.wanted.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
             } else {
                 // A loop whose end was refused may have none.
                 self.repeated_until_fault
@@ -31,19 +31,19 @@ impl Interpreter<'_> {
             }
             if self.repeated > limit {
                 let refusal = Refusal::TooMuch {
-                    what: "lines of loops and subroutines to be done",
+                    what: Excess::RepeatedLines,
                     limit,
                 };
                 self.fault(&kept.line, refusal, 0..kept.line.text.len());
                 self.stopped = true;
             }
             if self.stopped {
-                return Left::Finished;
+                return Flow::End;
             }
             let line = &kept.line;
             let Some(word) = &kept.word else {
-                match self.again(line) {
-                    Left::AtEnd => at += 1,
+                match self.execute_kept(line) {
+                    Flow::Next => at += 1,
                     left => return left,
                 }
                 continue;
@@ -99,16 +99,16 @@ impl Interpreter<'_> {
                 }
                 Keyword::Return | Keyword::EndSub => {
                     self.returns(line, word);
-                    return Left::Returning;
+                    return Flow::Return;
                 }
                 Keyword::Call => match self.call(word, line) {
-                    Left::AtEnd => at + 1,
+                    Flow::Next => at + 1,
                     left => return left,
                 },
                 _ => at + 1,
             };
         }
-        Left::AtEnd
+        Flow::Next
     }
 
     /// The branch that holds after a condition that does not.
@@ -187,9 +187,9 @@ impl Interpreter<'_> {
         }
     }
 
-    pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Left {
+    pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Flow {
         let Some(arguments) = self.values_behind(line, word) else {
-            return Left::AtEnd;
+            return Flow::Next;
         };
         let Some(body) = self.subroutine(&word.label) else {
             self.fault(
@@ -197,7 +197,7 @@ impl Interpreter<'_> {
                 Refusal::SubroutineUnknown(word.label.clone()),
                 0..line.text.len(),
             );
-            return Left::AtEnd;
+            return Flow::Next;
         };
         self.machine.parameters.enter(&arguments);
         let left = self.called(&body, line);
@@ -205,7 +205,7 @@ impl Interpreter<'_> {
         left
     }
 
-    pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Left {
+    pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Flow {
         if self.depth >= MOST_CALLS_DEEP {
             self.fault(
                 line,
@@ -215,14 +215,14 @@ impl Interpreter<'_> {
                 0..line.text.len(),
             );
             self.stopped = true;
-            return Left::Finished;
+            return Flow::End;
         }
         self.depth += 1;
         let left = self.run(body);
         self.depth -= 1;
         match left {
-            Left::Finished => Left::Finished,
-            _ => Left::AtEnd,
+            Flow::End => Flow::End,
+            _ => Flow::Next,
         }
     }
 }
