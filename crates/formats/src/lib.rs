@@ -6,7 +6,7 @@
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
-//! - [`measurement`]: measured forces in.
+//! - [`measurement`]: records of forces and tables of load tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints. Same input, same bytes.

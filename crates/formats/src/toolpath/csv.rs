@@ -1,6 +1,17 @@
 //! A path as a table: one row a point, the unit of each column in its name.
 //!
-//! The columns stand in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
+//! | column | meaning | endings |
+//! |---|---|---|
+//! | `x`, `y`, `z` | the tip | `_mm`, `_m`, `_in` |
+//! | `i`, `j`, `k` | direction from the tip towards the spindle, of length 1; all three or none | |
+//! | `spin` | turn of the tool about its axis | `_deg`, `_rad` |
+//! | `feed` | speed towards the point, above 0 | `_mm_min`, `_mm_s`, `_m_s`, `_in_min` |
+//! | `rapid` | whether the move cuts nothing: `1`, `true`, `yes`, or not | |
+//! | `spindle` | its speed, below 0 counterclockwise | `_rpm` |
+//! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
+//! | `op`, `note` | name of the operation; for people | |
+//!
+//! A new operation begins where its name, the spindle or a depth changes. The columns stand in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
 //! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
 //! `#` and empty ones are passed over.
 

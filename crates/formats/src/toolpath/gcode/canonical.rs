@@ -35,6 +35,25 @@ impl Plane {
     }
 }
 
+/// Which way an arc turns in its plane, seen against the axis across.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// G3.
+    Counterclockwise,
+    /// G2.
+    Clockwise,
+}
+
+impl Sense {
+    /// 1 counterclockwise, -1 clockwise.
+    pub fn sign(self) -> i32 {
+        match self {
+            Sense::Counterclockwise => 1,
+            Sense::Clockwise => -1,
+        }
+    }
+}
+
 /// How exactly corners are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathControl {
@@ -61,6 +80,16 @@ pub struct ArcFeed {
     pub across: f64,
     /// Ends of A, B, C.
     pub rotary: [f64; 3],
+}
+
+impl ArcFeed {
+    /// Which way it turns.
+    pub fn sense(&self) -> Sense {
+        match self.turns > 0 {
+            true => Sense::Counterclockwise,
+            false => Sense::Clockwise,
+        }
+    }
 }
 
 /// What a block asks of the machine.

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 
 use armill_core::nalgebra::{Point2, Vector2};
 
-use super::canonical::{ArcFeed, Canonical, Plane};
+use super::canonical::{ArcFeed, Canonical, Plane, Sense};
 use super::motion::sweep;
 use super::refusal::Refusal;
 
@@ -42,7 +42,7 @@ enum Shape {
     Circle {
         centre: Point2<f64>,
         radius: f64,
-        counterclockwise: bool,
+        sense: Sense,
         /// Whole turns before the last one, rad.
         before: f64,
     },
@@ -67,10 +67,7 @@ struct Piece {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Contour {
     Line,
-    Arc {
-        centre: Point2<f64>,
-        counterclockwise: bool,
-    },
+    Arc { centre: Point2<f64>, sense: Sense },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -104,11 +101,10 @@ impl Piece {
             Shape::Circle {
                 centre,
                 radius,
-                counterclockwise,
+                sense,
                 before,
             } => {
-                let turn =
-                    |from: Point2<f64>, to: Point2<f64>| sweep(from - centre, to - centre, counterclockwise);
+                let turn = |from: Point2<f64>, to: Point2<f64>| sweep(from - centre, to - centre, sense);
                 let slack = slack / radius;
                 let (whole, part) = (turn(self.start, self.end) + before, turn(self.start, at));
                 part <= whole + slack || part >= TAU - slack
@@ -204,44 +200,25 @@ impl Cutter {
             active.entering = false;
         } else if let Some(last) = self.piece.as_mut() {
             let arrives = direction(contour, from, (from, to));
-            let cross = last.leaves.perp(&arrives);
-            let onward = last.leaves.dot(&arrives) > 0.0;
-            // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
-            let bends = match !onward && cross.abs() < TURNING_BACK {
-                true => cross - (last.bend + bend(contour, from)) * active.radius / 2.0,
-                false => cross,
-            };
-            if cross.abs() < TANGENT && onward {
-                next.start = last.end;
-            } else if bends * active.side > 0.0 {
-                let slack = OUTSIDE * active.radius;
-                let crossing = crossing(last, &next, arrives)
-                    .filter(|at| last.holds(*at, slack) && next.holds(*at, slack));
-                let at = crossing.ok_or(Refusal::Gouging {
-                    radius: active.radius,
-                })?;
-                last.end = at;
-                end_at(&mut last.call, active.plane, at);
-                for (call, _) in &mut self.waiting {
-                    if let Canonical::StraightFeed(_) | Canonical::StraightTraverse(_) = call {
-                        end_at(call, active.plane, at);
-                    }
+            match corner(last, arrives, bend(contour, from), &active) {
+                Corner::None => next.start = last.end,
+                Corner::Concave => {
+                    let at = meeting(last, &next, arrives, active.radius)?;
+                    self.end_last_at(at, active.plane);
+                    next.start = at;
                 }
-                next.start = at;
-            } else {
-                let corner = last.corner;
-                let start = next.start;
-                let rotary = rotary_of(&last.call);
-                self.flush(out)?;
-                let arc = ArcFeed {
-                    plane: active.plane,
-                    end: start.into(),
-                    centre: corner.into(),
-                    turns: if active.side > 0.0 { -1 } else { 1 },
-                    across,
-                    rotary,
-                };
-                out(Canonical::ArcFeed(arc), self.line)?;
+                Corner::Convex => {
+                    let arc = ArcFeed {
+                        plane: active.plane,
+                        end: next.start.into(),
+                        centre: last.corner.into(),
+                        turns: if active.side > 0.0 { -1 } else { 1 },
+                        across,
+                        rotary: rotary_of(&last.call),
+                    };
+                    self.flush(out)?;
+                    out(Canonical::ArcFeed(arc), self.line)?;
+                }
             }
         }
         self.flush(out)?;
@@ -250,23 +227,62 @@ impl Cutter {
         self.piece = Some(next);
         Ok(())
     }
+
+    /// Ends the piece that waits earlier, and what moves across the plane behind it.
+    fn end_last_at(&mut self, at: Point2<f64>, plane: Plane) {
+        if let Some(last) = &mut self.piece {
+            last.end = at;
+            end_at(&mut last.call, plane, at);
+        }
+        for (call, _) in &mut self.waiting {
+            if let Canonical::StraightFeed(_) | Canonical::StraightTraverse(_) = call {
+                end_at(call, plane, at);
+            }
+        }
+    }
+}
+
+/// How two pieces beside the contour come together.
+enum Corner {
+    /// They go on straight.
+    None,
+    /// They cross.
+    Concave,
+    /// They leave a gap.
+    Convex,
+}
+
+/// The corner between a piece and one that `arrives` there with this bend, seen from the side of the cutter.
+fn corner(last: &Piece, arrives: Vector2<f64>, bend: f64, active: &Active) -> Corner {
+    let cross = last.leaves.perp(&arrives);
+    let onward = last.leaves.dot(&arrives) > 0.0;
+    if cross.abs() < TANGENT && onward {
+        return Corner::None;
+    }
+    // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
+    let bends = match !onward && cross.abs() < TURNING_BACK {
+        true => cross - (last.bend + bend) * active.radius / 2.0,
+        false => cross,
+    };
+    match bends * active.side > 0.0 {
+        true => Corner::Concave,
+        false => Corner::Convex,
+    }
+}
+
+/// Where two pieces cross, if the cutter comes that far on both.
+fn meeting(last: &Piece, next: &Piece, arrives: Vector2<f64>, radius: f64) -> Result<Point2<f64>, Refusal> {
+    let slack = OUTSIDE * radius;
+    crossing(last, next, arrives)
+        .filter(|at| last.holds(*at, slack) && next.holds(*at, slack))
+        .ok_or(Refusal::Gouging { radius })
 }
 
 /// Direction of the contour at a point of it.
 fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2<f64>)) -> Vector2<f64> {
     match contour {
         Contour::Line => (to - from).normalize(),
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
-            let outward = (at - centre).normalize();
-            if counterclockwise {
-                left_of(outward)
-            } else {
-                -left_of(outward)
-            }
-        }
+        Contour::Arc { centre, sense } => left_of((at - centre).normalize()) * f64::from(sense.sign()),
     }
 }
 
@@ -274,13 +290,7 @@ fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2
 fn bend(contour: Contour, at: Point2<f64>) -> f64 {
     match contour {
         Contour::Line => 0.0,
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
-            let curvature = 1.0 / (at - centre).norm();
-            if counterclockwise { curvature } else { -curvature }
-        }
+        Contour::Arc { centre, sense } => f64::from(sense.sign()) / (at - centre).norm(),
     }
 }
 
@@ -300,12 +310,9 @@ fn moved(
     let end = to + left_of(leaves) * offset;
     let shape = match contour {
         Contour::Line => Shape::Line { towards: arrives },
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
+        Contour::Arc { centre, sense } => {
             let arc = (to - centre).norm();
-            let inside = (active.side > 0.0) == counterclockwise;
+            let inside = (active.side > 0.0) == (sense == Sense::Counterclockwise);
             let radius = if inside {
                 arc - active.radius
             } else {
@@ -320,7 +327,7 @@ fn moved(
             Shape::Circle {
                 centre,
                 radius,
-                counterclockwise,
+                sense,
                 before: match &call {
                     Canonical::ArcFeed(arc) => TAU * f64::from(arc.turns.abs() - 1),
                     _ => 0.0,

@@ -19,10 +19,16 @@ pub(super) enum Outcome {
     Next,
     /// M2 or M30.
     End,
-    /// M98: a subroutine, so many times.
-    Call { number: u32, times: u32 },
+    Call(NumberedCall),
     /// M99.
     Return,
+}
+
+/// M98: a subroutine, so many times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct NumberedCall {
+    pub number: u32,
+    pub times: u32,
 }
 
 /// Calls of one M98.
@@ -307,10 +313,10 @@ impl Machine {
                     wanted,
                 });
             }
-            return Ok(Outcome::Call {
+            return Ok(Outcome::Call(NumberedCall {
                 number: tool_number('P', number)?,
                 times: times as u32,
-            });
+            }));
         }
         match block.m[groups::STOPPING] {
             Some((2 | 30, _)) => {

@@ -321,7 +321,7 @@ impl Interpreter<'_> {
             Ok(Outcome::Next) => Flow::Next,
             Ok(Outcome::End) => Flow::End,
             Ok(Outcome::Return) => Flow::Return,
-            Ok(Outcome::Call { number, times }) => self.call_numbered(number, times, (line, lines)),
+            Ok(Outcome::Call(call)) => self.call_numbered(call, line, lines),
             Err(refusal) => {
                 let place = self.block.place_of(&refusal).unwrap_or(0..self.clean.text.len());
                 let place = self.clean.place(place);

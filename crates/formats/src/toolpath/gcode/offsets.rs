@@ -1,5 +1,17 @@
 //! Codes that change what coordinates count from: G10, G43, G52, G54, G92 and their like.
 //!
+//! With `m = g5x + length + Rz(turn) (p + g92)` (see `machine`), where the tip stands at `m` and the words are `w`:
+//!
+//! | code | sets | so that |
+//! |---|---|---|
+//! | `G10 L2 P R` | `g5x = w`, `turn = R` of system `P` | |
+//! | `G10 L20 P` | `g5x` of system `P` | `p = w` there: `g5x = m - length - Rz(turn) (w + g92)` |
+//! | `G10 L1 P R` | `length = w` of tool `P`, its radius `R` | |
+//! | `G10 L10 P` | `length` of tool `P` | `p = w`: `length = m - g5x - Rz(turn) (w + g92)` |
+//! | `G10 L11 P` | the same, counted from G59.3 without `g92` | |
+//! | `G92` | `g92` | `p = w`: `g92 = g92 + p - w` |
+//! | `G52` | `g92 = w` | |
+//!
 //! Source: LinuxCNC documentation, G10, G43, G52, G54, G92; witnesses: its interpreter tests g10, g52, rotation.
 
 use super::block::Block;
@@ -55,7 +67,7 @@ impl Machine {
             kind @ (2 | 20) => {
                 let system = whole('P', number, 0.0..=9.0, "0 to 9")?;
                 let system = if system == 0 { self.system } else { system as u8 };
-                self.set_system(system, kind == 20, block, out)
+                self.set_system(system, kind, block, out)
             }
             kind @ (1 | 10 | 11) => {
                 let tool = tool_number('P', number)?;
@@ -69,12 +81,13 @@ impl Machine {
         }
     }
 
-    fn set_system(&mut self, system: u8, here: bool, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+    /// G10 L2 and L20.
+    fn set_system(&mut self, system: u8, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let (zero, turn) = self.stored_system(system)?;
         let turn = block.take(b'r').unwrap_or(turn);
         let words = block.axes();
-        let zero = if here {
+        let zero = if kind == 20 {
             // Where the system must lie for the tip to stand at the words.
             let machine = self.in_machine(self.at);
             self.with_system(zero, turn, |other| {
@@ -109,6 +122,7 @@ impl Machine {
         result
     }
 
+    /// G10 L1, L10 and L11.
     fn set_tool(&mut self, number: u32, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let mut tool = self.tool(number)?.unwrap_or_default();

@@ -55,6 +55,14 @@ impl Frame {
     }
 }
 
+/// Where a move ends: the tip in coordinates of the program and of the path, and the tool there.
+#[derive(Clone, Copy)]
+struct Tip {
+    p: Point3<f64>,
+    q: Point3<f64>,
+    axis: Option<Unit<Vector3<f64>>>,
+}
+
 /// Turns canonical calls into steps.
 pub(super) struct Tracer<'a> {
     out: &'a mut dyn FnMut(Step),
@@ -296,7 +304,7 @@ impl<'a> Tracer<'a> {
             self.at = Some((p, q));
             return Ok(());
         }
-        self.step(pace, (p, q, axis), (Course::Line, line));
+        self.step(pace, Tip { p, q, axis }, Course::Line, line);
         Ok(())
     }
 
@@ -307,12 +315,9 @@ impl<'a> Tracer<'a> {
         let [first, second, across] = arc.plane.axes();
         if self.at.is_none() {
             self.notes.count(Warning::StartAssumed, line);
-            let origin = Point3::origin();
-            self.step(
-                Pace::Rapid,
-                (origin, self.in_path(origin), axis),
-                (Course::Line, line),
-            );
+            let p = Point3::origin();
+            let q = self.in_path(p);
+            self.step(Pace::Rapid, Tip { p, q, axis }, Course::Line, line);
         }
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {
@@ -329,26 +334,23 @@ impl<'a> Tracer<'a> {
             (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);
         let arm = |of: &Point3<f64>| Vector2::new(of[first] - centre[first], of[second] - centre[second]);
         let p = Point3::from(end);
-        let counterclockwise = arc.turns > 0;
         let turns = f64::from(arc.turns.abs() - 1);
-        let swept = sweep(arm(&from), arm(&p), counterclockwise) + TAU * turns;
+        let swept = sweep(arm(&from), arm(&p), arc.sense()) + TAU * turns;
         let mut normal = Vector3::zeros();
-        normal[across] = if counterclockwise { 1.0 } else { -1.0 };
+        normal[across] = f64::from(arc.sense().sign());
         let course = Course::Arc(Arc {
             centre: self.in_path(centre),
             axis: self.direction_in_path(Unit::new_unchecked(normal)),
             sweep: swept,
         });
-        self.step(pace, (p, self.in_path(p), axis), (course, line));
+        let q = self.in_path(p);
+        self.step(pace, Tip { p, q, axis }, course, line);
         Ok(())
     }
 
-    fn step(
-        &mut self,
-        pace: Pace,
-        (p, q, axis): (Point3<f64>, Point3<f64>, Option<Unit<Vector3<f64>>>),
-        (course, line): (Course, u32),
-    ) {
+    /// Gives a move, and before it the operation that it begins.
+    fn step(&mut self, pace: Pace, tip: Tip, course: Course, line: u32) {
+        let Tip { p, q, axis } = tip;
         self.operate(pace, line);
         self.at = Some((p, q));
         self.axis = axis;

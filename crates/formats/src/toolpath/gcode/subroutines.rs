@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::execute::NumberedCall;
 use super::flow::{Body, Keyword};
 use super::interpreter::{Flow, Interpreter, MOST_KEPT_BYTES};
 use super::lines::{Line, Lines};
@@ -89,11 +90,11 @@ impl Interpreter<'_> {
     /// M98.
     pub(super) fn call_numbered(
         &mut self,
-        number: u32,
-        times: u32,
-        (line, lines): (&Line, Option<&mut Lines<'_>>),
+        call: NumberedCall,
+        line: &Line,
+        lines: Option<&mut Lines<'_>>,
     ) -> Flow {
-        let name = number.to_string();
+        let name = call.number.to_string();
         let body = match (self.subroutine(&name), lines) {
             (None, Some(lines)) => self.ahead(&name, line, lines),
             (body, _) => body,
@@ -104,7 +105,7 @@ impl Interpreter<'_> {
             }
             return Flow::Next;
         };
-        for _ in 0..times {
+        for _ in 0..call.times {
             match self.called(&body, line) {
                 Flow::Next => {}
                 left => return left,

@@ -58,7 +58,7 @@ fn what_is_wrong_is_told_with_line_column_and_hint() {
         ("GOTO/0,0,0\nMSYS/0,0,0,1.,0,0,0,1.,0", "points came before it"),
         (
             "TRNTYP/WORLD\nTOOL PATH/A",
-            "a word of Nx, but those before are of SolidWorks",
+            "a word of Siemens NX, but those before are of SolidWorks CAM",
         ),
         (
             "NURBS/3",
