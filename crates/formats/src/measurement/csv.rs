@@ -70,7 +70,8 @@ pub fn read(
             },
         };
         if !is_blank_row(&line.text, table.separator) {
-            problems.extend(table.row(&line, &mut samples).err());
+            let wrong = table.row(&line, &mut samples).err();
+            problems.extend(wrong.into_iter().flatten());
         }
     }
     // Where rows are wrong, they are what is told.
@@ -181,7 +182,7 @@ impl Table<'_> {
     }
 
     /// Takes a row as a sample.
-    fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problem> {
+    fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problems> {
         let found = cells(&line.text, self.separator);
         if found.len() != samples.width() {
             let message = format!("{} cells in a table of {} columns", found.len(), samples.width());
@@ -189,21 +190,21 @@ impl Table<'_> {
                 ',' => "decimal commas need `;` or a tab between cells",
                 _ => "every row has a cell for each column",
             };
-            return Err(line.problem(self.path, 0..line.text.len(), message, hint));
+            return Err(self.at(line, message, hint));
         }
         let meant = found.iter().zip(&self.columns);
-        let numbers: Result<Vec<f64>, Problem> = meant
+        let numbers: Result<Vec<f64>, Problems> = meant
             .filter(|(_, column)| column.is_some())
             .map(|(cell, _)| measured(&cell.text, self.separator).ok_or_else(|| self.no_number(line, cell)))
             .collect();
         let pushed = samples.push(&numbers?);
-        pushed.map_err(|(message, hint)| line.problem(self.path, 0..line.text.len(), message, hint))
+        pushed.map_err(|(message, hint)| self.at(line, message, hint))
     }
 
-    fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problem {
+    fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problems {
         let message = format!("`{}` is not a number", cell.text);
         let hint = "units stand in the column's name or in the row below the names";
-        line.problem(self.path, cell.span.clone(), message, hint)
+        line.problem(self.path, cell.span.clone(), message, hint).into()
     }
 
     fn at(&self, line: &Line, message: String, hint: &str) -> Problems {

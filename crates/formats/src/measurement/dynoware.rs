@@ -185,7 +185,7 @@ impl Reader<'_> {
         if self.header_lines > MOST_HEADER_LINES {
             let message = format!("no line of channels in {MOST_HEADER_LINES} lines");
             let hint = "it begins with `Time` or `Zeit`; other tables are read as CSV";
-            return Err(self.at(&line, message, hint).into());
+            return Err(self.at(&line, message, hint));
         }
         if is_channels(&line.text) {
             let made = self.table_of(&line, lines)?;
@@ -198,7 +198,7 @@ impl Reader<'_> {
             {
                 let hint = "all cycles of an export have the same channels in the same units";
                 let message = "other channels than those of the cycle before".to_owned();
-                return Err(self.at(&line, message, hint).into());
+                return Err(self.at(&line, message, hint));
             }
             self.table = Some(Table { marks, ..made });
         } else if self.table.is_none() {
@@ -230,11 +230,11 @@ impl Reader<'_> {
         }
         if names.len() > MOST_CHANNELS {
             let message = format!("more than {MOST_CHANNELS} channels");
-            return Err(self.at(line, message, "this is no line of channels").into());
+            return Err(self.at(line, message, "this is no line of channels"));
         }
         let Some(below) = next(lines)? else {
             let message = "the file ends behind its channels".to_owned();
-            return Err(self.at(line, message, "export it again").into());
+            return Err(self.at(line, message, "export it again"));
         };
         let mut units = cells(&below.text, separator);
         if open_end && units.last().is_some_and(|unit| unit.text.is_empty()) {
@@ -243,7 +243,7 @@ impl Reader<'_> {
         if units.len() != names.len() || begins_with_number(&below.text) {
             let message = format!("a line of {} units is wanted below the channels", names.len());
             let hint = "export with units: nothing else tells whether these are N or kN";
-            return Err(self.at(&below, message, hint).into());
+            return Err(self.at(&below, message, hint));
         }
         let columns = of_names_and_units(&names, &units, |index, name| match index {
             0 => Some(Quantity::Time),
@@ -268,7 +268,7 @@ impl Reader<'_> {
     }
 
     /// Whether a record can be made of these channels.
-    fn check(&self, line: &Line, names: &[Cell<'_>], columns: &[Option<Column>]) -> Result<(), Problem> {
+    fn check(&self, line: &Line, names: &[Cell<'_>], columns: &[Option<Column>]) -> Result<(), Problems> {
         if let Some(index) = doubled(columns) {
             let message = format!("two channels are called `{}`", names[index].text);
             return Err(self.at(line, message, "keep one of the two"));
@@ -296,12 +296,12 @@ impl Reader<'_> {
             let pushed = cycle.samples.push(&numbers);
             pushed.map_err(|(message, hint)| self.at(&line, message, hint))
         });
-        self.problems.extend(pushed.err());
+        self.problems.extend(pushed.err().into_iter().flatten());
         self.cycle = Some(Cycle { last: line, ..cycle });
     }
 
     /// The numbers of a row: one for each column that means something.
-    fn numbers(&self, line: &Line, table: &mut Table) -> Result<Vec<f64>, Problem> {
+    fn numbers(&self, line: &Line, table: &mut Table) -> Result<Vec<f64>, Problems> {
         let mut cells = cells(&line.text, table.separator);
         if table.open_end && cells.last().is_some_and(|cell| cell.text.is_empty()) {
             cells.pop();
@@ -350,11 +350,11 @@ impl Reader<'_> {
         }
         match self.record(cycle) {
             Ok(record) => self.records.push(record),
-            Err(problem) => self.problems.push(problem),
+            Err(problems) => self.problems.extend(problems),
         }
     }
 
-    fn record(&self, Cycle { samples, last, .. }: Cycle) -> Result<Record, Problem> {
+    fn record(&self, Cycle { samples, last, .. }: Cycle) -> Result<Record, Problems> {
         if self.cycles > MOST_CYCLES {
             let message = format!("more than {MOST_CYCLES} cycles");
             return Err(self.at(&last, message, "cut the record into pieces"));
@@ -393,7 +393,7 @@ impl Reader<'_> {
         })
     }
 
-    fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problem {
+    fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problems {
         let message = format!(
             "{count} pieces between commas are neither {width} numbers with points nor {width} numbers with commas"
         );
@@ -402,8 +402,8 @@ impl Reader<'_> {
         self.at(line, message, hint)
     }
 
-    fn at(&self, line: &Line, message: String, hint: &str) -> Problem {
-        line.problem(self.path, 0..line.text.len(), message, hint)
+    fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
+        line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 }
 
