@@ -159,8 +159,8 @@ fn readers(paths: &Paths) -> Vec<Candidate<'_>> {
         black_box(&step);
     };
     let of_gcode = move || {
-        let options = gcode::Options::default();
-        let read = gcode::read("part.ngc", &mut paths.gcode.as_bytes(), &options, &mut take);
+        let wanted = gcode::Wanted::default();
+        let read = gcode::read("part.ngc", paths.gcode.as_bytes(), &wanted, &mut take);
         assert_eq!(read.expect("what was written here").cuts, POINTS as u64);
     };
     let of_apt = move || {

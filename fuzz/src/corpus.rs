@@ -32,7 +32,7 @@ pub fn write(target: &Target, folder: &Path) -> io::Result<()> {
     }
     let dictionaries = folder.join("dictionaries");
     fs::create_dir_all(&dictionaries)?;
-    let lines: String = target.words.iter().map(|word| line(word)).collect();
+    let lines: String = target.words().iter().map(|word| line(word)).collect();
     fs::write(dictionaries.join(format!("{}.dict", target.name)), lines)
 }
 

@@ -1,17 +1,33 @@
 //! Pieces of text that random bytes would not hit: keys, tags, words, numbers at the edge.
 
-/// Keys and words of a study file.
+/// The keys of a file and the names that it may give, as its JSON schema (one item a line) has them.
+pub fn of_schema(schema: &str) -> Vec<String> {
+    let mut words = Vec::new();
+    for line in schema.lines() {
+        let line = line.trim().trim_end_matches(',');
+        let Some((name, rest)) = line.strip_prefix('"').and_then(|line| line.split_once('"')) else {
+            continue;
+        };
+        match rest {
+            // A property, or a table of the schema itself.
+            ": {" => words.push(format!("{name} = ")),
+            "" => words.push(format!("\"{name}\"")),
+            _ if name == "const" => words.push(rest.trim_start_matches([':', ' ']).to_owned()),
+            _ => {}
+        }
+    }
+    words.sort();
+    words.dedup();
+    words
+}
+
+/// What a study file holds beside its keys and names: tables, values, numbers at the edge.
 #[rustfmt::skip]
 pub const STUDY: &[&str] = &[
-    "format = 1\n", "robot = \"yaskawa/mh12\"\n", "robot = \"kuka/lbr-iiwa-14-r820\"\n", "base = \"controller\"\n", "limit_um = ",
-    "[compliance]\n", "rad_per_n_m = ", "u_rad_per_n_m = ", "class = \"light\"\n", "assumed = true\n", "source = \"\"\n",
-    "[tool]\n", "flange_from_tool_mm_deg = ", "diameter_mm = ", "stick_out_mm = ", "modulus_gpa = ", "material = ",
-    "[plane]\n", "centre_mm = ", "tilt_deg = ", "rotation_deg = ", "half_size_mm = ", "step_mm = ", "[load]\n",
-    "frame = \"part\"\n", "cases_n = [[", "moments_n_m = [[", "u_percent = ", "u_n = ", "[posture]\n", "branch = ", "home_deg = ",
-    "[positioner]\n", "base_from_root_mm_deg = ", "joints_deg = ", "[[ask]]\n", "kind = \"map\"\n", "kind = \"sections\"\n",
-    "kind = \"volume\"\n", "kind = \"path\"\n", "distances_mm = ", "tilts_deg = ", "box = { ", "circle = { ", "line = { ",
-    "polyline_mm = [[", "rectangle = { ", "radius_mm = ", "from_mm = ", "to_mm = ", "size_mm = ", "[[statement]]\n", "of = [",
-    "[stiffness]\n", "[[stiffness.spring]]\n", "gravity = true\n", "load_dependent = true\n", "best", "nominal", "flip", "rear",
+    "format = 1\n", "robot = \"yaskawa/mh12\"\n", "robot = \"kuka/lbr-iiwa-14-r820\"\n", "base = \"controller\"\n", "material = \"aluminium-6061-t6\"\n",
+    "[compliance]\n", "[tool]\n", "[plane]\n", "[load]\n", "[posture]\n", "[positioner]\n", "[gravity]\n", "[cut]\n", "[cut.cutter]\n", "[cut.stock]\n",
+    "[[ask]]\n", "[[statement]]\n", "[ask.program]\n", "[[ask.program.feature]]\n", "[ask.program.measured]\n", "[ask.program.drill]\n",
+    "cases_n = [[", "polyline_mm = [[", "{ ", " }", "true", "false", "best", "nominal", "flip", "rear", "front elbow-up",
     "nan", "inf", "1e308", "1e-320", "-0.0", "'''", "\"\"\"", "\\u0000", "0x7fffffffffffffff", "{}", "[]", "[[", "]]",
 ];
 
@@ -137,4 +153,11 @@ pub const FORCES: &[&str] = &[
 pub const MATERIAL: &[&str] = &[
     "[[mechanistic]]\n", "[[kienzle]]\n", "tool = ", "source = ", "ktc_n_per_mm2 = ", "krc_n_per_mm2 = ", "kac_n_per_mm2 = ", "kte_n_per_mm = ", "kre_n_per_mm = ",
     "kae_n_per_mm = ", "kc1_n_per_mm2 = ", "mc_exponent = ", "group = ", "condition = ", "note = ", "[sources.x]\n", "nan", "inf", "1e308",
+];
+
+/// Words of every format of tool paths, and what tells them apart.
+#[rustfmt::skip]
+pub const PROGRAM: &[&str] = &[
+    "G0 ", "G1 X", "G2 I", "G21\n", "M2\n", "%\n", "N10 ", "(", ")", "#1=", "o1 sub\n", "GOTO/", "UNITS/MM\n", "PARTNO/", "TOOL PATH/", "FINI\n", "$$", "x_mm,y_mm,z_mm\n", "x_m;y_m;z_m\n",
+    "&ACCESS", "MODULE ", "/PROG", "/JOB", "movel(", "\r", "\0", "\u{feff}", "# ", "; ",
 ];

@@ -1,4 +1,5 @@
-//! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format.
+//! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format; those of robots
+//! are files in `crates/formats/tests/seeds/`, which the tests change at random too.
 
 use armill_study::library::{MATERIALS, ROBOTS, STUDIES};
 
@@ -18,12 +19,13 @@ pub fn robots() -> Vec<Vec<u8>> {
     ROBOTS.iter().map(|robot| robot.text.into()).collect()
 }
 
-/// The example studies, those of the validation, and one that uses every table.
+/// The example studies, those of the validation, and two that use every table.
 pub fn studies() -> Vec<Vec<u8>> {
     let mut all = seeds(&[
         include_str!("../../validation/mh12-fractions/study.toml"),
         include_str!("../../validation/mh12-readings/study.toml"),
         EVERY_TABLE,
+        EVERY_PROGRAM,
     ]);
     all.extend(STUDIES.iter().map(|study| study.text.into()));
     all
@@ -31,39 +33,38 @@ pub fn studies() -> Vec<Vec<u8>> {
 
 /// Properties, arguments, conditions, blocks, nested macros.
 pub fn xacro() -> Vec<Vec<u8>> {
-    let mut all = seeds(&[ARM_OF_MACROS, MACRO_ALONE]);
-    all.extend(urdf());
-    all
+    [macros(), urdf()].concat()
+}
+
+fn macros() -> Vec<Vec<u8>> {
+    seeds(&[
+        include_str!("../../crates/formats/tests/seeds/arm.xacro"),
+        include_str!("../../crates/formats/tests/seeds/macro.xacro"),
+    ])
 }
 
 /// Parameters with lists in one line and over several.
 pub fn opw() -> Vec<Vec<u8>> {
     seeds(&[
-        "opw_kinematics_geometric_parameters:\n  a1: 0.15\n  a2: -0.2\n  b: 0.0\n  c1: 0.45 # h\n  c2: 0.6\n  \
-         c3: 0.64\n  c4: 0.1\nopw_kinematics_joint_offsets: [0.0, 0.0, deg(-90.0), 0.0, 0.0, deg(180.0)]\n\
-         opw_kinematics_joint_sign_corrections: [1, 1, -1, -1, -1, -1]\n",
-        "opw_kinematics_geometric_parameters: {a1: 1, a2: 0, b: 0, c1: 1, c2: 1, c3: 1, c4: 0}\n\
-         opw_kinematics_joint_offsets:\n  - 0\n  - 0\n  - 1.5\n  - 0\n  - 0\n  - 0\n\
-         opw_kinematics_joint_sign_corrections:\n  - 1\n  - 1\n  - 1\n  - -1\n  - 1\n  - 1\n",
+        include_str!("../../crates/formats/tests/seeds/arm.opw.yaml"),
+        include_str!("../../crates/formats/tests/seeds/lists.opw.yaml"),
     ])
 }
 
 /// Both conventions, every separator, sliding and fixed rows.
 pub fn dh() -> Vec<Vec<u8>> {
     seeds(&[
-        "convention = standard\na_m, alpha_deg, d_m, theta_deg\n0, 90, 0, 0\n0.4, 0, 0.1, 0\n0, -90, 0, 0\n",
-        "convention = modified\nname = arm\njoint; type; alpha_deg; a_mm; d_mm; theta_deg; sign; lower_deg; \
-         upper_deg\nS; r; 0; 0; 450; 0; 1; -170; 170\nL; r; -90; 155,5; 0; -90; -1; ;\nD; p; 0; 614; 10; 0; 1; ;\n\
-         ; fixed; 90; 0; 0; 0; ; ;\n",
-        "# blanks\nconvention = standard\na_mm alpha_rad d_mm theta_rad\n0 1.5708 450 0\n155 0 0 1.5\n",
+        include_str!("../../crates/formats/tests/seeds/standard.dh"),
+        include_str!("../../crates/formats/tests/seeds/arm.dh"),
+        include_str!("../../crates/formats/tests/seeds/blanks.dh"),
     ])
 }
 
 /// Both ways to write factors, symbols, offsets.
 pub fn chain() -> Vec<Vec<u8>> {
     seeds(&[
-        "# arm\nH = 450\nA = A^3(H) A6(phi) * Tx(155) Ry(90-q2)\nTz(q3 + 10) Rx(-psi_1) Tx(H)\n",
-        "Tz(450) Rz(q1) Tx(155) Ry(q2) Tz(614) Ry(-q3) Tz(200) Rx(-q4) Tx(640)\nRy(-q5) Rx(-q6) Tx(100) Ry(-90)\n",
+        include_str!("../../crates/formats/tests/seeds/arm.chain"),
+        include_str!("../../crates/formats/tests/seeds/lines.chain"),
     ])
 }
 
@@ -73,7 +74,7 @@ pub fn named() -> Vec<Vec<u8>> {
     for (endings, files) in [
         (&["toml"][..], robots()),
         (&["urdf", "xml"], urdf()),
-        (&["xacro", "xml", "urdf"], seeds(&[ARM_OF_MACROS, MACRO_ALONE])),
+        (&["xacro", "xml", "urdf"], macros()),
         (&["yaml", "yml"], opw()),
         (&["dh", "csv", "txt"], dh()),
         (&["chain", "fsf", "txt"], chain()),
@@ -163,8 +164,13 @@ pub fn dynoware() -> Vec<Vec<u8>> {
     ])
 }
 
-/// Units in names and in a row.
+/// Both formats.
 pub fn forces() -> Vec<Vec<u8>> {
+    [dynoware(), force_csv()].concat()
+}
+
+/// Units in names and in a row.
+pub fn force_csv() -> Vec<Vec<u8>> {
     seeds(&[
         "time_s,fx_n,fy_n,fz_n,mx_n_m,my_n_m,mz_n_m\n0,1,2,3,0,0,0.1\n0.001,1,2,3,0,0,0.1\n0.002,1,2,3,0,0,0.1\n",
         "Time;Fx;Fy;Fz\ns;kN;N;N\n0,0;1,5;2;3\n0,1;1,5;2;3\n",
@@ -179,44 +185,6 @@ pub fn materials() -> Vec<Vec<u8>> {
 fn seeds(texts: &[&str]) -> Vec<Vec<u8>> {
     texts.iter().map(|text| (*text).into()).collect()
 }
-
-const MACRO_ALONE: &str = r#"<robot xmlns:xacro="http://www.ros.org/wiki/xacro">
-<xacro:property name="h" value="0.45"/>
-<xacro:macro name="arm" params="prefix">
-<link name="${prefix}a"/><link name="${prefix}b"/>
-<joint name="${prefix}j" type="revolute"><origin xyz="0 0 ${h + 0.1 * cos(radians(60))}" rpy="0 ${-pi/2.0} 0"/>
-<parent link="${prefix}a"/><child link="${prefix}b"/><axis xyz="0 0 -1"/>
-<limit lower="${-radians(170)}" upper="${radians(170)}" velocity="1"/></joint></xacro:macro></robot>
-"#;
-
-const ARM_OF_MACROS: &str = r#"<?xml version="1.0"?>
-<robot name="arm" xmlns:xacro="http://wiki.ros.org/xacro">
-  <xacro:property name="h" value="${0.4 + 0.05}"/>
-  <xacro:property name="foot"><origin xyz="0 0 ${h}"/></xacro:property>
-  <xacro:arg name="speed" default="2"/>
-  <xacro:macro name="axis" params="name parent child z:=1 *origin">
-    <joint name="${name}" type="revolute">
-      <xacro:insert_block name="origin"/>
-      <parent link="${parent}"/><child link="${child}"/>
-      <axis xyz="0 0 ${z}"/>
-      <limit lower="${-radians(170)}" upper="${radians(170)}" velocity="$(arg speed)"/>
-    </joint>
-    <link name="${child}"/>
-  </xacro:macro>
-  <xacro:macro name="pair" params="first second **ends">
-    <xacro:axis name="${first}" parent="base" child="one"><xacro:insert_block name="foot"/></xacro:axis>
-    <xacro:unless value="${first == second}">
-      <xacro:axis name="${second}" parent="one" child="two" z="-1"><origin rpy="${pi/2} 0 0"/></xacro:axis>
-    </xacro:unless>
-    <xacro:insert_block name="ends"/>
-  </xacro:macro>
-  <link name="base"/>
-  <xacro:if value="${h > 0.2 and not False}">
-    <xacro:pair first="a" second="b"><ends><link name="side"/></ends></xacro:pair>
-  </xacro:if>
-  <joint name="fixed" type="fixed"><parent link="two"/><child link="side"/></joint>
-</robot>
-"#;
 
 const EVERY_TABLE: &str = r#"format = 1
 title = "Everything"
@@ -287,4 +255,87 @@ text = "within 0.1 mm"
 source = "a paper"
 at_most_um = 100
 of = ["plate", "circle"]
+"#;
+
+const EVERY_PROGRAM: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+load_dependent = true
+[tool]
+flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0]
+[gravity]
+reference_joints_deg = [0, 0, 0, 0, 0, 0]
+direction = [0, 0, -1]
+[plane]
+centre_mm = [900, 0, 800]
+tilt_deg = 0
+half_size_mm = [100, 50]
+step_mm = 50
+[cut]
+material = "aluminium-6061-t6"
+law = "mechanistic"
+axial_depth_mm = 1
+radial_depth_mm = 5
+side = "down"
+feed_mm_min = 300
+spindle_rpm = 3000
+greatest = true
+u_percent = 10
+[cut.cutter]
+diameter_mm = 10
+corner_radius_mm = 1
+flutes = 4
+helix_deg = 30
+rake_deg = 5
+runout_um = 10
+[cut.stock]
+from_mm = [-50, -50, -20]
+to_mm = [50, 50, 0]
+cell_mm = 1
+[[ask]]
+kind = "path"
+name = "part"
+[ask.program]
+file = "part.ngc"
+unit = "mm"
+dialect = "nx"
+rotaries = "table-ac"
+tool_table = "tool.tbl"
+part_from_path_mm_deg = [0, 0, 0, 0, 0, 0]
+tool_axis = "normal"
+spin = "along-feed"
+spin_deg = 10
+chord_error_mm = 0.01
+step_mm = 1
+limits = false
+[[ask.program.feature]]
+name = "slot"
+lines = [10, 20]
+[[ask]]
+kind = "path"
+[ask.program]
+file = "forces.csv"
+[ask.program.measured]
+file = "cut.txt"
+acts_on = "part"
+frame = "part"
+sensor_turned_deg = 90
+air_s = [[0, 0.1]]
+drift = true
+low_pass_hz = 500
+spindle_rpm = 3000
+value = "mean"
+start_s = 0.5
+rapid_mm_min = 10000
+channels = ["Fx", "Fy", "Fz"]
+[[ask]]
+kind = "path"
+[ask.program]
+file = "holes.apt"
+[ask.program.drill]
+material = "aluminium-6061-t6"
+diameter_mm = 6
+point_deg = 118
+feed_mm_min = 100
+spindle_rpm = 1000
 "#;

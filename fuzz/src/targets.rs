@@ -1,5 +1,8 @@
 //! Which parsers there are: name, what reads the bytes, what the bytes may look like.
 
+use armill_formats::document::schema_json;
+use armill_study::file::format::StudyFile;
+
 use crate::dictionaries as words;
 use crate::fixtures;
 use crate::verdicts;
@@ -15,7 +18,9 @@ pub struct Target {
     /// Sample files with these endings are seeds too.
     pub endings: &'static [&'static str],
     /// Pieces of text that random bytes would not hit.
-    pub words: &'static [&'static str],
+    words: &'static [&'static str],
+    /// The JSON schema of the file: its keys and names are such pieces too.
+    schema: Option<fn() -> String>,
 }
 
 const fn target(
@@ -31,6 +36,21 @@ const fn target(
         seeds,
         endings,
         words,
+        schema: None,
+    }
+}
+
+impl Target {
+    const fn of_schema(mut self, schema: fn() -> String) -> Target {
+        self.schema = Some(schema);
+        self
+    }
+
+    /// Every piece of text that random bytes would not hit.
+    pub fn words(&self) -> Vec<String> {
+        let listed = self.words.iter().map(|word| (*word).to_owned());
+        let of_schema = self.schema.map(|schema| words::of_schema(&schema()));
+        listed.chain(of_schema.into_iter().flatten()).collect()
     }
 }
 
@@ -38,7 +58,7 @@ const fn target(
 /// new kind.
 #[rustfmt::skip]
 pub const TARGETS: &[Target] = &[
-    target("study", verdicts::study, fixtures::studies, &["toml"], words::STUDY),
+    target("study", verdicts::study, fixtures::studies, &["toml"], words::STUDY).of_schema(schema_json::<StudyFile>),
     target("robot", verdicts::armill, fixtures::robots, &["toml"], words::ROBOT),
     target("urdf", verdicts::urdf, fixtures::urdf, &["urdf"], words::URDF),
     target("xacro", verdicts::xacro, fixtures::xacro, &["xacro"], words::XACRO),
@@ -50,10 +70,11 @@ pub const TARGETS: &[Target] = &[
     target("pendant", verdicts::pendant, fixtures::pendant, &[], words::PENDANT),
     target("gcode", verdicts::gcode, fixtures::gcode, &["ngc", "nc"], words::GCODE),
     target("tool-table", verdicts::tool_table, fixtures::tool_tables, &["tbl"], words::TOOL_TABLE),
-    target("apt", verdicts::apt, fixtures::apt, &["apt"], words::APT),
-    target("path-csv", verdicts::path_csv, fixtures::path_csv, &[], words::PATH_CSV),
-    target("program", verdicts::program, fixtures::program, &["ngc", "apt"], words::GCODE),
+    target("apt", verdicts::apt, fixtures::apt, &["apt", "cls", "clsf", "cl"], words::APT),
+    target("path-csv", verdicts::path_csv, fixtures::path_csv, &["csv"], words::PATH_CSV),
+    target("program", verdicts::program, fixtures::program, &["ngc", "apt", "cls", "csv"], words::PROGRAM),
     target("dynoware", verdicts::dynoware, fixtures::dynoware, &[], words::FORCES),
+    target("force-csv", verdicts::force_csv, fixtures::force_csv, &[], words::FORCES),
     target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

@@ -11,12 +11,13 @@ use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_formats::document::Problems;
 use armill_formats::material;
-use armill_formats::measurement::{csv as forces, dynoware};
+use armill_formats::measurement::format::{self as forces, Measured};
+use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant::{self, Convention};
 use armill_formats::robot::{RobotDescription, armill};
-use armill_formats::table::load_tests as tests;
-use armill_formats::toolpath::{LengthUnit, apt, csv, gcode, program};
+use armill_formats::toolpath::format as program;
+use armill_formats::toolpath::{LengthUnit, Summary, apt, csv, gcode};
 use armill_study::file::resolve;
 use armill_study::{ErrorKind, library};
 
@@ -96,8 +97,7 @@ pub fn load_tests(bytes: &[u8]) {
         let found = library::robot("yaskawa/mh12").expect("it is in the library");
         found.expect("every robot of the library reads").robot
     });
-    let text = String::from_utf8_lossy(bytes);
-    match tests::read("tests.csv", &text, robot, Vector3::new(0.0, 0.0, 0.1)) {
+    match tests::read("tests.csv", bytes, robot, Vector3::new(0.0, 0.0, 0.1)) {
         Err(problems) => refused(&problems),
         Ok(found) => {
             assert_eq!(found.tests.len(), found.names.len());
@@ -105,7 +105,8 @@ pub fn load_tests(bytes: &[u8]) {
                 let readings = test.readings.iter();
                 assert!(test.joints.iter().all(|value| value.is_finite()));
                 assert!(readings.clone().all(|reading| reading.value.is_finite()));
-                assert!(readings.clone().all(|reading| reading.standard_uncertainty > 0.0));
+                let mut uncertainties = readings.clone().map(|reading| reading.standard_uncertainty);
+                assert!(uncertainties.all(|u| u > 0.0 && u.is_finite()));
             }
         }
     }
@@ -130,15 +131,12 @@ const MOST_REPEATED_LINES: usize = 20_000;
 
 /// G-code of a machine with a tilting table.
 pub fn gcode(bytes: &[u8]) {
-    let options = gcode::Options {
+    let wanted = gcode::Wanted {
         rotaries: Some(gcode::Rotaries::table_ac()),
         most_repeated_lines: Some(MOST_REPEATED_LINES),
-        ..gcode::Options::default()
+        ..gcode::Wanted::default()
     };
-    let mut reader = bytes;
-    if let Err(problems) = gcode::read("part.ngc", &mut reader, &options, &mut told) {
-        refused(&problems);
-    }
+    judge_program(gcode::read("part.ngc", bytes, &wanted, &mut judge_step));
 }
 
 /// A tool table, in the unit of the machine.
@@ -162,16 +160,12 @@ pub fn apt(bytes: &[u8]) {
         unit: Some(LengthUnit::Millimetre),
         dialect: None,
     };
-    if let Err(problems) = apt::read("part.apt", bytes, &wanted, &mut told) {
-        refused(&problems);
-    }
+    judge_program(apt::read("part.apt", bytes, &wanted, &mut judge_step));
 }
 
 /// A path as a table.
 pub fn path_csv(bytes: &[u8]) {
-    if let Err(problems) = csv::read("path.csv", bytes, &mut told) {
-        refused(&problems);
-    }
+    judge_program(csv::read("path.csv", bytes, &mut judge_step));
 }
 
 /// A tool path program whose format is to be found out.
@@ -180,15 +174,42 @@ pub fn program(bytes: &[u8]) {
         most_repeated_lines: Some(MOST_REPEATED_LINES),
         ..program::Wanted::default()
     };
-    if let Err(problems) = program::read("part", bytes, &wanted, &mut told) {
-        refused(&problems);
+    judge_program(program::read("part", bytes, &wanted, &mut judge_step));
+}
+
+/// A program is refused for a reason, or counted.
+fn judge_program(read: Result<Summary, Problems>) {
+    match read {
+        Err(problems) => refused(&problems),
+        Ok(summary) => {
+            assert!(
+                summary.moves >= summary.cuts && summary.moves >= summary.arcs,
+                "{summary:?}"
+            );
+            assert!(summary.notes.iter().all(|note| !note.trim().is_empty()));
+        }
     }
 }
 
-/// A step of a program holds numbers that are numbers, and arcs that turn.
-fn told(step: Step) {
-    let Step::Move(next) = step else { return };
+/// A step of a program holds numbers that are numbers, directions, and arcs that turn.
+fn judge_step(step: Step) {
+    let next = match step {
+        Step::Move(next) => next,
+        Step::Operation(operation) => {
+            let depths = operation.depths.map(|depths| [depths.axial, depths.radial]);
+            let lengths = [operation.diameter, operation.corner_radius, operation.spindle];
+            let mut numbers = lengths.into_iter().flatten().chain(depths.into_iter().flatten());
+            assert!(numbers.all(f64::is_finite), "{operation:?}");
+            return;
+        }
+    };
     assert!(next.end.iter().all(|value| value.is_finite()), "{next:?}");
+    assert!(next.spin.is_none_or(f64::is_finite), "{next:?}");
+    // A direction is normalised once and turned a few times.
+    assert!(
+        next.axis.is_none_or(|axis| (axis.norm() - 1.0).abs() < 1e-9),
+        "{next:?}"
+    );
     if let Course::Arc(arc) = next.course {
         assert!(arc.centre.iter().all(|value| value.is_finite()), "{next:?}");
         assert!(arc.sweep.is_finite() && arc.sweep > 0.0, "{next:?}");
@@ -200,21 +221,46 @@ fn told(step: Step) {
 
 /// Forces as DynoWare exports them.
 pub fn dynoware(bytes: &[u8]) {
-    match dynoware::read("cut.txt", bytes, ActsOn::Part, &dynoware::Channels::default()) {
-        Err(problems) => refused(&problems),
-        Ok(found) => assert!(!found.cycles.is_empty()),
+    judge_forces(dynoware::read(
+        "cut.txt",
+        bytes,
+        ActsOn::Part,
+        &forces::Wanted::default(),
+    ));
+}
+
+/// Forces as a table, with a column of time and without.
+pub fn force_csv(bytes: &[u8]) {
+    for rate_hz in [None, Some(1e4)] {
+        let wanted = forces::Wanted {
+            rate_hz,
+            ..forces::Wanted::default()
+        };
+        judge_forces(force_csv::read("cut.csv", bytes, ActsOn::Tool, &wanted));
     }
 }
 
-/// Forces as a table.
+/// Forces in a format that is to be found out.
 pub fn forces(bytes: &[u8]) {
-    let wanted = forces::Wanted {
-        acts_on: ActsOn::Tool,
-        rate_hz: Some(1e4),
-        columns: None,
+    judge_forces(forces::read(
+        "cut",
+        bytes,
+        ActsOn::Tool,
+        &forces::Wanted::default(),
+    ));
+}
+
+/// Records hold numbers that are numbers, and their time goes on.
+fn judge_forces(read: Result<Measured, Problems>) {
+    let found = match read {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
     };
-    if let Err(problems) = forces::read("cut.csv", bytes, &wanted) {
-        refused(&problems);
+    assert!(!found.records.is_empty());
+    for record in &found.records {
+        assert!(record.time().is_sorted_by(|before, after| before < after));
+        let samples = record.force().iter().chain(record.moment().into_iter().flatten());
+        assert!(samples.flatten().all(|value| value.is_finite()));
     }
 }
 
@@ -223,8 +269,8 @@ pub fn material(bytes: &[u8]) {
     match material::read("metal.toml", &String::from_utf8_lossy(bytes)) {
         Err(problems) => refused(&problems),
         Ok(found) => {
-            let laws = (found.mechanistic(), found.kienzle());
-            assert!(found.mechanistic.len() + found.kienzle.len() > 0 || laws == (None, None));
+            assert!(found.mechanistic().is_none() || !found.mechanistic.is_empty());
+            assert_eq!(found.kienzle().is_some(), !found.kienzle.is_empty());
         }
     }
 }

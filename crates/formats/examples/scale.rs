@@ -20,7 +20,7 @@ use std::time::Instant;
 use std::{env, fs};
 
 use armill_formats::toolpath::LengthUnit;
-use armill_formats::toolpath::program::{self, Wanted};
+use armill_formats::toolpath::format::{self, Wanted};
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -36,7 +36,7 @@ fn main() -> ExitCode {
         ..Wanted::default()
     };
     let (start, mut steps) = (Instant::now(), 0_u64);
-    let read = program::read(kind.path(), BufReader::new(&mut text), &wanted, &mut |_| {
+    let read = format::read(kind.path(), BufReader::new(&mut text), &wanted, &mut |_| {
         steps += 1;
     });
     let seconds = start.elapsed().as_secs_f64();

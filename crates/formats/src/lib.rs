@@ -7,7 +7,7 @@
 //! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
-//! - [`measurement`]: measured forces in.
+//! - [`measurement`]: records of forces and tables of load tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs` is

@@ -1,7 +1,7 @@
 //! `armill forces`: what is in a record of a dynamometer, before and after drift and teeth are taken off.
 
 use armill_core::load::ActsOn;
-use armill_formats::measurement::known::Wanted;
+use armill_formats::measurement::format::Wanted;
 use armill_study::StudyError;
 use armill_study::forces::{
     Air, DriftAnswer, ForcesAnswer, RangeAnswer, Refusal, SummaryAnswer, Treatment, Unread, answer, output,

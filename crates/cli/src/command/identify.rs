@@ -4,10 +4,9 @@ use std::fmt::Write;
 use std::path::Path;
 
 use armill_core::nalgebra::Vector3;
-use armill_formats::document::Document;
 use armill_formats::file::write_atomically;
+use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
-use armill_formats::table::load_tests;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
 use armill_study::identify::{
@@ -144,8 +143,7 @@ fn from_tests(
             "a table of load tests, CSV; `armill identify --plan 20 --robot ...` makes one to fill in",
         )
     })?;
-    let text = Document::text_of(&shown, &bytes)?;
-    let tests = load_tests::read(&shown, text, &found.robot, question.tool_point)?;
+    let tests = load_tests::read(&shown, bytes.as_slice(), &found.robot, question.tool_point)?;
     let answer = answer(&found.robot, &tests, question)?;
     if let Some(file) = &arguments.out {
         let [path, text] = robots::text_of(&arguments.robot, found)?;

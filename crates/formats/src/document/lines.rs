@@ -3,7 +3,7 @@
 //! UTF-8 with or without byte order mark, any line ends; a line that is no UTF-8 is taken as Latin-1, which only
 //! comments and names can hold. Zero bytes at the end of a line are dropped.
 
-use std::io::{BufRead, ErrorKind};
+use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
 
 use super::problem::{Excerpt, Problem, Problems};
@@ -45,28 +45,90 @@ impl Line {
     }
 }
 
-/// The lines of a text, one by one.
+/// The lines of a text as bytes, one by one: each ends with a line feed, a carriage return, or both.
 #[derive(Debug)]
-pub(crate) struct Lines<R> {
+pub(crate) struct RawLines<R> {
     reader: R,
-    name: String,
-    bytes: Vec<u8>,
+    /// Lines so far.
     number: usize,
+    /// Bytes of the file so far.
     start: usize,
     /// Whether the line before ended with a carriage return, to which a line feed may belong.
     after_return: bool,
+}
+
+impl<R: BufRead> RawLines<R> {
+    /// Before the first line.
+    pub fn new(reader: R) -> RawLines<R> {
+        RawLines {
+            reader,
+            number: 0,
+            start: 0,
+            after_return: false,
+        }
+    }
+
+    /// Takes the next line into `bytes`, without its end and without the mark that begins a text in UTF-8; the bytes of
+    /// the file before it, `None` behind the last. Of a line of more than `longest` bytes one more than that is kept.
+    pub fn next(&mut self, bytes: &mut Vec<u8>, longest: usize) -> io::Result<Option<usize>> {
+        const MARK: &[u8] = b"\xef\xbb\xbf";
+        bytes.clear();
+        let mut taken = 0;
+        loop {
+            let buffer = match self.reader.fill_buf() {
+                Ok(buffer) => buffer,
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                Err(error) => return Err(error),
+            };
+            if buffer.is_empty() {
+                break;
+            }
+            if std::mem::take(&mut self.after_return) && buffer.first() == Some(&b'\n') {
+                self.reader.consume(1);
+                self.start += 1;
+                continue;
+            }
+            let end = buffer.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+            let length = end.unwrap_or(buffer.len());
+            let room = (longest + 1).saturating_sub(bytes.len()).min(length);
+            bytes.extend_from_slice(&buffer[..room]);
+            self.after_return = end.is_some_and(|end| buffer[end] == b'\r');
+            let used = length + usize::from(end.is_some());
+            self.reader.consume(used);
+            taken += used;
+            if end.is_some() {
+                break;
+            }
+        }
+        if taken == 0 {
+            return Ok(None);
+        }
+        let mut start = self.start;
+        self.start += taken;
+        self.number += 1;
+        if self.number == 1 && bytes.starts_with(MARK) {
+            bytes.drain(..MARK.len());
+            start += MARK.len();
+        }
+        Ok(Some(start))
+    }
+}
+
+/// The lines of a text, one by one.
+#[derive(Debug)]
+pub(crate) struct Lines<R> {
+    raw: RawLines<R>,
+    name: String,
+    bytes: Vec<u8>,
 }
 
 impl<R: BufRead> Lines<R> {
     /// Before the first line of the file `name`.
     pub fn new(name: &str, reader: R) -> Lines<R> {
         Lines {
-            reader,
+            raw: RawLines::new(reader),
             name: name.to_owned(),
             bytes: Vec::new(),
-            number: 0,
-            start: 0,
-            after_return: false,
         }
     }
 
@@ -80,22 +142,23 @@ impl<R: BufRead> Lines<R> {
     /// # Errors
     /// A reader that fails, a line longer than [`LONGEST_LINE`], bytes that no text has.
     pub fn next(&mut self) -> Result<Option<Line>, Problems> {
-        let Some(length) = self.take_bytes()? else {
-            return Ok(None);
+        let start = match self.raw.next(&mut self.bytes, LONGEST_LINE) {
+            Ok(Some(start)) => start,
+            Ok(None) => return Ok(None),
+            Err(error) => {
+                let message = format!("cannot be read further: {error}");
+                return Err(self.nothing_to_show(self.raw.number + 1, message, "copy the file anew"));
+            }
         };
-        let begin = self.start;
-        self.number += 1;
-        self.start += length;
-        let mut bytes = self.bytes.as_slice();
-        let mut start = begin;
-        if self.number == 1 {
-            if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
-                let hint = "this file is UTF-16: save it as UTF-8";
-                return Err(self.nothing_to_show(0, "not a text of single bytes", hint));
-            }
-            if let Some(rest) = bytes.strip_prefix(b"\xef\xbb\xbf") {
-                (bytes, start) = (rest, start + 3);
-            }
+        let number = self.raw.number;
+        let bytes = self.bytes.as_slice();
+        if bytes.len() > LONGEST_LINE {
+            let message = format!("line {number} is longer than {LONGEST_LINE} bytes");
+            return Err(self.nothing_to_show(number, message, "a text of lines is wanted here"));
+        }
+        if number == 1 && (bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff])) {
+            let hint = "this file is UTF-16: save it as UTF-8";
+            return Err(self.nothing_to_show(1, "not a text of single bytes", hint));
         }
         let kept = bytes
             .iter()
@@ -106,11 +169,7 @@ impl<R: BufRead> Lines<R> {
             Ok(text) => text.to_owned(),
             Err(_) => bytes.iter().map(|byte| char::from(*byte)).collect(),
         };
-        let line = Line {
-            number: self.number,
-            text,
-            start,
-        };
+        let line = Line { number, text, start };
         // 0x1a ends a text in DOS.
         let strange = |c: char| c.is_ascii_control() && !matches!(c, '\t' | '\x0c' | '\x1a');
         if let Some((at, c)) = line.text.char_indices().find(|(_, c)| strange(*c)) {
@@ -121,55 +180,13 @@ impl<R: BufRead> Lines<R> {
         Ok(Some(line))
     }
 
-    /// Takes the bytes of a line, without its end; how many with it, `None` at the end of the file.
-    fn take_bytes(&mut self) -> Result<Option<usize>, Problems> {
-        self.bytes.clear();
-        let mut taken = 0;
-        loop {
-            let buffer = match self.reader.fill_buf() {
-                Ok(buffer) => buffer,
-                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
-                Err(error) => {
-                    let message = format!("cannot be read further: {error}");
-                    return Err(self.nothing_to_show(self.number, message, "copy the file anew"));
-                }
-            };
-            if buffer.is_empty() {
-                return Ok((taken > 0).then_some(taken));
-            }
-            if self.after_return {
-                self.after_return = false;
-                if buffer.first() == Some(&b'\n') {
-                    self.reader.consume(1);
-                    self.start += 1;
-                    continue;
-                }
-            }
-            let end = buffer.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
-            let length = end.unwrap_or(buffer.len());
-            let room = LONGEST_LINE.saturating_sub(self.bytes.len());
-            self.bytes.extend(buffer.iter().take(length.min(room)));
-            self.after_return = end.is_some_and(|end| buffer.get(end) == Some(&b'\r'));
-            let used = length + usize::from(end.is_some());
-            self.reader.consume(used);
-            taken += used;
-            if length > room {
-                let message = format!("line {} is longer than {LONGEST_LINE} bytes", self.number + 1);
-                return Err(self.nothing_to_show(self.number, message, "a text of lines is wanted here"));
-            }
-            if end.is_some() {
-                return Ok(Some(taken));
-            }
-        }
-    }
-
-    /// A problem behind line `number`, of which no text can be shown.
+    /// A problem of line `number`, of which no text can be shown.
     fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problems {
         Problems::from(Problem {
             file: self.name.clone(),
-            line: number + 1,
+            line: number,
             column: 1,
-            span: self.start..self.start,
+            span: self.raw.start..self.raw.start,
             message: message.into(),
             hint: Some(hint.to_owned()),
             excerpt: None,
@@ -199,7 +216,7 @@ mod tests {
 
     #[test]
     fn a_carriage_return_and_its_line_feed_are_one_end_across_a_buffer() {
-        let reader = std::io::BufReader::with_capacity(4, &b"one\r\ntwo\r\n"[..]);
+        let reader = io::BufReader::with_capacity(4, &b"one\r\ntwo\r\n"[..]);
         let mut lines = Lines::new("a.txt", reader);
         assert_eq!(lines.next().unwrap().unwrap().text, "one");
         let two = lines.next().unwrap().unwrap();

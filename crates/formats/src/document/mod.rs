@@ -44,6 +44,7 @@ use serde::de::DeserializeOwned;
 use toml::de::DeTable;
 
 pub(crate) use self::path::joined;
+pub(crate) use self::problem::MOST_PROBLEMS;
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
 

@@ -7,6 +7,9 @@ use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use serde::Serialize;
 
+/// More problems of one file than this are not looked for, where a file of any length is read.
+pub(crate) const MOST_PROBLEMS: usize = 200;
+
 /// More problems than this are counted, not shown; `--json` has them all.
 const MOST_SHOWN: usize = 100;
 
@@ -37,6 +40,19 @@ pub(super) struct Excerpt {
 }
 
 impl Problem {
+    /// A problem of the file `name` as a whole, of which no line can be shown.
+    pub(crate) fn of_file(name: &str, message: impl Into<String>, hint: &str) -> Problem {
+        Problem {
+            file: name.to_owned(),
+            line: 1,
+            column: 1,
+            span: 0..0,
+            message: message.into(),
+            hint: Some(hint.to_owned()),
+            excerpt: None,
+        }
+    }
+
     /// A problem told of one line alone, as it stands in its file: on that line, so many bytes on.
     pub(crate) fn in_file(mut self, line: usize, bytes_before: usize) -> Self {
         self.line = line;

@@ -3,6 +3,8 @@
 use armill_core::load::{ActsOn, Record, RecordError};
 use armill_core::nalgebra::Vector3;
 
+use crate::table::sheet::{Cell, number};
+
 /// No measured number is larger, in its own unit.
 const LARGEST: f64 = 1e12;
 /// No record has more samples: some minutes of all channels at 100 kHz.
@@ -90,15 +92,69 @@ pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static st
         .then(|| (moments.join(", "), "a record has all three moments, or none"))
 }
 
-/// The number in a cell, if it is one; with a decimal comma where that is said.
-pub(super) fn number(text: &str, decimal_comma: bool) -> Option<f64> {
-    let number = match decimal_comma && text.contains(',') {
-        // 1.234,5 could be a thousand or a slip.
-        true if text.contains('.') => return None,
-        true => text.replace(',', ".").parse::<f64>(),
-        false => text.parse::<f64>(),
-    };
-    number.ok().filter(|number| number.abs() <= LARGEST)
+/// A column that cannot be taken: its place, and what to say.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Unfit {
+    pub index: usize,
+    pub message: String,
+    pub hint: String,
+}
+
+/// The columns of a line of names with a line of units below it; `quantity` tells what the name at an index means.
+///
+/// # Errors
+/// Every name whose unit is missing or none of its quantity.
+pub(super) fn of_names_and_units(
+    names: &[Cell<'_>],
+    units: &[Cell<'_>],
+    quantity: impl Fn(usize, &str) -> Option<Quantity>,
+) -> Result<Vec<Option<Column>>, Vec<Unfit>> {
+    let mut columns = Vec::with_capacity(names.len());
+    let mut unfit = Vec::new();
+    for (index, name) in names.iter().enumerate() {
+        let Some(quantity) = quantity(index, &name.text) else {
+            columns.push(None);
+            continue;
+        };
+        let unit = units.get(index).map_or("", |cell| &cell.text);
+        let factor = quantity.factor(unit);
+        columns.push(factor.map(|factor| Column { quantity, factor }));
+        if factor.is_some() {
+            continue;
+        }
+        let understood = quantity.units();
+        let (message, hint) = match unit.is_empty() || number(unit, ';').is_some() {
+            true => (
+                format!("nothing tells the unit of `{}`", name.text),
+                format!(
+                    "name the columns with their units, such as `time_s,fx_n,fy_n,fz_n`, or put a row of units below: \
+                     {understood}"
+                ),
+            ),
+            false => (
+                format!("`{unit}` is no unit of `{}`", name.text),
+                format!("understood are {understood}; volts need the range of the amplifier"),
+            ),
+        };
+        unfit.push(Unfit { index, message, hint });
+    }
+    match unfit.is_empty() {
+        true => Ok(columns),
+        false => Err(unfit),
+    }
+}
+
+/// The first column that tells what one before it tells.
+pub(super) fn doubled(columns: &[Option<Column>]) -> Option<usize> {
+    let quantity = |index: usize| columns[index].map(|column| column.quantity);
+    (0..columns.len()).find(|index| {
+        quantity(*index).is_some() && (0..*index).any(|before| quantity(before) == quantity(*index))
+    })
+}
+
+/// The number in a cell, if it is one that was measured.
+pub(super) fn measured(text: &str, separator: char) -> Option<f64> {
+    number(text, separator).filter(|number| number.abs() <= LARGEST)
 }
 
 /// Rows, as far as they were read, in SI.
@@ -136,11 +192,6 @@ impl Samples {
     /// How many rows there are.
     pub fn count(&self) -> usize {
         self.time.len()
-    }
-
-    /// Which columns mean something.
-    pub fn columns(&self) -> &[Option<Column>] {
-        &self.columns
     }
 
     /// Takes a row: the number of each column that means something, in order.
@@ -215,12 +266,12 @@ mod tests {
     }
 
     #[test]
-    fn numbers_with_both_marks_are_none() {
-        assert_eq!(number("-0,5", true), Some(-0.5));
-        assert_eq!(number("-0.5", true), Some(-0.5));
+    fn what_nobody_measured_is_no_number() {
+        assert_eq!(measured("-0,5", ';'), Some(-0.5));
+        assert_eq!(measured("-0.5", ';'), Some(-0.5));
         for text in ["1.234,5", "nan", "inf", "1e300", "", "1 N"] {
-            assert_eq!(number(text, true), None, "{text}");
+            assert_eq!(measured(text, ';'), None, "{text}");
         }
-        assert_eq!(number("0,5", false), None);
+        assert_eq!(measured("0,5", ','), None);
     }
 }

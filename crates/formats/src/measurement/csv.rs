@@ -9,180 +9,160 @@
 //! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other names
 //! are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines
 //! that begin with `#` and empty ones are passed over.
+//!
+//! A file without names is read with names that are told, in the order of its columns: its first line is a row.
 
 use std::io::BufRead;
 
-use armill_core::load::{ActsOn, Record};
+use armill_core::load::ActsOn;
 
-use super::columns::{Column, Quantity, Samples, missing, number};
+use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
+use super::format::{Format, Measured, Wanted};
 use crate::document::lines::{Line, Lines};
-use crate::document::{Problem, Problems, Source};
-use crate::table::sheet::{Cell, cells};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// More problems than this are not looked for.
-const MOST_PROBLEMS: usize = 200;
-
-/// What a file of forces does not tell.
-#[derive(Clone, Debug)]
-pub struct Wanted {
-    /// What the force acts on.
-    pub acts_on: ActsOn,
-    /// Samples a second, of a file without column of time.
-    pub rate_hz: Option<f64>,
-    /// The columns in order, of a file without header; other names than those of the table above are passed over.
-    pub columns: Option<Vec<String>>,
-}
-
-/// What a file of forces held.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Measured {
-    /// Force over time, axes of the sensor.
-    pub record: Record,
-    /// Columns that were passed over.
-    pub unused: Vec<String>,
-}
-
-/// Reads the record in `reader`; `path` is what problems show.
+/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is no
+/// part of a table.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that are
 /// no numbers, rows of another length, time that does not go on.
-pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
-    let mut table = Reader {
+pub fn read(
+    path: &str,
+    reader: impl BufRead,
+    acts_on: ActsOn,
+    wanted: &Wanted,
+) -> Result<Measured, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(first) = next(&mut lines)? else {
+        return Err(Problem::of_file(path, "no record in this file", HEADER_HINT).into());
+    };
+    let mut table = Table {
         path,
         wanted,
-        lines: Lines::new(path, reader),
-        separator: ',',
-        problems: Vec::new(),
+        separator: separator_of(&first.text),
+        names: Vec::new(),
+        columns: Vec::new(),
     };
-    table.read()
+    // With names that are told, the first line is a row of numbers.
+    let mut waiting = None;
+    match &wanted.columns {
+        Some(names) => {
+            table.take_told(names, &first)?;
+            waiting = Some(first.clone());
+        }
+        None => table.take_header(&first, &mut lines)?,
+    }
+    table.check(&first)?;
+    let mut samples = Samples::new(table.columns.clone(), wanted.rate_hz.map(f64::recip));
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        let line = match waiting.take() {
+            Some(line) => line,
+            None => match next(&mut lines) {
+                Ok(Some(line)) => line,
+                Ok(None) => break,
+                Err(wrong) => {
+                    problems.extend(wrong);
+                    break;
+                }
+            },
+        };
+        if !is_blank_row(&line.text, table.separator) {
+            let wrong = table.row(&line, &mut samples).err();
+            problems.extend(wrong.into_iter().flatten());
+        }
+    }
+    // Where rows are wrong, they are what is told.
+    Problems::from(problems).into_result()?;
+    let record = samples
+        .record(acts_on)
+        .map_err(|error| Problem::of_file(path, error.to_string(), HEADER_HINT))?;
+    let unused = table.names.into_iter().zip(&table.columns);
+    Ok(Measured {
+        format: Format::Csv,
+        records: vec![record],
+        unused: unused
+            .filter(|(_, column)| column.is_none())
+            .map(|(name, _)| name)
+            .collect(),
+    })
 }
 
-struct Reader<'a, R> {
+/// The next line that is neither empty nor a remark.
+fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
+    loop {
+        match lines.next()? {
+            Some(line) if is_remark(&line.text) => {}
+            other => return Ok(other),
+        }
+    }
+}
+
+/// What the columns of a file are.
+struct Table<'a> {
     path: &'a str,
     wanted: &'a Wanted,
-    lines: Lines<R>,
     separator: char,
-    problems: Vec<Problem>,
+    names: Vec<String>,
+    columns: Vec<Option<Column>>,
 }
 
-impl<R: BufRead> Reader<'_, R> {
-    fn read(&mut self) -> Result<Measured, Problems> {
-        let Some(first) = self.line()? else {
-            return Err(self.whole("no record in this file", HEADER_HINT));
-        };
-        self.separator = [';', '\t']
-            .into_iter()
-            .find(|c| first.text.contains(*c))
-            .unwrap_or(',');
-        let heads = cells((0, &first.text), self.separator);
-        let mut waiting = None;
-        let (names, columns) = match &self.wanted.columns {
-            Some(told) => {
-                let columns: Vec<Option<Column>> = told.iter().map(|name| named(name)).collect();
-                if told.len() != heads.len() {
-                    let message = format!(
-                        "{} columns were told, but this row has {}",
-                        told.len(),
-                        heads.len()
-                    );
-                    return Err(self.at(&first, message, "tell one name for each column"));
-                }
-                waiting = Some(first.clone());
-                (told.clone(), columns)
-            }
-            None => {
-                let mut columns: Vec<Option<Column>> = heads.iter().map(|cell| named(&cell.text)).collect();
-                if columns.iter().all(Option::is_none) {
-                    waiting = self.units_below(&first, &heads, &mut columns)?;
-                }
-                (heads.iter().map(|cell| cell.text.clone()).collect(), columns)
-            }
-        };
-        self.complete(&first, &names, &columns)?;
-        let step = self.wanted.rate_hz.map(f64::recip);
-        let mut samples = Samples::new(columns.clone(), step);
-        while self.problems.len() < MOST_PROBLEMS {
-            let Some(line) = waiting
-                .take()
-                .map_or_else(|| self.line(), |line| Ok(Some(line)))?
-            else {
-                break;
-            };
-            self.row(&line, &mut samples);
+impl Table<'_> {
+    /// Names that the user tells, for the cells of this row.
+    fn take_told(&mut self, names: &[String], first: &Line) -> Result<(), Problems> {
+        let width = cells(&first.text, self.separator).len();
+        if names.len() != width {
+            let message = format!("{} columns were told, but this row has {width}", names.len());
+            return Err(self.at(first, message, "tell one name for each column"));
         }
-        let unused = names
-            .into_iter()
-            .zip(&columns)
-            .filter(|(_, column)| column.is_none());
-        let unused = unused.map(|(name, _)| name).collect();
-        let record = samples.record(self.wanted.acts_on);
-        // Where rows are wrong, they are what is told.
-        if !self.problems.is_empty() {
-            return Err(Problems::from(std::mem::take(&mut self.problems)));
-        }
-        let record = record.map_err(|error| self.whole(&error.to_string(), HEADER_HINT))?;
-        Ok(Measured { record, unused })
+        self.names = names.to_vec();
+        self.columns = names.iter().map(|name| named(name)).collect();
+        Ok(())
     }
 
-    /// Takes the line below the names as their units, if any name is one of a channel.
-    fn units_below(
-        &mut self,
-        first: &Line,
-        heads: &[Cell],
-        columns: &mut [Option<Column>],
-    ) -> Result<Option<Line>, Problems> {
-        let quantities: Vec<Option<Quantity>> =
-            heads.iter().map(|cell| Quantity::of_name(&cell.text)).collect();
-        if quantities.iter().all(Option::is_none) {
-            return Err(self.at(
-                first,
-                "no column of this table is a force".to_owned(),
-                HEADER_HINT,
-            ));
+    /// Names with their units, or names and the line of units below.
+    fn take_header(&mut self, first: &Line, lines: &mut Lines<impl BufRead>) -> Result<(), Problems> {
+        let heads = cells(&first.text, self.separator);
+        self.names = heads.iter().map(|cell| cell.text.to_string()).collect();
+        self.columns = heads.iter().map(|cell| named(&cell.text)).collect();
+        if self.columns.iter().any(Option::is_some) {
+            return Ok(());
         }
-        let Some(below) = self.line()? else {
-            return Err(self.whole("no record in this file", HEADER_HINT));
+        if heads.iter().all(|cell| Quantity::of_name(&cell.text).is_none()) {
+            let message = "no column of this table is a force".to_owned();
+            return Err(self.at(first, message, HEADER_HINT));
+        }
+        let Some(below) = next(lines)? else {
+            return Err(Problem::of_file(self.path, "no record in this file", HEADER_HINT).into());
         };
-        let units = cells((0, &below.text), self.separator);
-        for (index, quantity) in quantities.into_iter().enumerate() {
-            let Some(quantity) = quantity else { continue };
-            let unit = units.get(index).map_or("", |cell| cell.text.as_str());
-            let Some(factor) = quantity.factor(unit) else {
-                let shown = &heads[index].text;
-                let message = match number(unit, self.separator != ',') {
-                    Some(_) => format!("nothing tells the unit of `{shown}`"),
-                    None => format!("`{unit}` is no unit of `{shown}`"),
-                };
-                let hint = format!(
-                    "name the columns with their units, such as `time_s,fx_n,fy_n,fz_n`, or put a row of units below: {}",
-                    quantity.units()
-                );
+        let units = cells(&below.text, self.separator);
+        let columns = of_names_and_units(&heads, &units, |_, name| Quantity::of_name(name));
+        self.columns = columns.map_err(|unfit| -> Problems {
+            let whole = || 0..below.text.len();
+            let told = unfit.into_iter().map(|unfit| {
                 let span = units
-                    .get(index)
-                    .map_or(0..below.text.len(), |cell| cell.span.clone());
-                return Err(below.problem(self.path, span, message, &hint).into());
-            };
-            columns[index] = Some(Column { quantity, factor });
-        }
-        Ok(None)
+                    .get(unfit.index)
+                    .map_or_else(whole, |cell| cell.span.clone());
+                below.problem(self.path, span, unfit.message, &unfit.hint)
+            });
+            told.collect()
+        })?;
+        Ok(())
     }
 
-    fn complete(&self, first: &Line, names: &[String], columns: &[Option<Column>]) -> Result<(), Problems> {
-        for (index, column) in columns.iter().enumerate() {
-            let same = |other: &Option<Column>| other.map(|c| c.quantity) == column.map(|c| c.quantity);
-            if column.is_some() && columns[..index].iter().any(same) {
-                let message = format!("`{}` tells what a column before it tells", names[index]);
-                return Err(self.at(first, message, "keep one of the two"));
-            }
+    /// Whether a record can be made of these columns.
+    fn check(&self, first: &Line) -> Result<(), Problems> {
+        if let Some(index) = doubled(&self.columns) {
+            let message = format!("`{}` tells what a column before it tells", self.names[index]);
+            return Err(self.at(first, message, "keep one of the two"));
         }
-        if let Some((missing, hint)) = missing(columns) {
+        if let Some((missing, hint)) = missing(&self.columns) {
             return Err(self.at(first, format!("missing columns: {missing}"), hint));
         }
-        let timed = columns
-            .iter()
-            .flatten()
-            .any(|column| column.quantity == Quantity::Time);
+        let columns = self.columns.iter().flatten();
+        let timed = columns.clone().any(|column| column.quantity == Quantity::Time);
         match (timed, self.wanted.rate_hz) {
             (false, None) => {
                 let hint = "add `time_s`, or tell the sampling rate (option `rate_hz`)";
@@ -201,59 +181,34 @@ impl<R: BufRead> Reader<'_, R> {
         }
     }
 
-    fn row(&mut self, line: &Line, samples: &mut Samples) {
-        let found = cells((0, &line.text), self.separator);
+    /// Takes a row as a sample.
+    fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problems> {
+        let found = cells(&line.text, self.separator);
         if found.len() != samples.width() {
             let message = format!("{} cells in a table of {} columns", found.len(), samples.width());
             let hint = match self.separator {
                 ',' => "decimal commas need `;` or a tab between cells",
                 _ => "every row has a cell for each column",
             };
-            self.problems
-                .push(line.problem(self.path, 0..line.text.len(), message, hint));
-            return;
+            return Err(self.at(line, message, hint));
         }
-        let mut numbers = Vec::with_capacity(found.len());
-        for (cell, _) in found
-            .iter()
-            .zip(samples.columns())
+        let meant = found.iter().zip(&self.columns);
+        let numbers: Result<Vec<f64>, Problems> = meant
             .filter(|(_, column)| column.is_some())
-        {
-            match number(&cell.text, self.separator != ',') {
-                Some(number) => numbers.push(number),
-                None => {
-                    let message = format!("`{}` is not a number", cell.text);
-                    let hint = "units stand in the column's name or in the row below the names";
-                    self.problems
-                        .push(line.problem(self.path, cell.span.clone(), message, hint));
-                    return;
-                }
-            }
-        }
-        if let Err((message, hint)) = samples.push(&numbers) {
-            self.problems
-                .push(line.problem(self.path, 0..line.text.len(), message, hint));
-        }
+            .map(|(cell, _)| measured(&cell.text, self.separator).ok_or_else(|| self.no_number(line, cell)))
+            .collect();
+        let pushed = samples.push(&numbers?);
+        pushed.map_err(|(message, hint)| self.at(line, message, hint))
     }
 
-    /// The next line that is neither empty nor a remark.
-    fn line(&mut self) -> Result<Option<Line>, Problems> {
-        loop {
-            match self.lines.next()? {
-                Some(line) if line.text.trim().is_empty() || line.text.trim_start().starts_with('#') => {}
-                other => return Ok(other),
-            }
-        }
+    fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problems {
+        let message = format!("`{}` is not a number", cell.text);
+        let hint = "units stand in the column's name or in the row below the names";
+        line.problem(self.path, cell.span.clone(), message, hint).into()
     }
 
     fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
         line.problem(self.path, 0..line.text.len(), message, hint).into()
-    }
-
-    fn whole(&self, message: &str, hint: &str) -> Problems {
-        Source::new(self.path, "")
-            .problem(0..0, message, Some(hint.to_owned()))
-            .into()
     }
 }
 
@@ -276,11 +231,11 @@ mod tests {
 
     fn read_as(text: &str, rate_hz: Option<f64>, columns: Option<&str>) -> Result<Measured, Problems> {
         let wanted = Wanted {
-            acts_on: ActsOn::Part,
             rate_hz,
             columns: columns.map(|names| names.split(',').map(str::to_owned).collect()),
+            channels: None,
         };
-        read("force.csv", text.as_bytes(), &wanted)
+        read("force.csv", text.as_bytes(), ActsOn::Part, &wanted)
     }
 
     fn measured(text: &str) -> Measured {
@@ -294,22 +249,21 @@ mod tests {
     #[test]
     fn the_same_record_in_other_units_and_separators_is_the_same() {
         let first = measured("time_s,fx_n,fy_n,fz_n\n0,1000,-2,0.003\n0.001,5,6,7\n");
-        assert_eq!(first.record.force()[0], Vector3::new(1000.0, -2.0, 0.003));
-        assert_eq!(first.record.acts_on(), ActsOn::Part);
+        assert_eq!(first.records[0].force()[0], Vector3::new(1000.0, -2.0, 0.003));
+        assert_eq!(first.records[0].acts_on(), ActsOn::Part);
         for text in [
             "\u{feff}# remark\r\nTime_ms;Fx_kN;Fy_n;Fz_mN\r\n\r\n0;1;-2;3\r\n1;0,005;6;7000\r\n",
             "Zeit\tFx\tFy\tFz\ns\tkN\tN\tmN\n0\t1\t-2,0\t3\n0,001\t0.005\t6\t7000\n",
             "fz_n,fy_n,fx_n,t_us,Vx_g\n0.003,-2,1000,0,loud\n7,6,5,1000,-\n",
         ] {
             let other = measured(text);
-            let apart = other
-                .record
+            let apart = other.records[0]
                 .force()
                 .iter()
-                .zip(first.record.force())
+                .zip(first.records[0].force())
                 .map(|(a, b)| (a - b).norm());
             assert!(apart.fold(0.0, f64::max) < 1e-12, "{text}");
-            assert!((other.record.time()[1] - 0.001).abs() < 1e-15, "{text}");
+            assert!((other.records[0].time()[1] - 0.001).abs() < 1e-15, "{text}");
         }
     }
 
@@ -319,15 +273,15 @@ mod tests {
             "time_s,fx_n,fy_n,fz_n,ae_v,mx_n_mm,my_n_m,mz_n_cm\n0,1,2,3,9,1000,2,300\n1,1,2,3,9,4,5,6\n",
         );
         assert_eq!(found.unused, ["ae_v"]);
-        assert!((found.record.moment().unwrap()[0] - Vector3::new(1.0, 2.0, 3.0)).norm() < 1e-12);
+        assert!((found.records[0].moment().unwrap()[0] - Vector3::new(1.0, 2.0, 3.0)).norm() < 1e-12);
     }
 
     #[test]
     fn files_without_header_or_time_are_read_as_told() {
         let text = "1,2,3,0.5\n4,5,6,0.7\n7,8,9,0.9\n";
         let found = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n,vx_g")).unwrap();
-        assert_eq!(found.record.force()[2], Vector3::new(7.0, 8.0, 9.0));
-        assert!((found.record.step().unwrap() - 2e-5).abs() < 1e-18);
+        assert_eq!(found.records[0].force()[2], Vector3::new(7.0, 8.0, 9.0));
+        assert!((found.records[0].step().unwrap() - 2e-5).abs() < 1e-18);
         let told = read_as(text, Some(50_000.0), Some("fx_n,fy_n,fz_n"))
             .unwrap_err()
             .to_string();

@@ -1,7 +1,15 @@
 //! The text export of Kistler's DynoWare.
 //!
 //! A header of lines `key:,value` (18 of them in version 3.2), a line of channels that begins with `Time` (`Zeit`), a line of
-//! units, then the samples. Further cycles follow, each again with its last header lines.
+//! units, then the samples. Further cycles follow, each again with its last header lines. Lines that begin with `#` and
+//! empty ones are passed over.
+//!
+//! | line | read as |
+//! |---|---|
+//! | `Samples per channel:,N` | how many samples each cycle must have |
+//! | `Time,Fx,Fy,Fz,...` | the channels: the first is the time |
+//! | `s,N,N,N,...` | the unit of each |
+//! | begins with a number | a sample; every other line behind samples ends their cycle |
 //!
 //! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two channels.
 //! Such a row is put together again only if every row has exactly two pieces a channel, each first one whole and each
@@ -14,9 +22,11 @@ use std::io::BufRead;
 
 use armill_core::load::{ActsOn, Record};
 
-use super::columns::{Column, Quantity, Samples, missing, number};
+use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_names_and_units};
+use super::format::{Format, Measured, Wanted};
 use crate::document::lines::{Line, Lines};
-use crate::document::{Problems, Source};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{Cell, cells, is_remark, separator_of};
 
 /// No header is longer, in lines.
 const MOST_HEADER_LINES: usize = 200;
@@ -25,73 +35,94 @@ const MOST_CYCLES: usize = 10_000;
 /// No export has more channels.
 const MOST_CHANNELS: usize = 1000;
 
-/// What the three forces are called in a file, and the three moments.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Channels {
-    /// Forces along x, y and z of the sensor.
-    pub force: [String; 3],
-    /// Moments about them; a file need not have them.
-    pub moment: [String; 3],
-}
-
-impl Default for Channels {
-    fn default() -> Channels {
-        let named = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
-        Channels {
-            force: named("F"),
-            moment: named("M"),
-        }
-    }
-}
-
-/// What an export held.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Export {
-    /// The lines of the first header, as key and value.
-    pub header: Vec<[String; 2]>,
-    /// The cycles, in order; axes of the sensor.
-    pub cycles: Vec<Record>,
-    /// Channels that were passed over.
-    pub unused: Vec<String>,
-}
-
-/// Reads the export in `reader`; `path` is what problems show, `acts_on` what the forces act on.
+/// Reads the export in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.rate_hz` and
+/// `wanted.columns` are no part of an export.
 ///
 /// # Errors
-/// The first problem of the file: no line of channels, channels that are missing, units that are missing or unknown, rows
-/// that can be read in two ways or none, cycles of another length than the header tells.
+/// Every problem of the file, at most 200: no line of channels, channels that are missing, names of them that are not
+/// three or six, units that are missing or unknown, rows that can be read in two ways or none, cycles of another length
+/// than the header tells.
 pub fn read(
     path: &str,
     reader: impl BufRead,
     acts_on: ActsOn,
-    channels: &Channels,
-) -> Result<Export, Problems> {
-    let mut reader = Reader {
+    wanted: &Wanted,
+) -> Result<Measured, Problems> {
+    let channels = Channels::told(wanted.channels.as_deref()).ok_or_else(|| {
+        let names = wanted.channels.as_ref().map_or(0, Vec::len);
+        let message = format!("{names} names of channels were told");
+        Problem::of_file(path, message, "three forces, or three forces and three moments")
+    })?;
+    let mut lines = Lines::new(path, reader);
+    let mut export = Reader {
         path,
         acts_on,
         channels,
-        lines: Lines::new(path, reader),
         wanted_samples: None,
+        header_lines: 0,
+        table: None,
+        cycle: None,
+        cycles: 0,
+        records: Vec::new(),
+        unused: Vec::new(),
+        problems: Vec::new(),
     };
-    reader.read()
+    while export.problems.len() < MOST_PROBLEMS {
+        let taken = match next(&mut lines) {
+            Ok(Some(line)) => export.take(line, &mut lines),
+            Ok(None) => break,
+            Err(wrong) => Err(wrong),
+        };
+        if let Err(wrong) = taken {
+            // Nothing can be told of what follows.
+            export.problems.extend(wrong);
+            break;
+        }
+    }
+    export.finish()
 }
 
-struct Reader<'a, R> {
-    path: &'a str,
-    acts_on: ActsOn,
-    channels: &'a Channels,
-    lines: Lines<R>,
-    /// Samples of each cycle, as the header tells.
-    wanted_samples: Option<usize>,
+/// The next line that is neither empty nor a remark.
+fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
+    loop {
+        match lines.next()? {
+            Some(line) if is_remark(&line.text) => {}
+            other => return Ok(other),
+        }
+    }
 }
 
-/// How the rows of a file are to be taken apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Form {
-    /// Tab or `;` between cells.
-    Separated(char),
-    /// Commas between cells; whether they are decimal marks too is seen in the first row.
-    Commas(Option<Marks>),
+/// What the three forces are called in a file, and the three moments, which it need not have.
+struct Channels {
+    force: [String; 3],
+    moment: [String; 3],
+}
+
+impl Channels {
+    /// Those of these names, the usual ones where none are told; `None` if they are not three or six.
+    fn told(names: Option<&[String]>) -> Option<Channels> {
+        let usual = |letter: &str| ["x", "y", "z"].map(|axis| format!("{letter}{axis}"));
+        let Some(names) = names else {
+            return Some(Channels {
+                force: usual("F"),
+                moment: usual("M"),
+            });
+        };
+        let three = |names: &[String]| -> Option<[String; 3]> { names.to_vec().try_into().ok() };
+        let force = three(names.get(..3)?)?;
+        let moment = match names.get(3..)? {
+            [] => usual("M"),
+            moments => three(moments)?,
+        };
+        Some(Channels { force, moment })
+    }
+
+    fn quantity(&self, name: &str) -> Option<Quantity> {
+        let of = |names: &[String; 3]| names.iter().position(|known| known.eq_ignore_ascii_case(name));
+        of(&self.force)
+            .map(Quantity::Force)
+            .or_else(|| of(&self.moment).map(Quantity::Moment))
+    }
 }
 
 /// What commas are between which cells stand.
@@ -105,258 +136,261 @@ enum Marks {
 
 /// The lines of channels and units, understood.
 struct Table {
-    form: Form,
+    separator: char,
+    /// Where commas separate: whether they are decimal marks too, as the first row shows.
+    marks: Option<Marks>,
     columns: Vec<Option<Column>>,
-    unused: Vec<String>,
     /// Whether rows end in a separator.
     open_end: bool,
 }
 
-impl<R: BufRead> Reader<'_, R> {
-    fn read(&mut self) -> Result<Export, Problems> {
-        let mut export = Export {
-            header: Vec::new(),
-            cycles: Vec::new(),
-            unused: Vec::new(),
-        };
-        let mut table: Option<Table> = None;
-        let mut samples: Option<Samples> = None;
-        let mut last: Option<Line> = None;
-        let mut header_lines = 0;
-        while let Some(line) = self.lines.next()? {
-            if line.text.trim().is_empty() {
-                continue;
-            }
-            match &mut table {
-                Some(table) if begins_with_number(&line.text) => {
-                    let samples = samples.get_or_insert_with(|| Samples::new(table.columns.clone(), None));
-                    self.row(&line, table, samples)?;
-                    last = Some(line);
-                    continue;
-                }
-                _ => {}
-            }
-            if let (Some(samples), Some(last)) = (samples.take(), &last) {
-                export
-                    .cycles
-                    .push(self.cycle(samples, last, export.cycles.len())?);
-                header_lines = 0;
-            }
-            header_lines += 1;
-            if header_lines > MOST_HEADER_LINES {
-                return Err(self.no_channels(&line));
-            }
-            if is_channels(&line.text) {
-                let made = self.table(&line)?;
-                if table
-                    .as_ref()
-                    .is_some_and(|before| before.columns != made.columns)
-                {
-                    let hint = "all cycles of an export have the same channels in the same units";
-                    return Err(self.at(&line, "other channels than those of the cycle before", hint));
-                }
-                export.unused.clone_from(&made.unused);
-                // A comma that was a decimal mark stays one.
-                let form = table.as_ref().map_or(made.form, |before| before.form);
-                table = Some(Table { form, ..made });
-            } else if export.cycles.is_empty() && table.is_none() {
-                export.header.push(self.header(&line));
-            }
+/// Samples since the last header.
+struct Cycle {
+    samples: Samples,
+    last: Line,
+    /// Problems of the file before them.
+    problems: usize,
+}
+
+struct Reader<'a> {
+    path: &'a str,
+    acts_on: ActsOn,
+    channels: Channels,
+    /// Samples of each cycle, as the header tells.
+    wanted_samples: Option<usize>,
+    /// Since the last samples.
+    header_lines: usize,
+    table: Option<Table>,
+    cycle: Option<Cycle>,
+    /// Cycles that ended.
+    cycles: usize,
+    records: Vec<Record>,
+    unused: Vec<String>,
+    problems: Vec<Problem>,
+}
+
+impl Reader<'_> {
+    /// Takes the next line, and the line of units behind one of channels.
+    ///
+    /// # Errors
+    /// What leaves nothing to be told of the lines behind; other problems are kept.
+    fn take(&mut self, line: Line, lines: &mut Lines<impl BufRead>) -> Result<(), Problems> {
+        if let Some(mut table) = self.table.take_if(|_| begins_with_number(&line.text)) {
+            self.sample(line, &mut table);
+            self.table = Some(table);
+            return Ok(());
         }
-        match (samples, last) {
-            (Some(samples), Some(last)) => {
-                export
-                    .cycles
-                    .push(self.cycle(samples, &last, export.cycles.len())?);
-            }
-            _ if export.cycles.is_empty() => {
-                let hint = "a DynoWare export has a line of channels (`Time`, `Fx`, ...), one of units, and samples; other \
-                            tables are read as CSV";
-                let source = Source::new(self.path, "");
-                return Err(source
-                    .problem(0..0, "no samples in this file", Some(hint.to_owned()))
-                    .into());
-            }
-            _ => {}
+        self.end_cycle();
+        self.header_lines += 1;
+        if self.header_lines > MOST_HEADER_LINES {
+            let message = format!("no line of channels in {MOST_HEADER_LINES} lines");
+            let hint = "it begins with `Time` or `Zeit`; other tables are read as CSV";
+            return Err(self.at(&line, message, hint));
         }
-        Ok(export)
+        if is_channels(&line.text) {
+            let made = self.table_of(&line, lines)?;
+            // A comma that was a decimal mark stays one.
+            let marks = self.table.as_ref().and_then(|before| before.marks);
+            if self
+                .table
+                .as_ref()
+                .is_some_and(|before| before.columns != made.columns)
+            {
+                let hint = "all cycles of an export have the same channels in the same units";
+                let message = "other channels than those of the cycle before".to_owned();
+                return Err(self.at(&line, message, hint));
+            }
+            self.table = Some(Table { marks, ..made });
+        } else if self.table.is_none() {
+            self.header(&line.text);
+        }
+        Ok(())
     }
 
     /// A line `key:,value`, with whatever separator.
-    fn header(&mut self, line: &Line) -> [String; 2] {
-        let text = line.text.trim();
-        let (key, value) = text.split_once([':', '\t', ';', ',']).unwrap_or((text, ""));
-        let value = value
-            .trim_matches(|c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"'))
-            .to_owned();
-        let key = key.trim().trim_matches('"').to_owned();
-        if key.to_lowercase().starts_with("samples per channel") {
-            self.wanted_samples = value.parse().ok();
+    fn header(&mut self, line: &str) {
+        let (key, value) = line.split_once([':', '\t', ';', ',']).unwrap_or((line, ""));
+        let no_part = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
+        if key
+            .trim_matches(no_part)
+            .to_lowercase()
+            .starts_with("samples per channel")
+        {
+            self.wanted_samples = value.trim_matches(no_part).parse().ok();
         }
-        [key, value]
     }
 
     /// The line of channels, and the line of units below it.
-    fn table(&mut self, line: &Line) -> Result<Table, Problems> {
-        let separator = ['\t', ';']
-            .into_iter()
-            .find(|c| line.text.contains(*c))
-            .unwrap_or(',');
-        let mut names: Vec<&str> = parts(&line.text, separator);
-        let open_end = names.len() > 1 && names.last().is_some_and(|name| name.is_empty());
+    fn table_of(&mut self, line: &Line, lines: &mut Lines<impl BufRead>) -> Result<Table, Problems> {
+        let separator = separator_of(&line.text);
+        let mut names = cells(&line.text, separator);
+        let open_end = names.len() > 1 && names.last().is_some_and(|name| name.text.is_empty());
         if open_end {
             names.pop();
         }
         if names.len() > MOST_CHANNELS {
-            return Err(self.at(line, "more than 1000 channels", "this is no line of channels"));
+            let message = format!("more than {MOST_CHANNELS} channels");
+            return Err(self.at(line, message, "this is no line of channels"));
         }
-        let below = loop {
-            match self.lines.next()? {
-                Some(below) if below.text.trim().is_empty() => {}
-                Some(below) => break below,
-                None => return Err(self.at(line, "the file ends behind its channels", "export it again")),
-            }
+        let Some(below) = next(lines)? else {
+            let message = "the file ends behind its channels".to_owned();
+            return Err(self.at(line, message, "export it again"));
         };
-        let mut units = parts(&below.text, separator);
-        if open_end && units.last().is_some_and(|unit| unit.is_empty()) {
+        let mut units = cells(&below.text, separator);
+        if open_end && units.last().is_some_and(|unit| unit.text.is_empty()) {
             units.pop();
         }
         if units.len() != names.len() || begins_with_number(&below.text) {
             let message = format!("a line of {} units is wanted below the channels", names.len());
-            return Err(self.at(
-                &below,
-                &message,
-                "export with units: nothing else tells whether these are N or kN",
-            ));
+            let hint = "export with units: nothing else tells whether these are N or kN";
+            return Err(self.at(&below, message, hint));
         }
-        let mut columns: Vec<Option<Column>> = Vec::new();
-        let mut unused = Vec::new();
-        for (index, (name, unit)) in names.iter().zip(&units).enumerate() {
-            let quantity = match index {
-                0 => Some(Quantity::Time),
-                _ => self.quantity(name),
-            };
-            let Some(quantity) = quantity else {
-                unused.push((*name).to_owned());
-                columns.push(None);
-                continue;
-            };
-            if columns.iter().flatten().any(|column| column.quantity == quantity) {
-                return Err(self.at(
-                    line,
-                    &format!("two channels are called `{name}`"),
-                    "keep one of the two",
-                ));
-            }
-            let Some(factor) = quantity.factor(unit) else {
-                let message = format!("`{unit}` is no unit of `{name}`");
-                let hint = format!(
-                    "export it in {}; volts need the range of the amplifier",
-                    quantity.units()
-                );
-                return Err(self.at(&below, &message, &hint));
-            };
-            columns.push(Some(Column { quantity, factor }));
-        }
-        if let Some((missing, _)) = missing(&columns) {
-            let message = format!("missing channels: {missing}");
-            let hint = format!(
-                "this file has {}; tell what the forces are called in it",
-                names.join(", ")
-            );
-            return Err(self.at(line, &message, &hint));
-        }
-        let form = match separator {
-            ',' => Form::Commas(None),
-            separator => Form::Separated(separator),
-        };
+        let columns = of_names_and_units(&names, &units, |index, name| match index {
+            0 => Some(Quantity::Time),
+            _ => self.channels.quantity(name),
+        });
+        let columns = columns.map_err(|unfit| -> Problems {
+            let told = unfit.into_iter().map(|unfit| {
+                let span = units[unfit.index].span.clone();
+                below.problem(self.path, span, unfit.message, &unfit.hint)
+            });
+            told.collect()
+        })?;
+        self.check(line, &names, &columns)?;
+        let unused = names.iter().zip(&columns).filter(|(_, column)| column.is_none());
+        self.unused = unused.map(|(name, _)| name.text.to_string()).collect();
         Ok(Table {
-            form,
+            separator,
+            marks: None,
             columns,
-            unused,
             open_end,
         })
     }
 
-    fn quantity(&self, name: &str) -> Option<Quantity> {
-        let of = |names: &[String; 3]| names.iter().position(|known| known.eq_ignore_ascii_case(name));
-        of(&self.channels.force)
-            .map(Quantity::Force)
-            .or_else(|| of(&self.channels.moment).map(Quantity::Moment))
+    /// Whether a record can be made of these channels.
+    fn check(&self, line: &Line, names: &[Cell<'_>], columns: &[Option<Column>]) -> Result<(), Problems> {
+        if let Some(index) = doubled(columns) {
+            let message = format!("two channels are called `{}`", names[index].text);
+            return Err(self.at(line, message, "keep one of the two"));
+        }
+        if let Some((missing, _)) = missing(columns) {
+            let found: Vec<&str> = names.iter().map(|name| name.text.as_ref()).collect();
+            let hint = format!(
+                "this file has {}; tell what the forces are called in it",
+                found.join(", ")
+            );
+            return Err(self.at(line, format!("missing channels: {missing}"), &hint));
+        }
+        Ok(())
     }
 
-    fn row(&self, line: &Line, table: &mut Table, samples: &mut Samples) -> Result<(), Problems> {
-        let separator = match table.form {
-            Form::Separated(separator) => separator,
-            Form::Commas(_) => ',',
-        };
-        let mut cells = parts(&line.text, separator);
-        if table.open_end && cells.last().is_some_and(|cell| cell.is_empty()) {
+    /// Takes a row as a sample of the cycle; what is wrong with it is kept.
+    fn sample(&mut self, line: Line, table: &mut Table) {
+        let mut cycle = self.cycle.take().unwrap_or_else(|| Cycle {
+            samples: Samples::new(table.columns.clone(), None),
+            last: line.clone(),
+            problems: self.problems.len(),
+        });
+        let numbers = self.numbers(&line, table);
+        let pushed = numbers.and_then(|numbers| {
+            let pushed = cycle.samples.push(&numbers);
+            pushed.map_err(|(message, hint)| self.at(&line, message, hint))
+        });
+        self.problems.extend(pushed.err().into_iter().flatten());
+        self.cycle = Some(Cycle { last: line, ..cycle });
+    }
+
+    /// The numbers of a row: one for each column that means something.
+    fn numbers(&self, line: &Line, table: &mut Table) -> Result<Vec<f64>, Problems> {
+        let mut cells = cells(&line.text, table.separator);
+        if table.open_end && cells.last().is_some_and(|cell| cell.text.is_empty()) {
             cells.pop();
         }
-        let width = samples.width();
-        let marks = match table.form {
-            Form::Separated(_) => None,
-            Form::Commas(known) => {
-                let seen = match cells.len() {
-                    count if count == width => Some(Marks::Points),
-                    count if count == 2 * width && all_halves(&cells) => Some(Marks::Commas),
-                    _ => None,
-                };
-                if seen.is_none() || known.is_some_and(|known| Some(known) != seen) {
-                    return Err(self.ambiguous(line, cells.len(), width));
-                }
-                table.form = Form::Commas(seen);
-                seen
+        let width = table.columns.len();
+        if table.separator == ',' {
+            let seen = match cells.len() {
+                count if count == width => Some(Marks::Points),
+                count if count == 2 * width && all_halves(&cells) => Some(Marks::Commas),
+                _ => None,
+            };
+            if seen.is_none() || table.marks.is_some_and(|known| Some(known) != seen) {
+                return Err(self.ambiguous(line, cells.len(), width));
             }
-        };
-        if marks != Some(Marks::Commas) && cells.len() != width {
+            table.marks = seen;
+        } else if cells.len() != width {
             let message = format!("{} cells below {width} channels", cells.len());
-            return Err(self.at(line, &message, "is the file cut short? export it again"));
+            return Err(self.at(line, message, CUT_SHORT));
         }
-        let mut numbers = Vec::with_capacity(width);
-        for (index, column) in samples.columns().iter().enumerate() {
-            if column.is_none() {
-                continue;
-            }
-            let text = match marks {
-                Some(Marks::Commas) => format!("{}.{}", cells[2 * index], cells[2 * index + 1]),
-                _ => cells[index].to_owned(),
-            };
-            let Some(number) = number(&text, marks.is_none()) else {
-                return Err(self.at(
-                    line,
-                    &format!("`{text}` is not a number"),
-                    "is the file cut short? export it again",
-                ));
-            };
-            numbers.push(number);
-        }
-        samples
-            .push(&numbers)
-            .map_err(|(message, hint)| self.at(line, &message, hint))
+        let meant = table
+            .columns
+            .iter()
+            .enumerate()
+            .filter(|(_, column)| column.is_some());
+        meant
+            .map(|(index, _)| {
+                let text = match table.marks {
+                    Some(Marks::Commas) => {
+                        format!("{}.{}", cells[2 * index].text, cells[2 * index + 1].text).into()
+                    }
+                    _ => cells[index].text.clone(),
+                };
+                let no_number = || self.at(line, format!("`{text}` is not a number"), CUT_SHORT);
+                measured(&text, table.separator).ok_or_else(no_number)
+            })
+            .collect()
     }
 
-    fn cycle(&self, samples: Samples, last: &Line, before: usize) -> Result<Record, Problems> {
-        if before == MOST_CYCLES {
-            return Err(self.at(last, "more than 10000 cycles", "cut the record into pieces"));
+    /// Makes a record of the samples since the last header; of a cycle with problems nothing else is told.
+    fn end_cycle(&mut self) {
+        let Some(cycle) = self.cycle.take() else { return };
+        self.header_lines = 0;
+        self.cycles += 1;
+        if self.problems.len() > cycle.problems {
+            return;
+        }
+        match self.record(cycle) {
+            Ok(record) => self.records.push(record),
+            Err(problems) => self.problems.extend(problems),
+        }
+    }
+
+    fn record(&self, Cycle { samples, last, .. }: Cycle) -> Result<Record, Problems> {
+        if self.cycles > MOST_CYCLES {
+            let message = format!("more than {MOST_CYCLES} cycles");
+            return Err(self.at(&last, message, "cut the record into pieces"));
         }
         if let Some(wanted) = self.wanted_samples.filter(|wanted| *wanted != samples.count()) {
             let message = format!(
                 "cycle {} ends after {} samples, but its header tells {wanted}",
-                before + 1,
+                self.cycles,
                 samples.count()
             );
-            return Err(self.at(last, &message, "is the file cut short? export it again"));
+            return Err(self.at(&last, message, CUT_SHORT));
         }
         let record = samples
             .record(self.acts_on)
-            .map_err(|error| self.at(last, &error.to_string(), "export it again"))?;
+            .map_err(|error| self.at(&last, error.to_string(), "export it again"))?;
         // A sampled record goes in equal steps: if it does not, its times were not read as they were meant.
         record
             .step()
-            .map_err(|error| self.at(last, &error.to_string(), "export with more digits of time"))?;
+            .map_err(|error| self.at(&last, error.to_string(), "export with more digits of time"))?;
         Ok(record)
+    }
+
+    fn finish(mut self) -> Result<Measured, Problems> {
+        self.end_cycle();
+        if self.records.is_empty() && self.problems.is_empty() {
+            let hint = "a DynoWare export has a line of channels (`Time`, `Fx`, ...), one of units, and samples; other \
+                        tables are read as CSV";
+            self.problems
+                .push(Problem::of_file(self.path, "no samples in this file", hint));
+        }
+        Problems::from(self.problems).into_result()?;
+        Ok(Measured {
+            format: Format::DynoWare,
+            records: self.records,
+            unused: self.unused,
+        })
     }
 
     fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problems {
@@ -365,29 +399,15 @@ impl<R: BufRead> Reader<'_, R> {
         );
         let hint = "commas separate cells and mark decimals at once, and which is which cannot be told: export with tab or \
                     semicolon between cells";
-        self.at(line, &message, hint)
+        self.at(line, message, hint)
     }
 
-    fn no_channels(&self, line: &Line) -> Problems {
-        let message = format!("no line of channels in {MOST_HEADER_LINES} lines");
-        self.at(
-            line,
-            &message,
-            "it begins with `Time` or `Zeit`; other tables are read as CSV",
-        )
-    }
-
-    fn at(&self, line: &Line, message: &str, hint: &str) -> Problems {
+    fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
         line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 }
 
-/// The cells of a line without blanks and quotes.
-fn parts(line: &str, separator: char) -> Vec<&str> {
-    line.split(separator)
-        .map(|part| part.trim().trim_matches('"').trim())
-        .collect()
-}
+const CUT_SHORT: &str = "is the file cut short? export it again";
 
 fn begins_with_number(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches('"');
@@ -404,13 +424,14 @@ pub(super) fn is_channels(line: &str) -> bool {
 }
 
 /// Whether the pieces are halves of numbers: whole, digits, whole, digits.
-fn all_halves(pieces: &[&str]) -> bool {
+fn all_halves(pieces: &[Cell<'_>]) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     pieces.chunks(2).all(|pair| {
         let [whole, fraction] = pair else { return false };
+        let (whole, fraction): (&str, &str) = (&whole.text, &fraction.text);
         let fraction = fraction
             .split_once(['e', 'E'])
-            .map_or(*fraction, |(fraction, exponent)| {
+            .map_or(fraction, |(fraction, exponent)| {
                 let exponent = exponent.strip_prefix(['-', '+']).unwrap_or(exponent);
                 if digits(exponent) { fraction } else { "" }
             });

@@ -1,13 +1,15 @@
-//! Which force was measured? Records over time in.
+//! What was measured? Records of force over time in, and tables of load tests.
 //!
+//! - [`format`](mod@format): a force record in either format, whichever the file is.
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
 //! - [`csv`]: any other table with a column for each channel.
-//! - [`known`]: either, whichever the file is.
+//! - [`load_tests`]: loads on a standing robot, and how far it gave way.
 //!
-//! All give a [`Record`](armill_core::load::Record) in the axes of the sensor. Whether it acts on the tool or on the part,
-//! and how the sensor stands, no file tells: the caller says it.
+//! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the tool
+//! or on the part, and how the sensor stands, no file tells: the caller says it.
 
 mod columns;
 pub mod csv;
 pub mod dynoware;
-pub mod known;
+pub mod format;
+pub mod load_tests;

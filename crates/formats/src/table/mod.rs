@@ -3,11 +3,9 @@
 //! - [`Table`]: columns of equal length, each with its unit in its name.
 //! - [`csv`]: for spreadsheets and for reading by eye.
 //! - `parquet` (feature `parquet`): for analysis; keeps types, units and meanings.
-//! - [`load_tests`]: the other way round, from a spreadsheet into the program.
 //! - [`vtk`]: for ParaView, fields in space rather than rows.
 
 pub mod csv;
-pub mod load_tests;
 #[cfg(feature = "parquet")]
 pub mod parquet;
 pub(crate) mod sheet;

@@ -1,62 +1,49 @@
-//! Text as rows of cells that know their place.
+//! Lines of a table that somebody wrote, as cells that know their place: what all readers of tables share.
+//!
+//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`, numbers
+//! may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
-use crate::document::Source;
-
-/// One cell: what it says, and where.
+/// One cell: what it says, and where in its line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Cell {
-    pub text: String,
+pub(crate) struct Cell<'a> {
+    pub text: Cow<'a, str>,
     pub span: Range<usize>,
 }
 
-/// A header and rows, not yet of equal length.
-#[derive(Clone, Debug)]
-pub(crate) struct Sheet {
-    pub separator: char,
-    pub header: Vec<Cell>,
-    pub rows: Vec<Vec<Cell>>,
+/// What separates the cells of a table whose names stand on this line.
+pub(crate) fn separator_of(names: &str) -> char {
+    [';', '\t']
+        .into_iter()
+        .find(|c| names.contains(*c))
+        .unwrap_or(',')
 }
 
-impl Sheet {
-    /// The table in this text; `None` if there is no line that is not empty or a remark.
-    pub fn of(source: &Source) -> Option<Sheet> {
-        let mut at = 0;
-        let mut lines = Vec::new();
-        for line in source.text().split_inclusive('\n') {
-            let content = line.trim_end_matches(['\n', '\r']);
-            if !content.trim().is_empty() && !content.trim_start().starts_with('#') {
-                lines.push((at, content));
-            }
-            at += line.len();
-        }
-        let (first, rest) = lines.split_first()?;
-        let separator = [';', '\t']
-            .into_iter()
-            .find(|c| first.1.contains(*c))
-            .unwrap_or(',');
-        Some(Sheet {
-            separator,
-            header: cells(*first, separator),
-            // Spreadsheets leave lines of separators behind.
-            rows: rest
-                .iter()
-                .filter(|(_, content)| content.chars().any(|c| c != separator && !c.is_whitespace()))
-                .map(|line| cells(*line, separator))
-                .collect(),
-        })
-    }
+/// Whether a line says nothing: it is empty, or begins with `#`.
+pub(crate) fn is_remark(line: &str) -> bool {
+    let line = line.trim_start();
+    line.is_empty() || line.starts_with('#')
+}
 
-    /// The line of column names.
-    pub fn header_span(&self) -> Range<usize> {
-        let start = self.header.first().map_or(0, |cell| cell.span.start);
-        start..self.header.last().map_or(start, |cell| cell.span.end)
+/// Whether a line is nothing but separators: spreadsheets leave such rows behind.
+pub(crate) fn is_blank_row(line: &str, separator: char) -> bool {
+    line.chars().all(|c| c == separator || c.is_whitespace())
+}
+
+/// The number that a cell holds, if it is one, infinite ones included; with a decimal comma where none separates cells.
+///
+/// `1.234,5` is none: it could be a thousand or a slip.
+pub(crate) fn number(text: &str, separator: char) -> Option<f64> {
+    match separator != ',' && text.contains(',') {
+        true => text.replace(',', ".").parse().ok(),
+        false => text.parse().ok(),
     }
 }
 
-/// The cells of a line that begins at this byte; quotes around a cell are taken off.
-pub(crate) fn cells((start, line): (usize, &str), separator: char) -> Vec<Cell> {
+/// The cells of a line; quotes around a cell are taken off, and double ones inside are one.
+pub(crate) fn cells(line: &str, separator: char) -> Vec<Cell<'_>> {
     let mut cells = Vec::new();
     let (mut from, mut quoted) = (0, false);
     for (at, c) in line.char_indices().chain([(line.len(), separator)]) {
@@ -64,14 +51,99 @@ pub(crate) fn cells((start, line): (usize, &str), separator: char) -> Vec<Cell> 
             quoted = !quoted;
         } else if (c == separator && !quoted) || at == line.len() {
             let content = &line[from..at];
-            let blank = content.len() - content.trim_start().len();
+            let start = from + content.len() - content.trim_start().len();
             let trimmed = content.trim();
             cells.push(Cell {
-                text: trimmed.trim_matches('"').replace("\"\"", "\""),
-                span: start + from + blank..start + from + blank + trimmed.len(),
+                text: without_quotes(trimmed),
+                span: start..start + trimmed.len(),
             });
             from = at + c.len_utf8();
         }
     }
     cells
+}
+
+fn without_quotes(cell: &str) -> Cow<'_, str> {
+    if !cell.contains('"') {
+        return Cow::Borrowed(cell);
+    }
+    let inner = cell.strip_prefix('"').unwrap_or(cell);
+    let inner = inner.strip_suffix('"').unwrap_or(inner);
+    Cow::Owned(inner.replace("\"\"", "\"").trim().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn texts(line: &str, separator: char) -> Vec<String> {
+        let cells = cells(line, separator).into_iter();
+        cells.map(|cell| cell.text.into_owned()).collect()
+    }
+
+    #[test]
+    fn the_separator_is_the_first_that_the_names_hold() {
+        for (line, separator) in [
+            ("a,b", ','),
+            ("a,b;c", ';'),
+            ("a\tb,c", '\t'),
+            ("a;b\tc", ';'),
+            ("a", ','),
+        ] {
+            assert_eq!(separator_of(line), separator, "{line}");
+        }
+    }
+
+    #[test]
+    fn quotes_are_taken_off_once_and_hide_separators() {
+        assert_eq!(texts("\"a,b\", c ,\"\"", ','), ["a,b", "c", ""]);
+        assert_eq!(texts("\"say \"\"no\"\"\"", ','), ["say \"no\""]);
+        assert_eq!(texts("\"\"\"x\"\"\";2\"", ';'), ["\"x\"", "2"]);
+    }
+
+    #[test]
+    fn an_open_quote_holds_the_rest_of_its_line() {
+        assert_eq!(texts("a,\"b,c", ','), ["a", "b,c"]);
+    }
+
+    #[test]
+    fn tabs_separate_and_blanks_around_cells_are_dropped() {
+        assert_eq!(texts(" a \t b c\t", '\t'), ["a", "b c", ""]);
+    }
+
+    #[test]
+    fn a_separator_at_the_end_makes_an_empty_cell() {
+        assert_eq!(texts("1,2,", ','), ["1", "2", ""]);
+        assert_eq!(texts("", ','), [""]);
+        assert!(is_blank_row(" ; ;", ';') && !is_blank_row("; 0 ;", ';'));
+    }
+
+    #[test]
+    fn spans_are_the_bytes_of_cells_without_blanks() {
+        let spans: Vec<Range<usize>> = cells("\u{e4} , \"b\",c", ',')
+            .into_iter()
+            .map(|cell| cell.span)
+            .collect();
+        assert_eq!(spans, [0..2, 5..8, 9..10]);
+    }
+
+    #[test]
+    fn a_decimal_comma_is_read_where_no_comma_separates() {
+        assert_eq!(number("-0,5", ';'), Some(-0.5));
+        assert_eq!(number("0.5", '\t'), Some(0.5));
+        for (text, separator) in [
+            ("0,5", ','),
+            ("1.234,5", ';'),
+            ("1,2,3", ';'),
+            ("", ';'),
+            ("1 N", ','),
+        ] {
+            assert_eq!(number(text, separator), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn remarks_begin_with_a_hash_or_are_empty() {
+        assert!(is_remark("") && is_remark("  ") && is_remark(" # x") && !is_remark("x # y"));
+    }
 }

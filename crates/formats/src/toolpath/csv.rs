@@ -1,6 +1,17 @@
 //! A path as a table: one row a point, the unit of each column in its name.
 //!
-//! The columns stand in `docs/guide/tool-path-words.md`; `tests/words.rs` tries each. The first row says where the tip
+//! | column | meaning | endings |
+//! |---|---|---|
+//! | `x`, `y`, `z` | the tip | `_mm`, `_m`, `_in` |
+//! | `i`, `j`, `k` | direction from the tip towards the spindle, of length 1; all three or none | |
+//! | `spin` | turn of the tool about its axis | `_deg`, `_rad` |
+//! | `feed` | speed towards the point, above 0 | `_mm_min`, `_mm_s`, `_m_s`, `_in_min` |
+//! | `rapid` | whether the move cuts nothing: `1`, `true`, `yes`, or not | |
+//! | `spindle` | its speed, below 0 counterclockwise | `_rpm` |
+//! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
+//! | `op`, `note` | name of the operation; for people | |
+//!
+//! A new operation begins where its name, the spindle or a depth changes. The columns stand in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
 //! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
 //! `#` and empty ones are passed over.
 
@@ -10,28 +21,16 @@ use std::io::BufRead;
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Course, DepthOfCut, Move, Operation, Pace, Step};
 
+use super::Summary;
+use super::direction::{LARGEST, direction};
+use super::format::Format;
 use crate::document::lines::{Line, Lines};
 use crate::document::unit::suggestion;
-use crate::document::{Problem, Problems};
-use crate::table::sheet::{Cell, cells};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{self, Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// More problems than this are not looked for.
-const MOST_PROBLEMS: usize = 200;
-/// No number of a table is larger, in its own unit.
-const LARGEST: f64 = 1e9;
-/// A direction has a length of 1 within this: three decimals.
-const UNIT_SLACK: f64 = 2e-3;
 /// No table has more columns than this.
 const MOST_COLUMNS: usize = 100;
-
-/// What a table held.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Summary {
-    /// Operations given.
-    pub operations: u64,
-    /// Moves given: rows.
-    pub moves: u64,
-}
 
 /// What a column tells; numbers are the axis, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,6 +107,7 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
     let mut lines = Lines::new(path, reader);
     let mut table = None;
     let mut problems = Vec::new();
+    let mut summary = Summary::new(Format::Csv);
     while problems.len() < MOST_PROBLEMS {
         let line = match lines.next() {
             Ok(Some(line)) => line,
@@ -117,8 +117,7 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
                 break;
             }
         };
-        let text = line.text.trim();
-        if text.is_empty() || text.starts_with('#') {
+        if is_remark(&line.text) {
             continue;
         }
         let Some(table) = &mut table else {
@@ -131,19 +130,29 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
             table = Some(made);
             continue;
         };
-        // Spreadsheets leave lines of separators behind.
-        if text.chars().all(|c| c == table.separator || c.is_whitespace()) {
+        if is_blank_row(&line.text, table.separator) {
             continue;
         }
-        table.row(path, &line, &mut problems, out);
+        let row = table.row(path, &line).and_then(|row| {
+            let point = row.point();
+            point
+                .map(|point| (row, point))
+                .map_err(|(message, hint)| vec![line.problem(path, 0..line.text.len(), message, hint)])
+        });
+        match row {
+            Ok((row, point)) => table.give(&line, row, point, &mut |step| {
+                summary.count(&step);
+                out(step);
+            }),
+            Err(wrong) => problems.extend(wrong),
+        }
     }
-    if problems.is_empty() && table.as_ref().is_none_or(|table| table.summary.moves == 0) {
-        let source = crate::document::Source::new(path, "");
+    if problems.is_empty() && summary.moves == 0 {
         let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm`; each line below is a point";
-        problems.push(source.problem(0..0, "no point in this file", Some(hint.to_owned())));
+        problems.push(Problem::of_file(path, "no point in this file", hint));
     }
     Problems::from(problems).into_result()?;
-    Ok(table.map(|table| table.summary).unwrap_or_default())
+    Ok(summary)
 }
 
 /// The header, and what the rows so far have told.
@@ -152,7 +161,6 @@ struct Table {
     header: Vec<String>,
     columns: Vec<Column>,
     operation: Option<Operation>,
-    summary: Summary,
 }
 
 /// What the cells of one row say, in SI.
@@ -171,10 +179,7 @@ struct Row {
 impl Table {
     /// The columns that this line names, and what is wrong with them.
     fn of(path: &str, line: &Line) -> (Table, Vec<Problem>) {
-        let separator = [';', '\t']
-            .into_iter()
-            .find(|c| line.text.contains(*c))
-            .unwrap_or(',');
+        let separator = separator_of(&line.text);
         let known = known();
         let names: Vec<&str> = known.iter().map(|(name, _)| name.as_str()).collect();
         let mut problems = Vec::new();
@@ -183,9 +188,8 @@ impl Table {
             header: Vec::new(),
             columns: Vec::new(),
             operation: None,
-            summary: Summary::default(),
         };
-        let heads = cells((0, &line.text), separator);
+        let heads = cells(&line.text, separator);
         for cell in heads.iter().take(MOST_COLUMNS) {
             let name = cell.text.to_lowercase();
             let mut tell = |message: String, hint: &str| {
@@ -204,7 +208,7 @@ impl Table {
                 );
             }
             table.columns.push(*column);
-            table.header.push(cell.text.clone());
+            table.header.push(cell.text.to_string());
         }
         if problems.is_empty() {
             let whole = 0..line.text.len();
@@ -251,9 +255,9 @@ impl Table {
         missing
     }
 
-    fn row(&mut self, path: &str, line: &Line, problems: &mut Vec<Problem>, out: &mut dyn FnMut(Step)) {
-        let found = cells((0, &line.text), self.separator);
-        let before = problems.len();
+    /// What the cells of a line say, or what is wrong with each.
+    fn row(&self, path: &str, line: &Line) -> Result<Row, Vec<Problem>> {
+        let found = cells(&line.text, self.separator);
         if found.len() != self.columns.len() {
             let message = format!(
                 "{} cells in a table of {} columns",
@@ -266,31 +270,24 @@ impl Table {
                 }
                 _ => "an empty cell is nothing between two separators",
             };
-            problems.push(line.problem(path, 0..line.text.len(), message, hint));
-            return;
+            return Err(vec![line.problem(path, 0..line.text.len(), message, hint)]);
         }
+        let mut problems = Vec::new();
         let mut row = Row::default();
         for (cell, column) in found.iter().zip(&self.columns) {
             if let Err((message, hint)) = row.take(cell, *column, self.separator) {
                 problems.push(line.problem(path, cell.span.clone(), message, hint));
             }
         }
-        if problems.len() > before {
-            return;
-        }
-        match row.said() {
-            Ok((end, axis, depths)) => self.give(line, row, (end, axis, depths), out),
-            Err((message, hint)) => problems.push(line.problem(path, 0..line.text.len(), message, hint)),
+        match problems.is_empty() {
+            true => Ok(row),
+            false => Err(problems),
         }
     }
 
-    fn give(
-        &mut self,
-        line: &Line,
-        row: Row,
-        (end, axis, depths): (Point3<f64>, Option<Unit<Vector3<f64>>>, Option<DepthOfCut>),
-        out: &mut dyn FnMut(Step),
-    ) {
+    /// Gives the move of a row, and before it the operation that it begins.
+    fn give(&mut self, line: &Line, row: Row, point: Point, out: &mut dyn FnMut(Step)) {
+        let Point { end, axis, depths } = point;
         let number = u32::try_from(line.number).unwrap_or(u32::MAX);
         let before = self.operation.as_ref();
         let operation = Operation {
@@ -308,10 +305,8 @@ impl Table {
                 ..operation
             };
             self.operation = Some(operation.clone());
-            self.summary.operations += 1;
             out(Step::Operation(operation));
         }
-        self.summary.moves += 1;
         out(Step::Move(Move {
             end,
             axis,
@@ -327,14 +322,21 @@ impl Table {
     }
 }
 
+/// A row as a point of the path, SI.
+struct Point {
+    end: Point3<f64>,
+    axis: Option<Unit<Vector3<f64>>>,
+    depths: Option<DepthOfCut>,
+}
+
 /// What is wrong, and what to do.
 type Wrong = (String, &'static str);
 
 impl Row {
-    fn take(&mut self, cell: &Cell, column: Column, separator: char) -> Result<(), Wrong> {
+    fn take(&mut self, cell: &Cell<'_>, column: Column, separator: char) -> Result<(), Wrong> {
         match column {
             Column::Note => {}
-            Column::Operation => self.operation = Some(cell.text.clone()).filter(|name| !name.is_empty()),
+            Column::Operation => self.operation = Some(cell.text.to_string()).filter(|name| !name.is_empty()),
             Column::Rapid => {
                 self.rapid = match cell.text.to_lowercase().as_str() {
                     "1" | "true" | "yes" => true,
@@ -352,15 +354,15 @@ impl Row {
             Column::Axis(axis) => self.axis[axis] = Some(number(cell, separator)?),
             Column::Spin(factor) => self.spin = Some(number(cell, separator)? * factor),
             Column::Spindle => self.spindle = Some(number(cell, separator)? * TAU / 60.0),
-            Column::Feed(factor) => self.feed = Some(above(cell, separator, false)? * factor),
-            Column::AxialDepth(factor) => self.depths[0] = Some(above(cell, separator, true)? * factor),
-            Column::RadialDepth(factor) => self.depths[1] = Some(above(cell, separator, true)? * factor),
+            Column::Feed(factor) => self.feed = Some(above_zero(cell, separator)? * factor),
+            Column::AxialDepth(factor) => self.depths[0] = Some(zero_or_more(cell, separator)? * factor),
+            Column::RadialDepth(factor) => self.depths[1] = Some(zero_or_more(cell, separator)? * factor),
         }
         Ok(())
     }
 
-    #[expect(clippy::type_complexity, reason = "three parts of one row")]
-    fn said(&self) -> Result<(Point3<f64>, Option<Unit<Vector3<f64>>>, Option<DepthOfCut>), Wrong> {
+    /// What the cells say together.
+    fn point(&self) -> Result<Point, Wrong> {
         let [Some(x), Some(y), Some(z)] = self.point else {
             return Err((
                 "a point without one of its coordinates".to_owned(),
@@ -370,16 +372,14 @@ impl Row {
         let axis = match self.axis {
             [None, None, None] => None,
             [Some(i), Some(j), Some(k)] => {
-                let axis = Vector3::new(i, j, k);
-                let length = axis.norm();
-                if (length - 1.0).abs() > UNIT_SLACK {
+                let axis = direction([i, j, k]).map_err(|length| {
                     let message = format!("the direction of the tool has a length of {length:.4}, not 1");
-                    return Err((
+                    (
                         message,
                         "i, j, k is a direction of length 1, from the tip towards the spindle",
-                    ));
-                }
-                Some(Unit::new_normalize(axis))
+                    )
+                })?;
+                Some(axis)
             }
             _ => {
                 return Err((
@@ -398,37 +398,39 @@ impl Row {
                 ));
             }
         };
-        Ok((Point3::new(x, y, z), axis, depths))
+        let end = Point3::new(x, y, z);
+        Ok(Point { end, axis, depths })
     }
 }
 
-fn number(cell: &Cell, separator: char) -> Result<f64, Wrong> {
-    let text = match separator {
-        ',' => cell.text.clone(),
-        _ => cell.text.replace(',', "."),
-    };
-    match text.parse::<f64>() {
-        Ok(number) if number.abs() <= LARGEST => Ok(number),
-        Ok(_) => Err((
+const NOT_KNOWN: &str = "leave the cell empty if it is not known";
+
+fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
+    match sheet::number(&cell.text, separator) {
+        Some(number) if number.abs() <= LARGEST => Ok(number),
+        Some(_) => Err((
             format!("`{}` is not a number from -1e9 to 1e9", cell.text),
-            "leave the cell empty if it is not known",
+            NOT_KNOWN,
         )),
-        Err(_) => Err((
+        None => Err((
             format!("`{}` is not a number", cell.text),
             "units stand in the column's name",
         )),
     }
 }
 
-/// A number above zero, or zero too.
-fn above(cell: &Cell, separator: char, zero_too: bool) -> Result<f64, Wrong> {
-    let number = number(cell, separator)?;
-    match number > 0.0 || zero_too && number == 0.0 {
-        true => Ok(number),
-        false => Err((
-            format!("`{}` is not above 0", cell.text),
-            "leave the cell empty if it is not known",
-        )),
+fn above_zero(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
+    match number(cell, separator)? {
+        // In SI it is smaller, and must still be above 0.
+        number if number >= f64::MIN_POSITIVE => Ok(number),
+        _ => Err((format!("`{}` is not above 0", cell.text), NOT_KNOWN)),
+    }
+}
+
+fn zero_or_more(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
+    match number(cell, separator)? {
+        number if number >= 0.0 => Ok(number),
+        _ => Err((format!("`{}` is below 0", cell.text), NOT_KNOWN)),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Which format is a tool path file in? By what it holds first, by its name second.
+//! A program in any format: known by what it holds first, by its name second, and read by its own reader.
 //!
 //! | format | known by its content | endings |
 //! |---|---|---|
@@ -8,9 +8,18 @@
 //!
 //! Programs of robots are known and refused.
 
+mod known_by;
+
+use std::io::{BufRead, Cursor, Read};
 use std::path::Path;
 
-use crate::document::{Problems, Source};
+use armill_core::path::Step;
+
+use self::known_by::{is_apt, is_gcode, is_header, robot_language};
+use super::gcode::{self, Lookup, Rotaries, ToolTable};
+use super::{LengthUnit, Summary, apt, csv};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::is_remark;
 
 /// A kind of tool path file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,73 +32,70 @@ pub enum Format {
     Csv,
 }
 
+/// What a user may say of a program where it is silent.
+#[derive(Clone, Default)]
+pub struct Wanted<'a> {
+    /// The unit of lengths.
+    pub unit: Option<LengthUnit>,
+    /// Cutter locations: whose they are, where they do not show it.
+    pub dialect: Option<apt::Dialect>,
+    /// G-code: how rotary axes turn tool and part.
+    pub rotaries: Option<Rotaries>,
+    /// G-code: the tools of the machine.
+    pub tools: Option<ToolTable>,
+    /// G-code: subroutines that are not in the program.
+    pub subroutines: Option<Lookup<'a>>,
+    /// G-code: most lines of loops and subroutines; see [`gcode::Wanted`].
+    pub most_repeated_lines: Option<usize>,
+}
+
+/// So much of a file tells its format, bytes.
+const HEAD_BYTES: u64 = 256 * 1024;
 /// So many lines of a file are looked at; headers of remarks are longer in no file we know.
 const MOST_LINES: usize = 2000;
 
-/// The beginnings of lines that only programs of this language have.
-const ROBOT_LANGUAGES: &[(&str, &[&str])] = &[
-    (
-        "KUKA KRL",
-        &[
-            "&ACCESS", "&REL", "PTP {", "LIN {", "PTP_REL", "LIN_REL", "DEFDAT ", "PTP $", "$VEL.CP",
-        ],
-    ),
-    (
-        "ABB RAPID",
-        &[
-            "%%%",
-            "MODULE ",
-            "MOVEL ",
-            "MOVEJ ",
-            "MOVEABSJ ",
-            "PERS ",
-            "CONST ROBTARGET",
-            "CONST JOINTTARGET",
-        ],
-    ),
-    ("FANUC TP", &["/PROG", "/ATTR", "/MN", "/POS"]),
-    ("Yaskawa INFORM", &["/JOB", "//NAME", "//POS", "//INST", "///"]),
-    (
-        "URScript or Staubli VAL3",
-        &["MOVEL(", "MOVEJ(", "MOVEP(", "MOVEC(", "SET_TCP("],
-    ),
-    ("Staubli VAL3", &["<PROGRAM XMLNS", "<PROGRAMS XMLNS"]),
-    ("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "]),
-];
-
-/// Words that only cutter locations begin a line with, before `/`.
-const APT_WORDS: &[&str] = &[
-    "CIRCLE",
-    "CSYS",
-    "CUTTER",
-    "CYCLE",
-    "FEDRAT",
-    "FROM",
-    "GOTO",
-    "INSERT",
-    "LOAD",
-    "LOADTL",
-    "MSYS",
-    "PAINT",
-    "PARTNO",
-    "PPRINT",
-    "RAPID",
-    "SPINDL",
-    "TLDATA",
-    "TOOL PATH",
-    "TRNTYP",
-    "UNIT",
-    "UNITS",
-    "COOLNT",
-    "MULTAX",
-    "CUTCOM",
-];
+/// Reads the program in `reader`, and gives `out` its steps one by one; `path` is what problems show.
+///
+/// With problems the steps given so far are worth nothing.
+///
+/// # Errors
+/// A format that nobody here reads; every problem of the file.
+pub fn read(
+    path: &str,
+    mut reader: impl BufRead,
+    wanted: &Wanted<'_>,
+    out: &mut dyn FnMut(Step),
+) -> Result<Summary, Problems> {
+    let mut head = Vec::new();
+    // What cannot be read here cannot be read by the readers either, and they say so.
+    let _ = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
+    let format = Format::of(Path::new(path), &String::from_utf8_lossy(&head))?;
+    let whole = Cursor::new(head).chain(reader);
+    match format {
+        Format::Apt => {
+            let wanted = apt::Wanted {
+                unit: wanted.unit,
+                dialect: wanted.dialect,
+            };
+            apt::read(path, whole, &wanted, out)
+        }
+        Format::Csv => csv::read(path, whole, out),
+        Format::Gcode => {
+            let wanted = gcode::Wanted {
+                unit: wanted.unit.unwrap_or_default(),
+                rotaries: wanted.rotaries.clone(),
+                tools: wanted.tools.clone(),
+                subroutines: wanted.subroutines,
+                most_repeated_lines: wanted.most_repeated_lines,
+                ..gcode::Wanted::default()
+            };
+            gcode::read(path, whole, &wanted, out)
+        }
+    }
+}
 
 impl Format {
-    /// Every format.
-    pub const ALL: [Format; 3] = [Format::Gcode, Format::Apt, Format::Csv];
-
-    /// Its name, as options take it.
+    /// Its name in results.
     pub fn name(self) -> &'static str {
         match self {
             Format::Gcode => "gcode",
@@ -98,18 +104,14 @@ impl Format {
         }
     }
 
-    /// The format of a file that begins with `text`: its first few thousand bytes, or all of it.
+    /// The format of the file `path` that begins with `text`: its first 256 KiB, or all of it.
     ///
     /// # Errors
     /// A program of a robot, and a file of which neither content nor name tells what it is.
     pub fn of(path: &Path, text: &str) -> Result<Format, Problems> {
         let refused = |message: String, hint: &str| {
-            let source = Source::new(&path.display().to_string(), text);
-            Err(Problems::from(source.problem(
-                0..0,
-                message,
-                Some(hint.to_owned()),
-            )))
+            let path = path.display().to_string();
+            Err(Problems::from(Problem::of_file(&path, message, hint)))
         };
         if text.contains('\0') {
             return refused(
@@ -135,7 +137,7 @@ impl Format {
         if lines().any(is_apt) {
             return Ok(Format::Apt);
         }
-        if lines().find(|line| !line.starts_with('#')).is_some_and(is_header) {
+        if lines().find(|line| !is_remark(line)).is_some_and(is_header) {
             return Ok(Format::Csv);
         }
         if lines().any(is_gcode) {
@@ -155,75 +157,10 @@ impl Format {
             ),
             _ => refused(
                 "neither content nor name tells what tool path this is".to_owned(),
-                "understood are G-code, cutter locations (APT, CLSF) and CSV; or say which with an option",
+                "understood are G-code, cutter locations (APT, CLSF) and CSV: give it the ending of its format, such as \
+                 `.nc`, `.apt` or `.csv`",
             ),
         }
-    }
-}
-
-fn robot_language(line: &str) -> Option<&'static str> {
-    let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
-    // VAL3 keeps what a move returns: `nTraj=movel(...)`.
-    let begin = begin
-        .split_once("=MOVE")
-        .map_or(begin.clone(), |(_, rest)| format!("MOVE{rest}"));
-    let known = ROBOT_LANGUAGES.iter();
-    known
-        .clone()
-        .find(|(_, begins)| begins.iter().any(|known| begin.starts_with(known)))
-        .map(|(language, _)| *language)
-}
-
-fn is_apt(line: &str) -> bool {
-    let upper = line.chars().take(12).collect::<String>().to_uppercase();
-    if upper.starts_with("PARTNO")
-        || upper.starts_with("PPRINT")
-        || upper.starts_with("FINI") && line.len() == 4
-    {
-        return true;
-    }
-    upper
-        .split_once('/')
-        .is_some_and(|(word, _)| APT_WORDS.contains(&word.trim_end()))
-}
-
-/// A line of names, three of which are those of a point.
-fn is_header(line: &str) -> bool {
-    let separator = [';', '\t'].into_iter().find(|c| line.contains(*c)).unwrap_or(',');
-    let names: Vec<String> = line
-        .split(separator)
-        .map(|name| name.trim().trim_matches('"').to_lowercase())
-        .collect();
-    ["x", "y", "z"].iter().all(|axis| {
-        names.iter().any(|name| {
-            name.strip_prefix(axis)
-                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', ' ', '[', '(']))
-        })
-    })
-}
-
-/// A line that begins with a word of G-code, or the tape mark.
-fn is_gcode(line: &str) -> bool {
-    if line == "%" {
-        return true;
-    }
-    let mut line = line.trim_start_matches('/').trim_start();
-    // Line number.
-    if let Some(rest) = line.strip_prefix(['N', 'n']) {
-        line = rest
-            .trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
-            .trim_start();
-    }
-    let mut letters = line.chars();
-    let first = letters.next().map(|c| c.to_ascii_uppercase());
-    let next = letters.find(|c| !c.is_whitespace());
-    match first {
-        Some('G' | 'M' | 'T' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'O') => {
-            next.is_some_and(|c| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | '[' | '#' | '<'))
-        }
-        // A parameter that is set.
-        Some('#') => next.is_some_and(|c| c.is_ascii_digit() || c == '<'),
-        _ => false,
     }
 }
 

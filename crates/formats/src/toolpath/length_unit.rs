@@ -3,10 +3,10 @@
 /// Units of length that a program may count in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LengthUnit {
-    /// Millimetres, G21.
+    /// Millimetres.
     #[default]
     Millimetre,
-    /// Inches, G20.
+    /// Inches of 25.4 mm.
     Inch,
 }
 
@@ -16,6 +16,14 @@ impl LengthUnit {
         match self {
             LengthUnit::Millimetre => 1e-3,
             LengthUnit::Inch => 25.4e-3,
+        }
+    }
+
+    /// That of two values which is in this unit: mm, inch.
+    pub(super) fn choose(self, of: [f64; 2]) -> f64 {
+        match self {
+            LengthUnit::Millimetre => of[0],
+            LengthUnit::Inch => of[1],
         }
     }
 

@@ -1,19 +1,22 @@
 //! Which way does the tool go? Tool path programs in.
 //!
-//! - [`program`]: a program in any of these formats.
-//! - [`format`](mod@format): which format is a file in?
+//! - [`format`](mod@format): a program in any format: which one it is in, and its steps.
 //! - [`apt`]: cutter locations of CAM systems: APT-CL, CLDATA, CLSF.
 //! - [`gcode`]: programs of machine tools: RS-274, as LinuxCNC reads it.
 //! - [`csv`]: a table of points, for those without CAM.
+//! - [`notes`]: what a reader passed over or took for granted.
 //!
-//! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is.
+//! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is, and a [`Summary`].
 
 pub mod apt;
 pub mod csv;
 pub mod format;
 pub mod gcode;
-pub mod program;
+pub mod notes;
 
+mod direction;
 mod length_unit;
+mod summary;
 
 pub use length_unit::LengthUnit;
+pub use summary::Summary;

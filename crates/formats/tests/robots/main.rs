@@ -6,5 +6,7 @@
 mod joints;
 mod mutations;
 mod samples;
+#[path = "../samples_folder/mod.rs"]
+mod samples_folder;
 #[path = "../../../../validation/urdf-forward/tree.rs"]
 mod tree;

@@ -9,43 +9,15 @@ use armill_formats::robot::format::{self, Wanted};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 
-const URDF: &str = include_str!("../../../../validation/urdf-forward/oblique.urdf");
-
-const XACRO: &str = r#"<?xml version="1.0"?>
-<robot name="arm" xmlns:xacro="http://wiki.ros.org/xacro">
-  <xacro:property name="h" value="${0.4 + 0.05}"/>
-  <xacro:arg name="speed" default="2"/>
-  <xacro:macro name="axis" params="name parent child z:=1 *origin">
-    <joint name="${name}" type="revolute">
-      <xacro:insert_block name="origin"/>
-      <parent link="${parent}"/><child link="${child}"/>
-      <axis xyz="0 0 ${z}"/>
-      <limit lower="${-radians(170)}" upper="${radians(170)}" velocity="$(arg speed)"/>
-    </joint>
-    <link name="${child}"/>
-  </xacro:macro>
-  <link name="base"/>
-  <xacro:axis name="a" parent="base" child="one"><origin xyz="0 0 ${h}"/></xacro:axis>
-  <xacro:if value="${h > 0.2}">
-    <xacro:axis name="b" parent="one" child="two" z="-1"><origin rpy="${pi/2} 0 0"/></xacro:axis>
-  </xacro:if>
-</robot>
-"#;
-
-const OPW: &str = "opw_kinematics_geometric_parameters:\n  a1: 0.155\n  a2: -0.200\n  b: 0.000\n  c1: 0.450 # h\n  c2: 0.614\n  c3: 0.640\n  c4: 0.100\n\
-opw_kinematics_joint_offsets: [0.0, 0.0, deg(-90.0), 0.0, 0.0, deg(180.0)]\nopw_kinematics_joint_sign_corrections: [1, 1, -1, -1, -1, -1]\n";
-
-const DH: &str = "convention = modified\nname = arm\njoint; type; alpha_deg; a_mm; d_mm; theta_deg; sign; lower_deg; upper_deg\n\
-S; r; 0; 0; 450; 0; 1; -170; 170\nL; r; -90; 155,5; 0; -90; -1; ;\nD; p; 0; 614; 10; 0; 1; ;\n; fixed; 90; 0; 0; 0; ; ;\n";
-
-const CHAIN: &str = "# arm\nH = 450\nA = A^3(H) A6(phi) * Tx(155) Ry(90-q2)\nTz(q3 + 10) Rx(-psi_1) Tx(H)\n";
-
 const FILES: [(&str, &str); 5] = [
-    ("arm.urdf", URDF),
-    ("/nowhere/arm.xacro", XACRO),
-    ("opw.yaml", OPW),
-    ("arm.dh", DH),
-    ("arm.chain", CHAIN),
+    (
+        "arm.urdf",
+        include_str!("../../../../validation/urdf-forward/oblique.urdf"),
+    ),
+    ("/nowhere/arm.xacro", include_str!("../seeds/arm.xacro")),
+    ("opw.yaml", include_str!("../seeds/arm.opw.yaml")),
+    ("arm.dh", include_str!("../seeds/arm.dh")),
+    ("arm.chain", include_str!("../seeds/arm.chain")),
 ];
 
 /// Pieces that something may trip over.

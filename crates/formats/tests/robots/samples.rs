@@ -10,6 +10,7 @@ use armill_formats::robot::{RobotDescription, armill, xacro};
 use nalgebra::Matrix4;
 
 use crate::joints::Joints;
+use crate::samples_folder::samples;
 use crate::tree;
 
 enum Outcome {
@@ -164,11 +165,7 @@ const EXPANDED_BY_ROS: &[(&str, &str, f64)] = &[
 const POSTURES: usize = 200;
 
 fn robots() -> Option<PathBuf> {
-    let samples = std::env::var_os("ARMILL_SAMPLES");
-    if samples.is_none() {
-        println!("skipped: ARMILL_SAMPLES is not set");
-    }
-    samples.map(|folder| Path::new(&folder).join("robots"))
+    samples("robots")
 }
 
 fn read(path: &Path) -> Result<RobotDescription, String> {

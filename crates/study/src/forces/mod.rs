@@ -15,7 +15,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use armill_core::load::{ActsOn, Record};
-use armill_formats::measurement::known::{self, Wanted};
+use armill_formats::measurement::format::{self, Wanted};
 
 use crate::StudyError;
 
@@ -58,7 +58,7 @@ pub fn read(
             "a text export of DynoWare, or a CSV with `time_s,fx_n,fy_n,fz_n`",
         ))
     })?;
-    let known = known::read(shown, BufReader::new(file), acts_on, wanted);
+    let known = format::read(shown, BufReader::new(file), acts_on, wanted);
     let mut known = known.map_err(|problems| Unread::File(problems.into()))?;
     let count = known.records.len();
     let chosen = match (cycle, count) {
@@ -75,7 +75,7 @@ pub fn read(
     };
     Ok(Measured {
         record: known.records.swap_remove(chosen - 1),
-        format: known.format,
+        format: known.format.name(),
         unused: known.unused,
         cycle: [chosen, count],
     })

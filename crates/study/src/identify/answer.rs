@@ -7,7 +7,7 @@ use armill_core::identify::{
 };
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
-use armill_formats::table::load_tests::LoadTests;
+use armill_formats::measurement::load_tests::LoadTests;
 use serde::Serialize;
 
 use super::question::{PointsAsked, PriorAsked, Question, Units, seat_name, spring_name};

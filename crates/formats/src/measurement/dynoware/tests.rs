@@ -30,8 +30,8 @@ fn header(separator: &str, samples: usize) -> String {
     .concat()
 }
 
-fn export(text: &str) -> Result<Export, Problems> {
-    read("a.txt", text.as_bytes(), ActsOn::Part, &Channels::default())
+fn export(text: &str) -> Result<Measured, Problems> {
+    read("a.txt", text.as_bytes(), ActsOn::Part, &Wanted::default())
 }
 
 fn problems(text: &str) -> String {
@@ -44,15 +44,13 @@ const COMMAS: &str =
 #[test]
 fn commas_that_are_decimal_marks_too_are_joined_where_every_row_has_the_count() {
     let found = export(&(header(",", 2) + COMMAS)).unwrap();
-    let [cycle] = &found.cycles[..] else {
+    let [cycle] = &found.records[..] else {
         panic!("{found:?}")
     };
     assert_eq!(cycle.time(), [0.0, 1e-5]);
     assert_eq!(cycle.force()[0], Vector3::new(-0.0435965, 1.5, 0.25));
     assert_eq!(cycle.force()[1], Vector3::new(-0.05, 12.0, -0.03125));
     assert_eq!(cycle.acts_on(), ActsOn::Part);
-    assert_eq!(found.header.len(), 18);
-    assert_eq!(found.header[8], ["Sampling rate [Hz]", "100000"]);
 }
 
 #[test]
@@ -77,10 +75,10 @@ fn the_same_samples_with_every_separator_and_mark_are_the_same() {
         ),
     ] {
         let found = export(&(header(separator, 2) + table)).unwrap_or_else(|told| panic!("{told}"));
-        for (a, b) in found.cycles[0].force().iter().zip(first.cycles[0].force()) {
+        for (a, b) in found.records[0].force().iter().zip(first.records[0].force()) {
             assert!((a - b).norm() < 1e-15, "{table}");
         }
-        assert!((found.cycles[0].time()[1] - 1e-5).abs() < 1e-18, "{table}");
+        assert!((found.records[0].time()[1] - 1e-5).abs() < 1e-18, "{table}");
     }
 }
 
@@ -121,7 +119,7 @@ fn any_numbers_written_with_commas_come_back_or_are_refused_but_never_become_oth
         match found {
             Ok(found) => {
                 assert_eq!(pattern, 63, "only where every number has its fraction");
-                assert_eq!(found.cycles[0].force()[1], Vector3::new(10.5, 11.5, 12.5));
+                assert_eq!(found.records[0].force()[1], Vector3::new(10.5, 11.5, 12.5));
             }
             Err(told) => assert!(pattern != 63, "{told}"),
         }
@@ -135,10 +133,9 @@ fn further_cycles_are_records_of_their_own() {
     let again = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tN\tN\tN\n0\t7\t8\t9\n0,1\t4\t5\t6\n";
     let bare = format!("\r\nCycle No:\t3\n{rows}");
     let found = export(&format!("{text}{again}{bare}")).unwrap();
-    assert_eq!(found.cycles.len(), 3);
-    assert_eq!(found.cycles[1].force()[0], Vector3::new(7.0, 8.0, 9.0));
-    assert_eq!(found.cycles[2], found.cycles[0]);
-    assert_eq!(found.header.len(), 18);
+    assert_eq!(found.records.len(), 3);
+    assert_eq!(found.records[1].force()[0], Vector3::new(7.0, 8.0, 9.0));
+    assert_eq!(found.records[2], found.records[0]);
     let other = "Cycle No:\t2\nTime\tFx\tFy\tFz\ns\tkN\tN\tN\n0\t7\t8\t9\n";
     assert!(problems(&format!("{text}{other}")).contains("other channels than those of the cycle before"));
 }
@@ -152,13 +149,13 @@ fn channels_may_have_other_names_and_more_of_them_are_listed() {
         told.contains("missing channels: `Fx`, `Fy`, `Fz`") && told.contains("Kraft1, Kraft2"),
         "{told}"
     );
-    let channels = Channels {
-        force: ["kraft1", "kraft2", "kraft3"].map(str::to_owned),
-        ..Channels::default()
+    let wanted = Wanted {
+        channels: Some(["kraft1", "kraft2", "kraft3"].map(str::to_owned).to_vec()),
+        ..Wanted::default()
     };
-    let found = read("a.txt", text.as_bytes(), ActsOn::Tool, &channels).unwrap();
+    let found = read("a.txt", text.as_bytes(), ActsOn::Tool, &wanted).unwrap();
     assert_eq!(found.unused, ["AE"]);
-    assert_eq!(found.cycles[0].moment().unwrap()[1], Vector3::new(4.0, 5.0, 6.0));
+    assert_eq!(found.records[0].moment().unwrap()[1], Vector3::new(4.0, 5.0, 6.0));
 }
 
 #[test]
@@ -200,6 +197,30 @@ fn what_is_wrong_is_told_with_its_place() {
     assert!(problems(&three).contains("equal steps are needed"));
     assert!(problems(&"key:,value\n".repeat(500)).contains("no line of channels in 200 lines"));
     assert!(problems("").contains("no samples"));
+}
+
+#[test]
+fn all_problems_are_told_at_once_and_a_cycle_with_one_is_not_judged_further() {
+    let rows = "0\t1\t2\t3\n1\tx\t2\t3\n2\t1\t2\n3\t1\t2\t3\n";
+    let text = header("\t", 4) + "Time\tFx\tFy\tFz\ns\tN\tN\tN\n" + rows;
+    let again = "Cycle No:\t2\n0\t1\t2\t3\n1\t1\t2\t3\n";
+    let told = export(&format!("{text}{again}")).unwrap_err();
+    let lines: Vec<usize> = told.as_slice().iter().map(Problem::line).collect();
+    assert_eq!(lines, [22, 23, 27], "two cells, and a second cycle of 2 samples");
+    assert!(
+        told.as_slice()[2]
+            .message()
+            .starts_with("cycle 2 ends after 2 samples")
+    );
+    let units = export("Time\tFx\tFy\tFz\ns\tV\tN\tA\n").unwrap_err();
+    assert_eq!(units.as_slice().len(), 2);
+}
+
+#[test]
+fn remarks_end_no_cycle() {
+    let rows = "0\t1\t2\t3\n# pause\n1\t4\t5\t6\n";
+    let found = export(&(header("\t", 2) + "Time\tFx\tFy\tFz\n# units\ns\tN\tN\tN\n" + rows)).unwrap();
+    assert_eq!(found.records.len(), 1);
 }
 
 #[test]

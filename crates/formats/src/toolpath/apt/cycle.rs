@@ -37,7 +37,7 @@ pub(super) struct Cycle {
 
 /// What the parameters of a CYCLE tell, in its own units.
 #[derive(Default)]
-struct Told {
+struct Parameters {
     depth: Option<f64>,
     rapid_to: Option<f64>,
     retract_to: Option<f64>,
@@ -77,7 +77,7 @@ impl Interpreter<'_> {
     fn drill(&mut self, statement: &Statement, kind: &str) {
         let metres = self.metres(statement);
         let before = self.problems.len();
-        let mut told = Told::default();
+        let mut told = Parameters::default();
         let mut parameters = statement.parameters().skip(1);
         while let Some(key) = parameters.next() {
             let name = key.text.to_uppercase();
@@ -139,7 +139,6 @@ impl Interpreter<'_> {
             );
             return;
         };
-        self.summary.holes += 1;
         let modal = self.feed;
         self.feed = cycle.feed.or(modal);
         let feed = self.pace(statement);
@@ -181,7 +180,7 @@ impl Interpreter<'_> {
 }
 
 /// The cycle that was told, or what is wrong with it and what to do.
-fn made(told: &Told, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
+fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
     let missing = |name: &str| {
         let hint = "a cycle tells how deep (FEDTO) and from which height above the point (RAPTO) it cuts";
         (format!("the cycle {kind} has no {name}"), hint)

@@ -1,6 +1,5 @@
 //! What holds until something else is said: unit, dialect, frame, axis, feed, spindle, tool, cycle.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 
 use armill_core::frame::Isometry;
@@ -10,11 +9,11 @@ use armill_core::path::{Move, Operation, Step};
 use super::cycle::Cycle;
 use super::motion::Circle;
 use super::statement::{Parameter, Statement};
-use super::{Dialect, LengthUnit, MOST_PROBLEMS, Noted, Summary, Wanted};
-use crate::document::{Problem, Problems};
+use super::{Dialect, LengthUnit, Wanted};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::toolpath::direction::LARGEST;
+use crate::toolpath::notes::Notes;
 
-/// No number of a program is larger, in its own units.
-const LARGEST: f64 = 1e9;
 /// So many different words are counted; a file with more is of another kind.
 const MOST_WORDS: usize = 1000;
 /// Longer words are cut where they are counted, in characters.
@@ -35,7 +34,14 @@ pub(super) struct Interpreter<'a> {
     pub wanted: &'a Wanted,
     out: &'a mut dyn FnMut(Step),
     pub problems: Vec<Problem>,
-    pub summary: Summary,
+    /// Words that say nothing about the path.
+    ignored: Notes<String>,
+    /// Words that are not known, and what was assumed, as sentences.
+    warnings: Notes<String>,
+    /// Points named so far: GOTO, FROM and GOHOME.
+    pub points: u64,
+    /// The unit of length, where it was told or needed.
+    pub unit: Option<LengthUnit>,
     pub dialect: Option<Dialect>,
     /// Whether the missing unit has been told already.
     unit_asked: bool,
@@ -59,6 +65,8 @@ pub(super) struct Interpreter<'a> {
     pub at: Option<Point3<f64>>,
     /// The last MSYS, in the unit of the file, until a point needs it.
     pub system: Option<(Vector3<f64>, UnitQuaternion<f64>)>,
+    /// Where the first MSYS lies, m.
+    pub world_from_path: Option<Isometry>,
     /// Path from the system that GOTO counts in.
     pub path_from_here: Isometry,
     pub world_told: bool,
@@ -72,7 +80,10 @@ impl<'a> Interpreter<'a> {
             wanted,
             out,
             problems: Vec::new(),
-            summary: Summary::default(),
+            ignored: Notes::default(),
+            warnings: Notes::default(),
+            points: 0,
+            unit: None,
             dialect: wanted.dialect,
             unit_asked: false,
             cutter: [None; 2],
@@ -88,27 +99,29 @@ impl<'a> Interpreter<'a> {
             axis: None,
             at: None,
             system: None,
+            world_from_path: None,
             path_from_here: Isometry::identity(),
             world_told: false,
             ended: false,
         }
     }
 
-    /// What was found, or every problem.
-    pub fn finish(mut self) -> Result<Summary, Problems> {
+    /// What is to be noted, or every problem.
+    pub fn finish(mut self) -> Result<Vec<String>, Problems> {
         if let Some(circle) = &self.circle {
             self.problems.push(circle.without_end.clone());
         }
-        if self.summary.points == 0 && self.problems.is_empty() {
+        if self.points == 0 && self.problems.is_empty() {
             let message = "no GOTO in this file: it moves no tool";
             let hint = "cutter locations have lines such as `GOTO/10.,20.,-5.`";
-            let source = crate::document::Source::new(self.name, "");
-            self.problems
-                .push(source.problem(0..0, message, Some(hint.to_owned())));
+            self.problems.push(Problem::of_file(self.name, message, hint));
         }
         Problems::from(self.problems).into_result()?;
-        self.summary.dialect = self.dialect;
-        Ok(self.summary)
+        let warnings = self.warnings.iter();
+        let warnings = warnings.map(|(sentence, noted)| format!("{sentence} ({noted})"));
+        let ignored = self.ignored.iter();
+        let ignored = ignored.map(|(word, noted)| format!("{word} was passed over {noted}"));
+        Ok(warnings.chain(ignored).collect())
     }
 
     /// Keeps a problem, unless there are enough already.
@@ -127,16 +140,12 @@ impl<'a> Interpreter<'a> {
 
     /// Counts a word that says nothing about the path.
     pub fn ignore(&mut self, statement: &Statement) {
-        note(
-            &mut self.summary.ignored,
-            statement.word.clone(),
-            statement.line(),
-        );
+        note(&mut self.ignored, &statement.word, statement.line());
     }
 
     /// Counts what is not known or was assumed.
     pub fn warn(&mut self, statement: &Statement, sentence: String) {
-        note(&mut self.summary.warnings, sentence, statement.line());
+        note(&mut self.warnings, &sentence, statement.line());
     }
 
     /// From here on another tool, speed or name.
@@ -156,7 +165,6 @@ impl<'a> Interpreter<'a> {
             self.begins = false;
             let metres = self.metres(statement);
             let [diameter, corner_radius] = self.cutter.map(|length| length.map(|length| length * metres));
-            self.summary.operations += 1;
             (self.out)(Step::Operation(Operation {
                 diameter,
                 corner_radius,
@@ -167,23 +175,20 @@ impl<'a> Interpreter<'a> {
                 ..self.operation.clone()
             }));
         }
-        self.summary.moves += 1;
         self.at = Some(next.end);
         (self.out)(Step::Move(next));
     }
 
     /// Metres of the unit of length; asks for it once if nobody told it.
     pub fn metres(&mut self, statement: &Statement) -> f64 {
-        if self.summary.unit.is_none() {
-            self.summary.unit = self.wanted.unit;
-        }
-        if self.summary.unit.is_none() && !self.unit_asked {
+        self.unit = self.unit.or(self.wanted.unit);
+        if self.unit.is_none() && !self.unit_asked {
             self.unit_asked = true;
             let message = "a length, but nothing before it tells the unit of this file";
             let hint = "say whether it is in mm or inch (unit = \"mm\" or \"inch\"), or add the line `UNITS/MM` at its beginning";
             self.tell(statement, statement.parameters_span(), message, hint);
         }
-        self.summary.unit.unwrap_or(LengthUnit::Millimetre).metres()
+        self.unit.unwrap_or(LengthUnit::Millimetre).metres()
     }
 
     /// What a word tells of whose file this is.
@@ -192,7 +197,7 @@ impl<'a> Interpreter<'a> {
             None => self.dialect = Some(dialect),
             Some(known) if known != dialect && self.wanted.dialect.is_none() => {
                 let message = format!(
-                    "`{}` is a word of {dialect:?}, but those before are of {known:?}",
+                    "`{}` is a word of {dialect}, but those before are of {known}",
                     statement.word
                 );
                 self.tell(
@@ -253,15 +258,10 @@ impl<'a> Interpreter<'a> {
     }
 }
 
-fn note(words: &mut BTreeMap<String, Noted>, word: String, line: u32) {
+fn note(words: &mut Notes<String>, word: &str, line: u32) {
     let word: String = word.chars().take(LONGEST_WORD).collect();
-    let word = match words.len() < MOST_WORDS || words.contains_key(&word) {
-        true => word,
-        false => "other words".to_owned(),
-    };
-    let noted = words.entry(word).or_insert(Noted {
-        first_line: line,
-        count: 0,
-    });
-    noted.count += 1;
+    match words.len() < MOST_WORDS || words.has(&word) {
+        true => words.count(word, line),
+        false => words.count("other words".to_owned(), line),
+    }
 }

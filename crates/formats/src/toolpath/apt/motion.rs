@@ -13,14 +13,13 @@ use super::Dialect;
 use super::modal::{Feed, Interpreter};
 use super::statement::Statement;
 use crate::document::Problem;
+use crate::toolpath::direction::direction;
 
 /// Points no farther apart are the same, m: programs write six decimals of mm, old ones four.
 const SAME_POINT: f64 = 1e-7;
 /// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse rounding
 /// of the centre gives, and far below any radius that was mistaken.
 const RADIUS_SLACK: [f64; 2] = [1e-3, 1e-5];
-/// A direction has a length of 1 within this: three decimals.
-const UNIT_SLACK: f64 = 2e-3;
 /// A helix ends at the angle that its number of turns says, within this, rad.
 const TURN_SLACK: f64 = 1e-3;
 /// No helix has more turns.
@@ -47,7 +46,7 @@ impl Interpreter<'_> {
     pub fn goto(&mut self, statement: &Statement) {
         let rapid = std::mem::take(&mut self.rapid) || statement.word != "GOTO";
         let circle = self.circle.take();
-        self.summary.points += 1;
+        self.points += 1;
         let Some((end, told)) = self.point_and_axis(statement) else {
             return;
         };
@@ -68,10 +67,7 @@ impl Interpreter<'_> {
         let course = match circle {
             None => Course::Line,
             Some(circle) => match self.arc(statement, &circle, end) {
-                Some(arc) => {
-                    self.summary.arcs += 1;
-                    Course::Arc(arc)
-                }
+                Some(arc) => Course::Arc(arc),
                 None => {
                     self.at = Some(end);
                     return;
@@ -218,18 +214,16 @@ impl Interpreter<'_> {
 
     /// A direction of length 1, in the frame of the path.
     fn direction(&mut self, statement: &Statement, ijk: [f64; 3]) -> Option<Unit<Vector3<f64>>> {
-        let vector = Vector3::from(ijk);
-        let length = vector.norm();
-        if (length - 1.0).abs() > UNIT_SLACK {
-            let message = format!(
-                "the direction {},{},{} has a length of {length:.4}, not 1",
-                ijk[0], ijk[1], ijk[2]
-            );
-            let hint = "three numbers of the point come first, then three of a direction of length 1";
-            self.tell(statement, statement.parameters_span(), message, hint);
-            return None;
+        match direction(ijk) {
+            Ok(direction) => Some(self.path_from_here * direction),
+            Err(length) => {
+                let [i, j, k] = ijk;
+                let message = format!("the direction {i},{j},{k} has a length of {length:.4}, not 1");
+                let hint = "three numbers of the point come first, then three of a direction of length 1";
+                self.tell(statement, statement.parameters_span(), message, hint);
+                None
+            }
         }
-        Some(self.path_from_here * Unit::new_normalize(vector))
     }
 
     /// The arc from where the tip stands to `end`.
@@ -290,9 +284,6 @@ impl Interpreter<'_> {
                 sweep
             }
         };
-        if ends_where_it_began {
-            self.summary.full_turns += 1;
-        }
         Some(Arc {
             centre: circle.centre,
             axis: circle.axis,

@@ -122,7 +122,7 @@ fn cells_that_are_wrong_are_told_with_line_and_column() {
         ("1,2,3,1,1,1,,,,", "has a length of 1.7321"),
         ("1,2,3,,,,0,,,", "`0` is not above 0"),
         ("1,2,3,,,,,maybe,,", "`maybe` is neither yes nor no"),
-        ("1,2,3,,,,,,-1,1", "`-1` is not above 0"),
+        ("1,2,3,,,,,,-1,1", "`-1` is below 0"),
         ("1,2,3,,,,,,1,", "one depth without the other"),
         ("1,5,2,3,,,,,,,", "11 cells in a table of 10 columns"),
         ("1,5,2,3,,,,,,,", "decimal commas need `;`"),

@@ -8,6 +8,7 @@
 use super::expression::{Name, Reader, Values};
 use super::groups::{self, GROUPS};
 use super::refusal::{Refusal, Refused};
+use crate::toolpath::direction::LARGEST;
 
 /// Longest line, bytes: the controls known take 256.
 pub(super) const LONGEST_LINE: usize = 4096;
@@ -41,7 +42,7 @@ impl Clean {
         let mut index = 0;
         while let Some(byte) = line.get(index).copied() {
             match byte {
-                b' ' | b'\t' | b'\r' | b'\n' => {}
+                b' ' | b'\t' => {}
                 b';' => break,
                 b'(' => {
                     let rest = line.get(index + 1..).unwrap_or_default();
@@ -180,6 +181,7 @@ impl Block {
                 if self.present & (1 << index) != 0 {
                     return Err(Refusal::WordTwice(shown(letter)));
                 }
+                within(shown(letter), value)?;
                 self.present |= 1 << index;
                 self.values[index] = value;
                 self.places[index] = place;
@@ -247,6 +249,11 @@ impl Block {
         b"xyzabc".iter().any(|letter| self.has(*letter))
     }
 
+    /// Whether one of I, J, K is here: under G43.5 the tool axis.
+    pub fn has_vector(&self) -> bool {
+        b"ijk".iter().any(|letter| self.has(*letter))
+    }
+
     /// A word that nothing asked for.
     pub fn unused(&self) -> Option<u8> {
         let left = self.present & !self.used;
@@ -307,6 +314,15 @@ impl Block {
     pub fn has_g(&self, code: u16) -> bool {
         groups::of_g(code).is_some_and(|group| self.g[group].is_some_and(|(found, _)| found == code))
     }
+}
+
+/// Refuses a value beyond [`LARGEST`], and what is no number.
+pub(super) fn within(word: char, value: f64) -> Result<(), Refusal> {
+    if value.abs() <= LARGEST {
+        return Ok(());
+    }
+    let wanted = "within 1e9";
+    Err(Refusal::WordValue { word, value, wanted })
 }
 
 pub(super) fn shown(letter: u8) -> char {

@@ -35,6 +35,25 @@ impl Plane {
     }
 }
 
+/// Which way an arc turns in its plane, seen against the axis across.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sense {
+    /// G3.
+    Counterclockwise,
+    /// G2.
+    Clockwise,
+}
+
+impl Sense {
+    /// 1 counterclockwise, -1 clockwise.
+    pub fn sign(self) -> i32 {
+        match self {
+            Sense::Counterclockwise => 1,
+            Sense::Clockwise => -1,
+        }
+    }
+}
+
 /// How exactly corners are followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PathControl {
@@ -63,6 +82,16 @@ pub struct ArcFeed {
     pub rotary: [f64; 3],
 }
 
+impl ArcFeed {
+    /// Which way it turns.
+    pub fn sense(&self) -> Sense {
+        match self.turns > 0 {
+            true => Sense::Counterclockwise,
+            false => Sense::Clockwise,
+        }
+    }
+}
+
 /// What a block asks of the machine.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
@@ -83,6 +112,8 @@ pub enum Canonical {
     },
     /// Units per minute, or per revolution.
     SetFeedRate(f64),
+    /// The feed of this block, told before its new unit, counts in the new one. Not a call of NISTIR 6556.
+    FeedRateInNewUnit(f64),
     SetMotionControlMode(PathControl),
     SetNaivecamTolerance(f64),
     UseToolLengthOffset(Axes),
@@ -167,6 +198,7 @@ impl fmt::Display for Canonical {
                 write!(f, "SET_FEED_MODE(0, {})", i32::from(*per_revolution))
             }
             Canonical::SetFeedRate(rate) => write!(f, "SET_FEED_RATE({rate:.4})"),
+            Canonical::FeedRateInNewUnit(rate) => write!(f, "FEED_RATE_IN_NEW_UNIT({rate:.4})"),
             Canonical::SetMotionControlMode(mode) => match mode {
                 PathControl::ExactPath => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_PATH)"),
                 PathControl::ExactStop => f.write_str("SET_MOTION_CONTROL_MODE(CANON_EXACT_STOP)"),

@@ -14,9 +14,12 @@
 //!
 //! Source: the geometry of offset curves; entry moves: NISTIR 6556, appendix B, "cutter radius compensation".
 
+use std::f64::consts::TAU;
+
 use armill_core::nalgebra::{Point2, Vector2};
 
-use super::canonical::{ArcFeed, Canonical, Plane};
+use super::canonical::{ArcFeed, Canonical, Plane, Sense};
+use super::motion::sweep;
 use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
@@ -25,16 +28,24 @@ const TANGENT: f64 = 1e-3;
 const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
-/// A crossing this part of the radius before the start of its line is rounding, not gouging.
-const BEFORE_START: f64 = 1e-6;
+/// A crossing that lies this part of the radius of the cutter outside its piece is rounding, not gouging.
+const OUTSIDE: f64 = 1e-6;
 
 /// What receives canonical calls, each with its line of the program.
 pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
 #[derive(Clone, Copy, Debug)]
 enum Shape {
-    Line { towards: Vector2<f64> },
-    Circle { centre: Point2<f64>, radius: f64 },
+    Line {
+        towards: Vector2<f64>,
+    },
+    Circle {
+        centre: Point2<f64>,
+        radius: f64,
+        sense: Sense,
+        /// Whole turns before the last one, rad.
+        before: f64,
+    },
 }
 
 /// A moved piece that has come, and may still end elsewhere.
@@ -56,10 +67,7 @@ struct Piece {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Contour {
     Line,
-    Arc {
-        centre: Point2<f64>,
-        counterclockwise: bool,
-    },
+    Arc { centre: Point2<f64>, sense: Sense },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -81,6 +89,28 @@ pub(super) struct Cutter {
     leaving: bool,
     /// Line of the program being read.
     pub line: u32,
+}
+
+impl Piece {
+    /// Whether `at`, a point of its line or circle, lies between its start and its end, within a length of `slack`.
+    fn holds(&self, at: Point2<f64>, slack: f64) -> bool {
+        match self.shape {
+            Shape::Line { towards } => {
+                (at - self.start).dot(&towards) >= -slack && (at - self.end).dot(&towards) <= slack
+            }
+            Shape::Circle {
+                centre,
+                radius,
+                sense,
+                before,
+            } => {
+                let turn = |from: Point2<f64>, to: Point2<f64>| sweep(from - centre, to - centre, sense);
+                let slack = slack / radius;
+                let (whole, part) = (turn(self.start, self.end) + before, turn(self.start, at));
+                part <= whole + slack || part >= TAU - slack
+            }
+        }
+    }
 }
 
 fn left_of(t: Vector2<f64>) -> Vector2<f64> {
@@ -170,42 +200,25 @@ impl Cutter {
             active.entering = false;
         } else if let Some(last) = self.piece.as_mut() {
             let arrives = direction(contour, from, (from, to));
-            let cross = last.leaves.perp(&arrives);
-            let onward = last.leaves.dot(&arrives) > 0.0;
-            // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
-            let bends = match !onward && cross.abs() < TURNING_BACK {
-                true => cross - (last.bend + bend(contour, from)) * active.radius / 2.0,
-                false => cross,
-            };
-            if cross.abs() < TANGENT && onward {
-                next.start = last.end;
-            } else if bends * active.side > 0.0 {
-                let crossing = crossing(last, &next, arrives).filter(|at| reached(last, *at, &active));
-                let at = crossing.ok_or(Refusal::Gouging {
-                    radius: active.radius,
-                })?;
-                last.end = at;
-                end_at(&mut last.call, active.plane, at);
-                for (call, _) in &mut self.waiting {
-                    if let Canonical::StraightFeed(_) | Canonical::StraightTraverse(_) = call {
-                        end_at(call, active.plane, at);
-                    }
+            match corner(last, arrives, bend(contour, from), &active) {
+                Corner::None => next.start = last.end,
+                Corner::Concave => {
+                    let at = meeting(last, &next, arrives, active.radius)?;
+                    self.end_last_at(at, active.plane);
+                    next.start = at;
                 }
-                next.start = at;
-            } else {
-                let corner = last.corner;
-                let start = next.start;
-                let rotary = rotary_of(&last.call);
-                self.flush(out)?;
-                let arc = ArcFeed {
-                    plane: active.plane,
-                    end: start.into(),
-                    centre: corner.into(),
-                    turns: if active.side > 0.0 { -1 } else { 1 },
-                    across,
-                    rotary,
-                };
-                out(Canonical::ArcFeed(arc), self.line)?;
+                Corner::Convex => {
+                    let arc = ArcFeed {
+                        plane: active.plane,
+                        end: next.start.into(),
+                        centre: last.corner.into(),
+                        turns: if active.side > 0.0 { -1 } else { 1 },
+                        across,
+                        rotary: rotary_of(&last.call),
+                    };
+                    self.flush(out)?;
+                    out(Canonical::ArcFeed(arc), self.line)?;
+                }
             }
         }
         self.flush(out)?;
@@ -214,23 +227,62 @@ impl Cutter {
         self.piece = Some(next);
         Ok(())
     }
+
+    /// Ends the piece that waits earlier, and what moves across the plane behind it.
+    fn end_last_at(&mut self, at: Point2<f64>, plane: Plane) {
+        if let Some(last) = &mut self.piece {
+            last.end = at;
+            end_at(&mut last.call, plane, at);
+        }
+        for (call, _) in &mut self.waiting {
+            if let Canonical::StraightFeed(_) | Canonical::StraightTraverse(_) = call {
+                end_at(call, plane, at);
+            }
+        }
+    }
+}
+
+/// How two pieces beside the contour come together.
+enum Corner {
+    /// They go on straight.
+    None,
+    /// They cross.
+    Concave,
+    /// They leave a gap.
+    Convex,
+}
+
+/// The corner between a piece and one that `arrives` there with this bend, seen from the side of the cutter.
+fn corner(last: &Piece, arrives: Vector2<f64>, bend: f64, active: &Active) -> Corner {
+    let cross = last.leaves.perp(&arrives);
+    let onward = last.leaves.dot(&arrives) > 0.0;
+    if cross.abs() < TANGENT && onward {
+        return Corner::None;
+    }
+    // Where the contour turns back on itself, its bends tell on which side it goes on: a radius from the corner.
+    let bends = match !onward && cross.abs() < TURNING_BACK {
+        true => cross - (last.bend + bend) * active.radius / 2.0,
+        false => cross,
+    };
+    match bends * active.side > 0.0 {
+        true => Corner::Concave,
+        false => Corner::Convex,
+    }
+}
+
+/// Where two pieces cross, if the cutter comes that far on both.
+fn meeting(last: &Piece, next: &Piece, arrives: Vector2<f64>, radius: f64) -> Result<Point2<f64>, Refusal> {
+    let slack = OUTSIDE * radius;
+    crossing(last, next, arrives)
+        .filter(|at| last.holds(*at, slack) && next.holds(*at, slack))
+        .ok_or(Refusal::Gouging { radius })
 }
 
 /// Direction of the contour at a point of it.
 fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2<f64>)) -> Vector2<f64> {
     match contour {
         Contour::Line => (to - from).normalize(),
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
-            let outward = (at - centre).normalize();
-            if counterclockwise {
-                left_of(outward)
-            } else {
-                -left_of(outward)
-            }
-        }
+        Contour::Arc { centre, sense } => left_of((at - centre).normalize()) * f64::from(sense.sign()),
     }
 }
 
@@ -238,13 +290,7 @@ fn direction(contour: Contour, at: Point2<f64>, (from, to): (Point2<f64>, Point2
 fn bend(contour: Contour, at: Point2<f64>) -> f64 {
     match contour {
         Contour::Line => 0.0,
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
-            let curvature = 1.0 / (at - centre).norm();
-            if counterclockwise { curvature } else { -curvature }
-        }
+        Contour::Arc { centre, sense } => f64::from(sense.sign()) / (at - centre).norm(),
     }
 }
 
@@ -264,12 +310,9 @@ fn moved(
     let end = to + left_of(leaves) * offset;
     let shape = match contour {
         Contour::Line => Shape::Line { towards: arrives },
-        Contour::Arc {
-            centre,
-            counterclockwise,
-        } => {
+        Contour::Arc { centre, sense } => {
             let arc = (to - centre).norm();
-            let inside = (active.side > 0.0) == counterclockwise;
+            let inside = (active.side > 0.0) == (sense == Sense::Counterclockwise);
             let radius = if inside {
                 arc - active.radius
             } else {
@@ -281,7 +324,15 @@ fn moved(
                     radius: active.radius,
                 });
             }
-            Shape::Circle { centre, radius }
+            Shape::Circle {
+                centre,
+                radius,
+                sense,
+                before: match &call {
+                    Canonical::ArcFeed(arc) => TAU * f64::from(arc.turns.abs() - 1),
+                    _ => 0.0,
+                },
+            }
         }
     };
     end_at(&mut call, active.plane, end);
@@ -300,7 +351,15 @@ fn moved(
 /// Lets the first piece begin on the bare contour.
 fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
     piece.start = from;
-    let Contour::Arc { centre, .. } = contour else {
+    let (
+        Contour::Arc { centre, .. },
+        Shape::Circle {
+            centre: on,
+            radius: around,
+            ..
+        },
+    ) = (contour, &mut piece.shape)
+    else {
         return;
     };
     // The centre stays on the radius to the end, at u from it: |from - end - u w| = u with w towards the old centre.
@@ -311,20 +370,9 @@ fn enter(piece: &mut Piece, contour: Contour, from: Point2<f64>) {
         return;
     }
     let centre = piece.end + w * u;
-    piece.shape = Shape::Circle {
-        centre,
-        radius: u.abs(),
-    };
+    (*on, *around) = (centre, u.abs());
     if let Canonical::ArcFeed(arc) = &mut piece.call {
         arc.centre = centre.into();
-    }
-}
-
-/// Whether the cutter comes as far as `at` before it would turn back.
-fn reached(piece: &Piece, at: Point2<f64>, active: &Active) -> bool {
-    match piece.shape {
-        Shape::Line { towards } => (at - piece.start).dot(&towards) >= -BEFORE_START * active.radius,
-        Shape::Circle { .. } => true,
     }
 }
 
@@ -343,20 +391,22 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
             let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
             along.is_finite().then(|| last.end + t1 * along)
         }
-        (Shape::Line { towards }, Shape::Circle { centre, radius }) => {
+        (Shape::Line { towards }, Shape::Circle { centre, radius, .. }) => {
             line_and_circle(last.end, towards, centre, radius).map(best)
         }
-        (Shape::Circle { centre, radius }, Shape::Line { towards }) => {
+        (Shape::Circle { centre, radius, .. }, Shape::Line { towards }) => {
             line_and_circle(next.start, towards, centre, radius).map(best)
         }
         (
             Shape::Circle {
                 centre: c1,
                 radius: r1,
+                ..
             },
             Shape::Circle {
                 centre: c2,
                 radius: r2,
+                ..
             },
         ) => {
             let between = c2 - c1;

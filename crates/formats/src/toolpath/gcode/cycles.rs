@@ -17,9 +17,8 @@ use super::canonical::{Axes, Canonical, PathControl};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
-use super::options::Warning;
-use super::refusal::Refusal;
-use crate::toolpath::LengthUnit;
+use super::refusal::{Excess, Refusal};
+use super::wanted::Warning;
 
 /// Gap between the drill and the bottom it comes back to, mm and inch: 0.010 inch as in NISTIR 6556.
 const PECK_GAP: [f64; 2] = [0.254, 0.010];
@@ -45,6 +44,11 @@ impl Cycle {
     }
 }
 
+/// How a stroke is made.
+type Straight = fn(Axes) -> Canonical;
+const FAST: Straight = Canonical::StraightTraverse;
+const CUTTING: Straight = Canonical::StraightFeed;
+
 /// A hole.
 #[derive(Clone, Copy)]
 struct Hole {
@@ -56,26 +60,10 @@ struct Hole {
 
 impl Machine {
     pub(super) fn cycle(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
-        let name = groups::name(b'g', code);
-        if let Some(letter) = b"abc".iter().find(|letter| block.has(**letter)) {
-            return Err(Refusal::RotaryInCycle { word: shown(*letter) });
-        }
-        if self.cutter.is_on() {
-            return Err(Refusal::NotUnderCompensation(name));
-        }
-        if !block.has_axes() {
-            return Err(Refusal::AxesMissing(name));
-        }
-        if self.feed_mode == FeedMode::InverseTime {
-            return Err(Refusal::NoInverseTime(name));
-        }
-        if self.feed == 0.0 {
-            return Err(Refusal::NoFeed(name));
-        }
+        self.may_drill(code, block)?;
         let [first, second, across] = self.plane.axes();
         let words = block.axes();
-        let again = self.motion == code;
-        self.keep(&name, again, (words[across], block))?;
+        self.keep(code, words[across], block)?;
         let repeats = match block.take(b'l') {
             None => 1.0,
             Some(repeats) if repeats >= 0.0 && repeats.fract() == 0.0 && repeats <= MOST_REPEATS => repeats,
@@ -101,7 +89,7 @@ impl Machine {
             return Err(Refusal::ClearBelowBottom { clear, bottom });
         }
         if self.at[across] < clear {
-            self.across_to(clear, true, out)?;
+            self.across_to(clear, FAST, out)?;
         }
         let back = if self.retract_to_r { clear } else { self.at[across] };
         let continuous = matches!(self.path, PathControl::Continuous(_));
@@ -130,14 +118,30 @@ impl Machine {
         Ok(())
     }
 
+    fn may_drill(&self, code: u16, block: &Block) -> Result<(), Refusal> {
+        let name = groups::name(b'g', code);
+        if let Some(letter) = b"abc".iter().find(|letter| block.has(**letter)) {
+            return Err(Refusal::RotaryInCycle { word: shown(*letter) });
+        }
+        if self.cutter.is_on() {
+            return Err(Refusal::NotUnderCompensation(name));
+        }
+        if !block.has_axes() {
+            return Err(Refusal::AxesMissing(name));
+        }
+        if self.feed_mode == FeedMode::InverseTime {
+            return Err(Refusal::NoInverseTime(name));
+        }
+        match self.feed == 0.0 {
+            true => Err(Refusal::NoFeed(name)),
+            false => Ok(()),
+        }
+    }
+
     /// Takes the words of the cycle, or those of its block before.
-    fn keep(
-        &mut self,
-        name: &str,
-        again: bool,
-        (bottom, block): (Option<f64>, &mut Block),
-    ) -> Result<(), Refusal> {
-        let missing = |word| Refusal::WordMissing(name.to_owned(), word);
+    fn keep(&mut self, code: u16, bottom: Option<f64>, block: &mut Block) -> Result<(), Refusal> {
+        let missing = |word| Refusal::WordMissing(groups::name(b'g', code), word);
+        let again = self.motion == code;
         let mut kept = if again { self.cycle } else { Cycle::default() };
         match (block.take(b'r'), again) {
             (Some(clear), _) => kept.clear = clear,
@@ -152,7 +156,7 @@ impl Machine {
                 return Err(missing(["X", "Y", "Z"][across]));
             }
         }
-        if matches!(name, "G73" | "G83") {
+        if matches!(code, 730 | 830) {
             kept.step = block.take(b'q').or(kept.step);
             match kept.step {
                 None => return Err(missing("Q")),
@@ -166,9 +170,9 @@ impl Machine {
                 }
             }
         }
-        if matches!(name, "G82" | "G86" | "G88" | "G89" | "G84") {
+        if matches!(code, 820 | 840 | 860 | 880 | 890) {
             kept.dwell = block.take(b'p').or(kept.dwell);
-            if kept.dwell.is_none() && matches!(name, "G82" | "G86" | "G88" | "G89") {
+            if kept.dwell.is_none() && code != 840 {
                 return Err(missing("P"));
             }
         }
@@ -176,80 +180,74 @@ impl Machine {
         Ok(())
     }
 
-    fn across_to(&mut self, to: f64, fast: bool, out: Out<'_>) -> Result<(), Refusal> {
+    fn across_to(&mut self, to: f64, how: Straight, out: Out<'_>) -> Result<(), Refusal> {
         let [.., across] = self.plane.axes();
         let mut end = self.at;
         end[across] = to;
-        self.to(end, fast, out)
+        self.to(end, how, out)
     }
 
-    fn to(&mut self, end: Axes, fast: bool, out: Out<'_>) -> Result<(), Refusal> {
+    fn to(&mut self, end: Axes, how: Straight, out: Out<'_>) -> Result<(), Refusal> {
         self.at = end;
-        self.call(
-            if fast {
-                Canonical::StraightTraverse(end)
-            } else {
-                Canonical::StraightFeed(end)
-            },
-            out,
-        )
+        self.call(how(end), out)
     }
 
     fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let mut above = self.at;
         (above[first], above[second]) = (hole.at[0], hole.at[1]);
-        self.to(above, true, out)?;
+        self.to(above, FAST, out)?;
         if self.at[across] != hole.clear {
-            self.across_to(hole.clear, true, out)?;
+            self.across_to(hole.clear, FAST, out)?;
         }
         if let (730 | 830, Some(step)) = (code, self.cycle.step) {
-            self.pecks(code == 830, step, hole, out)?;
+            self.pecks(code, step, hole, out)?;
         }
-        self.across_to(hole.bottom, false, out)?;
+        self.across_to(hole.bottom, CUTTING, out)?;
         if let Some(seconds) = self.cycle.dwell {
             self.call(Canonical::Dwell(seconds), out)?;
         }
         match code {
             840 => {
                 self.warn(Warning::Tapping);
-                self.across_to(hole.clear, false, out)?;
+                self.across_to(hole.clear, CUTTING, out)?;
             }
-            850 | 890 => self.across_to(hole.clear, false, out)?,
+            850 | 890 => self.across_to(hole.clear, CUTTING, out)?,
             860 | 880 => {
                 self.call(Canonical::StopSpindleTurning, out)?;
                 if code == 880 {
                     self.call(Canonical::ProgramStop, out)?;
                 }
-                self.across_to(hole.back, true, out)?;
+                self.across_to(hole.back, FAST, out)?;
                 return self.call(Canonical::StartSpindleClockwise, out);
             }
             _ => {}
         }
         if self.at[across] != hole.back {
-            self.across_to(hole.back, true, out)?;
+            self.across_to(hole.back, FAST, out)?;
         }
         Ok(())
     }
 
-    fn pecks(&mut self, clears: bool, step: f64, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
+    /// The strokes before the last: G83 goes back to R after each, G73 by the gap alone.
+    fn pecks(&mut self, code: u16, step: f64, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
         let pecks = ((hole.clear - hole.bottom) / step).ceil() - 1.0;
         if pecks > MOST_PECKS {
             let limit = MOST_PECKS as usize;
             return Err(Refusal::TooMuch {
-                what: "steps in one hole",
+                what: Excess::Pecks,
                 limit,
             });
         }
-        let gap = PECK_GAP[usize::from(self.unit == LengthUnit::Inch)];
+        let gap = self.unit.choose(PECK_GAP);
         // At most MOST_PECKS.
         for peck in 1..=pecks.max(0.0) as u32 {
             let depth = hole.clear - step * f64::from(peck);
-            self.across_to(depth, false, out)?;
-            if clears {
-                self.across_to(hole.clear, true, out)?;
+            self.across_to(depth, CUTTING, out)?;
+            if code == 830 {
+                self.across_to(hole.clear, FAST, out)?;
             }
-            self.across_to((depth + gap).min(hole.clear), true, out)?;
+            self.across_to((depth + gap).min(hole.clear), FAST, out)?;
         }
         Ok(())
     }

@@ -8,8 +8,8 @@ use super::cutter::Out;
 use super::groups;
 use super::machine::{FeedMode, Machine};
 use super::offsets::tool_number;
-use super::options::Warning;
 use super::refusal::Refusal;
+use super::wanted::Warning;
 use crate::toolpath::LengthUnit;
 
 /// What follows a block.
@@ -19,10 +19,16 @@ pub(super) enum Outcome {
     Next,
     /// M2 or M30.
     End,
-    /// M98: a subroutine, so many times.
-    Call { number: u32, times: u32 },
+    Call(NumberedCall),
     /// M99.
     Return,
+}
+
+/// M98: a subroutine, so many times.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct NumberedCall {
+    pub number: u32,
+    pub times: u32,
 }
 
 /// Calls of one M98.
@@ -168,8 +174,13 @@ impl Machine {
             if unit != self.unit {
                 off(code, self)?;
             }
+            let changes = unit != self.unit;
             self.use_unit(unit);
             self.call(Canonical::UseLengthUnits(unit), out)?;
+            // The order of the standard sets the feed before the unit; nobody means F of that block in the old one.
+            if changes && block.has(b'f') && self.feed_mode != FeedMode::InverseTime {
+                self.call(Canonical::FeedRateInNewUnit(self.feed), out)?;
+            }
         }
         if let Some((code, _)) = block.g[groups::CUTTER] {
             self.compensate(code, block, out)?;
@@ -253,8 +264,9 @@ impl Machine {
             Some(code) => self.shift(code, block, out)?,
             None => {}
         }
-        let moving =
-            takes_axes.is_none() && !block.has_g(431) && (block.has_axes() || self.vector && block.has(b'i'));
+        let moving = takes_axes.is_none()
+            && !block.has_g(431)
+            && (block.has_axes() || self.vector && block.has_vector());
         let code = match (told, moving) {
             (Some(code), _) => code,
             (None, true) => self.motion,
@@ -301,10 +313,10 @@ impl Machine {
                     wanted,
                 });
             }
-            return Ok(Outcome::Call {
+            return Ok(Outcome::Call(NumberedCall {
                 number: tool_number('P', number)?,
                 times: times as u32,
-            });
+            }));
         }
         match block.m[groups::STOPPING] {
             Some((2 | 30, _)) => {
@@ -322,7 +334,7 @@ impl Machine {
     /// M2 and M30: back to the modes that a program begins with.
     fn finish(&mut self, out: Out<'_>) -> Result<(), Refusal> {
         self.cutter.end(out)?;
-        let (zero, turn) = self.stored_system(1);
+        let (zero, turn) = self.stored_system(1)?;
         self.recount(|machine| (machine.system, machine.g5x, machine.turn) = (1, zero, turn));
         self.call(Canonical::SetG5xOffset(1, zero), out)?;
         self.call(Canonical::SetXyRotation(turn), out)?;

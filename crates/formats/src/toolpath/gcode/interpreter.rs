@@ -14,10 +14,11 @@ use super::flow::{Body, Keyword, OWord, o_word};
 use super::lines::{Line, Lines};
 use super::machine::Machine;
 use super::messages;
-use super::options::{Options, Warnings};
 use super::parameters::{self, Parameters};
-use super::refusal::{Fault, Refusal};
+use super::refusal::{Excess, Fault, Refusal};
 use super::subroutines::Labels;
+use super::wanted::{Wanted, Warning};
+use crate::toolpath::notes::Notes;
 
 /// Problems told of one program.
 pub const MOST_FAULTS: usize = 100;
@@ -34,23 +35,21 @@ pub const MOST_CALLS_OF_A_LINE: usize = 5_000_000;
 
 /// What is left to say after a program.
 #[derive(Clone, Debug, Default)]
-pub struct Told {
+pub struct Interpreted {
     /// What was refused, in the order it was met.
     pub faults: Vec<Fault>,
     /// What has no part in the path, or was taken for granted.
-    pub warnings: Warnings,
-    /// Lines of the program that were read.
-    pub lines: u32,
+    pub notes: Notes<Warning>,
 }
 
 /// What receives the canonical calls, each with its line; what it refuses is told at the line.
 pub type Receiver<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
 /// Interprets a program; the calls go to `out` while it is read.
-pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<'_>) -> Told {
+pub fn interpret(reader: &mut dyn BufRead, wanted: &Wanted<'_>, out: Receiver<'_>) -> Interpreted {
     let mut interpreter = Interpreter {
-        machine: Machine::new(options),
-        options,
+        machine: Machine::new(wanted),
+        wanted,
         out,
         block: Block::new(),
         clean: Clean::default(),
@@ -64,17 +63,16 @@ pub fn interpret(reader: &mut dyn BufRead, options: &Options<'_>, out: Receiver<
         refused: BTreeSet::new(),
         stopped: false,
     };
-    let lines = interpreter.program(&mut Lines::new(reader, None));
-    Told {
+    interpreter.program(&mut Lines::new(reader, None));
+    Interpreted {
         faults: interpreter.faults,
-        warnings: interpreter.machine.warnings,
-        lines,
+        notes: interpreter.machine.notes,
     }
 }
 
 pub(super) struct Interpreter<'a> {
     pub machine: Machine,
-    pub options: &'a Options<'a>,
+    pub wanted: &'a Wanted<'a>,
     out: Receiver<'a>,
     block: Block,
     pub clean: Clean,
@@ -92,25 +90,27 @@ pub(super) struct Interpreter<'a> {
     pub stopped: bool,
 }
 
-/// How lines were left.
+/// How it goes on behind lines that were done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Left {
-    AtEnd,
-    Returning,
-    Finished,
+pub(super) enum Flow {
+    /// With the next line.
+    Next,
+    /// Behind the call of this subroutine.
+    Return,
+    /// Not at all.
+    End,
 }
 
 impl Interpreter<'_> {
-    fn program(&mut self, lines: &mut Lines<'_>) -> u32 {
+    fn program(&mut self, lines: &mut Lines<'_>) {
         let mut line = Line::default();
         let mut begun = false;
-        let mut count = 0;
         if let Err(refusal) = self.machine.begin(self.out) {
             self.fault(&line, refusal, 0..0);
         }
         while !self.stopped {
             match lines.next(&mut line) {
-                Ok(true) => count = line.number,
+                Ok(true) => {}
                 Ok(false) => break,
                 Err(error) => {
                     let end = line.text.len();
@@ -128,11 +128,11 @@ impl Interpreter<'_> {
             }
             begun |= !line.text.trim_ascii().is_empty();
             let left = match self.o_word_of(&line) {
-                Ok(Some(word)) => self.begins(word, &mut line, lines),
-                Ok(None) => self.one(&line, Some(lines)),
-                Err(()) => Left::AtEnd,
+                Ok(Some(word)) => self.open(word, &mut line, lines),
+                Ok(None) => self.execute_cleaned(&line, Some(lines)),
+                Err(()) => Flow::Next,
             };
-            if left != Left::AtEnd {
+            if left != Flow::Next {
                 break;
             }
         }
@@ -140,7 +140,6 @@ impl Interpreter<'_> {
         if let Err(refusal) = machine.cutter.end(*out) {
             self.fault(&line, refusal, 0..0);
         }
-        count
     }
 
     /// Cleans a line; its o-word, if it is one.
@@ -149,7 +148,7 @@ impl Interpreter<'_> {
             self.fault(line, refused.refusal, refused.place);
             return Err(());
         }
-        if self.clean.deleted && self.options.block_delete {
+        if self.clean.deleted && self.wanted.block_delete {
             self.clean.text.clear();
         }
         match o_word(&self.clean, &self.machine) {
@@ -162,25 +161,25 @@ impl Interpreter<'_> {
     }
 
     /// An o-word outside of what is kept.
-    fn begins(&mut self, word: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Left {
+    fn open(&mut self, word: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Flow {
         match word.keyword {
             Keyword::Sub | Keyword::If | Keyword::While | Keyword::Do | Keyword::Repeat => {
                 let label = word.label.clone();
                 let sub = word.keyword == Keyword::Sub;
                 let Some(body) = self.collect(word, line, lines) else {
-                    return Left::AtEnd;
+                    return Flow::Next;
                 };
                 if sub {
                     self.subroutines.insert(label, body);
-                    return Left::AtEnd;
+                    return Flow::Next;
                 }
                 self.run(&body)
             }
             Keyword::Call => self.call(&word, line),
-            Keyword::Label => Left::AtEnd,
+            Keyword::Label => Flow::Next,
             _ => {
                 self.fault(line, Refusal::FlowUnopened(word.label), 0..line.text.len());
-                Left::AtEnd
+                Flow::Next
             }
         }
     }
@@ -192,7 +191,7 @@ impl Interpreter<'_> {
             return Some(());
         }
         let refusal = Refusal::TooMuch {
-            what: "bytes of subroutines and loops",
+            what: Excess::KeptBytes,
             limit: MOST_KEPT_BYTES,
         };
         self.fault(start, refusal, 0..start.text.len());
@@ -265,19 +264,19 @@ impl Interpreter<'_> {
     }
 
     /// A line kept, cleaned anew.
-    pub fn again(&mut self, line: &Line) -> Left {
+    pub fn execute_kept(&mut self, line: &Line) -> Flow {
         if self.clean.read(&line.text).is_err() {
             // Told when it was kept.
-            return Left::AtEnd;
+            return Flow::Next;
         }
-        if self.clean.deleted && self.options.block_delete {
-            return Left::AtEnd;
+        if self.clean.deleted && self.wanted.block_delete {
+            return Flow::Next;
         }
-        self.one(line, None)
+        self.execute_cleaned(line, None)
     }
 
     /// Does the line that was cleaned last.
-    fn one(&mut self, line: &Line, lines: Option<&mut Lines<'_>>) -> Left {
+    fn execute_cleaned(&mut self, line: &Line, lines: Option<&mut Lines<'_>>) -> Flow {
         self.machine.line = line.number;
         self.machine.cutter.line = line.number;
         let mut calls = 0;
@@ -293,7 +292,7 @@ impl Interpreter<'_> {
             if calls > MOST_CALLS_OF_A_LINE {
                 let limit = MOST_CALLS_OF_A_LINE;
                 return Err(Refusal::TooMuch {
-                    what: "moves of one line",
+                    what: Excess::MovesOfALine,
                     limit,
                 });
             }
@@ -308,26 +307,26 @@ impl Interpreter<'_> {
         }
         if let Err(refusal) = result {
             self.fault(line, refusal, 0..line.text.len());
-            return Left::AtEnd;
+            return Flow::Next;
         }
         if clean.text.is_empty() {
-            return Left::AtEnd;
+            return Flow::Next;
         }
         if let Err(refused) = block.read(clean, 0, machine) {
             self.fault(line, refused.refusal, refused.place);
-            return Left::AtEnd;
+            return Flow::Next;
         }
         let done = settings(machine, block).and_then(|()| machine.execute(block, &mut counted));
         match done {
-            Ok(Outcome::Next) => Left::AtEnd,
-            Ok(Outcome::End) => Left::Finished,
-            Ok(Outcome::Return) => Left::Returning,
-            Ok(Outcome::Call { number, times }) => self.call_numbered(number, times, (line, lines)),
+            Ok(Outcome::Next) => Flow::Next,
+            Ok(Outcome::End) => Flow::End,
+            Ok(Outcome::Return) => Flow::Return,
+            Ok(Outcome::Call(call)) => self.call_numbered(call, line, lines),
             Err(refusal) => {
                 let place = self.block.place_of(&refusal).unwrap_or(0..self.clean.text.len());
                 let place = self.clean.place(place);
                 self.fault(line, refusal, place);
-                Left::AtEnd
+                Flow::Next
             }
         }
     }

@@ -5,6 +5,7 @@ use std::io::{self, BufRead};
 use std::rc::Rc;
 
 use super::block::LONGEST_LINE;
+use crate::document::lines::RawLines;
 
 /// A line and where it stands.
 #[derive(Clone, Debug, Default)]
@@ -28,13 +29,12 @@ impl Line {
 
 /// The lines of a program still to come.
 pub(super) struct Lines<'r> {
-    reader: &'r mut dyn BufRead,
+    raw: RawLines<&'r mut dyn BufRead>,
     /// Read already while something was looked for.
     ahead: VecDeque<Line>,
     /// Bytes that these take.
     ahead_bytes: usize,
     number: u32,
-    offset: usize,
     file: Option<Rc<str>>,
 }
 
@@ -42,11 +42,10 @@ impl<'r> Lines<'r> {
     /// Of the program itself, or of another file.
     pub fn new(reader: &'r mut dyn BufRead, file: Option<Rc<str>>) -> Lines<'r> {
         Lines {
-            reader,
+            raw: RawLines::new(reader),
             ahead: VecDeque::new(),
             ahead_bytes: 0,
             number: 0,
-            offset: 0,
             file,
         }
     }
@@ -62,42 +61,12 @@ impl<'r> Lines<'r> {
     }
 
     fn read(&mut self, line: &mut Line) -> io::Result<bool> {
-        line.text.clear();
         line.file.clone_from(&self.file);
-        let mut length = 0;
-        loop {
-            let part = self.reader.fill_buf()?;
-            if part.is_empty() {
-                break;
-            }
-            let end = part.iter().position(|byte| *byte == b'\n');
-            let content = part.get(..end.unwrap_or(part.len())).unwrap_or_default();
-            // One byte more than allowed tells that the line is too long.
-            let room = (LONGEST_LINE + 1).saturating_sub(line.text.len());
-            line.text
-                .extend_from_slice(content.get(..room).unwrap_or(content));
-            let used = content.len() + usize::from(end.is_some());
-            length += used;
-            self.reader.consume(used);
-            if end.is_some() {
-                break;
-            }
-        }
-        if length == 0 {
+        let Some(offset) = self.raw.next(&mut line.text, LONGEST_LINE)? else {
             return Ok(false);
-        }
-        if self.number == 0 && line.text.starts_with(b"\xef\xbb\xbf") {
-            line.text.drain(..3);
-            // Places count without the byte order mark.
-            length -= 3;
-        }
-        if line.text.last() == Some(&b'\r') {
-            line.text.pop();
-        }
+        };
         self.number = self.number.saturating_add(1);
-        line.number = self.number;
-        line.offset = self.offset;
-        self.offset += length;
+        (line.number, line.offset) = (self.number, offset);
         Ok(true)
     }
 

@@ -17,11 +17,13 @@ use super::canonical::{Axes, Canonical, PathControl, Plane};
 use super::cutter::{Cutter, Out};
 use super::cycles::Cycle;
 use super::expression::Values;
-use super::options::{Options, Warning, Warnings};
 use super::parameters::{self, Parameters};
 use super::refusal::Refusal;
 use super::tools::{Tool, ToolTable};
+use super::wanted::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
+use crate::toolpath::direction::LARGEST;
+use crate::toolpath::notes::Notes;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FeedMode {
@@ -33,28 +35,44 @@ pub(super) enum FeedMode {
 /// The state of the interpreter.
 pub(super) struct Machine {
     pub parameters: Parameters,
+    /// In the unit of the machine.
     pub tools: ToolTable,
     /// Whether there is a tool table at all.
     pub tools_told: bool,
+    /// The unit of the program in force: of all lengths below.
     pub unit: LengthUnit,
     pub plane: Plane,
+    /// G90, not G91.
     pub absolute: bool,
+    /// G90.1, not G91.1: I, J, K are the centre itself.
     pub arc_absolute: bool,
     pub feed_mode: FeedMode,
+    /// Units a minute, or a revolution; 0 where none was told.
     pub feed: f64,
+    /// Revolutions a minute.
     pub speed: f64,
+    /// The code of motion in force, in tenths; G80 is none.
     pub motion: u16,
+    /// G99, not G98.
     pub retract_to_r: bool,
     pub path: PathControl,
+    /// Tolerance of G64 Q, units.
     pub naive: f64,
+    /// The work coordinate system in force: 1 is G54, 9 is G59.3.
     pub system: u8,
+    /// Its zero in machine coordinates, units and deg.
     pub g5x: Axes,
-    /// Deg.
+    /// Its turn about Z, deg.
     pub turn: f64,
+    /// Offset of G92 or G52, units and deg.
     pub g92: Axes,
+    /// Offset of the tool, units and deg.
     pub length: Axes,
+    /// Where the tip stands in coordinates of the program, units and deg.
     pub at: Axes,
+    /// Number of the tool that T chose.
     pub selected: u32,
+    /// Number of the tool in the spindle.
     pub tool: u32,
     pub cycle: Cycle,
     pub cutter: Cutter,
@@ -64,9 +82,11 @@ pub(super) struct Machine {
     pub centre_by_length: bool,
     /// G43.5: I, J, K are the tool axis.
     pub vector: bool,
-    pub warnings: Warnings,
+    /// What has no part in the path, or was taken for granted.
+    pub notes: Notes<Warning>,
     /// Number of the line being read.
     pub line: u32,
+    /// Whether G20 or G21 came, or its absence was warned of.
     pub unit_told: bool,
 }
 
@@ -90,21 +110,21 @@ pub(super) fn scaled(mut of: Axes, by: f64) -> Axes {
 }
 
 impl Machine {
-    pub fn new(options: &Options<'_>) -> Machine {
+    pub fn new(wanted: &Wanted<'_>) -> Machine {
         let mut parameters = Parameters::new();
-        for (number, value) in &options.parameters {
+        for (number, value) in &wanted.parameters {
             if let Ok(index) = Parameters::index(f64::from(*number)) {
                 parameters.set_numbered(index, *value);
             }
         }
         let mut machine = Machine {
             parameters,
-            tools: options.tools.clone().unwrap_or(ToolTable {
-                unit: options.machine_unit,
+            tools: wanted.tools.clone().unwrap_or(ToolTable {
+                unit: wanted.machine_unit,
                 ..ToolTable::default()
             }),
-            tools_told: options.tools.is_some(),
-            unit: options.unit,
+            tools_told: wanted.tools.is_some(),
+            unit: wanted.unit,
             plane: Plane::Xy,
             absolute: true,
             arc_absolute: false,
@@ -128,7 +148,7 @@ impl Machine {
             centre: false,
             centre_by_length: false,
             vector: false,
-            warnings: Warnings::default(),
+            notes: Notes::default(),
             line: 1,
             unit_told: false,
         };
@@ -138,15 +158,15 @@ impl Machine {
         } else {
             1
         };
-        (machine.g5x, machine.turn) = machine.stored_system(machine.system);
-        if machine.parameters.numbered(parameters::G92_FLAG) != 0.0 {
-            machine.g92 = machine.stored(parameters::G92_FLAG + 1);
-        }
         machine
     }
 
-    /// What a program begins with.
+    /// What a program begins with: the offsets that the machine holds.
     pub fn begin(&mut self, out: Out<'_>) -> Result<(), Refusal> {
+        (self.g5x, self.turn) = self.stored_system(self.system)?;
+        if self.parameters.numbered(parameters::G92_FLAG) != 0.0 {
+            self.g92 = self.stored(parameters::G92_FLAG + 1)?;
+        }
         out(Canonical::UseLengthUnits(self.unit), self.line)?;
         out(Canonical::SetG5xOffset(self.system, self.g5x), self.line)?;
         out(Canonical::SetG92Offset(self.g92), self.line)?;
@@ -159,7 +179,7 @@ impl Machine {
     }
 
     pub fn warn(&mut self, warning: Warning) {
-        self.warnings.count(warning, self.line);
+        self.notes.count(warning, self.line);
     }
 
     pub fn in_machine(&self, program: Axes) -> Axes {
@@ -179,13 +199,22 @@ impl Machine {
         self.at = self.in_program(machine);
     }
 
-    /// Six parameters from this one on, in the unit of the program.
-    pub fn stored(&self, first: usize) -> Axes {
-        let unit = self.tools.unit.in_units_of(self.unit);
-        scaled(
-            std::array::from_fn(|axis| self.parameters.numbered(first + axis)),
-            unit,
-        )
+    /// Six parameters from this one on, in the unit of the program; refused where one is beyond [`LARGEST`].
+    pub fn stored(&self, first: usize) -> Result<Axes, Refusal> {
+        let mut values = [0.0; 6];
+        for (axis, value) in values.iter_mut().enumerate() {
+            *value = self.stored_at(first + axis)?;
+        }
+        Ok(scaled(values, self.tools.unit.in_units_of(self.unit)))
+    }
+
+    /// A parameter that tells an offset.
+    fn stored_at(&self, number: usize) -> Result<f64, Refusal> {
+        let value = self.parameters.numbered(number);
+        match value.abs() <= LARGEST {
+            true => Ok(value),
+            false => Err(Refusal::ParameterValue { number, value }),
+        }
     }
 
     pub fn store(&mut self, first: usize, values: Axes) {
@@ -195,10 +224,10 @@ impl Machine {
         }
     }
 
-    /// Zero and turn of a coordinate system.
-    pub fn stored_system(&self, system: u8) -> (Axes, f64) {
-        let zero = self.stored(parameters::zero_of(system));
-        (zero, self.parameters.numbered(parameters::turn_of(system)))
+    /// Zero and turn (deg) of a coordinate system.
+    pub fn stored_system(&self, system: u8) -> Result<(Axes, f64), Refusal> {
+        let zero = self.stored(parameters::zero_of(system))?;
+        Ok((zero, self.stored_at(parameters::turn_of(system))?))
     }
 
     /// A tool of the table; without a table any tool, with nothing told of it.
@@ -227,8 +256,8 @@ impl Machine {
         self.unit_told = true;
     }
 
-    /// Parameters that tell the state.
-    fn told(&self, index: usize) -> f64 {
+    /// A parameter of [`parameters::READ_ONLY`]: it tells the state.
+    fn read_only_parameter(&self, index: usize) -> f64 {
         let tool = self.tools.tools.get(&self.tool);
         match index {
             5400 => f64::from(self.tool),
@@ -275,7 +304,7 @@ impl Values for Machine {
     fn numbered(&self, number: f64) -> Result<f64, Refusal> {
         let index = Parameters::index(number)?;
         if parameters::READ_ONLY.contains(&index) {
-            return Ok(self.told(index));
+            return Ok(self.read_only_parameter(index));
         }
         Ok(self.parameters.numbered(index))
     }

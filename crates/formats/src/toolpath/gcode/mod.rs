@@ -1,9 +1,13 @@
 //! G-code, ISO 6983 and RS-274/NGC as LinuxCNC speaks it: a modal interpreter, and what it gives as steps of a path.
 //!
 //! Which words are followed, passed over and refused, and what is taken for granted, stands in
-//! `docs/guide/tool-path-words.md`; `tests/words.rs` tries each. What moves the tool and is not understood refuses the
+//! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. What moves the tool and is not understood refuses the
 //! program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame of the part, and
 //! a table carries that frame with it.
+//!
+//! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
+//! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
+//! `motion`, `cycles`, `cutter`) as [`canonical`] calls; `steps` makes the path of them.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
@@ -27,11 +31,10 @@ mod walk;
 
 pub mod canonical;
 pub mod interpreter;
-pub mod options;
 pub mod refusal;
 pub mod rotaries;
-pub mod summary;
 pub mod tools;
+pub mod wanted;
 
 use std::io::BufRead;
 
@@ -39,13 +42,14 @@ use armill_core::path::Step;
 
 pub use self::canonical::Canonical;
 pub use self::interpreter::interpret;
-pub use self::options::{Options, Warning, Warnings};
 pub use self::refusal::{Fault, Refusal};
 pub use self::rotaries::{Rotaries, Rotary};
-pub use self::summary::Summary;
 pub use self::tools::{Tool, ToolTable};
+pub use self::wanted::{Lookup, Wanted, Warning};
 
 use self::steps::Tracer;
+use super::Summary;
+use super::format::Format;
 use crate::document::{Problem, Problems, Source};
 
 /// Gives `out` the steps of a program while it is read; `path` is what problems show.
@@ -61,29 +65,35 @@ use crate::document::{Problem, Problems, Source};
 ///
 /// let program = "G21 G90 T1 M6 S6000 M3\nG0 X0 Y0 Z5\nG1 Z-1 F300\nG2 I10\nM2\n";
 /// let mut steps = Vec::new();
-/// let options = gcode::Options::default();
-/// let summary = gcode::read("ring.ngc", &mut program.as_bytes(), &options, &mut |step| steps.push(step))?;
+/// let wanted = gcode::Wanted::default();
+/// let summary = gcode::read("ring.ngc", program.as_bytes(), &wanted, &mut |step| steps.push(step))?;
 /// assert_eq!((summary.cuts, summary.arcs), (2, 1));
 ///
-/// let problems = gcode::read("bad.ngc", &mut "G1 X1\n".as_bytes(), &options, &mut |_| {}).unwrap_err();
+/// let problems = gcode::read("bad.ngc", "G1 X1\n".as_bytes(), &wanted, &mut |_| {}).unwrap_err();
 /// assert!(problems.to_string().contains("bad.ngc:1:1: G1 with a feed of zero"));
 /// # Ok::<(), armill_formats::document::Problems>(())
 /// ```
 pub fn read(
     path: &str,
-    reader: &mut dyn BufRead,
-    options: &Options<'_>,
+    mut reader: impl BufRead,
+    wanted: &Wanted<'_>,
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
-    let mut tracer = Tracer::new(options, out);
-    let told = interpret(reader, options, &mut |call, line| tracer.take(call, line));
-    if !told.faults.is_empty() {
-        return Err(told.faults.iter().map(|fault| problem(path, fault)).collect());
+    let mut summary = Summary::new(Format::Gcode);
+    let mut counted = |step: Step| {
+        summary.count(&step);
+        out(step);
+    };
+    let mut tracer = Tracer::new(wanted, &mut counted);
+    let mut found = interpret(&mut reader, wanted, &mut |call, line| tracer.take(call, line));
+    if !found.faults.is_empty() {
+        return Err(found.faults.iter().map(|fault| problem(path, fault)).collect());
     }
-    let mut summary = tracer.summary;
-    summary.lines = told.lines;
-    summary.warnings = told.warnings;
-    summary.warnings.join(&tracer.warnings);
+    found.notes.join(&tracer.notes);
+    let notes = found.notes.iter();
+    summary.notes = notes
+        .map(|(warning, noted)| format!("{} ({noted})", warning.meaning()))
+        .collect();
     Ok(summary)
 }
 

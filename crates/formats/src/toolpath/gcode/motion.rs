@@ -11,18 +11,18 @@
 //! `tests/interp/bad/README.arc-radius-tolerance`.
 
 use std::f64::consts::{SQRT_2, TAU};
+use std::ops::RangeInclusive;
 
-use armill_core::nalgebra::{Point2, Vector2, center};
+use armill_core::nalgebra::{Point2, Vector2, Vector3, center};
 
-use super::block::{Block, shown};
-use super::canonical::{ArcFeed, Axes, Canonical};
+use super::block::{Block, shown, within};
+use super::canonical::{ArcFeed, Axes, Canonical, Sense};
 use super::cutter::{Contour, Out};
 use super::groups;
 use super::machine::{FeedMode, Machine};
-use super::options::Warning;
 use super::parameters;
 use super::refusal::Refusal;
-use crate::toolpath::LengthUnit;
+use super::wanted::Warning;
 
 /// Least difference of radii that is looked at, per 2 sqrt(2): mm and inch.
 const RADII_APART: [f64; 2] = [0.01, 0.001];
@@ -32,6 +32,8 @@ const RADII_FAR_APART: f64 = 100.0;
 const RADII_RELATIVE: f64 = 1e-3;
 /// Turns of one helix: a spring, not a cut.
 const MOST_TURNS: f64 = 10_000.0;
+/// A tool axis told as a vector may have any length between these: beyond, its digits are lost.
+const VECTOR_LENGTHS: RangeInclusive<f64> = 1e-6..=1e6;
 /// Ends nearer than this angle, rad, are the same: rounding of computed ends, 1e-6 mm on a radius of 1 m.
 const SAME_END: f64 = 1e-9;
 
@@ -65,7 +67,7 @@ impl Machine {
             end = self.in_program(machine);
             self.call(Canonical::MachineCoordinates, out)?;
         }
-        finite(&end)?;
+        bounded(&end)?;
         if code == 10 {
             let length = length(&self.at, &end);
             self.feed_for(code, block, length, out)?;
@@ -88,12 +90,13 @@ impl Machine {
 
     /// I, J, K under G43.5.
     fn vector_words(&mut self, block: &mut Block, out: Out<'_>) -> Result<bool, Refusal> {
-        if !self.vector || !b"ijk".iter().any(|letter| block.has(*letter)) {
+        if !self.vector || !block.has_vector() {
             return Ok(false);
         }
         let axis = b"ijk".map(|letter| block.take(letter).unwrap_or_default());
-        if Vector2::new(axis[0], axis[1]).norm() + axis[2].abs() == 0.0 {
-            return Err(Refusal::NoDirection);
+        let length = Vector3::from(axis).norm();
+        if !VECTOR_LENGTHS.contains(&length) {
+            return Err(Refusal::NoDirection { length });
         }
         self.call(Canonical::ToolAxis(axis), out)?;
         Ok(true)
@@ -117,31 +120,14 @@ impl Machine {
     pub(super) fn arc(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let end = self.target(block.axes());
-        finite(&end)?;
-        let counterclockwise = code == 30;
+        bounded(&end)?;
+        let sense = match code {
+            30 => Sense::Counterclockwise,
+            _ => Sense::Clockwise,
+        };
         let start = Point2::new(self.at[first], self.at[second]);
         let stop = Point2::new(end[first], end[second]);
-        let letters = [b"ijk"[first], b"ijk"[second]];
-        let words = letters.map(|letter| block.take(letter));
-        let centre = match (block.take(b'r'), words) {
-            (Some(_), [Some(_), _] | [_, Some(_)]) => return Err(Refusal::ArcWithBoth),
-            (Some(radius), _) => centre_by_radius(start, stop, radius, counterclockwise)?,
-            (None, [None, None]) => return Err(Refusal::ArcWithoutCentre),
-            (None, words) => {
-                let base = if self.arc_absolute {
-                    Point2::origin()
-                } else {
-                    start
-                };
-                let word = |index: usize| match words[index] {
-                    Some(value) => base[index] + value,
-                    None => start[index],
-                };
-                let centre = Point2::new(word(0), word(1));
-                self.check_radii((start - centre).norm(), (stop - centre).norm())?;
-                centre
-            }
-        };
+        let centre = self.centre(block, start, stop, sense)?;
         let turns = match block.take(b'p') {
             None => 1.0,
             Some(turns) if turns >= 1.0 && turns.fract() == 0.0 && turns <= MOST_TURNS => turns,
@@ -154,7 +140,7 @@ impl Machine {
             }
         };
         let radius = (start - centre).norm();
-        let swept = sweep(start - centre, stop - centre, counterclockwise) + TAU * (turns - 1.0);
+        let swept = sweep(start - centre, stop - centre, sense) + TAU * (turns - 1.0);
         let length = (radius * swept).hypot(end[across] - self.at[across]);
         self.feed_for(code, block, length, out)?;
         let call = Canonical::ArcFeed(ArcFeed {
@@ -162,31 +148,51 @@ impl Machine {
             end: stop.into(),
             centre: centre.into(),
             // At most MOST_TURNS.
-            turns: if counterclockwise {
-                turns as i32
-            } else {
-                -(turns as i32)
-            },
+            turns: sense.sign() * turns as i32,
             across: end[across],
             rotary: [end[3], end[4], end[5]],
         });
-        self.follow(
-            Contour::Arc {
-                centre,
-                counterclockwise,
-            },
-            call,
-            out,
-        )?;
+        self.follow(Contour::Arc { centre, sense }, call, out)?;
         self.at = end;
         Ok(())
+    }
+
+    /// The centre that I, J, K or R tell of an arc.
+    fn centre(
+        &self,
+        block: &mut Block,
+        start: Point2<f64>,
+        stop: Point2<f64>,
+        sense: Sense,
+    ) -> Result<Point2<f64>, Refusal> {
+        let [first, second, _] = self.plane.axes();
+        let words = [b"ijk"[first], b"ijk"[second]].map(|letter| block.take(letter));
+        match (block.take(b'r'), words) {
+            (Some(_), [Some(_), _] | [_, Some(_)]) => Err(Refusal::ArcWithBoth),
+            (Some(radius), _) => centre_by_radius(start, stop, radius, sense),
+            (None, [None, None]) => Err(Refusal::ArcWithoutCentre),
+            (None, words) => {
+                let base = if self.arc_absolute {
+                    Point2::origin()
+                } else {
+                    start
+                };
+                let word = |index: usize| match words[index] {
+                    Some(value) => base[index] + value,
+                    None => start[index],
+                };
+                let centre = Point2::new(word(0), word(1));
+                self.check_radii((start - centre).norm(), (stop - centre).norm())?;
+                Ok(centre)
+            }
+        }
     }
 
     fn check_radii(&self, radius: f64, end_radius: f64) -> Result<(), Refusal> {
         if radius == 0.0 {
             return Err(Refusal::ArcPoint);
         }
-        let least = RADII_APART[usize::from(self.unit == LengthUnit::Inch)] * 2.0 * SQRT_2;
+        let least = self.unit.choose(RADII_APART) * 2.0 * SQRT_2;
         let apart = (radius - end_radius).abs();
         let limit = (RADII_RELATIVE * radius.max(end_radius)).clamp(least, RADII_FAR_APART * least);
         if apart > limit {
@@ -204,18 +210,13 @@ impl Machine {
         if self.cutter.is_on() {
             return Err(Refusal::NotUnderCompensation(groups::name(b'g', code)));
         }
-        let first = if code == 280 {
-            parameters::HOME
-        } else {
-            parameters::HOME + 20
-        };
-        let stored = self.stored(first);
+        let stored = self.stored(parameters::home_of(code))?;
         if stored == [0.0; 6] {
             self.warn(Warning::HomeAssumed);
         }
         let words = block.axes();
         self.at = self.target(words);
-        finite(&self.at)?;
+        bounded(&self.at)?;
         self.call(Canonical::StraightTraverse(self.at), out)?;
         let mut machine = self.in_machine(self.at);
         let all = words.iter().all(Option::is_none);
@@ -230,20 +231,10 @@ impl Machine {
     }
 }
 
-/// Places beyond this have lost the micrometre in their last digits.
-const FARTHEST: f64 = 1e9;
-
-fn finite(end: &Axes) -> Result<(), Refusal> {
-    for (value, letter) in end.iter().zip(b"xyzabc") {
-        if value.is_nan() || value.abs() > FARTHEST {
-            return Err(Refusal::WordValue {
-                word: shown(*letter),
-                value: *value,
-                wanted: "within 1e9",
-            });
-        }
-    }
-    Ok(())
+/// Increments may add up to what no word may say.
+fn bounded(end: &Axes) -> Result<(), Refusal> {
+    let mut axes = end.iter().zip(b"xyzabc");
+    axes.try_for_each(|(value, letter)| within(shown(*letter), *value))
 }
 
 /// What the feed is counted along: the way of the tip, or degrees where it stands.
@@ -260,9 +251,9 @@ fn length(from: &Axes, to: &Axes) -> f64 {
 }
 
 /// The angle from one radius to another in this sense, above zero, at most a turn.
-pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, counterclockwise: bool) -> f64 {
+pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, sense: Sense) -> f64 {
     let angle = from.perp(&to).atan2(from.dot(&to));
-    let angle = if counterclockwise { angle } else { -angle };
+    let angle = angle * f64::from(sense.sign());
     match angle {
         angle if angle.abs() < SAME_END => TAU,
         angle if angle < 0.0 => angle + TAU,
@@ -274,7 +265,7 @@ fn centre_by_radius(
     start: Point2<f64>,
     stop: Point2<f64>,
     radius: f64,
-    counterclockwise: bool,
+    sense: Sense,
 ) -> Result<Point2<f64>, Refusal> {
     let chord = stop - start;
     let d = chord.norm();
@@ -288,7 +279,7 @@ fn centre_by_radius(
     }
     let n = Vector2::new(-chord.y, chord.x) / d;
     let h = square.max(0.0).sqrt();
-    let left = (radius > 0.0) == counterclockwise;
+    let left = (radius > 0.0) == (sense == Sense::Counterclockwise);
     Ok(center(&start, &stop) + if left { n * h } else { -n * h })
 }
 
@@ -301,25 +292,26 @@ mod tests {
     #[test]
     fn a_sweep_goes_the_way_it_is_told() {
         let (x, y) = (Vector2::x(), Vector2::y());
-        assert_eq!(sweep(x, y, true), PI / 2.0);
-        assert_eq!(sweep(x, y, false), 1.5 * PI);
-        assert_eq!(sweep(x, x, true), TAU);
-        assert_eq!(sweep(x, x, false), TAU);
+        assert_eq!(sweep(x, y, Sense::Counterclockwise), PI / 2.0);
+        assert_eq!(sweep(x, y, Sense::Clockwise), 1.5 * PI);
+        assert_eq!(sweep(x, x, Sense::Counterclockwise), TAU);
+        assert_eq!(sweep(x, x, Sense::Clockwise), TAU);
     }
 
     #[test]
     fn a_radius_above_zero_makes_the_shorter_arc() {
         let (start, stop) = (Point2::new(0.0, 0.0), Point2::new(2.0, 0.0));
-        for (radius, counterclockwise, shorter) in [
-            (2.0, true, true),
-            (2.0, false, true),
-            (-2.0, true, false),
-            (-2.0, false, false),
+        let senses = [Sense::Counterclockwise, Sense::Clockwise];
+        for (radius, sense, shorter) in [
+            (2.0, senses[0], true),
+            (2.0, senses[1], true),
+            (-2.0, senses[0], false),
+            (-2.0, senses[1], false),
         ] {
-            let centre = centre_by_radius(start, stop, radius, counterclockwise).unwrap();
+            let centre = centre_by_radius(start, stop, radius, sense).unwrap();
             assert!(((start - centre).norm() - 2.0).abs() < 1e-15, "one rounding");
-            let sweep = sweep(start - centre, stop - centre, counterclockwise);
-            assert_eq!(sweep < PI, shorter, "R {radius} {counterclockwise}");
+            let sweep = sweep(start - centre, stop - centre, sense);
+            assert_eq!(sweep < PI, shorter, "R {radius} {sense:?}");
         }
     }
 }

@@ -1,5 +1,17 @@
 //! Codes that change what coordinates count from: G10, G43, G52, G54, G92 and their like.
 //!
+//! With `m = g5x + length + Rz(turn) (p + g92)` (see `machine`), where the tip stands at `m` and the words are `w`:
+//!
+//! | code | sets | so that |
+//! |---|---|---|
+//! | `G10 L2 P R` | `g5x = w`, `turn = R` of system `P` | |
+//! | `G10 L20 P` | `g5x` of system `P` | `p = w` there: `g5x = m - length - Rz(turn) (w + g92)` |
+//! | `G10 L1 P R` | `length = w` of tool `P`, its radius `R` | |
+//! | `G10 L10 P` | `length` of tool `P` | `p = w`: `length = m - g5x - Rz(turn) (w + g92)` |
+//! | `G10 L11 P` | the same, counted from G59.3 without `g92` | |
+//! | `G92` | `g92` | `p = w`: `g92 = g92 + p - w` |
+//! | `G52` | `g92 = w` | |
+//!
 //! Source: LinuxCNC documentation, G10, G43, G52, G54, G92; witnesses: its interpreter tests g10, g52, rotation.
 
 use super::block::Block;
@@ -7,9 +19,9 @@ use super::canonical::{Axes, Canonical};
 use super::cutter::Out;
 use super::groups;
 use super::machine::{Machine, scaled};
-use super::options::Warning;
 use super::parameters;
 use super::refusal::Refusal;
+use super::wanted::Warning;
 
 /// G59.3, which G10 L11 counts from.
 const FIXTURE: u8 = 9;
@@ -55,7 +67,7 @@ impl Machine {
             kind @ (2 | 20) => {
                 let system = whole('P', number, 0.0..=9.0, "0 to 9")?;
                 let system = if system == 0 { self.system } else { system as u8 };
-                self.set_system(system, kind == 20, block, out)
+                self.set_system(system, kind, block, out)
             }
             kind @ (1 | 10 | 11) => {
                 let tool = tool_number('P', number)?;
@@ -69,12 +81,13 @@ impl Machine {
         }
     }
 
-    fn set_system(&mut self, system: u8, here: bool, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
+    /// G10 L2 and L20.
+    fn set_system(&mut self, system: u8, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
-        let (zero, turn) = self.stored_system(system);
+        let (zero, turn) = self.stored_system(system)?;
         let turn = block.take(b'r').unwrap_or(turn);
         let words = block.axes();
-        let zero = if here {
+        let zero = if kind == 20 {
             // Where the system must lie for the tip to stand at the words.
             let machine = self.in_machine(self.at);
             self.with_system(zero, turn, |other| {
@@ -109,6 +122,7 @@ impl Machine {
         result
     }
 
+    /// G10 L1, L10 and L11.
     fn set_tool(&mut self, number: u32, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let mut tool = self.tool(number)?.unwrap_or_default();
@@ -123,7 +137,7 @@ impl Machine {
                 self.with_system(zero, turn, |other| other.offset_for(machine, offset, words))
             }
             _ => {
-                let (zero, turn) = self.stored_system(FIXTURE);
+                let (zero, turn) = self.stored_system(FIXTURE)?;
                 self.with_system(zero, turn, |other| {
                     other.g92 = [0.0; 6];
                     other.offset_for(machine, offset, words)
@@ -176,7 +190,7 @@ impl Machine {
         if system == self.system {
             return Ok(());
         }
-        let (zero, turn) = self.stored_system(system);
+        let (zero, turn) = self.stored_system(system)?;
         self.not_compensating(&groups::name(b'g', code))?;
         self.parameters
             .set_numbered(parameters::SYSTEM, f64::from(system));
@@ -209,7 +223,7 @@ impl Machine {
                 ([0.0; 6], 0.0)
             }
             922 => ([0.0; 6], 0.0),
-            _ => (self.stored(parameters::G92_FLAG + 1), 1.0),
+            _ => (self.stored(parameters::G92_FLAG + 1)?, 1.0),
         };
         self.parameters.set_numbered(parameters::G92_FLAG, flag);
         self.recount(|machine| machine.g92 = offset);
@@ -218,13 +232,8 @@ impl Machine {
 
     /// G28.1 and G30.1.
     pub(super) fn store_home(&mut self, code: u16) {
-        let first = if code == 281 {
-            parameters::HOME
-        } else {
-            parameters::HOME + 20
-        };
         let machine = self.in_machine(self.at);
-        self.store(first, machine);
+        self.store(parameters::home_of(code), machine);
     }
 
     /// G43 to G49: length of the tool, and tool-centre control.

@@ -25,7 +25,7 @@ pub(super) const LOCALS: usize = 30;
 /// Only to be read.
 pub(super) const READ_ONLY: std::ops::RangeInclusive<usize> = 5400..=5428;
 /// Place of G28, and 20 on that of G30.
-pub(super) const HOME: usize = 5161;
+const HOME: usize = 5161;
 /// Whether G92 is in force.
 pub(super) const G92_FLAG: usize = 5210;
 /// Number of the active coordinate system.
@@ -35,6 +35,14 @@ const SYSTEM_STRIDE: usize = 20;
 
 /// More names than this are no program.
 const MOST_NAMES: usize = 10_000;
+
+/// Where the place of G28 (or G28.1), or that of G30, begins; codes in tenths.
+pub(super) fn home_of(code: u16) -> usize {
+    match code {
+        280 | 281 => HOME,
+        _ => HOME + 20,
+    }
+}
 
 /// Where the zero of a coordinate system, 1 to 9, begins.
 pub(super) fn zero_of(system: u8) -> usize {

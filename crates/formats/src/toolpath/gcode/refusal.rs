@@ -1,5 +1,7 @@
 //! Why a block is refused: one variant for each situation, so that tests can tell one reason from another.
 
+use std::fmt;
+
 use thiserror::Error;
 
 /// Why a block is refused.
@@ -33,6 +35,8 @@ pub enum Refusal {
     ParameterUnset(String),
     #[error("parameter {0} cannot be set")]
     ParameterReadOnly(String),
+    #[error("offset in parameter #{number} is {value}: must be within 1e9")]
+    ParameterValue { number: usize, value: f64 },
     #[error("more than {limit} named parameters")]
     TooManyNames { limit: usize },
     #[error("{0} has no real value here")]
@@ -131,7 +135,7 @@ pub enum Refusal {
     #[error("subroutines called more than {limit} deep")]
     CallsTooDeep { limit: usize },
     #[error("more than {limit} {what}")]
-    TooMuch { what: &'static str, limit: usize },
+    TooMuch { what: Excess, limit: usize },
     // The tip and its axis.
     #[error("cut with {axis} at {angle} deg and no tool-centre control")]
     RotaryCut { axis: char, angle: f64 },
@@ -139,14 +143,12 @@ pub enum Refusal {
     RotariesUnknown { axis: char },
     #[error("{axis} turns, and the machine described has no such axis")]
     RotaryAbsent { axis: char },
-    #[error("tool axis I, J, K of no length")]
-    NoDirection,
+    #[error("tool axis I, J, K of length {length}: must be from 1e-6 to 1e6")]
+    NoDirection { length: f64 },
     #[error("cut in {0} after cuts in {1}, and where one lies to the other is not told")]
     SystemUnknown(&'static str, &'static str),
     #[error("cut in machine coordinates, and where the workpiece lies in them is not told")]
     MachineCut,
-    #[error("{what} {value} is beyond what a program may tell")]
-    NotFinite { what: &'static str, value: f64 },
 }
 
 impl Refusal {
@@ -184,14 +186,52 @@ impl Refusal {
                  \"head-ca\" (C carries the head that A tilts) or \"head-cb\""
             }
             Refusal::SystemUnknown(..) => {
-                "give the offsets with G10 L2 or as parameters #5221 and on, or split the program"
+                "give the offsets of both before the first cut with G10 L2, or split the program"
             }
-            Refusal::MachineCut => "give the work offset as parameters #5221 and on",
+            Refusal::MachineCut => "give the work offset before with G10 L2",
             Refusal::ParameterUnset(_) => "names are local to their subroutine unless they begin with `_`",
-            Refusal::TooMuch { .. } => "the program may never end: check the conditions of its loops",
+            Refusal::TooMuch {
+                what: Excess::RepeatedLines,
+                ..
+            } => "the program may never end: check the conditions of its loops",
+            Refusal::TooMuch {
+                what: Excess::KeptBytes,
+                ..
+            } => "only subroutines and loops are kept: write long cuts outside of them",
+            Refusal::TooMuch {
+                what: Excess::Pecks, ..
+            } => "check the step Q of this cycle: its unit, and that no digit is missing",
+            Refusal::TooMuch {
+                what: Excess::MovesOfALine,
+                ..
+            } => "check L and Q of this cycle: each hole is several moves, each step more",
             _ => return None,
         };
         Some(hint.to_owned())
+    }
+}
+
+/// What there may be too much of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// Text of subroutines and loops.
+    KeptBytes,
+    /// Lines of subroutines and loops, each round counted.
+    RepeatedLines,
+    /// What one line expands to.
+    MovesOfALine,
+    /// Steps of one drilled hole.
+    Pecks,
+}
+
+impl fmt::Display for Excess {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Excess::KeptBytes => "bytes of subroutines and loops",
+            Excess::RepeatedLines => "lines of loops and subroutines to be done",
+            Excess::MovesOfALine => "moves of one line",
+            Excess::Pecks => "steps in one hole",
+        })
     }
 }
 

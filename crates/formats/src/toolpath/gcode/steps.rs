@@ -18,12 +18,12 @@ use armill_core::path::{Arc, Course, Move, Operation, Pace, Step};
 
 use super::canonical::{ArcFeed, Axes, Canonical};
 use super::motion::sweep;
-use super::options::{Options, Warning, Warnings};
 use super::parameters;
 use super::refusal::Refusal;
 use super::rotaries::{Rotaries, Rotary};
-use super::summary::Summary;
+use super::wanted::{Wanted, Warning};
 use crate::toolpath::LengthUnit;
+use crate::toolpath::notes::Notes;
 
 /// Rotary axes nearer to zero than this, deg, stand there.
 const AT_ZERO: f64 = 1e-9;
@@ -55,11 +55,20 @@ impl Frame {
     }
 }
 
+/// Where a move ends: the tip in coordinates of the program and of the path, and the tool there.
+#[derive(Clone, Copy)]
+struct Tip {
+    p: Point3<f64>,
+    q: Point3<f64>,
+    axis: Option<Unit<Vector3<f64>>>,
+}
+
 /// Turns canonical calls into steps.
 pub(super) struct Tracer<'a> {
     out: &'a mut dyn FnMut(Step),
     rotaries: Option<&'a Rotaries>,
-    told: [bool; 10],
+    /// Which systems somebody has measured: their zeros were told.
+    systems_measured: [bool; 10],
     diameters: BTreeMap<u32, f64>,
     unit: LengthUnit,
     frame: Frame,
@@ -74,7 +83,6 @@ pub(super) struct Tracer<'a> {
     in_machine: bool,
     /// m/min, or m per revolution.
     feed: f64,
-    feed_line: u32,
     per_revolution: bool,
     /// Revolutions per minute.
     speed: f64,
@@ -82,19 +90,18 @@ pub(super) struct Tracer<'a> {
     sense: Option<f64>,
     tool: Option<u32>,
     operation: Option<(Option<u32>, Option<f64>)>,
-    pub warnings: Warnings,
-    pub summary: Summary,
+    pub notes: Notes<Warning>,
 }
 
 impl<'a> Tracer<'a> {
-    pub fn new(options: &'a Options<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
-        let mut told = [false; 10];
-        for (system, told) in (0_u8..).zip(&mut told).skip(1) {
+    pub fn new(wanted: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
+        let mut systems_measured = [false; 10];
+        for (system, measured) in (0_u8..).zip(&mut systems_measured).skip(1) {
             let first = parameters::zero_of(system);
-            *told = (first..first + 10)
-                .any(|index| u16::try_from(index).is_ok_and(|index| options.parameters.contains_key(&index)));
+            *measured = (first..first + 10)
+                .any(|index| u16::try_from(index).is_ok_and(|index| wanted.parameters.contains_key(&index)));
         }
-        let diameters = options.tools.iter().flat_map(|table| {
+        let diameters = wanted.tools.iter().flat_map(|table| {
             let unit = table.unit.metres();
             table
                 .tools
@@ -103,10 +110,10 @@ impl<'a> Tracer<'a> {
         });
         Tracer {
             out,
-            rotaries: options.rotaries.as_ref(),
-            told,
+            rotaries: wanted.rotaries.as_ref(),
+            systems_measured,
             diameters: diameters.collect(),
-            unit: options.unit,
+            unit: wanted.unit,
             frame: Frame {
                 system: 1,
                 zero: Vector3::zeros(),
@@ -121,14 +128,12 @@ impl<'a> Tracer<'a> {
             vector: None,
             in_machine: false,
             feed: 0.0,
-            feed_line: 0,
             per_revolution: false,
             speed: 0.0,
             sense: None,
             tool: None,
             operation: None,
-            warnings: Warnings::default(),
-            summary: Summary::default(),
+            notes: Notes::default(),
         }
     }
 
@@ -143,28 +148,21 @@ impl<'a> Tracer<'a> {
                 self.straight(end, pace, line)?;
             }
             Canonical::ArcFeed(arc) => self.arc(&arc, line)?,
-            Canonical::UseLengthUnits(unit) => {
-                // The order of the standard sets the feed before the unit; nobody means F of that block in the old.
-                if self.feed_line == line {
-                    self.feed *= unit.metres() / self.unit.metres();
-                }
-                self.unit = unit;
-            }
+            Canonical::UseLengthUnits(unit) => self.unit = unit,
             Canonical::SetG5xOffset(system, zero) => {
                 // Said of the system in force, or away from zero: somebody has measured it.
                 let again = system == self.frame.system && self.path.is_some();
                 self.frame.zero = self.lengths(&zero);
                 self.frame.system = system;
-                if let Some(told) = self.told.get_mut(usize::from(system)) {
-                    *told |= again || self.frame.zero != Vector3::zeros();
+                if let Some(measured) = self.systems_measured.get_mut(usize::from(system)) {
+                    *measured |= again || self.frame.zero != Vector3::zeros();
                 }
             }
             Canonical::SetG92Offset(shift) => self.frame.shift = self.lengths(&shift),
             Canonical::SetXyRotation(degrees) => self.frame.turn = degrees.to_radians(),
             Canonical::SetFeedMode { per_revolution } => self.per_revolution = per_revolution,
-            Canonical::SetFeedRate(rate) => {
+            Canonical::SetFeedRate(rate) | Canonical::FeedRateInNewUnit(rate) => {
                 self.feed = rate * self.unit.metres();
-                self.feed_line = line;
             }
             Canonical::SetToolTableEntry { tool, diameter, .. } => {
                 self.diameters.insert(tool, diameter * self.unit.metres());
@@ -194,7 +192,7 @@ impl<'a> Tracer<'a> {
         let per_minute = if self.per_revolution {
             let turning = self.sense.unwrap_or_default().abs() * self.speed;
             if turning == 0.0 {
-                self.warnings.count(Warning::SpindleStands, line);
+                self.notes.count(Warning::SpindleStands, line);
             }
             self.feed * turning
         } else {
@@ -227,12 +225,15 @@ impl<'a> Tracer<'a> {
 
     /// Before every move: in which frame it is, and whether that is told.
     fn settle(&mut self, pace: Pace, rotary: [f64; 3], line: u32) -> Result<(), Refusal> {
-        let told = |system: u8| self.told.get(usize::from(system)).copied().unwrap_or_default();
-        if std::mem::take(&mut self.in_machine) && !told(self.frame.system) {
+        let measured = |system: u8| {
+            let index = usize::from(system);
+            self.systems_measured.get(index).copied().unwrap_or_default()
+        };
+        if std::mem::take(&mut self.in_machine) && !measured(self.frame.system) {
             if pace.cuts() {
                 return Err(Refusal::MachineCut);
             }
-            self.warnings.count(Warning::MachineZeroAssumed, line);
+            self.notes.count(Warning::MachineZeroAssumed, line);
         }
         if pace.cuts() {
             if let Some(path) = self
@@ -240,7 +241,7 @@ impl<'a> Tracer<'a> {
                 .filter(|path| self.cut && path.system != self.frame.system)
             {
                 let (first, now) = (path.system, self.frame.system);
-                if !told(first) || !told(now) {
+                if !measured(first) || !measured(now) {
                     let name = |system: u8| SYSTEMS.get(usize::from(system)).copied().unwrap_or_default();
                     return Err(Refusal::SystemUnknown(name(now), name(first)));
                 }
@@ -290,7 +291,6 @@ impl<'a> Tracer<'a> {
                 rotaries.map_or(Vector3::z_axis(), |rotaries| rotaries.tool_axis(rotary))
             }
         };
-        self.summary.tool_axis_told = true;
         Ok(Some(self.direction_in_path(axis)))
     }
 
@@ -304,7 +304,7 @@ impl<'a> Tracer<'a> {
             self.at = Some((p, q));
             return Ok(());
         }
-        self.step(pace, (p, q, axis), (Course::Line, line));
+        self.step(pace, Tip { p, q, axis }, Course::Line, line);
         Ok(())
     }
 
@@ -314,13 +314,10 @@ impl<'a> Tracer<'a> {
         let axis = self.tool_axis(arc.rotary)?;
         let [first, second, across] = arc.plane.axes();
         if self.at.is_none() {
-            self.warnings.count(Warning::StartAssumed, line);
-            let origin = Point3::origin();
-            self.step(
-                Pace::Rapid,
-                (origin, self.in_path(origin), axis),
-                (Course::Line, line),
-            );
+            self.notes.count(Warning::StartAssumed, line);
+            let p = Point3::origin();
+            let q = self.in_path(p);
+            self.step(Pace::Rapid, Tip { p, q, axis }, Course::Line, line);
         }
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {
@@ -337,28 +334,24 @@ impl<'a> Tracer<'a> {
             (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);
         let arm = |of: &Point3<f64>| Vector2::new(of[first] - centre[first], of[second] - centre[second]);
         let p = Point3::from(end);
-        let counterclockwise = arc.turns > 0;
         let turns = f64::from(arc.turns.abs() - 1);
-        let swept = sweep(arm(&from), arm(&p), counterclockwise) + TAU * turns;
+        let swept = sweep(arm(&from), arm(&p), arc.sense()) + TAU * turns;
         let mut normal = Vector3::zeros();
-        normal[across] = if counterclockwise { 1.0 } else { -1.0 };
+        normal[across] = f64::from(arc.sense().sign());
         let course = Course::Arc(Arc {
             centre: self.in_path(centre),
             axis: self.direction_in_path(Unit::new_unchecked(normal)),
             sweep: swept,
         });
-        self.step(pace, (p, self.in_path(p), axis), (course, line));
+        let q = self.in_path(p);
+        self.step(pace, Tip { p, q, axis }, course, line);
         Ok(())
     }
 
-    fn step(
-        &mut self,
-        pace: Pace,
-        (p, q, axis): (Point3<f64>, Point3<f64>, Option<Unit<Vector3<f64>>>),
-        (course, line): (Course, u32),
-    ) {
+    /// Gives a move, and before it the operation that it begins.
+    fn step(&mut self, pace: Pace, tip: Tip, course: Course, line: u32) {
+        let Tip { p, q, axis } = tip;
         self.operate(pace, line);
-        let from = self.at.map(|(_, q)| q);
         self.at = Some((p, q));
         self.axis = axis;
         let next = Move {
@@ -369,7 +362,6 @@ impl<'a> Tracer<'a> {
             pace,
             line,
         };
-        self.summary.count(from, &next);
         (self.out)(Step::Move(next));
     }
 
@@ -384,7 +376,6 @@ impl<'a> Tracer<'a> {
             return;
         }
         self.operation = Some(now);
-        self.summary.operations += 1;
         let diameter = self.tool.and_then(|tool| self.diameters.get(&tool)).copied();
         (self.out)(Step::Operation(Operation {
             name: self.tool.map(|tool| format!("T{tool}")),

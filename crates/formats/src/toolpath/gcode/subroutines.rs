@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use super::execute::NumberedCall;
 use super::flow::{Body, Keyword};
-use super::interpreter::{Interpreter, Left, MOST_KEPT_BYTES};
+use super::interpreter::{Flow, Interpreter, MOST_KEPT_BYTES};
 use super::lines::{Line, Lines};
 use super::refusal::Refusal;
 
@@ -30,7 +31,7 @@ impl Interpreter<'_> {
         if let Some(body) = self.subroutines.get(name) {
             return Some(body.clone());
         }
-        let text = self.options.subroutines.and_then(|lookup| lookup(name))?;
+        let text = self.wanted.subroutines.and_then(|lookup| lookup(name))?;
         let mut reader = text.as_bytes();
         let mut lines = Lines::new(&mut reader, Some(Rc::from(name)));
         let mut line = Line::default();
@@ -89,11 +90,11 @@ impl Interpreter<'_> {
     /// M98.
     pub(super) fn call_numbered(
         &mut self,
-        number: u32,
-        times: u32,
-        (line, lines): (&Line, Option<&mut Lines<'_>>),
-    ) -> Left {
-        let name = number.to_string();
+        call: NumberedCall,
+        line: &Line,
+        lines: Option<&mut Lines<'_>>,
+    ) -> Flow {
+        let name = call.number.to_string();
         let body = match (self.subroutine(&name), lines) {
             (None, Some(lines)) => self.ahead(&name, line, lines),
             (body, _) => body,
@@ -102,14 +103,14 @@ impl Interpreter<'_> {
             if !self.stopped {
                 self.fault(line, Refusal::SubroutineUnknown(name), 0..line.text.len());
             }
-            return Left::AtEnd;
+            return Flow::Next;
         };
-        for _ in 0..times {
+        for _ in 0..call.times {
             match self.called(&body, line) {
-                Left::AtEnd => {}
+                Flow::Next => {}
                 left => return left,
             }
         }
-        Left::AtEnd
+        Flow::Next
     }
 }

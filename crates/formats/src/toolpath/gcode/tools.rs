@@ -13,8 +13,10 @@
 use std::collections::BTreeMap;
 
 use super::canonical::Axes;
-use crate::document::{Problems, Source};
+use crate::document::Problems;
+use crate::document::lines::Lines;
 use crate::toolpath::LengthUnit;
+use crate::toolpath::direction::LARGEST;
 
 /// A tool as its table tells it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,17 +47,14 @@ impl ToolTable {
     /// # Errors
     /// A line without `T`, a word that no table has, what is no number, more than 10000 tools.
     pub fn read(path: &str, text: &str, unit: LengthUnit) -> Result<ToolTable, Problems> {
-        let source = Source::new(path, text);
+        let mut lines = Lines::new(path, text.as_bytes());
         let mut table = ToolTable {
             unit,
             ..ToolTable::default()
         };
         let mut problems = Vec::new();
-        let mut at = 0;
-        for line in source.text().split_inclusive('\n') {
-            let start = at;
-            at += line.len();
-            let words = line.split(';').next().unwrap_or_default();
+        while let Some(line) = lines.next()? {
+            let words = line.text.split(';').next().unwrap_or_default();
             if words.trim().is_empty() {
                 continue;
             }
@@ -64,13 +63,14 @@ impl ToolTable {
                     table.tools.insert(number, tool);
                 }
                 Err((place, message)) => {
-                    let hint = Some("a line of a tool table is like `T1 P1 Z0.5 D0.25`".to_owned());
-                    problems.push(source.problem(start + place.start..start + place.end, message, hint));
+                    let hint = "a line of a tool table is like `T1 P1 Z0.5 D0.25`";
+                    problems.push(line.problem(path, place, message, hint));
                 }
             }
             if table.tools.len() > MOST_TOOLS || problems.len() > MOST_TOOLS {
                 let message = format!("more than {MOST_TOOLS} tools");
-                problems.push(source.problem(start..at, message, None));
+                let hint = "a tool table has a line for each place of the magazine";
+                problems.push(line.problem(path, 0..line.text.len(), message, hint));
                 break;
             }
         }
@@ -93,7 +93,7 @@ fn tool(line: &str) -> Result<(u32, Tool), Misread> {
         let value = word
             .get(letter.len_utf8()..)
             .and_then(|digits| digits.parse::<f64>().ok())
-            .filter(|value| value.is_finite());
+            .filter(|value| value.abs() <= LARGEST);
         let Some(value) = value else {
             return Err((place, format!("`{word}` is no word of a tool table")));
         };
@@ -127,7 +127,7 @@ mod tests {
     fn a_line_is_a_tool() {
         let table = ToolTable::read(
             "t.tbl",
-            "T1 P1 Z0.5 D0.25;first\n\nt32 x-1 Q2\n",
+            "T1 P1 Z0.5 D0.25;first\r\rt32 x-1 Q2\n",
             LengthUnit::Inch,
         )
         .unwrap();

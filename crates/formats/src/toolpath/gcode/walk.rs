@@ -1,114 +1,137 @@
 //! Going through kept lines: loops, branches and calls.
+//!
+//! | o-word | goes on at |
+//! |---|---|
+//! | `if` | the next line, or the first branch whose condition holds, or behind `endif` |
+//! | `elseif`, `else` (reached from above) | behind `endif` |
+//! | `while` | the next line, or behind `endwhile`, which goes back to it |
+//! | `while` of a `do` | behind the `do`, or the next line |
+//! | `repeat` | the next line so many times, as `endrepeat` counts, or behind it |
+//! | `break`, `continue` | behind the loop; at its next round |
+//! | `call` | the subroutine, then the next line |
+//! | `return`, `endsub` | behind the call |
 
 use std::rc::Rc;
 
 use super::expression::Reader;
 use super::flow::{Body, Keyword, OWord};
 use super::interpreter::{
-    Interpreter, Left, MOST_CALLS_DEEP, MOST_REPEATED_AFTER_FAULT, MOST_REPEATED_LINES,
+    Flow, Interpreter, MOST_CALLS_DEEP, MOST_REPEATED_AFTER_FAULT, MOST_REPEATED_LINES,
 };
 use super::lines::Line;
 use super::parameters;
-use super::refusal::Refusal;
+use super::refusal::{Excess, Refusal};
+
+/// A `repeat` that is open: its line, and the rounds still to go.
+struct Repeat {
+    at: usize,
+    rounds: u64,
+}
 
 impl Interpreter<'_> {
     /// Goes through kept lines.
-    pub(super) fn run(&mut self, body: &Rc<Body>) -> Left {
+    pub(super) fn run(&mut self, body: &Rc<Body>) -> Flow {
         let mut at = 0;
-        // Repeats that are open, with the rounds still to go.
-        let mut repeats: Vec<(usize, u64)> = Vec::new();
+        let mut repeats = Vec::new();
         while let Some(kept) = body.lines.get(at) {
-            self.repeated += 1;
-            let limit = if self.faults.is_empty() {
-                self.options.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
-            } else {
-                // A loop whose end was refused may have none.
-                self.repeated_until_fault
-                    .saturating_add(MOST_REPEATED_AFTER_FAULT)
-            };
-            if self.faults.is_empty() {
-                self.repeated_until_fault = self.repeated;
-            }
-            if self.repeated > limit {
-                let refusal = Refusal::TooMuch {
-                    what: "lines of loops and subroutines to be done",
-                    limit,
-                };
-                self.fault(&kept.line, refusal, 0..kept.line.text.len());
-                self.stopped = true;
-            }
-            if self.stopped {
-                return Left::Finished;
+            if !self.may_go_on(&kept.line) {
+                return Flow::End;
             }
             let line = &kept.line;
-            let Some(word) = &kept.word else {
-                match self.again(line) {
-                    Left::AtEnd => at += 1,
-                    left => return left,
-                }
-                continue;
-            };
-            let skip_to = kept.partner;
-            at = match word.keyword {
-                Keyword::If => match self.holds(line, word) {
-                    true => at + 1,
-                    false => self.branch(body, skip_to),
-                },
-                Keyword::ElseIf | Keyword::Else => kept.end + 1,
-                Keyword::While => match self.holds(line, word) {
-                    true => at + 1,
-                    false => skip_to + 1,
-                },
-                Keyword::EndWhile => skip_to,
-                Keyword::DoWhile => match self.holds(line, word) {
-                    true => skip_to + 1,
-                    false => at + 1,
-                },
-                Keyword::Repeat => {
-                    // Counts below one give no round at all.
-                    let rounds = self.value(line, word).unwrap_or_default().round().max(0.0) as u64;
-                    if rounds == 0 {
-                        skip_to + 1
-                    } else {
-                        repeats.push((at, rounds));
-                        at + 1
-                    }
-                }
-                Keyword::EndRepeat => match repeats.last_mut() {
-                    Some((first, left)) if *left > 1 => {
-                        *left -= 1;
-                        *first + 1
+            let flow = match &kept.word {
+                None => self.execute_kept(line),
+                Some(word) => match word.keyword {
+                    Keyword::Call => self.call(word, line),
+                    Keyword::Return | Keyword::EndSub => {
+                        self.returns(line, word);
+                        Flow::Return
                     }
                     _ => {
-                        repeats.pop();
-                        at + 1
+                        at = self.next_after(body, at, &mut repeats);
+                        continue;
                     }
                 },
-                Keyword::Break => {
-                    repeats.retain(|(first, _)| *first < skip_to);
-                    body.lines.get(skip_to).map_or(at, |first| first.end) + 1
-                }
-                Keyword::Continue => {
-                    repeats.retain(|(first, _)| *first <= skip_to);
-                    body.lines.get(skip_to).map_or(at, |first| {
-                        match first.word.as_ref().map(|word| word.keyword) {
-                            Some(Keyword::While) => skip_to,
-                            _ => first.end,
-                        }
-                    })
-                }
-                Keyword::Return | Keyword::EndSub => {
-                    self.returns(line, word);
-                    return Left::Returning;
-                }
-                Keyword::Call => match self.call(word, line) {
-                    Left::AtEnd => at + 1,
-                    left => return left,
-                },
-                _ => at + 1,
             };
+            match flow {
+                Flow::Next => at += 1,
+                left => return left,
+            }
         }
-        Left::AtEnd
+        Flow::Next
+    }
+
+    /// Counts a line that is done; false where there were too many, told there, or where the program has stopped.
+    fn may_go_on(&mut self, line: &Line) -> bool {
+        self.repeated += 1;
+        let limit = if self.faults.is_empty() {
+            self.repeated_until_fault = self.repeated;
+            self.wanted.most_repeated_lines.unwrap_or(MOST_REPEATED_LINES)
+        } else {
+            // A loop whose end was refused may have none.
+            self.repeated_until_fault
+                .saturating_add(MOST_REPEATED_AFTER_FAULT)
+        };
+        if self.repeated > limit {
+            let refusal = Refusal::TooMuch {
+                what: Excess::RepeatedLines,
+                limit,
+            };
+            self.fault(line, refusal, 0..line.text.len());
+            self.stopped = true;
+        }
+        !self.stopped
+    }
+
+    /// The line that follows the o-word at `at`; see the table above.
+    fn next_after(&mut self, body: &Rc<Body>, at: usize, repeats: &mut Vec<Repeat>) -> usize {
+        let Some((kept, word)) = body
+            .lines
+            .get(at)
+            .and_then(|kept| Some((kept, kept.word.as_ref()?)))
+        else {
+            return at + 1;
+        };
+        let (line, partner) = (&kept.line, kept.partner);
+        match word.keyword {
+            Keyword::If if !self.holds(line, word) => self.branch(body, partner),
+            Keyword::ElseIf | Keyword::Else => kept.end + 1,
+            Keyword::While if !self.holds(line, word) => partner + 1,
+            Keyword::EndWhile => partner,
+            Keyword::DoWhile if self.holds(line, word) => partner + 1,
+            Keyword::Repeat => {
+                // Counts below one give no round at all.
+                let rounds = self.value(line, word).unwrap_or_default().round().max(0.0) as u64;
+                if rounds == 0 {
+                    return partner + 1;
+                }
+                repeats.push(Repeat { at, rounds });
+                at + 1
+            }
+            Keyword::EndRepeat => match repeats.last_mut() {
+                Some(open) if open.rounds > 1 => {
+                    open.rounds -= 1;
+                    open.at + 1
+                }
+                _ => {
+                    repeats.pop();
+                    at + 1
+                }
+            },
+            Keyword::Break => {
+                repeats.retain(|open| open.at < partner);
+                body.lines.get(partner).map_or(at, |first| first.end) + 1
+            }
+            Keyword::Continue => {
+                repeats.retain(|open| open.at <= partner);
+                body.lines.get(partner).map_or(at, |first| {
+                    match first.word.as_ref().map(|word| word.keyword) {
+                        Some(Keyword::While) => partner,
+                        _ => first.end,
+                    }
+                })
+            }
+            _ => at + 1,
+        }
     }
 
     /// The branch that holds after a condition that does not.
@@ -187,9 +210,9 @@ impl Interpreter<'_> {
         }
     }
 
-    pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Left {
+    pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Flow {
         let Some(arguments) = self.values_behind(line, word) else {
-            return Left::AtEnd;
+            return Flow::Next;
         };
         let Some(body) = self.subroutine(&word.label) else {
             self.fault(
@@ -197,7 +220,7 @@ impl Interpreter<'_> {
                 Refusal::SubroutineUnknown(word.label.clone()),
                 0..line.text.len(),
             );
-            return Left::AtEnd;
+            return Flow::Next;
         };
         self.machine.parameters.enter(&arguments);
         let left = self.called(&body, line);
@@ -205,7 +228,7 @@ impl Interpreter<'_> {
         left
     }
 
-    pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Left {
+    pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Flow {
         if self.depth >= MOST_CALLS_DEEP {
             self.fault(
                 line,
@@ -215,14 +238,14 @@ impl Interpreter<'_> {
                 0..line.text.len(),
             );
             self.stopped = true;
-            return Left::Finished;
+            return Flow::End;
         }
         self.depth += 1;
         let left = self.run(body);
         self.depth -= 1;
         match left {
-            Left::Finished => Left::Finished,
-            _ => Left::AtEnd,
+            Flow::End => Flow::End,
+            _ => Flow::Next,
         }
     }
 }

@@ -43,7 +43,7 @@ impl ProgramAnswer {
         };
         Some(ProgramAnswer {
             file: file.clone(),
-            format: summary.format,
+            format: summary.format.name(),
             moves: ask.track.path.moves,
             cutting_time_s: ask.track.path.cutting_time,
             operations: operations(ask, found),

@@ -13,7 +13,7 @@ use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::path::{Clock, NoTime, Speeds, Track};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
-use armill_formats::measurement::known::Wanted;
+use armill_formats::measurement::format::Wanted;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -18,7 +18,7 @@ use std::path::Path;
 
 use armill_core::load::PathLoad;
 use armill_core::path::{ForcesTold, Placing, Shape, Track};
-use armill_formats::toolpath::program::Summary;
+use armill_formats::toolpath::Summary;
 
 use super::format::AskTable;
 use super::places::Places;

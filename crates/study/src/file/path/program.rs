@@ -7,10 +7,10 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{PathBuilder, Placing, SampledPath, Sampling, Spin};
-use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
+use armill_formats::toolpath::format::{self, Wanted};
 use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
-use armill_formats::toolpath::program::{self, Summary, Wanted};
+use armill_formats::toolpath::{LengthUnit, Summary};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -216,7 +216,7 @@ pub(super) fn read(
     };
     let mut builder = PathBuilder::new(Sampling { chord_error, step }, MOST_POINTS);
     let shown = file_path.display().to_string();
-    let summary = program::read(&shown, BufReader::new(file), &wanted, &mut |step| {
+    let summary = format::read(&shown, BufReader::new(file), &wanted, &mut |step| {
         builder.take(step);
     })?;
     let path = match builder.finish() {

@@ -2,9 +2,9 @@
 
 use armill_core::robot::Robot;
 
+use super::sheet::Sheet;
+use crate::document::Problem;
 use crate::document::unit::suggestion;
-use crate::document::{Problem, Source};
-use crate::table::sheet::Sheet;
 
 /// The meaning of a column; numbers are axis or joint, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,10 +75,11 @@ fn known(robot: &Robot) -> Vec<(String, Column)> {
 
 impl Columns {
     /// The columns of `sheet`; what is unknown, double or missing goes to `problems`.
-    pub fn of(source: &Source, sheet: &Sheet, robot: &Robot, problems: &mut Vec<Problem>) -> Columns {
+    pub fn of(sheet: &Sheet, robot: &Robot, problems: &mut Vec<Problem>) -> Columns {
         let known = known(robot);
         let mut columns: Vec<Option<Column>> = Vec::new();
-        for cell in &sheet.header {
+        let heads = sheet.heads();
+        for cell in &heads {
             let name = cell.text.to_lowercase();
             let found = if name.starts_with("expected_") {
                 Some(Column::ForPeople)
@@ -95,23 +96,19 @@ impl Columns {
                     |(_, advice)| advice,
                 );
                 let message = format!("unknown column `{}`", cell.text);
-                problems.push(source.problem(cell.span.clone(), message, Some(hint)));
+                problems.push(sheet.problem(&sheet.header, cell, message, &hint));
             } else if let Some(first) =
                 found.and_then(|column| columns.iter().position(|c| c.is_some_and(|c| c.same(column))))
             {
-                let message = format!("`{}` tells what `{}` tells", cell.text, sheet.header[first].text);
-                problems.push(source.problem(
-                    cell.span.clone(),
-                    message,
-                    Some("keep one of the two".to_owned()),
-                ));
+                let message = format!("`{}` tells what `{}` tells", cell.text, heads[first].text);
+                problems.push(sheet.problem(&sheet.header, cell, message, "keep one of the two"));
             }
             columns.push(found);
         }
         let columns = Columns { columns };
         for (missing, hint) in columns.missing(robot) {
             let message = format!("missing {missing}");
-            problems.push(source.problem(sheet.header_span(), message, Some(hint)));
+            problems.push(sheet.problem_of_line(&sheet.header, message, &hint));
         }
         columns
     }

@@ -1,6 +1,6 @@
 //! Cutter locations: APT-CL or CLDATA as SolidWorks CAM writes it, and the CLSF of Siemens NX.
 //!
-//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`; `tests/words.rs` tries
+//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries
 //! each.
 //!
 //! The two dialects differ where a GOTO leaves the tool axis out: SolidWorks means 0,0,1, NX the one before. They are
@@ -8,27 +8,29 @@
 //! those of the first MSYS (NX), in the only ones there are otherwise. Cutter compensation is passed over: the points
 //! are taken as they stand.
 //!
+//! In reading order: `statement` takes lines apart; `modal` holds what lasts; `words` says what each word does, `systems`
+//! and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
+//!
 //! Source: ISO 4343, ISO 3592; how both programs write, read in their files.
 
 mod cycle;
 mod modal;
 mod motion;
 mod statement;
+mod systems;
+mod tool;
 mod words;
 
-use std::collections::BTreeMap;
+use std::fmt;
 use std::io::BufRead;
 
-use armill_core::frame::Isometry;
 use armill_core::path::Step;
 
 use self::modal::Interpreter;
 use self::statement::Statements;
-use super::LengthUnit;
-use crate::document::Problems;
-
-/// More problems than this are not looked for.
-const MOST_PROBLEMS: usize = 200;
+use super::format::Format;
+use super::{LengthUnit, Summary};
+use crate::document::{MOST_PROBLEMS, Problems};
 
 /// Whose cutter locations these are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +41,15 @@ pub enum Dialect {
     Nx,
 }
 
+impl fmt::Display for Dialect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Dialect::SolidWorks => "SolidWorks CAM",
+            Dialect::Nx => "Siemens NX",
+        })
+    }
+}
+
 /// What a user may say of a file where it is silent.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wanted {
@@ -46,44 +57,6 @@ pub struct Wanted {
     pub unit: Option<LengthUnit>,
     /// The dialect, whatever the file looks like.
     pub dialect: Option<Dialect>,
-}
-
-/// How often something stood in a file, and where first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Noted {
-    /// Line, from 1.
-    pub first_line: u32,
-    /// How often.
-    pub count: u64,
-}
-
-/// What a file held.
-#[derive(Clone, Debug, Default)]
-pub struct Summary {
-    /// Its dialect, where it shows one.
-    pub dialect: Option<Dialect>,
-    /// Its PARTNO.
-    pub part: Option<String>,
-    /// Its unit of length, where one was needed.
-    pub unit: Option<LengthUnit>,
-    /// Where the first MSYS lies: `world_from_path`, m.
-    pub msys: Option<Isometry>,
-    /// Operations given.
-    pub operations: u64,
-    /// Moves given, those of cycles included.
-    pub moves: u64,
-    /// Points named: GOTO, FROM and GOHOME.
-    pub points: u64,
-    /// Arcs given.
-    pub arcs: u64,
-    /// Those of whole turns.
-    pub full_turns: u64,
-    /// Holes of cycles.
-    pub holes: u64,
-    /// Words that say nothing about the path.
-    pub ignored: BTreeMap<String, Noted>,
-    /// Words that are not known, and what was assumed, as sentences.
-    pub warnings: BTreeMap<String, Noted>,
 }
 
 /// Reads the cutter locations in `reader`, and gives `out` their steps one by one; `path` is what problems show.
@@ -100,7 +73,12 @@ pub fn read(
     out: &mut dyn FnMut(Step),
 ) -> Result<Summary, Problems> {
     let mut statements = Statements::new(path, reader);
-    let mut interpreter = Interpreter::new(path, wanted, out);
+    let mut summary = Summary::new(Format::Apt);
+    let mut counted = |step: Step| {
+        summary.count(&step);
+        out(step);
+    };
+    let mut interpreter = Interpreter::new(path, wanted, &mut counted);
     while interpreter.problems.len() < MOST_PROBLEMS {
         match statements.next() {
             Ok(Some(statement)) => interpreter.take(&statement),
@@ -111,7 +89,8 @@ pub fn read(
             }
         }
     }
-    interpreter.finish()
+    summary.notes = interpreter.finish()?;
+    Ok(summary)
 }
 
 #[cfg(test)]

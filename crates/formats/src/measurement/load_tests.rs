@@ -18,6 +18,10 @@
 //! and empty ones are passed over, and so are rows without any reading.
 
 mod columns;
+mod sheet;
+
+use std::io::BufRead;
+use std::ops::RangeInclusive;
 
 use armill_core::identify::{LoadTest, Measured, Reading};
 use armill_core::nalgebra::Vector3;
@@ -25,8 +29,10 @@ use armill_core::robot::{Axis, Robot};
 use armill_core::spatial::Wrench;
 
 use self::columns::{Column, Columns};
-use super::sheet::{Cell, Sheet};
-use crate::document::{Problem, Problems, Source};
+use self::sheet::Sheet;
+use crate::document::lines::Line;
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{Cell, number};
 
 /// Load tests as a file tells them.
 #[derive(Clone, Debug)]
@@ -56,32 +62,39 @@ const MOST_PROBLEMS: usize = 1000;
 /// No length, angle or force of a test is larger, in the units of the file.
 const LARGEST: f64 = 1e9;
 
+/// No standard uncertainty is outside of this, m or rad: finer than any gauge, coarser than any test.
+const UNCERTAINTIES: RangeInclusive<f64> = 1e-12..=1.0;
+/// No test counts for less or more ordinary ones.
+const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;
+
 /// The load tests of `robot` in this text; `path` is what problems show, `tool_point` (m, flange frame) where force and
 /// displacement are unless a row says otherwise.
 ///
 /// # Errors
 /// Every problem of the file: missing, unknown and double columns, cells that are no numbers, joint positions that
 /// this robot cannot have, units that cannot be, no test at all.
-pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> Result<LoadTests, Problems> {
-    let source = Source::new(path, text);
-    let Some(sheet) = Sheet::of(&source) else {
+pub fn read(
+    path: &str,
+    text: impl BufRead,
+    robot: &Robot,
+    tool_point: Vector3<f64>,
+) -> Result<LoadTests, Problems> {
+    let Some(sheet) = Sheet::read(path, text)? else {
         let hint = "the first line names the columns; `armill identify --plan 20 --robot ...` makes a table to fill in";
-        return Err(source
-            .problem(0..0, "no table in this file", Some(hint.to_owned()))
-            .into());
+        return Err(Problem::of_file(path, "no table in this file", hint).into());
     };
     let mut reader = Reader {
-        source: &source,
+        sheet: &sheet,
         robot,
         tool_point,
         problems: Vec::new(),
     };
-    if let Some(cell) = sheet.header.get(MOST_COLUMNS) {
+    if let Some(cell) = sheet.heads().get(MOST_COLUMNS) {
         let message = format!("the table has more than {MOST_COLUMNS} columns");
-        let hint = "one row a test, one column a quantity".to_owned();
-        return Err(source.problem(cell.span.clone(), message, Some(hint)).into());
+        let hint = "one row a test, one column a quantity";
+        return Err(sheet.problem(&sheet.header, cell, message, hint).into());
     }
-    let columns = Columns::of(&source, &sheet, robot, &mut reader.problems);
+    let columns = Columns::of(&sheet, robot, &mut reader.problems);
     let mut found = LoadTests {
         tests: Vec::new(),
         names: Vec::new(),
@@ -92,26 +105,31 @@ pub fn read(path: &str, text: &str, robot: &Robot, tool_point: Vector3<f64>) -> 
         if reader.problems.len() >= MOST_PROBLEMS {
             break;
         }
-        reader.row(row, &sheet, &columns, &mut found);
+        reader.row(row, &columns, &mut found);
     }
-    reader.angles(&sheet, &columns);
+    reader.angles(&columns);
     if found.tests.is_empty() && reader.problems.is_empty() {
         let message = format!("none of the {} rows holds a reading", sheet.rows.len());
         let hint = "fill in what was measured: dx_mm, dy_mm, dz_mm; one of them is enough";
-        let span = sheet.header_span();
         reader
             .problems
-            .push(source.problem(span, message, Some(hint.to_owned())));
+            .push(sheet.problem_of_line(&sheet.header, message, hint));
     }
     Problems::from(reader.problems).into_result()?;
     Ok(found)
 }
 
 struct Reader<'a> {
-    source: &'a Source,
+    sheet: &'a Sheet,
     robot: &'a Robot,
     tool_point: Vector3<f64>,
     problems: Vec<Problem>,
+}
+
+/// A cell of a line.
+struct Place<'a> {
+    line: &'a Line,
+    cell: &'a Cell<'a>,
 }
 
 /// What the cells of one row say, in SI.
@@ -131,29 +149,26 @@ struct Row {
 }
 
 impl Reader<'_> {
-    fn tell(&mut self, cell: &Cell, message: String, hint: &str) {
-        let problem = self
-            .source
-            .problem(cell.span.clone(), message, Some(hint.to_owned()));
-        self.problems.push(problem);
+    fn tell(&mut self, cell: &Place<'_>, message: String, hint: &str) {
+        self.problems
+            .push(self.sheet.problem(cell.line, cell.cell, message, hint));
     }
 
-    fn row(&mut self, cells: &[Cell], sheet: &Sheet, columns: &Columns, found: &mut LoadTests) {
-        if cells.len() != sheet.header.len() {
+    fn row(&mut self, line: &Line, columns: &Columns, found: &mut LoadTests) {
+        let cells = self.sheet.cells(line);
+        if cells.len() != columns.columns.len() {
             let message = format!(
                 "{} cells in a table of {} columns",
                 cells.len(),
-                sheet.header.len()
+                columns.columns.len()
             );
-            let hint = if sheet.separator == ',' {
+            let hint = if self.sheet.separator == ',' {
                 "decimal commas need `;` between cells; an empty cell is nothing between two separators"
             } else {
                 "an empty cell is nothing between two separators"
             };
-            let start = cells.first().map_or(0, |cell| cell.span.start);
-            let end = cells.last().map_or(0, |cell| cell.span.end);
-            let problem = self.source.problem(start..end, message, Some(hint.to_owned()));
-            self.problems.push(problem);
+            self.problems
+                .push(self.sheet.problem_of_line(line, message, hint));
             return;
         }
         let mut row = Row {
@@ -172,12 +187,15 @@ impl Reader<'_> {
         };
         let problems = self.problems.len();
         for (cell, column) in cells.iter().zip(&columns.columns) {
-            self.cell(cell, column.as_ref(), sheet, &mut row);
+            self.cell(&Place { line, cell }, column.as_ref(), &mut row);
         }
         if row.turn.is_some() != row.joint.is_some() {
-            let cell = &cells[0];
+            let cell = Place {
+                line,
+                cell: &cells[0],
+            };
             self.tell(
-                cell,
+                &cell,
                 "a turn and the joint that turned belong together".to_owned(),
                 "fill in both `joint` and `turn_...`, or neither",
             );
@@ -185,9 +203,6 @@ impl Reader<'_> {
         if self.problems.len() > problems {
             return;
         }
-        let (line, _) = self
-            .source
-            .position(cells.first().map_or(0, |cell| cell.span.start));
         let (readings, stated) = readings(&row, self.robot);
         if readings.is_empty() {
             found.empty_rows += 1;
@@ -196,7 +211,7 @@ impl Reader<'_> {
         found.uncertainties_stated &= stated;
         found
             .names
-            .push(row.name.unwrap_or_else(|| format!("line {line}")));
+            .push(row.name.unwrap_or_else(|| format!("line {}", line.number)));
         found.tests.push(LoadTest {
             joints: row.joints,
             wrench: Wrench {
@@ -209,22 +224,23 @@ impl Reader<'_> {
         });
     }
 
-    fn cell(&mut self, cell: &Cell, column: Option<&Column>, sheet: &Sheet, row: &mut Row) {
+    fn cell(&mut self, cell: &Place<'_>, column: Option<&Column>, row: &mut Row) {
         let Some(column) = column else { return };
+        let text = &cell.cell.text;
         match column {
-            Column::Name => row.name = (!cell.text.is_empty()).then(|| cell.text.clone()),
+            Column::Name => row.name = (!text.is_empty()).then(|| text.to_string()),
             Column::ForPeople => {}
             Column::TurnedJoint => {
-                let named = |joint: &armill_core::robot::Joint| joint.name.eq_ignore_ascii_case(&cell.text);
+                let named = |joint: &armill_core::robot::Joint| joint.name.eq_ignore_ascii_case(text);
                 row.joint = self.robot.joints().iter().position(named);
-                if row.joint.is_none() && !cell.text.is_empty() {
+                if row.joint.is_none() && !text.is_empty() {
                     let names: Vec<&str> = self.robot.joints().iter().map(|j| j.name.as_str()).collect();
                     let hint = format!("one of {}", names.join(", "));
-                    self.tell(cell, format!("`{}` is no joint of this robot", cell.text), &hint);
+                    self.tell(cell, format!("`{text}` is no joint of this robot"), &hint);
                 }
             }
             _ => {
-                let Some(value) = self.number(cell, column, sheet) else {
+                let Some(value) = self.number(cell, column) else {
                     return;
                 };
                 match *column {
@@ -235,12 +251,14 @@ impl Reader<'_> {
                     Column::Force(axis, scale) => row.force[axis] = value * scale,
                     Column::Moment(axis) => row.moment[axis] = value,
                     Column::Displacement(axis, scale) => row.displacement[axis] = Some(value * scale),
-                    Column::DisplacementU(scale) => row.displacement_u = self.above_zero(cell, value * scale),
+                    Column::DisplacementU(scale) => {
+                        row.displacement_u = self.within(cell, value * scale, UNCERTAINTIES);
+                    }
                     Column::ForcePoint(axis, scale) => row.force_point[axis] = value * scale,
                     Column::GaugePoint(axis, scale) => row.gauge_point[axis] = value * scale,
                     Column::Turn(scale) => row.turn = Some(value * scale),
-                    Column::TurnU(scale) => row.turn_u = self.above_zero(cell, value * scale),
-                    Column::Weight => row.weight = self.above_zero(cell, value).unwrap_or(1.0),
+                    Column::TurnU(scale) => row.turn_u = self.within(cell, value * scale, UNCERTAINTIES),
+                    Column::Weight => row.weight = self.within(cell, value, WEIGHTS).unwrap_or(1.0),
                     Column::Name | Column::ForPeople | Column::TurnedJoint => {}
                 }
             }
@@ -248,8 +266,9 @@ impl Reader<'_> {
     }
 
     /// The number in a cell, in the unit of its column; `None` where it is empty or none.
-    fn number(&mut self, cell: &Cell, column: &Column, sheet: &Sheet) -> Option<f64> {
-        if cell.text.is_empty() {
+    fn number(&mut self, cell: &Place<'_>, column: &Column) -> Option<f64> {
+        let text = &cell.cell.text;
+        if text.is_empty() {
             if let Column::Joint(joint, _) = column {
                 let name = &self.robot.joints()[*joint].name;
                 let message = format!("no position of joint {name}");
@@ -257,19 +276,15 @@ impl Reader<'_> {
             }
             return None;
         }
-        let text = match sheet.separator {
-            ',' => cell.text.clone(),
-            _ => cell.text.replace(',', "."),
-        };
-        match text.parse::<f64>() {
-            Ok(value) if value.is_finite() && value.abs() <= LARGEST => Some(value),
-            Ok(_) => {
-                let message = format!("`{}` is not a number from -1e9 to 1e9", cell.text);
+        match number(text, self.sheet.separator) {
+            Some(value) if value.abs() <= LARGEST => Some(value),
+            Some(_) => {
+                let message = format!("`{text}` is not a number from -1e9 to 1e9");
                 self.tell(cell, message, "leave the cell empty if it was not measured");
                 None
             }
-            Err(_) => {
-                let message = format!("`{}` is not a number", cell.text);
+            None => {
+                let message = format!("`{text}` is not a number");
                 let hint = "units stand in the column's name; leave the cell empty if it was not measured";
                 self.tell(cell, message, hint);
                 None
@@ -277,16 +292,28 @@ impl Reader<'_> {
         }
     }
 
-    fn above_zero(&mut self, cell: &Cell, value: f64) -> Option<f64> {
-        if value > 0.0 {
+    /// A value in SI, if it is within these limits; else that is told.
+    fn within(&mut self, cell: &Place<'_>, value: f64, limits: RangeInclusive<f64>) -> Option<f64> {
+        if limits.contains(&value) {
             return Some(value);
         }
-        let message = format!("`{}` is not above 0", cell.text);
-        self.tell(cell, message, "leave the cell empty if it is not known");
+        let text = &cell.cell.text;
+        let (message, hint) = match value > 0.0 {
+            false => (
+                format!("`{text}` is not above 0"),
+                "leave the cell empty if it is not known",
+            ),
+            true => {
+                let (least, most) = limits.into_inner();
+                let message = format!("`{text}` is {value:e} in SI units, not from {least:e} to {most:e}");
+                (message, "is the unit in the column's name the right one?")
+            }
+        };
+        self.tell(cell, message, hint);
         None
     }
 
-    fn within_limits(&mut self, cell: &Cell, joint: usize, [value, scale]: [f64; 2]) {
+    fn within_limits(&mut self, cell: &Place<'_>, joint: usize, [value, scale]: [f64; 2]) {
         let position = value * scale;
         let described = &self.robot.joints()[joint];
         let Some(limits) = described.limits else { return };
@@ -317,7 +344,10 @@ impl Reader<'_> {
     }
 
     /// Degrees under a name in radians, and the other way round.
-    fn angles(&mut self, sheet: &Sheet, columns: &Columns) {
+    fn angles(&mut self, columns: &Columns) {
+        let sheet = self.sheet;
+        let heads = sheet.heads();
+        let rows: Vec<Vec<Cell<'_>>> = sheet.rows.iter().map(|row| sheet.cells(row)).collect();
         let mut largest_deg: Option<f64> = None;
         for (index, column) in columns.columns.iter().enumerate() {
             let Some(Column::Joint(joint, scale)) = column else {
@@ -326,19 +356,17 @@ impl Reader<'_> {
             if self.robot.slides(*joint) {
                 continue;
             }
-            let values = sheet.rows.iter().filter_map(|row| row.get(index));
+            let values = rows.iter().filter_map(|row| row.get(index));
             let largest = values
-                .filter_map(|cell| cell.text.replace(',', ".").parse::<f64>().ok())
+                .filter_map(|cell| number(&cell.text, sheet.separator))
                 .fold(0.0, |largest: f64, value| largest.max(value.abs()));
-            let head = &sheet.header[index];
+            let head = &heads[index];
             if *scale == 1.0 && largest > TURNS {
                 let name = head.text.trim_end_matches("_rad");
                 let message = format!("`{}` holds {largest} rad, more than two turns", head.text);
-                self.tell(
-                    head,
-                    message,
-                    &format!("these are degrees? call the column `{name}_deg`"),
-                );
+                let hint = format!("these are degrees? call the column `{name}_deg`");
+                self.problems
+                    .push(sheet.problem(&sheet.header, head, message, &hint));
             }
             if *scale != 1.0 {
                 largest_deg = Some(largest_deg.unwrap_or(0.0).max(largest));
@@ -347,9 +375,8 @@ impl Reader<'_> {
         if let Some(largest) = largest_deg.filter(|largest| *largest < RADIANS && *largest > 0.0) {
             let message = format!("no joint is further than {largest} deg from its zero in any test");
             let hint = "these are radians? name the columns `..._rad`";
-            let span = sheet.header_span();
-            let problem = self.source.problem(span, message, Some(hint.to_owned()));
-            self.problems.push(problem);
+            self.problems
+                .push(sheet.problem_of_line(&sheet.header, message, hint));
         }
     }
 }

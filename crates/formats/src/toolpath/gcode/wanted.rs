@@ -9,9 +9,9 @@ use crate::toolpath::LengthUnit;
 /// Gives the text of a subroutine by its name: the reader opens no files itself.
 pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;
 
-/// What a program does not tell.
+/// What a user may say of a program where it is silent.
 #[derive(Clone, Default)]
-pub struct Options<'a> {
+pub struct Wanted<'a> {
     /// The unit before the first G20 or G21.
     pub unit: LengthUnit,
     /// The unit of the parameters 5161 to 5386; that of the tool table is in the table.
@@ -69,35 +69,5 @@ impl Warning {
             Warning::SpindleStands => "feed per revolution with the spindle standing: the feed is not told",
             Warning::Tapping => "tapping: the feed is taken as told",
         }
-    }
-}
-
-/// How often each warning came, and the line of its first time.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Warnings(BTreeMap<Warning, (u64, u32)>);
-
-impl Warnings {
-    pub(super) fn count(&mut self, warning: Warning, line: u32) {
-        let entry = self.0.entry(warning).or_insert((0, line));
-        entry.0 += 1;
-    }
-
-    pub(super) fn join(&mut self, other: &Warnings) {
-        for (warning, count, line) in other.iter() {
-            let entry = self.0.entry(warning).or_insert((0, line));
-            entry.0 += count;
-        }
-    }
-
-    /// Each warning with its count and the line of its first time.
-    pub fn iter(&self) -> impl Iterator<Item = (Warning, u64, u32)> + '_ {
-        self.0
-            .iter()
-            .map(|(warning, (count, line))| (*warning, *count, *line))
-    }
-
-    /// How often a warning came.
-    pub fn of(&self, warning: Warning) -> u64 {
-        self.0.get(&warning).map_or(0, |(count, _)| *count)
     }
 }

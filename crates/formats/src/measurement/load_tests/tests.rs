@@ -28,7 +28,7 @@ fn arm() -> Robot {
 }
 
 fn table(text: &str) -> Result<LoadTests, Problems> {
-    read("tests.csv", text, &arm(), Vector3::new(0.0, 0.0, 0.1))
+    read("tests.csv", text.as_bytes(), &arm(), Vector3::new(0.0, 0.0, 0.1))
 }
 
 fn problems(text: &str) -> String {
@@ -119,6 +119,30 @@ fn cells_that_are_no_numbers_are_told_with_line_and_column() {
         "{told}"
     );
     assert!(told.contains("decimal commas need `;`"), "{told}");
+}
+
+#[test]
+fn uncertainties_and_weights_that_cannot_be_are_told() {
+    let told = problems(
+        "A1_deg,A2_deg,Z_mm,fz_n,dz_mm,d_u_mm,weight\n10,20,0,-98,0.1,1e-10,1\n10,20,0,-98,0.1,2000,1e7\n\
+         10,20,0,-98,0.1,-1,0\n",
+    );
+    for part in [
+        "2:17: `1e-10` is 1e-13 in SI units, not from 1e-12 to 1e0",
+        "3:17: `2000` is 2e0 in SI units",
+        "3:22: `1e7` is 1e7 in SI units, not from 1e-6 to 1e6",
+        "4:17: `-1` is not above 0",
+        "4:20: `0` is not above 0",
+    ] {
+        assert!(told.contains(part), "{told}");
+    }
+}
+
+#[test]
+fn latin_letters_and_lone_carriage_returns_are_read() {
+    let text = b"A1_deg,A2_deg,Z_mm,fz_n,dz_mm,note\r10,20,0,-98,0.1,kr\xe4ftig\r30,20,0,-98,0.2,\r";
+    let found = read("tests.csv", &text[..], &arm(), Vector3::zeros()).unwrap();
+    assert_eq!((found.tests.len(), found.names[1].as_str()), (2, "line 3"));
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! A record of either format: which of both a file is in is seen in its first lines.
+//! A force record in either format: which of both a file is in is seen in its first lines.
 //!
 //! An export of DynoWare has a line that begins with the plain word `Time` or `Zeit`, behind its header; the names of a CSV
 //! end in their units. Whoever tells columns or a sampling rate means a CSV, whoever tells names of channels an export.
@@ -8,24 +8,44 @@ use std::io::{BufRead, Cursor, Read};
 use armill_core::load::{ActsOn, Record};
 
 use super::{csv, dynoware};
-use crate::document::{Problems, Source};
+use crate::document::{Problem, Problems};
+
+/// A kind of file of forces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// A text export of DynoWare.
+    DynoWare,
+    /// A table with a column for each channel.
+    Csv,
+}
+
+impl Format {
+    /// Its name, for people.
+    pub fn name(self) -> &'static str {
+        match self {
+            Format::DynoWare => "DynoWare",
+            Format::Csv => "CSV",
+        }
+    }
+}
 
 /// What a file does not tell, or what its channels are called.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
     /// Samples a second, of a CSV without column of time.
     pub rate_hz: Option<f64>,
-    /// The columns in order, of a CSV without header.
+    /// The columns in order, of a CSV without header; other names than those of [`csv`] are passed over.
     pub columns: Option<Vec<String>>,
-    /// What the channels of an export are called: three forces, then three moments if there are any.
+    /// What the channels of an export are called: three forces, then three moments if there are any; `Fx` to `Mz` where
+    /// nothing is told.
     pub channels: Option<Vec<String>>,
 }
 
 /// What a file held.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
-    /// Its format, for people.
-    pub format: &'static str,
+pub struct Measured {
+    /// Its format.
+    pub format: Format,
     /// The records, in order: one, or the cycles of an export; axes of the sensor.
     pub records: Vec<Record>,
     /// Columns that were passed over.
@@ -38,73 +58,44 @@ const HEAD_BYTES: u64 = 1 << 16;
 /// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on.
 ///
 /// # Errors
-/// The problems of the file, those of [`dynoware::read`] or [`csv::read`]; names of channels that are not three or six.
+/// The problems of the file, those of [`dynoware::read`] or [`csv::read`].
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
     acts_on: ActsOn,
     wanted: &Wanted,
-) -> Result<Known, Problems> {
+) -> Result<Measured, Problems> {
     let mut head = Vec::new();
     let begun = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
-    begun.map_err(|error| whole(path, &format!("cannot read it: {error}"), "is the disk there?"))?;
-    let is_csv = wanted.rate_hz.is_some() || wanted.columns.is_some();
-    let is_export = wanted.channels.is_some() || !is_csv && has_line_of_channels(&head);
-    let reader = Cursor::new(head).chain(reader);
-    if is_export {
-        let channels = match &wanted.channels {
-            None => dynoware::Channels::default(),
-            Some(names) => named(names).ok_or_else(|| {
-                let message = format!("{} names of channels were told", names.len());
-                whole(path, &message, "three forces, or three forces and three moments")
-            })?,
-        };
-        let export = dynoware::read(path, reader, acts_on, &channels)?;
-        return Ok(Known {
-            format: "DynoWare",
-            records: export.cycles,
-            unused: export.unused,
-        });
-    }
-    let wanted = csv::Wanted {
-        acts_on,
-        rate_hz: wanted.rate_hz,
-        columns: wanted.columns.clone(),
+    begun.map_err(|error| {
+        let message = format!("cannot read it: {error}");
+        Problem::of_file(path, message, "is the disk there?")
+    })?;
+    let format = match wanted {
+        Wanted {
+            channels: Some(_), ..
+        } => Format::DynoWare,
+        Wanted { rate_hz: Some(_), .. } | Wanted { columns: Some(_), .. } => Format::Csv,
+        _ if has_line_of_channels(&head) => Format::DynoWare,
+        _ => Format::Csv,
     };
-    let measured = csv::read(path, reader, &wanted)?;
-    Ok(Known {
-        format: "CSV",
-        records: vec![measured.record],
-        unused: measured.unused,
-    })
+    let whole = Cursor::new(head).chain(reader);
+    match format {
+        Format::DynoWare => dynoware::read(path, whole, acts_on, wanted),
+        Format::Csv => csv::read(path, whole, acts_on, wanted),
+    }
 }
 
 fn has_line_of_channels(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
-    text.lines().any(dynoware::is_channels)
-}
-
-fn named(names: &[String]) -> Option<dynoware::Channels> {
-    let three = |names: &[String]| -> Option<[String; 3]> { names.to_vec().try_into().ok() };
-    let force = three(names.get(..3)?)?;
-    let moment = match names.get(3..)? {
-        [] => dynoware::Channels::default().moment,
-        moments => three(moments)?,
-    };
-    Some(dynoware::Channels { force, moment })
-}
-
-fn whole(path: &str, message: &str, hint: &str) -> Problems {
-    Source::new(path, "")
-        .problem(0..0, message, Some(hint.to_owned()))
-        .into()
+    text.split(['\n', '\r']).any(dynoware::is_channels)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn known(text: &str, wanted: &Wanted) -> Result<Known, String> {
+    fn known(text: &str, wanted: &Wanted) -> Result<Measured, String> {
         let read = read("f", text.as_bytes(), ActsOn::Tool, wanted);
         read.map_err(|problems| problems.to_string())
     }
@@ -116,7 +107,13 @@ mod tests {
     #[test]
     fn the_same_numbers_come_out_of_either_format() {
         let [export, csv] = [EXPORT, CSV].map(|text| known(text, &Wanted::default()).unwrap());
-        assert_eq!((export.format, csv.format), ("DynoWare", "CSV"));
+        assert_eq!((export.format, csv.format), (Format::DynoWare, Format::Csv));
+        let returns = EXPORT.replace('\n', "\r");
+        assert_eq!(
+            known(&returns, &Wanted::default()).unwrap(),
+            export,
+            "line ends are no part of it"
+        );
         assert_eq!(export.records, csv.records);
         assert_eq!(csv.records[0].force()[0].y, 2000.0);
     }
@@ -144,6 +141,13 @@ mod tests {
         assert!(told.contains("missing channels: `Fx`"), "{told}");
         let told = known(EXPORT, &channels(&["Fx", "Fy"])).unwrap_err();
         assert!(told.contains("2 names of channels"), "{told}");
+    }
+
+    #[test]
+    fn a_remark_does_not_end_a_record() {
+        let remarked = EXPORT.replace("0.1", "# pause\n0.1");
+        let found = known(&remarked, &Wanted::default()).unwrap();
+        assert_eq!(found.records, known(EXPORT, &Wanted::default()).unwrap().records);
     }
 
     #[test]

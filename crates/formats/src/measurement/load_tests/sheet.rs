@@ -1,0 +1,65 @@
+//! A table as lines: the names, and the rows below them.
+
+use std::io::BufRead;
+
+use crate::document::lines::{Line, Lines};
+use crate::document::{Problem, Problems};
+use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
+
+/// A header and rows, not yet of equal length.
+#[derive(Clone, Debug)]
+pub(super) struct Sheet {
+    /// The path that problems show.
+    name: String,
+    pub separator: char,
+    pub header: Line,
+    pub rows: Vec<Line>,
+}
+
+impl Sheet {
+    /// The table in this text; `None` if it has no line that is not a remark.
+    ///
+    /// # Errors
+    /// What is no text.
+    pub fn read(name: &str, reader: impl BufRead) -> Result<Option<Sheet>, Problems> {
+        let mut lines = Lines::new(name, reader);
+        let mut sheet: Option<Sheet> = None;
+        while let Some(line) = lines.next()? {
+            match &mut sheet {
+                _ if is_remark(&line.text) => {}
+                Some(sheet) if is_blank_row(&line.text, sheet.separator) => {}
+                Some(sheet) => sheet.rows.push(line),
+                None => {
+                    sheet = Some(Sheet {
+                        name: name.to_owned(),
+                        separator: separator_of(&line.text),
+                        header: line,
+                        rows: Vec::new(),
+                    });
+                }
+            }
+        }
+        Ok(sheet)
+    }
+
+    /// The names of the columns.
+    pub fn heads(&self) -> Vec<Cell<'_>> {
+        self.cells(&self.header)
+    }
+
+    /// The cells of a row.
+    pub fn cells<'a>(&self, row: &'a Line) -> Vec<Cell<'a>> {
+        cells(&row.text, self.separator)
+    }
+
+    /// A problem of a cell of this line.
+    pub fn problem(&self, line: &Line, cell: &Cell<'_>, message: impl Into<String>, hint: &str) -> Problem {
+        line.problem(&self.name, cell.span.clone(), message, hint)
+    }
+
+    /// A problem of a line from its first cell to its last.
+    pub fn problem_of_line(&self, line: &Line, message: impl Into<String>, hint: &str) -> Problem {
+        let start = line.text.len() - line.text.trim_start().len();
+        line.problem(&self.name, start..line.text.trim_end().len(), message, hint)
+    }
+}

@@ -1,0 +1,118 @@
+//! The tool: its number by LOAD and LOADTL, its diameter and corner radius by CUTTER and TLDATA.
+
+use super::Dialect;
+use super::modal::Interpreter;
+use super::statement::Statement;
+
+impl Interpreter<'_> {
+    /// LOAD/TOOL,n and LOADTL/n.
+    pub fn load(&mut self, statement: &Statement) {
+        let at = usize::from(statement.word == "LOAD");
+        if at == 1 && statement.word_at(0) != "TOOL" {
+            return self.ignore(statement);
+        }
+        let Some(parameter) = statement.parameters().nth(at) else {
+            self.tell(
+                statement,
+                statement.word_span(),
+                "the number of the tool is missing",
+                "`LOAD/TOOL,12`",
+            );
+            return;
+        };
+        match parameter.text.trim_end_matches('.').parse::<u32>() {
+            Ok(tool) => {
+                self.operation.tool = Some(tool);
+                self.begin_operation(statement);
+            }
+            Err(_) => {
+                let message = format!("`{}` is no number of a tool", parameter.text);
+                self.tell(statement, parameter.span, message, "`LOAD/TOOL,12`");
+            }
+        }
+    }
+
+    /// Diameter and corner radius, from parameter `first` on.
+    pub fn cutter(&mut self, statement: &Statement, first: usize) {
+        let before = self.problems.len();
+        let mut lengths = [None; 2];
+        for (length, parameter) in lengths.iter_mut().zip(statement.parameters().skip(first)) {
+            *length = self.number(statement, &parameter);
+        }
+        if self.problems.len() > before {
+            return;
+        }
+        let [diameter, corner] = lengths;
+        let Some(diameter) = diameter else {
+            self.tell(
+                statement,
+                statement.word_span(),
+                "the diameter of the tool is missing",
+                "`CUTTER/12.,0.5`",
+            );
+            return;
+        };
+        // Half a thousandth of the unit: a ball whose diameter was rounded.
+        if diameter < 0.0 || corner.is_some_and(|corner| corner < 0.0 || corner > diameter / 2.0 + 5e-4) {
+            let message = format!(
+                "a tool of diameter {diameter} with a corner radius of {}",
+                corner.unwrap_or(0.0)
+            );
+            let hint = "the diameter comes first; the corner radius is no more than half of it";
+            self.tell(statement, statement.parameters_span(), message, hint);
+            return;
+        }
+        self.cutter = [Some(diameter), corner];
+        self.begin_operation(statement);
+    }
+
+    /// TLDATA: the tool of an NX path.
+    pub fn tldata(&mut self, statement: &Statement) {
+        self.evidence(statement, Dialect::Nx);
+        match statement.word_at(0).as_str() {
+            "MILL" => self.cutter(statement, 1),
+            "DRILL" => {
+                // What follows the diameter of a drill are its point and its length; a kind may stand before it.
+                let kind = statement.word_at(1);
+                let at = if kind.starts_with(|c: char| c.is_ascii_alphabetic()) {
+                    2
+                } else {
+                    1
+                };
+                self.drill_of(statement, at);
+            }
+            kind => {
+                self.cutter = [None; 2];
+                self.begin_operation(statement);
+                self.warn(
+                    statement,
+                    format!("TLDATA of a `{kind}`: its diameter is not known"),
+                );
+            }
+        }
+    }
+
+    /// A tool of the diameter that parameter `at` tells, without corner.
+    fn drill_of(&mut self, statement: &Statement, at: usize) {
+        let Some(parameter) = statement.parameters().nth(at) else {
+            let hint = "`TLDATA/DRILL,6.,118.`";
+            return self.tell(
+                statement,
+                statement.word_span(),
+                "the diameter of the drill is missing",
+                hint,
+            );
+        };
+        match self.number(statement, &parameter) {
+            Some(diameter) if diameter < 0.0 => {
+                let message = format!("a drill of diameter {diameter}");
+                self.tell(statement, parameter.span, message, "the diameter comes first");
+            }
+            Some(diameter) => {
+                self.cutter = [Some(diameter), None];
+                self.begin_operation(statement);
+            }
+            None => {}
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! What a line is known by: the words that only one format begins its lines with.
+
+use crate::table::sheet::{cells, separator_of};
+
+/// The beginnings of lines that only programs of this language have.
+const ROBOT_LANGUAGES: &[(&str, &[&str])] = &[
+    (
+        "KUKA KRL",
+        &[
+            "&ACCESS", "&REL", "PTP {", "LIN {", "PTP_REL", "LIN_REL", "DEFDAT ", "PTP $", "$VEL.CP",
+        ],
+    ),
+    (
+        "ABB RAPID",
+        &[
+            "%%%",
+            "MODULE ",
+            "MOVEL ",
+            "MOVEJ ",
+            "MOVEABSJ ",
+            "PERS ",
+            "CONST ROBTARGET",
+            "CONST JOINTTARGET",
+        ],
+    ),
+    ("FANUC TP", &["/PROG", "/ATTR", "/MN", "/POS"]),
+    ("Yaskawa INFORM", &["/JOB", "//NAME", "//POS", "//INST", "///"]),
+    (
+        "URScript or Staubli VAL3",
+        &["MOVEL(", "MOVEJ(", "MOVEP(", "MOVEC(", "SET_TCP("],
+    ),
+    ("Staubli VAL3", &["<PROGRAM XMLNS", "<PROGRAMS XMLNS"]),
+    ("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "]),
+];
+
+/// Words that only cutter locations begin a line with, before `/`.
+const APT_WORDS: &[&str] = &[
+    "CIRCLE",
+    "CSYS",
+    "CUTTER",
+    "CYCLE",
+    "FEDRAT",
+    "FROM",
+    "GOTO",
+    "INSERT",
+    "LOAD",
+    "LOADTL",
+    "MSYS",
+    "PAINT",
+    "PARTNO",
+    "PPRINT",
+    "RAPID",
+    "SPINDL",
+    "TLDATA",
+    "TOOL PATH",
+    "TRNTYP",
+    "UNIT",
+    "UNITS",
+    "COOLNT",
+    "MULTAX",
+    "CUTCOM",
+];
+
+/// The language of robots that a line belongs to.
+pub(super) fn robot_language(line: &str) -> Option<&'static str> {
+    let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
+    // VAL3 keeps what a move returns: `nTraj=movel(...)`.
+    let begin = begin
+        .split_once("=MOVE")
+        .map_or(begin.clone(), |(_, rest)| format!("MOVE{rest}"));
+    let known = ROBOT_LANGUAGES.iter();
+    known
+        .clone()
+        .find(|(_, begins)| begins.iter().any(|known| begin.starts_with(known)))
+        .map(|(language, _)| *language)
+}
+
+/// A line that begins with a word of cutter locations.
+pub(super) fn is_apt(line: &str) -> bool {
+    let upper = line.chars().take(12).collect::<String>().to_uppercase();
+    if upper.starts_with("PARTNO")
+        || upper.starts_with("PPRINT")
+        || upper.starts_with("FINI") && line.len() == 4
+    {
+        return true;
+    }
+    upper
+        .split_once('/')
+        .is_some_and(|(word, _)| APT_WORDS.contains(&word.trim_end()))
+}
+
+/// A line of names, three of which are those of a point.
+pub(super) fn is_header(line: &str) -> bool {
+    let cells = cells(line, separator_of(line)).into_iter();
+    let names: Vec<String> = cells.map(|cell| cell.text.to_lowercase()).collect();
+    ["x", "y", "z"].iter().all(|axis| {
+        names.iter().any(|name| {
+            name.strip_prefix(axis)
+                .is_some_and(|rest| rest.is_empty() || rest.starts_with(['_', ' ', '[', '(']))
+        })
+    })
+}
+
+/// A line that begins with a word of G-code, or the tape mark.
+pub(super) fn is_gcode(line: &str) -> bool {
+    if line == "%" {
+        return true;
+    }
+    let mut line = line.trim_start_matches('/').trim_start();
+    // Line number.
+    if let Some(rest) = line.strip_prefix(['N', 'n']) {
+        line = rest
+            .trim_start_matches(|c: char| c.is_ascii_digit() || c == '.')
+            .trim_start();
+    }
+    let mut letters = line.chars();
+    let first = letters.next().map(|c| c.to_ascii_uppercase());
+    let next = letters.find(|c| !c.is_whitespace());
+    match first {
+        Some('G' | 'M' | 'T' | 'S' | 'F' | 'X' | 'Y' | 'Z' | 'A' | 'B' | 'C' | 'O') => {
+            next.is_some_and(|c| c.is_ascii_digit() || matches!(c, '-' | '+' | '.' | '[' | '#' | '<'))
+        }
+        // A parameter that is set.
+        Some('#') => next.is_some_and(|c| c.is_ascii_digit() || c == '<'),
+        _ => false,
+    }
+}

@@ -1,0 +1,48 @@
+//! What a program holds, counted while its steps are given.
+
+use armill_core::path::{Course, Move, Step};
+
+use super::format::Format;
+
+/// What a program held.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Summary {
+    /// The format it is in.
+    pub format: Format,
+    /// Operations given.
+    pub operations: u64,
+    /// Moves given, those of cycles and holes included; the first says where the tip stands.
+    pub moves: u64,
+    /// Moves behind the first that cut.
+    pub cuts: u64,
+    /// Arcs among the moves.
+    pub arcs: u64,
+    /// Words that were not followed, and what was taken for granted: sentences with their counts and first lines.
+    pub notes: Vec<String>,
+}
+
+impl Summary {
+    /// Of a program of which no step was given yet.
+    pub(super) fn new(format: Format) -> Summary {
+        Summary {
+            format,
+            operations: 0,
+            moves: 0,
+            cuts: 0,
+            arcs: 0,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Counts a step.
+    pub(super) fn count(&mut self, step: &Step) {
+        match step {
+            Step::Operation(_) => self.operations += 1,
+            Step::Move(Move { course, pace, .. }) => {
+                self.cuts += u64::from(self.moves > 0 && pace.cuts());
+                self.moves += 1;
+                self.arcs += u64::from(matches!(course, Course::Arc(_)));
+            }
+        }
+    }
+}
