@@ -60,7 +60,7 @@ impl Paths {
         let mut gcode = String::from("G21 G90 G94\nG0 X-200 Y-125 Z5\nF1200\n");
         let mut apt =
             String::from("UNIT/MM\nSPINDL/6000,RPM,CLW\nRAPID\nGOTO/-200,-125,5\nFEDRAT/1200,MMPM\n");
-        let mut csv = String::from("x_mm,y_mm,z_mm,feed_mm_min\n");
+        let mut csv = String::from("x_mm,y_mm,z_mm,feed_mm_per_min\n");
         let mut points = Vec::with_capacity(POINTS);
         let mut before = place(0);
         for k in 0..POINTS {

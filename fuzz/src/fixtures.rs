@@ -142,7 +142,7 @@ pub fn apt() -> Vec<Vec<u8>> {
 /// Every column; decimal commas.
 pub fn path_csv() -> Vec<Vec<u8>> {
     seeds(&[
-        "x_mm,y_mm,z_mm,i,j,k,feed_mm_min,rapid,spindle_rpm,axial_depth_mm,radial_depth_mm,op,note\n0,0,5,0,0,1,,1,,,,a,\n1,2,3,0,0.1,0.995,300,0,6000,1,2,a,x\n",
+        "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,spindle_rpm,axial_depth_mm,radial_depth_mm,op,note\n0,0,5,0,0,1,,1,,,,a,\n1,2,3,0,0.1,0.995,300,0,6000,1,2,a,x\n",
         "x_m;y_m;z_m;feed_mm_s\n0,1;0,2;0,3;10,5\n0,2;0,2;0,3;\n",
     ])
 }
@@ -277,7 +277,7 @@ law = "mechanistic"
 axial_depth_mm = 1
 radial_depth_mm = 5
 side = "down"
-feed_mm_min = 300
+feed_mm_per_min = 300
 spindle_rpm = 3000
 greatest = true
 u_percent = 10
@@ -326,7 +326,7 @@ low_pass_hz = 500
 spindle_rpm = 3000
 value = "mean"
 start_s = 0.5
-rapid_mm_min = 10000
+rapid_mm_per_min = 10000
 channels = ["Fx", "Fy", "Fz"]
 [[ask]]
 kind = "path"
@@ -336,6 +336,6 @@ file = "holes.apt"
 material = "aluminium-6061-t6"
 diameter_mm = 6
 point_deg = 118
-feed_mm_min = 100
+feed_mm_per_min = 100
 spindle_rpm = 1000
 "#;

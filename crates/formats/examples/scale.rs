@@ -87,7 +87,7 @@ impl Kind {
                 "UNIT/MM\nRAPID\nGOTO/0,0,5\nFEDRAT/1200,MMPM\n",
                 "FINI\n",
             ),
-            "csv" => (Format::Csv, "x_mm,y_mm,z_mm,feed_mm_min\n", ""),
+            "csv" => (Format::Csv, "x_mm,y_mm,z_mm,feed_mm_per_min\n", ""),
             _ => return None,
         };
         let plain = Kind {

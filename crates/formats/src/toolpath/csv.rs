@@ -437,14 +437,14 @@ fn zero_or_more(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
 /// What to say of a name that means nothing.
 fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
     if name.parse::<f64>().is_ok() {
-        let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm,i,j,k,feed_mm_min`";
+        let hint = "the first line names the columns, such as `x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min`";
         return (format!("`{shown}` is no name of a column"), hint.to_owned());
     }
     let unit = match name {
         "x" | "y" | "z" => Some(("lengths", format!("`{name}_mm`, `{name}_m` or `{name}_in`"))),
         "feed" | "f" => Some((
             "speeds",
-            "`feed_mm_min`, `feed_mm_s`, `feed_m_s` or `feed_in_min`".to_owned(),
+            "`feed_mm_per_min`, `feed_mm_s`, `feed_m_s` or `feed_in_min`".to_owned(),
         )),
         "spin" => Some(("angles", "`spin_deg` or `spin_rad`".to_owned())),
         "spindle" | "s" | "rpm" => Some(("speeds", "`spindle_rpm`".to_owned())),

@@ -32,7 +32,7 @@ fn problems(text: &str) -> String {
 
 #[test]
 fn the_same_path_in_other_units_and_separators_is_the_same() {
-    let first = moves("x_mm,y_mm,z_mm,feed_mm_min\n25.4,0,-50.8,600\n0,12.7,0,1524\n");
+    let first = moves("x_mm,y_mm,z_mm,feed_mm_per_min\n25.4,0,-50.8,600\n0,12.7,0,1524\n");
     for text in [
         "x_m,y_m,z_m,feed_m_s\n0.0254,0,-0.0508,0.01\n0,0.0127,0,0.0254\n",
         "x_in;y_in;z_in;feed_mm_s\n1;0;-2;10\n0;0,5;0;25,4\n",
@@ -52,7 +52,7 @@ fn the_same_path_in_other_units_and_separators_is_the_same() {
 
 #[test]
 fn rapids_axes_and_feeds_that_are_not_told_are_told_apart() {
-    let text = "x_mm,y_mm,z_mm,i,j,k,feed_mm_min,rapid,note\n0,0,5,0,0,1,,1,here\n0,0,0,,,,60,0,\n1,0,0,0,0.6,0.8,,,\n";
+    let text = "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,note\n0,0,5,0,0,1,,1,here\n0,0,0,,,,60,0,\n1,0,0,0,0.6,0.8,,,\n";
     let found = moves(text);
     assert_eq!(found[0].pace, Pace::Rapid);
     assert_eq!(found[1].pace, Pace::Feed(0.001));
@@ -90,7 +90,7 @@ fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() 
             "x,y_mm,z_mm",
             "lengths carry their unit: write `x_mm`, `x_m` or `x_in`",
         ),
-        ("x_mm,y_mm,z_mm,feed", "write `feed_mm_min`"),
+        ("x_mm,y_mm,z_mm,feed", "write `feed_mm_per_min`"),
         ("x_mm,y_mm,z_mm,spindle", "write `spindle_rpm`"),
         ("x_mm,y_mm,z_mm,colour", "1:16: unknown column `colour`"),
         ("x_cm,y_mm,z_mm", "unknown column `x_cm`"),
@@ -112,7 +112,7 @@ fn names_without_unit_unknown_and_double_columns_are_told_with_what_was_meant() 
 
 #[test]
 fn cells_that_are_wrong_are_told_with_line_and_column() {
-    let head = "x_mm,y_mm,z_mm,i,j,k,feed_mm_min,rapid,axial_depth_mm,radial_depth_mm\n";
+    let head = "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,axial_depth_mm,radial_depth_mm\n";
     for (row, part) in [
         ("1,2 mm,3,,,,,,,", "2:3: `2 mm` is not a number"),
         ("1,2,1e10,,,,,,,", "is not a number from -1e9 to 1e9"),
