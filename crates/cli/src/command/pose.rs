@@ -30,14 +30,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
                 "one a joint, 0 or more",
             )
         };
-        // Curves and covariance of the robot file were of other compliances.
-        let mut structure = found.robot.structure().clone();
-        structure.curves.clear();
-        structure.covariance = None;
-        let robot = found.robot.with_compliance(given);
-        found.robot = robot
-            .and_then(|robot| robot.with_structure(structure))
-            .map_err(refused)?;
+        found.robot = found.robot.with_other_compliance(given).map_err(refused)?;
     }
     let mut caution = None;
     if let Some(name) = &arguments.compliance_class {
@@ -45,7 +38,7 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         let assumed = class.compliance_of(&found.robot)?;
         caution = Some(class.caution()?);
         let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-        found.robot = found.robot.with_compliance(assumed).map_err(refused)?;
+        found.robot = found.robot.with_other_compliance(assumed).map_err(refused)?;
     }
     let question = PoseQuestion {
         at: at(arguments)?,

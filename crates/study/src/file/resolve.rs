@@ -267,14 +267,7 @@ fn find_robot(
     let own = compliance::of_study(places, file, &found.robot)?;
     if let Some(joints) = own {
         let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-        // Curves and covariance of the robot file were of other compliances.
-        let mut structure = found.robot.structure().clone();
-        structure.curves.clear();
-        structure.covariance = None;
-        let robot = found.robot.with_compliance(joints);
-        found.robot = robot
-            .and_then(|robot| robot.with_structure(structure))
-            .map_err(refused)?;
+        found.robot = found.robot.with_other_compliance(joints).map_err(refused)?;
     }
     if let Some(table) = &file.positioner {
         found.robot = positioner::beside(places, table, folder, found.robot)?;
