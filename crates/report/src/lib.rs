@@ -10,6 +10,8 @@
 //! | how does that change with distance or tilt? | [`Sheet`] |
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
+//! | how large is it along a tool path, on top of the part? | [`TrackMap`] |
+//! | how deep and how fast may a cut go? | [`ProcessMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |

@@ -2,7 +2,7 @@
 
 use armill_report::{
     Arrangement, Arrow, ArrowCase, AxisLabels, Envelope, ForcePlot, ForceTrace, Growth, PathPlot, PolarPlot,
-    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, VectorField,
+    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
@@ -20,6 +20,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
     vec![
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
+        ("track_map", track_map().to_svg()),
         ("process_map", process_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
@@ -54,6 +55,45 @@ fn vector_field() -> VectorField {
             .map(|k| on_circle(turn * f64::from(k) / 128.0))
             .collect(),
         cases: cases.collect(),
+    }
+}
+
+/// A pocket milled in rings, softer far from the arm; the arm does not get to the last corner.
+fn track_map() -> TrackMap {
+    let ring = |k: i32| {
+        let half = 30.0 + 30.0 * f64::from(k);
+        let corners = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0]];
+        let sides = corners.windows(2).flat_map(|side| {
+            let at = |s: f64, k: usize| half * (side[0][k] + s * (side[1][k] - side[0][k]));
+            (0..24)
+                .map(move |n| f64::from(n) / 24.0)
+                .map(move |s| [at(s, 0), at(s, 1)])
+        });
+        let points_mm: Vec<[f64; 2]> = sides.chain([[-half, -half]]).collect();
+        let deviation = |[x, y]: &[f64; 2]| {
+            if x + y > 200.0 {
+                f64::NAN
+            } else {
+                60.0 + 0.25 * x - 0.1 * y
+            }
+        };
+        let deviation_um = points_mm.iter().map(deviation).collect();
+        Stretch {
+            points_mm,
+            deviation_um,
+        }
+    };
+    TrackMap {
+        title: "A pocket milled in rings".into(),
+        subtitle: "Seen from above; no posture in one corner".into(),
+        axes: AxisLabels {
+            horizontal: "base y (mm)".into(),
+            vertical: "base x (mm)".into(),
+        },
+        quantity: "deviation across the tool (µm)".into(),
+        limit_um: Some(80.0),
+        stretches: (0..4).map(ring).collect(),
+        ..TrackMap::default()
     }
 }
 
