@@ -3,6 +3,8 @@
 //! `bench/` holds what runs: a Cargo package of its own (never built with armill), Python and C++. Each prints rows; here
 //! they are called, put side by side ([`page`]) and held against the goals ([`goals`]). What a peer needs is installed
 //! under `target/` ([`peers`]); a peer that cannot be had is left out in plain words.
+//!
+//! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it ran.
 
 mod goals;
 mod instructions;

@@ -4,6 +4,8 @@
 //! deviation and roundness on a circle; [`program`]: along a tool path program; [`limits`]: which cut it permits;
 //! [`region`]: the part within a limit, its area, boundary and what fits;
 //! [`certainty`]: how sure that is.
+//!
+//! `marching_squares`, `inscribed`: boundaries, and shapes inside them; `turns`: whole turns of joints along a program.
 
 pub mod along;
 pub mod certainty;

@@ -6,6 +6,8 @@
 //!
 //! All give a [`Record`](armill_core::load::Record) in the axes of the sensor. Whether it acts on the tool or on the part,
 //! and how the sensor stands, no file tells: the caller says it.
+//!
+//! `columns`: what a column holds, in which unit; samples as they come.
 
 mod columns;
 pub mod csv;

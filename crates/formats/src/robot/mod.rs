@@ -4,6 +4,9 @@
 //! Each format has the same parts: what it is, `read`, tests incl. broken input. All give a
 //! [`RobotDescription`]: the robot of the core, with the source of its numbers. [`format`](mod@format) tells which
 //! of them a file is.
+//!
+//! [`armill`]: our own; `structure`: its springs and masses. [`urdf`], `xacro` (both over `xml`), [`opw`], [`dh`],
+//! [`elementary`]: those of others. [`pendant`]: readings. `description`: what all of them give.
 
 pub mod armill;
 pub mod dh;

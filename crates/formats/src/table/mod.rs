@@ -5,6 +5,8 @@
 //! - `parquet` (feature `parquet`): for analysis; keeps types, units and meanings.
 //! - [`load_tests`]: the other way round, from a spreadsheet into the program.
 //! - [`vtk`]: for ParaView, fields in space rather than rows.
+//!
+//! `sheet`: cells of a text table with their places, as readers need them.
 
 pub mod csv;
 pub mod load_tests;

@@ -7,6 +7,8 @@
 //! - [`csv`]: a table of points, for those without CAM.
 //!
 //! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is.
+//!
+//! `length_unit`: millimetres or inches.
 
 pub mod apt;
 pub mod csv;

@@ -2,6 +2,9 @@
 //!
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
+//!
+//! A file for each part: `map`, `volume`, `path`, `program` with `limits` and `measured`, `point`; `statement`, `cautions` and
+//! `sentence` say what they mean.
 
 mod cautions;
 pub(crate) mod limits;

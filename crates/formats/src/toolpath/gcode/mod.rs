@@ -5,6 +5,12 @@
 //! program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame of the part, and
 //! a table carries that frame with it.
 //!
+//! In reading order: `lines` and `block` (a line as words, by `groups`; `expression` and `parameters` give values),
+//! `machine` (the state), `execute` (what a block does to it: `offsets`, `motion`, `cutter`, `cycles`, `messages`), `flow`,
+//! `walk` and `subroutines` (which line comes next); [`interpreter`] (the door: lines in, [`canonical`] calls out, or a
+//! [`refusal`]), `steps` (calls as a path, by [`rotaries`]). [`options`] and [`tools`] come with a program, a [`summary`]
+//! comes of it.
+//!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
 
