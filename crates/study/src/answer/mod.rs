@@ -271,3 +271,13 @@ fn warnings(study: &Study, maps: &[MapAnswer], paths: &[PathResult]) -> Vec<Stri
     warnings.extend(study.robot.note.clone());
     warnings
 }
+
+impl StudyAnswer {
+    /// Whether every point of every map, path and box holds the limit.
+    pub fn holds_everywhere(&self) -> bool {
+        let maps = self.maps.iter().map(|map| map.fraction_within);
+        let paths = self.paths.iter().map(|path| path.fraction_within);
+        let volumes = self.volumes.iter().map(|volume| volume.fraction_within);
+        maps.chain(paths).chain(volumes).all(|fraction| fraction == 1.0)
+    }
+}
