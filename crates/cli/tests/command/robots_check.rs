@@ -21,7 +21,7 @@ fn check<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
 /// The MH12 of the library with one thing changed.
 fn changed(from: &str, to: &str) -> Cell {
     let cell = Cell::new();
-    let text = include_str!("../../../robots/yaskawa/mh12.toml");
+    let text = include_str!("../../../../robots/yaskawa/mh12.toml");
     assert!(text.contains(from), "the robot file has no `{from}`");
     cell.file("arm.toml", text.replacen(from, to, 1));
     cell

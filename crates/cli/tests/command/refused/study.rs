@@ -201,7 +201,10 @@ fn asks_that_fit_one_by_one_but_not_together_are_refused() {
 fn a_grid_too_large_is_refused_without_allocating_it() {
     let cell = Cell::with_study(&SMALL.replace("step_mm = 50", "step_mm = 0.0063"));
     // The shell bounds the address space, KiB: a hundredth of what the points would take.
-    let script = format!("ulimit -v 1000000; exec '{}' check study.toml", cell::ARMILL);
+    let script = format!(
+        "ulimit -v 1000000; exec '{}' check study.toml",
+        crate::cell::ARMILL
+    );
     let output = std::process::Command::new("sh")
         .args(["-c", &script])
         .current_dir(cell.path())
