@@ -126,6 +126,7 @@ fn differences(row: &Row) -> [f64; 3] {
     ]
 }
 
+/// Displacements of the rows against what was computed from the published inputs.
 pub fn checks() -> Vec<Check> {
     let found = ROWS.map(|row| differences(&row));
     let rows = ROWS.map(|row| row.number.to_string()).join(", ");

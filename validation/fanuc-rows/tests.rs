@@ -1,11 +1,6 @@
-//! The rows hold; and they are those of the data set, where it is at hand.
+//! The rows are those of the data set, where it is at hand.
 
-use super::{ROWS, checks};
-
-#[test]
-fn fanuc_rows_hold() {
-    crate::check::assert_all_hold(&checks());
-}
+use super::ROWS;
 
 #[test]
 fn typed_rows_are_those_of_the_data_set() {

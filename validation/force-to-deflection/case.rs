@@ -18,6 +18,7 @@ const DEFLECTION_UM: [f64; 3] = [-107.7, 78.6, -104.1];
 const LENGTH_PRINTED_MATRIX_UM: f64 = 169.13;
 const LENGTH_UM: f64 = 169.19;
 
+/// Displacement under one force against the printed matrix and against its inverse.
 pub fn checks() -> Vec<Check> {
     let printed = COMPLIANCE_IN_PART * FORCE;
     let robot = arms::tx200(OLDER_SPRINGS);
@@ -57,12 +58,4 @@ pub fn checks() -> Vec<Check> {
             4,
         ),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn force_to_deflection_holds() {
-        crate::check::assert_all_hold(&super::checks());
-    }
 }

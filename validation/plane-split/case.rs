@@ -22,6 +22,7 @@ fn equation_11(v: &Vector3<f64>, alpha: f64, arctan: f64) -> (f64, f64) {
     (x, (y * y + z * z).sqrt())
 }
 
+/// Parts of a deviation on a plane against those by turning the frame.
 pub fn checks() -> Vec<Check> {
     let mut random = Random::seeded(SEED);
     let (mut in_plane, mut normal, mut signed) = (Vec::new(), Vec::new(), Vec::new());
@@ -52,12 +53,4 @@ pub fn checks() -> Vec<Check> {
             signed,
         ),
     ]
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn plane_split_holds() {
-        crate::check::assert_all_hold(&super::checks());
-    }
 }

@@ -7,20 +7,18 @@
 
 use std::process::ExitCode;
 
-use armill_validation::{CASES, table};
+use armill_validation::{results, table};
 
 fn main() -> ExitCode {
-    let mut results = Vec::new();
-    for case in CASES {
-        let checks = (case.checks)();
-        for check in &checks {
+    let results = results();
+    for (case, checks) in &results {
+        for check in checks {
             let (verdict, tolerance) = (table::verdict(check), &check.tolerance);
             println!(
                 "{verdict} {}: {}: {} (may be {tolerance})",
                 case.folder, check.what, check.reached
             );
         }
-        results.push((case, checks));
     }
     if let Err(problem) = std::fs::write(table::PATH, table::table(&results)) {
         eprintln!("cannot write {}: {problem}", table::PATH);

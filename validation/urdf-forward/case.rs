@@ -60,6 +60,7 @@ fn read(name: &str, text: &str) -> Robot {
     }
 }
 
+/// Poses of the flange against those of the other reader of URDF.
 pub fn checks() -> Vec<Check> {
     let mut checks = Vec::new();
     for (title, text) in [

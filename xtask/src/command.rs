@@ -55,6 +55,21 @@ pub fn run_in_place(mut command: Command) -> ExitCode {
     }
 }
 
+/// Says what runs and gives what it printed; its talk goes to our stderr.
+///
+/// # Errors
+/// In a line: it does not start, it failed, or what it printed is no text.
+pub fn printed(command: &mut Command) -> Result<String, String> {
+    let line = command_line(command);
+    eprintln!("+ {line}");
+    let ran = command.stderr(Stdio::inherit()).output();
+    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
+    if !output.status.success() {
+        return Err(format!("{line} failed"));
+    }
+    String::from_utf8(output.stdout).map_err(|problem| format!("{line}: {problem}"))
+}
+
 /// Refuses arguments for a chore that takes none: one that is ignored would look obeyed.
 ///
 /// # Errors

@@ -3,9 +3,9 @@
 //! `crates/formats/examples/scale.rs` reads programs that are made as they are read, each in a process of its own. Here
 //! it is called for every case, and its memory is held against the limit of the case.
 
-use crate::command::{cargo, command_line};
+use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
-use std::process::{ExitCode, Stdio};
+use std::process::ExitCode;
 
 /// What `--help` says.
 pub const ABOUT: &str = "Reads programs of 200 MB and more and fails if memory grows with them: [MEGABYTES].";
@@ -105,13 +105,8 @@ fn measured(case: &Case, megabytes: u64) -> Result<Row, String> {
         case.name,
         &bytes,
     ]);
-    let line = command_line(&command);
-    let ran = command.stderr(Stdio::inherit()).output();
-    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    Row::read(&printed)
-        .filter(|_| output.status.success())
-        .ok_or_else(|| format!("{line} failed"))
+    let told = printed(&mut command)?;
+    Row::read(&told).ok_or_else(|| format!("{} printed no row: {told}", case.name))
 }
 
 impl Row {

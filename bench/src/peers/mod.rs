@@ -1,4 +1,6 @@
 //! Other crates at the same work. Each file: the arm as the peer writes it, its rows, how far it is off.
+//!
+//! `k` and `rs_opw`: postures in Rust; `ik_geo`: the same by subproblems, built where cmake is.
 
 #[cfg(feature = "ik-geo")]
 pub mod ik_geo;

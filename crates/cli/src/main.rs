@@ -1,7 +1,7 @@
 //! The command `armill`.
 //!
-//! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: tolerance not held where `--strict`
-//! asks for it; 2: bad input; 3: a fault of armill itself.
+//! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: the tolerance is not held and `--strict`
+//! was given; 2: bad input; 3: a fault of armill; 130: interrupted.
 
 mod arguments;
 mod command;

@@ -1,4 +1,7 @@
-//! A progress bar on stderr, where there is a terminal to show it.
+//! A progress bar on stderr, where there is a terminal to show it; it goes when the work ends, however it ends.
+//!
+//! Nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell tells as 130: files are whole
+//! or not there, and `result.json` comes last, so that nothing needs to be cleared away.
 
 use std::sync::atomic::AtomicBool;
 
@@ -8,6 +11,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// Points finished, on a bar.
 pub(crate) struct Progress {
     bar: ProgressBar,
+    /// Never set.
     cancel: AtomicBool,
 }
 
@@ -37,9 +41,10 @@ impl Progress {
     pub(crate) fn tell(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }
+}
 
-    /// Takes the bar away.
-    pub(crate) fn clear(&self) {
+impl Drop for Progress {
+    fn drop(&mut self) {
         self.bar.finish_and_clear();
     }
 }

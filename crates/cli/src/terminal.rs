@@ -52,3 +52,53 @@ pub(crate) fn show_error(error: &StudyError, json: bool) {
         other => say(&format!("error: {other}")),
     }
 }
+
+/// On which side the cells of a column stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Align {
+    /// Words.
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// A line for each row, its cells below each other, two blanks between. A row of one cell is a line of words: it widens no
+/// column. Cells beyond the alignments stand to the right.
+pub(crate) fn columns(rows: &[Vec<String>], aligned: &[Align]) -> Vec<String> {
+    let wide = |cell: &String| cell.chars().count();
+    let mut widths: Vec<usize> = Vec::new();
+    for row in rows.iter().filter(|row| row.len() > 1) {
+        widths.resize(widths.len().max(row.len()), 0);
+        for (width, cell) in widths.iter_mut().zip(row) {
+            *width = wide(cell).max(*width);
+        }
+    }
+    let line = |row: &Vec<String>| {
+        let cells = row.iter().enumerate().map(|(k, cell)| {
+            let width = widths.get(k).copied().unwrap_or(0);
+            match aligned.get(k) {
+                Some(Align::Left) => format!("{cell:width$}"),
+                _ => format!("{cell:>width$}"),
+            }
+        });
+        cells.collect::<Vec<_>>().join("  ").trim_end().to_owned()
+    };
+    rows.iter().map(line).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_stand_below_each_other_whatever_their_letters() {
+        let row = |cells: &[&str]| cells.iter().map(|cell| (*cell).to_owned()).collect();
+        let rows = [
+            row(&["größe", "1.5", "x"]),
+            row(&["a", "12", ""]),
+            row(&["a line of words"]),
+        ];
+        let lines = columns(&rows, &[Align::Left, Align::Right, Align::Left]);
+        assert_eq!(lines, ["größe  1.5  x", "a       12", "a line of words"]);
+    }
+}

@@ -4,7 +4,9 @@
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`pose`] answers for a single pose,
 //! [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
-//! joint compliances from it where none are known.
+//! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
+//! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and [`number`]
+//! are how numbers are told.
 //!
 //! Everything here is the same whatever the surface: command, Python and web return these bytes.
 
@@ -14,14 +16,20 @@ pub mod error;
 pub mod file;
 pub mod forces;
 pub mod identify;
+pub mod joint_unit;
 pub mod library;
+pub mod materials;
 pub mod model_words;
 mod naming;
+pub mod new;
+pub mod number;
 pub mod output;
 pub mod pendant;
 pub mod pose;
+pub mod robot_answers;
 pub mod robots;
 pub mod run;
+pub mod studies;
 
 pub use compliance_class::ComplianceClass;
 pub use error::{ErrorKind, StudyError};

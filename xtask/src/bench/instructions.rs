@@ -3,8 +3,8 @@
 //! Compared with what `bench/instructions.tsv` records (function, instructions per pose, compiler); `--record` writes it
 //! anew. Valgrind emulates AVX2 and FMA but not AVX-512: it is the AVX2 path that is counted.
 
-use super::{bench_cargo, output};
-use crate::command::cargo;
+use super::bench_cargo;
+use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -31,7 +31,7 @@ pub fn run(record: bool) -> ExitCode {
         Ok(_) => return could_not_run("no function was counted"),
         Err(problem) => return could_not_run(&problem),
     };
-    let compiler = output(Command::new("rustc").arg("--version")).unwrap_or_default();
+    let compiler = printed(Command::new("rustc").arg("--version")).unwrap_or_default();
     if record {
         return match fs::write(RECORD, written(&counts, compiler.trim())) {
             Ok(()) => ExitCode::SUCCESS,
@@ -74,10 +74,10 @@ fn counted() -> Result<Vec<Count>, String> {
             RUNNER,
             "gungraun-runner",
         ];
-        output(&mut cargo(&install))?;
+        printed(&mut cargo(&install))?;
     }
     let mut command = bench_cargo(&["bench", "--bench", "instructions"]);
-    output(command.env("GUNGRAUN_RUNNER", runner)).map(|printed| parse(&printed))
+    printed(command.env("GUNGRAUN_RUNNER", runner)).map(|told| parse(&told))
 }
 
 /// Reads `instructions::group::function poses_100:...` and the line `Instructions: 123|...` after it.

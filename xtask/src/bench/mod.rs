@@ -3,6 +3,8 @@
 //! `bench/` holds what runs: a Cargo package of its own (never built with armill), Python and C++. Each prints rows; here
 //! they are called, put side by side ([`page`]) and held against the goals ([`goals`]). What a peer needs is installed
 //! under `target/` ([`peers`]); a peer that cannot be had is left out in plain words.
+//!
+//! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it ran.
 
 mod goals;
 mod instructions;
@@ -11,12 +13,12 @@ mod page;
 mod peers;
 mod row;
 
-use crate::command::{cargo, command_line};
+use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use row::Row;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, ExitCode, Stdio};
+use std::process::{Command, ExitCode};
 
 /// What `--help` says.
 pub const ABOUT: &str =
@@ -104,13 +106,13 @@ fn measured(options: &Options) -> Result<Found, String> {
     rust(options, &mut found)?;
     match venv {
         Ok(()) => {
-            found.read(&output(options.quicken(&mut peers::python()))?);
+            found.read(&printed(options.quicken(&mut peers::python()))?);
             for (who, peer) in [
                 ("Pinocchio", peers::pinocchio()),
                 ("C++ by hand", peers::by_hand()),
             ] {
                 match peer {
-                    Ok(mut command) => found.read(&output(options.quicken(&mut command))?),
+                    Ok(mut command) => found.read(&printed(options.quicken(&mut command))?),
                     Err(why) => found.skipped.push(format!("{who}: {why}")),
                 }
             }
@@ -134,7 +136,7 @@ fn rust(options: &Options, found: &mut Found) -> Result<(), String> {
     if options.only == Some(Only::Paths) {
         command.arg("--paths");
     }
-    found.read(&output(options.quicken(&mut command))?);
+    found.read(&printed(options.quicken(&mut command))?);
     Ok(())
 }
 
@@ -144,18 +146,6 @@ fn bench_cargo(arguments: &[&str]) -> Command {
     command.args(["--manifest-path", "bench/Cargo.toml"]);
     command.env("CARGO_TARGET_DIR", TARGET);
     command
-}
-
-/// Runs a program whose talk goes to our stderr, and gives what it printed.
-fn output(command: &mut Command) -> Result<String, String> {
-    let line = command_line(command);
-    eprintln!("+ {line}");
-    let ran = command.stderr(Stdio::inherit()).output();
-    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
-    if !output.status.success() {
-        return Err(format!("{line} failed"));
-    }
-    String::from_utf8(output.stdout).map_err(|problem| format!("{line}: {problem}"))
 }
 
 fn publish(options: &Options, found: &Found) -> Result<(), String> {

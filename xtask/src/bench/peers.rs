@@ -2,7 +2,8 @@
 //!
 //! Pinocchio comes as a wheel that holds its C++ headers, and Eigen's and Boost's beside them; so does cmake.
 
-use super::{WORKLOAD, output};
+use super::WORKLOAD;
+use crate::command::printed;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
@@ -37,8 +38,8 @@ pub fn virtual_environment() -> Result<(), String> {
         return Ok(());
     }
     eprintln!("installing into {VENV}: {}", packages(&wanted).join(", "));
-    output(Command::new("python3").args(["-m", "venv", VENV]))?;
-    output(Command::new(in_venv("python")).args(["-m", "pip", "install", "--quiet", "-r", REQUIREMENTS]))?;
+    printed(Command::new("python3").args(["-m", "venv", VENV]))?;
+    printed(Command::new(in_venv("python")).args(["-m", "pip", "install", "--quiet", "-r", REQUIREMENTS]))?;
     fs::write(installed, wanted).map_err(|problem| problem.to_string())
 }
 
@@ -66,7 +67,7 @@ impl CppPeer {
             // Warnings about the headers of others are not ours to mend.
             compiler.args(["-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-w"]);
             arguments(&mut compiler);
-            output(compiler.args([self.source, "-o", self.program]))?;
+            printed(compiler.args([self.source, "-o", self.program]))?;
         }
         let mut command = Command::new(self.program);
         command.arg(WORKLOAD);

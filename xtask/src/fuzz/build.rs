@@ -1,10 +1,10 @@
 //! The fuzzing program: built with counters at every branch, asked which targets it has.
 
 use super::{FOLDER, built};
-use crate::command::{cargo, command_line};
+use crate::command::{cargo, printed};
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 /// What puts the counters in that libFuzzer reads. All are options of the stable compiler; no sanitizer is linked, since
 /// safe Rust needs none to see a fault.
@@ -53,24 +53,14 @@ pub fn program() -> Result<OsString, String> {
 /// The program does not run.
 pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
     let mut command = Command::new(program);
-    let printed = said(command.env_remove("ARMILL_FUZZ_TARGET"))?;
-    Ok(printed.lines().map(str::to_owned).collect())
+    let told = printed(command.env_remove("ARMILL_FUZZ_TARGET"))?;
+    Ok(told.lines().map(str::to_owned).collect())
 }
 
 /// The machine that rustc builds for when nobody says otherwise.
 fn host() -> Result<String, String> {
-    let printed = said(Command::new("rustc").arg("-vV"))?;
-    let host = printed.lines().find_map(|line| line.strip_prefix("host: "));
+    let told = printed(Command::new("rustc").arg("-vV"))?;
+    let host = told.lines().find_map(|line| line.strip_prefix("host: "));
     host.map(str::to_owned)
         .ok_or_else(|| "rustc -vV names no host".to_owned())
-}
-
-fn said(command: &mut Command) -> Result<String, String> {
-    let line = command_line(command);
-    let ran = command.stderr(Stdio::inherit()).output();
-    let output = ran.map_err(|problem| format!("{line} does not start: {problem}"))?;
-    match output.status.success() {
-        true => Ok(String::from_utf8_lossy(&output.stdout).into_owned()),
-        false => Err(format!("{line} failed")),
-    }
 }

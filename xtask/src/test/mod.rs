@@ -2,6 +2,8 @@
 //!
 //! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
 //! says that it was skipped.
+//!
+//! `step`: one of them; `count`: the tests in what it printed.
 
 mod count;
 mod step;

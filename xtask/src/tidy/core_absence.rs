@@ -1,4 +1,4 @@
-//! What the core never does: files, environment, time, printing, randomness, serialisation, hash order.
+//! What the core never does: files, environment, time, printing, randomness, serialisation, hash order, global state.
 
 use super::Rule;
 use super::rust::{RustFile, find_word};
@@ -24,6 +24,9 @@ const STD_MODULES: &[(&str, &str)] = &[
     ),
     ("env", "settings come in as parameters"),
     ("time", "the core knows no clock; its callers measure time"),
+    ("process", "the core starts nothing"),
+    ("net", "the core reaches nothing outside itself"),
+    ("thread", "work is spread by rayon, written by index"),
 ];
 
 /// Macros that print.
@@ -42,7 +45,16 @@ const NAMES: &[(&str, &str)] = &[
         "serialisation belongs to armill-formats and armill-study",
     ),
     ("rand", "seeds and samples come in as parameters"),
+    ("thread_local", STATE),
+    ("LazyLock", STATE),
+    ("OnceLock", STATE),
+    ("OnceCell", STATE),
 ];
+
+const STATE: &str = "there is no global state: values come in and go out";
+
+/// The one static there is, and where: a flag that nobody sets.
+const NEVER: (&str, &str) = ("crates/core/src/watch.rs", "static NEVER: AtomicBool");
 
 /// Looks at the core without its tests; comments and literals may name these things.
 fn check(tree: &Tree) -> Vec<Violation> {
@@ -65,6 +77,14 @@ fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
         }
     }
     for (index, code) in file.code.iter().enumerate() {
+        if is_static(code) && !(file.path == NEVER.0 && code.contains(NEVER.1)) {
+            violations.push(Violation::new(
+                file.path,
+                index + 1,
+                "a static in the core",
+                STATE,
+            ));
+        }
         for name in PRINTING {
             if find_word(code, name).is_some_and(|at| code[at + name.len()..].starts_with('!')) {
                 let hint = "return the value, or report progress to the Watch";
@@ -91,6 +111,15 @@ fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
         }
     }
     violations
+}
+
+/// Whether a line declares a static; `'static` is a lifetime.
+fn is_static(code: &str) -> bool {
+    let words = code
+        .trim_start()
+        .trim_start_matches("pub ")
+        .trim_start_matches("pub(crate) ");
+    words.starts_with("static ")
 }
 
 #[cfg(test)]
@@ -123,6 +152,21 @@ mod tests {
                 "4 serde in the core"
             ]
         );
+    }
+
+    #[test]
+    fn global_state_is_told_and_a_lifetime_is_none() {
+        let text = "pub static A: u8 = 0;\nconst B: &'static str = \"\";\nuse std::sync::OnceLock;\nstd::thread::spawn(f);\n";
+        assert_eq!(
+            found(text),
+            [
+                "4 std::thread in the core",
+                "1 a static in the core",
+                "3 OnceLock in the core"
+            ]
+        );
+        let never = "static NEVER: AtomicBool = AtomicBool::new(false);\n";
+        assert!(check(&Tree::of(&[(NEVER.0, never)])).is_empty());
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Which crate may depend on which: core <- {formats, report} <- study <- {cli, web, py}.
+//! Which crate may depend on which: core <- formats <- study <- cli, report <- study; programs beside them.
 
 use super::Rule;
 use super::tree::Tree;
@@ -11,69 +11,147 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Each folder of `crates/` with the folders it may depend on, tests and benchmarks included.
-const MAY_USE: &[(&str, &[&str])] = &[
+/// Each folder of `crates/` with those of our crates that it depends on; its tests may depend on no other.
+const USES: &[(&str, &[&str])] = &[
     ("core", &[]),
     ("formats", &["core"]),
-    ("report", &["core"]),
+    ("report", &[]),
     ("study", &["core", "formats", "report"]),
-    ("web", &["core", "formats", "report", "study"]),
-    // `armill serve` starts the server.
-    ("cli", &["core", "formats", "report", "study", "web"]),
-    // The wheel installs the command.
-    ("py", &["core", "formats", "report", "study", "cli"]),
+    ("cli", &["core", "formats", "report", "study"]),
 ];
 
-/// Reads the dependency tables of `crates/*/Cargo.toml`.
+/// Programs of the repository, on which nothing depends.
+const PROGRAMS: &[&str] = &["validation", "bench", "fuzz", "xtask"];
+
+/// Programs that are no members of the workspace: peers and counters are never built with armill.
+const APART: &[&str] = &["bench", "fuzz"];
+
+/// All that the core is built of.
+const LIBRARIES_OF_CORE: &[&str] = &["nalgebra", "libm", "rayon", "thiserror"];
+
+/// Reads the dependency tables of every Cargo.toml.
 fn check(tree: &Tree) -> Vec<Violation> {
-    let mut violations = Vec::new();
-    for (path, text) in tree.texts_in("crates/", "/Cargo.toml") {
-        let folder = path.split('/').nth(1).unwrap_or_default();
-        let Some((_, may_use)) = MAY_USE.iter().find(|(name, _)| *name == folder) else {
-            let hint = "give it a place in MAY_USE in xtask/src/tidy/crate_direction.rs";
-            violations.push(Violation::new(
-                path,
-                1,
-                format!("crate `{folder}` has no place in the order"),
-                hint,
-            ));
-            continue;
-        };
-        for (line, used) in our_dependencies(text) {
-            if !may_use.contains(&used) {
-                let what = format!("`{folder}` depends on `{used}`");
-                let hint = match may_use {
-                    [] => "it may depend on no other crate of ours".to_owned(),
-                    _ => format!("it may depend on {}", may_use.join(", ")),
-                };
-                violations.push(Violation::new(path, line, what, hint));
+    let crates = tree.texts_in("crates/", "/Cargo.toml");
+    let mut violations: Vec<Violation> = crates.flat_map(|(path, text)| check_crate(path, text)).collect();
+    for (path, text) in tree.texts().filter(|(path, _)| path.ends_with("Cargo.toml")) {
+        for found in dependencies(text) {
+            let name = found.name.strip_prefix("armill-").unwrap_or(found.name);
+            if PROGRAMS.contains(&name) {
+                violations.push(found.told(path, "a program of the repository: nothing depends on it"));
+            } else if path == "xtask/Cargo.toml" {
+                violations.push(found.told(
+                    path,
+                    "xtask depends on no crate: it must build where nothing else does",
+                ));
             }
         }
     }
+    violations.extend(APART.iter().filter_map(|program| check_apart(tree, program)));
     violations
 }
 
-/// The folders of our crates that a Cargo.toml depends on, with their lines.
-fn our_dependencies(text: &str) -> Vec<(usize, &str)> {
+fn check_crate(path: &str, text: &str) -> Vec<Violation> {
+    let folder = path.split('/').nth(1).unwrap_or_default();
+    let Some((_, uses)) = USES.iter().find(|(name, _)| *name == folder) else {
+        let hint = "give it a place in USES in xtask/src/tidy/crate_direction.rs";
+        let what = format!("crate `{folder}` has no place in the order");
+        return vec![Violation::new(path, 1, what, hint)];
+    };
+    let all = dependencies(text);
+    let mut violations = Vec::new();
+    for found in &all {
+        let ours = found.ours();
+        if ours.is_some_and(|ours| !uses.contains(&ours)) {
+            let hint = match uses {
+                [] => "it may depend on no other crate of ours".to_owned(),
+                _ => format!("it may depend on {}", uses.join(", ")),
+            };
+            violations.push(found.told(path, &hint));
+        } else if folder == "core" && !found.of_tests && !LIBRARIES_OF_CORE.contains(&found.name) {
+            let hint = format!("the core is built of {}", LIBRARIES_OF_CORE.join(", "));
+            violations.push(found.told(path, &hint));
+        }
+    }
+    let missing = uses.iter().filter(|name| {
+        let mut shipped = all.iter().filter(|found| !found.of_tests);
+        !shipped.any(|found| found.ours() == Some(**name))
+    });
+    let hint = "correct the page and USES in xtask/src/tidy/crate_direction.rs";
+    violations.extend(missing.map(|name| {
+        let what = format!("`{folder}` does not depend on `{name}`, as ARCHITECTURE.md says");
+        Violation::new(path, 1, what, hint)
+    }));
+    violations
+}
+
+/// A program that must be a workspace of its own, but is not.
+fn check_apart(tree: &Tree, program: &str) -> Option<Violation> {
+    let path = format!("{program}/Cargo.toml");
+    let own = tree.text(&path)?.lines().any(|line| line.trim() == "[workspace]");
+    let members = tree.text("Cargo.toml").unwrap_or_default().lines();
+    let member = members
+        .filter(|line| line.starts_with("members"))
+        .any(|line| line.contains(&format!("\"{program}\"")));
+    (!own || member).then(|| {
+        let what = format!("`{program}` is built with armill");
+        Violation::new(
+            &path,
+            1,
+            what,
+            "give it a [workspace] of its own, and no place among the members",
+        )
+    })
+}
+
+/// A dependency of a Cargo.toml.
+#[derive(Debug, PartialEq)]
+struct Dependency<'a> {
+    line: usize,
+    name: &'a str,
+    /// Of tests, benchmarks or build scripts alone.
+    of_tests: bool,
+}
+
+impl<'a> Dependency<'a> {
+    /// The folder in `crates/` that it means, if it is one of ours.
+    fn ours(&self) -> Option<&'a str> {
+        match self.name {
+            "armill" => Some("cli"),
+            name => name.strip_prefix("armill-"),
+        }
+    }
+
+    fn told(&self, path: &str, hint: &str) -> Violation {
+        let folder = path.trim_end_matches("/Cargo.toml").trim_start_matches("crates/");
+        let what = format!(
+            "`{folder}` depends on `{}`",
+            self.name.strip_prefix("armill-").unwrap_or(self.name)
+        );
+        Violation::new(path, self.line, what, hint)
+    }
+}
+
+/// All dependencies of a Cargo.toml, but for those that a workspace lists for its members.
+fn dependencies(text: &str) -> Vec<Dependency<'_>> {
     let mut found = Vec::new();
-    let mut in_dependencies = false;
+    let (mut inside, mut of_tests) = (false, false);
     for (index, line) in text.lines().enumerate() {
         let line = line.trim();
         let name = if let Some(header) = line.strip_prefix('[').and_then(|line| line.strip_suffix(']')) {
-            in_dependencies = header.ends_with("dependencies");
+            inside = header.ends_with("dependencies") && header != "workspace.dependencies";
+            of_tests = header.contains("dev-dependencies") || header.contains("build-dependencies");
             // `[dependencies.armill-core]` is a dependency by itself.
             header.rsplit_once("dependencies.").map(|(_, name)| name)
-        } else if in_dependencies {
+        } else if inside && !line.is_empty() && !line.starts_with('#') {
             line.split(['=', '.', ' ']).next()
         } else {
             None
         };
-        let folder = match name {
-            Some("armill") => Some("cli"),
-            Some(name) => name.strip_prefix("armill-"),
-            None => None,
-        };
-        found.extend(folder.map(|folder| (index + 1, folder)));
+        found.extend(name.map(|name| Dependency {
+            line: index + 1,
+            name,
+            of_tests,
+        }));
     }
     found
 }
@@ -82,28 +160,80 @@ fn our_dependencies(text: &str) -> Vec<(usize, &str)> {
 mod tests {
     use super::*;
 
+    fn told(files: &[(&str, &str)]) -> Vec<String> {
+        let violations = check(&Tree::of(files)).into_iter();
+        violations
+            .map(|violation| format!("{}:{} {}", violation.path, violation.line, violation.what))
+            .collect()
+    }
+
     #[test]
     fn a_dependency_upwards_is_told_with_its_line() {
         let text = "[package]\nname = \"armill-core\"\n[dev-dependencies]\narmill-formats.workspace = true\n";
-        let violations = check(&Tree::of(&[("crates/core/Cargo.toml", text)]));
-        assert_eq!(violations.len(), 1);
-        assert_eq!(violations[0].line, 4);
+        assert_eq!(
+            told(&[("crates/core/Cargo.toml", text)]),
+            ["crates/core/Cargo.toml:4 `core` depends on `formats`"]
+        );
     }
 
     #[test]
     fn every_way_to_write_a_dependency_is_seen() {
-        let text = "[dependencies]\narmill-core = { path = \"\" }\n[target.x.dependencies.armill]\nversion = \"1\"\n";
-        assert_eq!(our_dependencies(text), [(2, "core"), (3, "cli")]);
+        let text = "[dependencies]\narmill-core = { path = \"\" }\n# why\n[target.x.dependencies.armill]\nversion = \"1\"\n\
+                    [dev-dependencies]\ncsv = \"1\"\n";
+        let found: Vec<_> = dependencies(text)
+            .iter()
+            .map(|found| (found.line, found.name, found.of_tests))
+            .collect();
+        assert_eq!(
+            found,
+            [(2, "armill-core", false), (4, "armill", false), (7, "csv", true)]
+        );
     }
 
     #[test]
-    fn dependencies_downwards_pass() {
-        let text = "[dependencies]\narmill-core.workspace = true\narmill-web = \"1\"\nserde = \"1\"\n";
-        assert!(check(&Tree::of(&[("crates/cli/Cargo.toml", text)])).is_empty());
+    fn dependencies_downwards_pass_and_one_that_is_missing_is_told() {
+        let three = "[dependencies]\narmill-core.workspace = true\narmill-formats = \"1\"\narmill-report = \"1\"\nserde = \"1\"\n";
+        let four = format!("{three}armill-study = \"1\"\n");
+        assert!(told(&[("crates/cli/Cargo.toml", &four)]).is_empty());
+        assert_eq!(
+            told(&[("crates/cli/Cargo.toml", three)]),
+            ["crates/cli/Cargo.toml:1 `cli` does not depend on `study`, as ARCHITECTURE.md says"]
+        );
     }
 
     #[test]
     fn a_crate_without_a_place_is_told() {
-        assert_eq!(check(&Tree::of(&[("crates/new/Cargo.toml", "")])).len(), 1);
+        assert_eq!(told(&[("crates/new/Cargo.toml", "")]).len(), 1);
+    }
+
+    #[test]
+    fn what_the_core_is_not_built_of_is_told_but_its_tests_may_use_it() {
+        let text = "[dependencies]\nnalgebra = \"1\"\nserde = \"1\"\n[dev-dependencies]\nproptest = \"1\"\n";
+        assert_eq!(
+            told(&[("crates/core/Cargo.toml", text)]),
+            ["crates/core/Cargo.toml:3 `core` depends on `serde`"]
+        );
+    }
+
+    #[test]
+    fn programs_stand_beside_the_crates() {
+        let root = "[workspace]\nmembers = [\"crates/*\", \"fuzz\"]\n[workspace.dependencies]\narmill-fuzz = \"1\"\n";
+        let found = told(&[
+            ("Cargo.toml", root),
+            (
+                "bench/Cargo.toml",
+                "[package]\n[workspace]\n[dependencies]\narmill-validation = \"1\"\n",
+            ),
+            ("fuzz/Cargo.toml", "[workspace]\n"),
+            ("xtask/Cargo.toml", "[dependencies]\nserde = \"1\"\n"),
+        ]);
+        assert_eq!(
+            found,
+            [
+                "bench/Cargo.toml:4 `bench` depends on `validation`",
+                "xtask/Cargo.toml:2 `xtask` depends on `serde`",
+                "fuzz/Cargo.toml:1 `fuzz` is built with armill",
+            ]
+        );
     }
 }

@@ -15,12 +15,21 @@ mod architecture_page;
 mod core_absence;
 mod crate_direction;
 mod embedded;
+mod exit_codes;
 mod file_length;
 mod links;
 mod machine_paths;
+mod module_folders;
 mod module_order;
+mod notation_page;
+mod own_rules;
+mod page_paths;
+mod pictures;
+mod robot_formats;
 mod sources;
+mod thin_command;
 mod units;
+mod unsafe_code;
 mod vague_names;
 mod validation_cases;
 
@@ -45,17 +54,26 @@ struct Rule {
 /// From the whole to the detail.
 const RULES: &[Rule] = &[
     architecture_page::RULE,
+    page_paths::RULE,
     crate_direction::RULE,
     module_order::RULE,
+    module_folders::RULE,
     core_absence::RULE,
+    unsafe_code::RULE,
+    thin_command::RULE,
     file_length::RULE,
     vague_names::RULE,
     units::RULE,
+    notation_page::RULE,
+    exit_codes::RULE,
     sources::RULE,
     embedded::RULE,
+    robot_formats::RULE,
+    pictures::RULE,
     links::RULE,
     validation_cases::RULE,
     machine_paths::RULE,
+    own_rules::RULE,
 ];
 
 /// Checks every rule and tells every violation, with the reason of each broken rule.

@@ -12,51 +12,34 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// The modules of the core, file or folder, in reading order.
-const READING_ORDER: &[&str] = &[
-    "frame",
-    "spatial",
-    "robot",
-    "compliance",
-    "load",
-    "source",
-    "predict",
-    "budget",
-    "workpiece",
-    "path",
-    "watch",
-    "kernel",
-    "map",
-    "optimize",
-    "identify",
-    "measure",
-];
+/// What every module may use: how long work is watched and cancelled.
+const FOR_ALL: &[&str] = &["watch", "Watch"];
 
-/// What every module may use: how things fail, and how long work is watched and cancelled.
-const FOR_ALL: &[&str] = &["error", "watch", "Error", "Result", "Watch"];
-
+const PAGE: &str = "ARCHITECTURE.md";
+const ROOT: &str = "crates/core/src/lib.rs";
 const SOURCE_FOLDER: &str = "crates/core/src/";
 
 /// Looks at every path that begins at the root of the core; tests may use everything.
 fn check(tree: &Tree) -> Vec<Violation> {
-    let mut violations = Vec::new();
+    let order = reading_order(tree);
+    let mut violations = against_root(tree, &order);
     for file in tree.rust_files(SOURCE_FOLDER) {
         let Some((module, depth)) = module_and_depth(file.path) else {
             continue;
         };
-        let place = READING_ORDER.iter().position(|name| *name == module);
+        let place = order.iter().position(|name| *name == module);
         if place.is_none() && !FOR_ALL.contains(&module) {
             let what = format!("module `{module}` has no place in the reading order");
-            let hint = "give it one in READING_ORDER in xtask/src/tidy/module_order.rs";
+            let hint = "give it a row in the table of modules of ARCHITECTURE.md";
             violations.push(Violation::new(file.path, 1, what, hint));
             continue;
         }
-        let before = &READING_ORDER[..place.unwrap_or(0)];
+        let before = &order[..place.unwrap_or(0)];
         for (line, used) in names_from_root(&file, depth) {
             if used == module || before.contains(&used.as_str()) || FOR_ALL.contains(&used.as_str()) {
                 continue;
             }
-            let (what, hint) = if READING_ORDER.contains(&used.as_str()) {
+            let (what, hint) = if order.contains(&used.as_str()) {
                 let what = format!("`{module}` uses `{used}`, which comes after it");
                 (what, "move the shared part up, or the caller down")
             } else {
@@ -67,6 +50,41 @@ fn check(tree: &Tree) -> Vec<Violation> {
         }
     }
     violations
+}
+
+/// The modules of the core in reading order: the first column of the table of the page.
+fn reading_order(tree: &Tree) -> Vec<&str> {
+    let lines = tree.text(PAGE).unwrap_or_default().lines();
+    let rows = lines.skip_while(|line| !line.starts_with("| module |"));
+    let rows = rows.take_while(|line| line.starts_with('|'));
+    rows.filter_map(|row| row.strip_prefix("| `")?.split('`').next())
+        .collect()
+}
+
+/// Modules that the core has and the table does not, and the other way round.
+fn against_root(tree: &Tree, order: &[&str]) -> Vec<Violation> {
+    let Some(root) = tree.text(ROOT) else {
+        return Vec::new();
+    };
+    let declared = |line: &'_ str| {
+        line.strip_prefix("pub mod ")?
+            .strip_suffix(';')
+            .map(str::to_owned)
+    };
+    let declared: Vec<String> = root.lines().filter_map(declared).collect();
+    let absent = order
+        .iter()
+        .filter(|name| !declared.iter().any(|declared| declared == *name));
+    let absent = absent.map(|name| {
+        let what = format!("`{name}` of the table of modules is not in the core");
+        Violation::new(PAGE, 1, what, "take its row out")
+    });
+    let unlisted = declared.iter().filter(|name| !order.contains(&name.as_str()));
+    let unlisted = unlisted.map(|name| {
+        let what = format!("module `{name}` has no row in the table of modules of {PAGE}");
+        Violation::new(ROOT, 1, what, "say which question it answers, in reading order")
+    });
+    absent.chain(unlisted).collect()
 }
 
 /// The module of the reading order that the file at `path` belongs to, and how deep in it; nothing for lib.rs.
@@ -90,8 +108,11 @@ fn names_from_root(file: &RustFile<'_>, depth: usize) -> Vec<(usize, String)> {
 mod tests {
     use super::*;
 
+    const TABLE: &str = "| module | question |\n|---|---|\n| `frame` | ? |\n| `spatial` | ? |\n| `robot` | ? |\n\
+                         | `compliance` | ? |\n| `load` | ? |\n| `watch` | ? |\n| `map` | ? |\n\n| `other` | ? |\n";
+
     fn lines(path: &str, text: &str) -> Vec<usize> {
-        check(&Tree::of(&[(path, text)]))
+        check(&Tree::of(&[(PAGE, TABLE), (path, text)]))
             .iter()
             .map(|violation| violation.line)
             .collect()
@@ -130,14 +151,14 @@ mod tests {
 
     #[test]
     fn what_comes_before_and_what_is_for_all_passes() {
-        let text = "use crate::error::Error;\nuse crate::watch::Watch;\nuse crate::robot::{self, Robot};\n\
+        let text = "use crate::watch::Watch;\nuse crate::robot::{self, Robot};\n\
                     use super::joint::Joint;\nuse crate::compliance::gravity;\n";
         assert_eq!(lines("crates/core/src/compliance/cartesian.rs", text), []);
     }
 
     #[test]
     fn tests_may_use_everything() {
-        let text = "// crate::map\n#[cfg(test)]\nmod tests {\n    use crate::measure::x;\n}\n";
+        let text = "// crate::map\n#[cfg(test)]\nmod tests {\n    use crate::elsewhere::x;\n}\n";
         assert_eq!(lines("crates/core/src/frame.rs", text), []);
         assert_eq!(lines("crates/core/src/robot/tests.rs", "use crate::map::x;"), []);
     }
@@ -145,9 +166,23 @@ mod tests {
     #[test]
     fn a_module_without_a_place_is_told() {
         assert_eq!(lines("crates/core/src/new.rs", ""), [1]);
+    }
+
+    #[test]
+    fn the_table_and_the_core_name_the_same_modules() {
+        let root = "pub mod frame;\npub mod new;\npub mod spatial;\npub mod robot;\npub mod compliance;\npub mod load;\n\
+                    pub mod map;\nuse crate::map::x;\n";
+        let violations = check(&Tree::of(&[(PAGE, TABLE), (ROOT, root)]));
+        let told: Vec<&str> = violations
+            .iter()
+            .map(|violation| violation.what.as_str())
+            .collect();
         assert_eq!(
-            lines("crates/core/src/lib.rs", "pub mod new;\nuse crate::map::x;\n"),
-            []
+            told,
+            [
+                "`watch` of the table of modules is not in the core",
+                "module `new` has no row in the table of modules of ARCHITECTURE.md"
+            ]
         );
     }
 }

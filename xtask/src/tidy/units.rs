@@ -18,16 +18,15 @@ const BOUNDARY_FOLDERS: &[&str] = &["crates/formats/src/", "crates/study/src/", 
 
 /// Last words of a name that are a unit. Compound units end in one of them: `_n_m`, `_rad_per_n_m`, `_mm_deg`
 /// (a six-vector: three lengths, three angles).
-const UNITS: &[&str] = &[
-    "um", "mm", "m", "mm2", "mm3", "m2", "cm3", // lengths, areas, volumes
-    "deg", "rad", "urad", "mrad", "rpm", "hz", // angles, turning
-    "n", "kn", "kg", "g", // forces, torques, masses
-    "s", "ms", "us", "kw", "w", "j", // times, powers, works
-    "mpa", "gpa", "percent", // stresses, shares of a hundred
+pub const UNITS: &[&str] = &[
+    "um", "mm", "m", "mm2", "mm3", "m2", // lengths, areas, volumes
+    "deg", "rad", "urad", "rad2", "rpm", "hz", // angles, turning
+    "n", "n2", "kg", // forces, torques, masses
+    "s", "gpa", "percent", // times, stresses, shares of a hundred
 ];
 
 /// Last words that are a unit only after `per`: alone, `min` is the smallest, `tooth` a thing.
-const UNITS_AFTER_PER: &[&str] = &["min", "tooth", "rev", "turn", "h", "k"];
+pub const UNITS_AFTER_PER: &[&str] = &["min", "tooth"];
 
 /// Names of numbers without unit, and of the SI matrices.
 const NO_UNIT: &[&str] = &[

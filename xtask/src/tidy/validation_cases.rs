@@ -1,4 +1,4 @@
-//! Every validation case explains itself and stands in the table of achieved errors.
+//! Every validation case explains itself, and stands in the overview and in the table of achieved errors.
 
 use super::Rule;
 use super::tree::Tree;
@@ -14,6 +14,7 @@ pub const RULE: Rule = Rule {
 
 const FOLDER: &str = "validation/";
 const TABLE: &str = "validation/TABLE.md";
+const OVERVIEW: &str = "validation/README.md";
 
 /// Folders of `validation/` that are code, not cases.
 const NOT_CASES: &[&str] = &["src", "tests", "benches"];
@@ -23,8 +24,18 @@ fn check(tree: &Tree) -> Vec<Violation> {
     let mut cases = tree.folders_in(FOLDER);
     cases.retain(|case| !NOT_CASES.contains(case));
     let mut violations = Vec::new();
+    let overview = tree.text(OVERVIEW).unwrap_or_default();
     for case in &cases {
         let page = format!("{FOLDER}{case}/README.md");
+        if !overview.contains(&format!("]({case}/README.md)")) {
+            let what = format!("case `{case}` is not linked");
+            violations.push(Violation::new(
+                OVERVIEW,
+                1,
+                what,
+                "say which kind of witness it is",
+            ));
+        }
         if !tree.has(&page) {
             violations.push(Violation::new(
                 &page,
@@ -103,6 +114,7 @@ mod tests {
         assert_eq!(
             violations,
             [
+                "validation/README.md:1 case `new` is not linked",
                 "validation/new/README.md:1 the page is missing",
                 "validation/TABLE.md:1 case `new` is not in the table",
                 "validation/TABLE.md:3 case `gone` has no folder",
@@ -113,7 +125,8 @@ mod tests {
     #[test]
     fn cases_with_page_and_row_pass() {
         let table = "| case | error |\n|---|---|\n| [circle](circle/README.md) | 1 |\n| | 2 |\n";
-        assert!(told(&[("validation/circle/README.md", ""), (TABLE, table)]).is_empty());
+        let page = (OVERVIEW, "| drawn | [circle](circle/README.md) |");
+        assert!(told(&[("validation/circle/README.md", ""), (TABLE, table), page]).is_empty());
     }
 
     #[test]

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use armill_formats::robot::format::Format;
 use clap::{Args, Subcommand};
 
+use super::ROBOT_HELP;
+
 #[derive(Debug, Args)]
 #[command(
     args_conflicts_with_subcommands = true,
@@ -19,7 +21,7 @@ Examples:
 pub(crate) struct RobotsArguments {
     #[command(subcommand)]
     pub action: Option<RobotsAction>,
-    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
+    #[arg(help = ROBOT_HELP)]
     pub name: Option<String>,
     /// Write a drawing of the arm to this file (.svg, .png)
     #[arg(long, value_name = "FILE", requires = "name")]
@@ -76,7 +78,7 @@ Read two or three poses with every joint well away from 0 and 90 deg, base and w
 Examples:
   armill robots check yaskawa/mh12 --convention yaskawa --pose \"10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09\"")]
 pub(crate) struct RobotsCheckArguments {
-    /// Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)
+    #[arg(help = ROBOT_HELP)]
     pub robot: String,
     /// What the pendant shows: joints = pose; give it once a reading
     #[arg(

@@ -1,11 +1,13 @@
 //! `armill check`: every problem of a study at once.
+//!
+//! Problems are told on stderr, with `--json` on stdout too; where there are none, stderr says how much there is to run.
+//! `--schema` prints the JSON Schema of the study file instead.
 
 use armill_formats::document::schema_json;
-use armill_study::StudyError;
 use armill_study::file::format::StudyFile;
 use armill_study::run::point_count;
+use armill_study::{StudyError, studies};
 
-use super::study_file::find;
 use crate::Outcome;
 use crate::arguments::CheckArguments;
 use crate::terminal::{print, say};
@@ -15,7 +17,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
         print(schema_json::<StudyFile>().trim_end())?;
         return Ok(Outcome::Fine);
     }
-    let found = find(arguments.study.as_deref().unwrap_or_else(|| ".".as_ref()))?;
+    let found = studies::find(arguments.study.as_deref().unwrap_or_else(|| ".".as_ref()))?;
     let study = found.read()?;
     if arguments.json {
         print(r#"{"problems":[]}"#)?;

@@ -1,4 +1,4 @@
-//! `armill completions`
+//! `armill completions`: the script that a shell sources, on stdout.
 
 use armill_study::StudyError;
 use clap::CommandFactory;

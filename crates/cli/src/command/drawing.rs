@@ -5,15 +5,27 @@ use std::path::Path;
 use armill_formats::file::write_atomically;
 use armill_study::StudyError;
 
-/// Writes `svg` to `file`: as it is, or as pixels where the name ends in `.png`.
-pub(crate) fn write(file: &Path, svg: &str) -> Result<(), StudyError> {
-    let png = file
-        .extension()
-        .is_some_and(|extension| extension.eq_ignore_ascii_case("png"));
-    let bytes = if png {
-        armill_report::raster::png(svg, 2.0)?
-    } else {
+/// Pixels of a PNG in one of an SVG.
+const PIXELS: f64 = 2.0;
+
+/// Writes `svg` to `file`: as it is where the name ends in `.svg`, as pixels where it ends in `.png`.
+///
+/// # Errors
+/// Another ending; a place where nothing can be written.
+pub(super) fn write(file: &Path, svg: &str) -> Result<(), StudyError> {
+    let ends_in = |wanted: &str| {
+        let ending = file.extension();
+        ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted))
+    };
+    let bytes = if ends_in("png") {
+        armill_report::raster::png(svg, PIXELS)?
+    } else if ends_in("svg") {
         svg.as_bytes().to_vec()
+    } else {
+        return Err(StudyError::value(
+            format!("--drawing: {} is no picture that armill draws", file.display()),
+            "a name that ends in .svg or .png",
+        ));
     };
     write_atomically(file, &bytes)?;
     crate::terminal::say(&format!("drawing in {}", file.display()));

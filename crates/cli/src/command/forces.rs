@@ -1,4 +1,7 @@
 //! `armill forces`: what is in a record of a dynamometer, before and after drift and teeth are taken off.
+//!
+//! `--rate-hz`, `--columns` and `--channels` say how the file is read, `--air-s` or `--no-drift`, `--low-pass-hz` and
+//! `--spindle-rpm` what is done to it. Stdout holds a [`ForcesAnswer`], in words or as JSON; `--out` takes tables and pictures.
 
 use armill_core::load::ActsOn;
 use armill_formats::measurement::format::Wanted;
@@ -7,6 +10,7 @@ use armill_study::forces::{
     Air, DriftAnswer, ForcesAnswer, RangeAnswer, Refusal, SummaryAnswer, Treatment, Unread, answer, output,
     read, treat,
 };
+use armill_study::number::decimals;
 
 use crate::Outcome;
 use crate::arguments::ForcesArguments;
@@ -94,9 +98,9 @@ fn as_text(answer: &ForcesAnswer) -> String {
         format!(
             "{} samples from {} s to {} s, {} Hz; {}",
             answer.samples,
-            plain(answer.start_s),
-            plain(answer.start_s + answer.duration_s),
-            plain(answer.rate_hz),
+            told(answer.start_s),
+            told(answer.start_s + answer.duration_s),
+            told(answer.rate_hz),
             answer.channels.join(", ")
         ),
     ];
@@ -150,7 +154,7 @@ fn row(name: &str, before: RangeAnswer, after: RangeAnswer) -> String {
 
 fn drift_text(drift: &DriftAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
-    let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", plain(*from), plain(*to));
+    let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", told(*from), told(*to));
     let air: Vec<String> = drift.air_s.iter().map(stretch).collect();
     format!(
         "drift        {} N and {} N/s\nair cut      {}: {} samples, {}",
@@ -165,7 +169,7 @@ fn drift_text(drift: &DriftAnswer) -> String {
     )
 }
 
-/// A number with the digits that mean something.
-fn plain(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
+/// Times and rates, to a microsecond.
+fn told(value: f64) -> f64 {
+    decimals(value, 6)
 }

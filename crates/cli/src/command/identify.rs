@@ -1,4 +1,8 @@
 //! `armill identify`: springs from load tests, and which tests to do.
+//!
+//! A table of tests gives an [`Answer`] on stdout and, with `--out`, the robot with its new compliances; `--plan` gives a
+//! table to fill in, on stdout or in `--out`, and on stderr what it will tell. `--unknowns`, `--points`, `--prior` and
+//! `--tool-mm` are the [`Question`] of both.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -14,6 +18,7 @@ use armill_study::identify::{
 };
 use armill_study::{StudyError, robots};
 
+use super::numbers::{above_zero, three};
 use crate::Outcome;
 use crate::arguments::{IdentifyArguments, PointsArgument, PriorArgument};
 use crate::terminal::{print, say};
@@ -32,34 +37,12 @@ pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> 
 }
 
 fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
-    let tool_mm = arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]);
-    let &[x, y, z] = tool_mm else {
-        return Err(StudyError::value(
-            format!("--tool-mm: {} numbers", tool_mm.len()),
-            "it takes three, such as 0,0,150",
-        ));
+    let tool_point_mm = match &arguments.tool_mm {
+        Some(tool_mm) => three("--tool-mm", tool_mm)?,
+        None => Vector3::zeros(),
     };
-    for (flag, value, least) in [
-        ("--point-u-mm", arguments.point_u_mm, 0.0),
-        ("--pull-n", arguments.pull_n, 0.0),
-        ("--gauge-um", arguments.gauge_um, 0.0),
-    ] {
-        if !(value > least && value <= LARGEST) {
-            return Err(StudyError::value(
-                format!("{flag} {value} is not above {least} and at most {LARGEST}"),
-                "a plain number",
-            ));
-        }
-    }
-    if let Some(value) = tool_mm
-        .iter()
-        .find(|value| !value.is_finite() || value.abs() > LARGEST)
-    {
-        return Err(StudyError::value(
-            format!("--tool-mm: {value} is not a number up to {LARGEST} mm"),
-            "flange to tool point, in the flange frame",
-        ));
-    }
+    above_zero("--pull-n", arguments.pull_n)?;
+    above_zero("--gauge-um", arguments.gauge_um)?;
     Ok(Question {
         unknowns: arguments.unknowns.clone(),
         points: match arguments.points {
@@ -67,12 +50,12 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
             PointsArgument::Common => PointsAsked::Common,
             PointsArgument::Separate => PointsAsked::Separate,
         },
-        point_u: arguments.point_u_mm * 1e-3,
+        point_u: above_zero("--point-u-mm", arguments.point_u_mm)? * 1e-3,
         prior: match arguments.prior {
             PriorArgument::Typical => PriorAsked::Typical,
             PriorArgument::None => PriorAsked::None,
         },
-        tool_point: Vector3::new(x, y, z) * 1e-3,
+        tool_point: tool_point_mm * 1e-3,
         units: if arguments.trust_units {
             Units::Trusted
         } else {
@@ -80,9 +63,6 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
         },
     })
 }
-
-/// No length, force or uncertainty of a test is larger, in the units of the flags.
-const LARGEST: f64 = 1e5;
 
 fn plan_tests(
     arguments: &IdentifyArguments,

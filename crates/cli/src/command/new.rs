@@ -1,56 +1,18 @@
 //! `armill new`: a commented study that runs.
+//!
+//! The text comes from [`armill_study::new`] by `--robot`; here it goes into `DIR/study.toml`, never over one that is
+//! there. Stderr says what to do next; stdout is empty, or holds the path as JSON.
 
-use armill_core::frame::Isometry;
-use armill_core::nalgebra::Point3;
-use armill_core::robot::forward::forward;
-use armill_core::robot::inverse::{ToolAt, postures};
-use armill_core::robot::{Robot, reach};
-use armill_core::workpiece::Plane;
 use armill_formats::file::{create_folder, write_atomically};
-use armill_study::{ComplianceClass, ENOUGH_JOINTS, StudyError, library, robots};
+use armill_study::StudyError;
+use armill_study::new::{Compliances, MadeStudy, new_study};
 
 use crate::Outcome;
 use crate::arguments::NewArguments;
 use crate::terminal::{print, say};
 
-const TEMPLATE: &str = include_str!("new.toml");
-const COMPLIANCE: &str = "
-# No joint compliance is known for this robot. These are values of a class of arms, assumed and wide: light (up to
-# 20 kg payload), medium (to 100 kg), heavy (to 300 kg); every result says so. Once you know yours from load tests:
-# rad_per_n_m = [...], one a joint, u_rad_per_n_m = [...], source = \"...\".
-[compliance]
-class = \"CLASS\"
-";
-const COMPLIANCE_OPEN: &str = "
-# No joint compliance is known for this robot, and no class of assumed values fits its joints. Nothing can be predicted
-# before you bring yours, one a joint, base to flange: `armill identify` finds them from load tests.
-[compliance]
-rad_per_n_m = []
-source = \"\"
-";
-
-/// Reach of the arm that the plate of the template fits, m: Yaskawa MH12.
-const REACH_OF_TEMPLATE: f64 = 1.44;
-/// Height of its second axis, mm.
-const SHOULDER_OF_TEMPLATE: f64 = 450.0;
-/// Length of the tool of the template, m.
-const TOOL_OF_TEMPLATE: f64 = 0.150;
-/// How often the plate is brought nearer.
-const TRIES: i32 = 10;
-
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
-    let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let joints = found.robot.joints().len();
-    if joints < ENOUGH_JOINTS {
-        let message = format!(
-            "robot `{}` has {joints} joints: no study of it would run",
-            arguments.robot
-        );
-        return Err(StudyError::value(
-            message,
-            "`armill pose` takes its joints; `armill robots` lists robots for studies",
-        ));
-    }
+    let made = new_study(&arguments.robot)?;
     let path = arguments.dir.join("study.toml");
     if path.exists() {
         let message = format!("{} exists already", path.display());
@@ -59,109 +21,20 @@ pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
             "choose another folder: armill never overwrites a study",
         ));
     }
-    let class = found
-        .payload_kg
-        .map_or(ComplianceClass::Medium, ComplianceClass::of_payload);
-    let compliance = match found.robot.compliance() {
-        Some(_) => String::new(),
-        None if class.compliance_of(&found.robot).is_err() => COMPLIANCE_OPEN.to_owned(),
-        None => COMPLIANCE.replace("CLASS", class.name()),
-    };
-    let robot = toml_string(&robot_for(&arguments.robot)?);
-    let text = scaled(&found.robot)
-        .replace("\"ROBOT\"", &robot)
-        .replace("# COMPLIANCE\n", &compliance);
     create_folder(&arguments.dir)?;
-    write_atomically(&path, text.as_bytes())?;
-    let shown = path.display().to_string();
-    if arguments.json {
-        print(&serde_json::json!({ "study": shown }).to_string())?;
-    }
-    let first = if compliance == COMPLIANCE_OPEN {
-        "fill in its joint compliances"
-    } else {
-        "edit it"
+    write_atomically(&path, made.text.as_bytes())?;
+    let study = path.display().to_string();
+    let first = match made.compliances {
+        Compliances::Missing => "fill in its joint compliances",
+        Compliances::Known | Compliances::Assumed => "edit it",
     };
-    say(&format!(
-        "made {shown}; {first}, then: armill run {}",
+    let told = format!(
+        "made {study}; {first}, then: armill run {}",
         arguments.dir.display()
-    ));
+    );
+    if arguments.json {
+        print(&serde_json::to_string(&MadeStudy { study })?)?;
+    }
+    say(&told);
     Ok(Outcome::Fine)
-}
-
-/// The plate of a new study, mm.
-struct Plate {
-    x: f64,
-    z: f64,
-    half_size: f64,
-    distances: [f64; 4],
-}
-
-/// The template with its plate in the same place of the working range of `robot`.
-fn scaled(robot: &Robot) -> String {
-    let factor = reach(robot).unwrap_or(REACH_OF_TEMPLATE) / REACH_OF_TEMPLATE;
-    // Where no reach is known the plate comes nearer until the arm gets there.
-    let tried = (0..TRIES).map(|step| Plate::scaled(robot, factor * 0.9_f64.powi(step)));
-    let plate = tried
-        .into_iter()
-        .find(|plate| plate.is_reached(robot))
-        .unwrap_or_else(|| Plate::scaled(robot, factor));
-    let half_size = plate.half_size;
-    TEMPLATE
-        .replace("CENTRE", &format!("{}, 0, {}", plate.x, plate.z))
-        .replace("HALF_SIZE", &half_size.to_string())
-        .replace("STEP", &(half_size / 10.0).to_string())
-        .replace("DISTANCES", &plate.distances.map(|x| x.to_string()).join(", "))
-        .replace("RADIUS", &(half_size / 2.0).to_string())
-}
-
-impl Plate {
-    fn scaled(robot: &Robot, factor: f64) -> Plate {
-        let scaled = |mm: f64, step: f64| (mm * factor / step).round().max(1.0) * step;
-        let shoulder = forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z * 1e3;
-        // An arm with a low shoulder does not get as high as it gets far.
-        let height = (800.0 * factor).min(shoulder + (800.0 - SHOULDER_OF_TEMPLATE) * factor);
-        let x = scaled(1000.0, 50.0);
-        Plate {
-            x,
-            z: (height / 50.0).round().max(1.0) * 50.0,
-            half_size: scaled(200.0, 20.0),
-            distances: [-200.0, -100.0, 0.0, 100.0].map(|mm| x + (mm * factor / 10.0).round() * 10.0),
-        }
-    }
-
-    /// Whether the arm holds the tool at the corners of the plate.
-    fn is_reached(&self, robot: &Robot) -> bool {
-        let centre = Point3::new(self.x, 0.0, self.z) * 1e-3;
-        let plane = Plane::tilted(centre, std::f64::consts::FRAC_PI_2);
-        let flange_from_tool = Isometry::translation(0.0, 0.0, TOOL_OF_TEMPLATE);
-        let at = ToolAt {
-            flange_from_tool: &flange_from_tool,
-            near: None,
-            home: None,
-        };
-        let half = self.half_size * 1e-3;
-        [[-half, -half], [-half, half], [half, -half], [half, half]]
-            .into_iter()
-            .all(|corner| postures(robot, &plane.base_from_tool(corner.into(), 0.0), at).is_ok())
-    }
-}
-
-/// The robot as the study names it: paths there count from its folder, not from the current one.
-fn robot_for(given: &str) -> Result<String, StudyError> {
-    if library::robot(given).is_some() {
-        return Ok(given.to_owned());
-    }
-    let path = std::path::absolute(given).map_err(|error| {
-        StudyError::value(
-            format!("cannot tell where {given} is: {error}"),
-            "give its whole path",
-        )
-    })?;
-    Ok(path.display().to_string())
-}
-
-/// A TOML basic string.
-fn toml_string(text: &str) -> String {
-    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\""))
 }

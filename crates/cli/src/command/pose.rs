@@ -1,58 +1,30 @@
-//! `armill pose`: every posture of one pose.
+//! `armill pose`: every posture of one pose, in words or as a [`PoseAnswer`] on stdout.
+//!
+//! `--joints-deg`, or `--at-mm` with `--axis` (or `--tilt-deg`) and `--spin-deg`, becomes where the tool is; `--tool-mm` its
+//! place on the flange, `--wrench-n` the load; `--compliance-...` stands in for what the robot file says. `--drawing` draws
+//! the postures found.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::robot::JointCompliance;
+use armill_core::robot::{JointCompliance, RobotError};
 use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
+use armill_formats::robot::RobotDescription;
 use armill_study::file::quantities::pose_mm_deg;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
 use armill_study::{ComplianceClass, StudyError, robots};
 
+use super::numbers::{finite, three, three_or_six};
 use crate::Outcome;
 use crate::arguments::PoseArguments;
 use crate::terminal::print;
 
 pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let mut found = robots::find(&arguments.robot, ".".as_ref())?;
-    if let Some(values) = &arguments.compliance_rad_per_n_m {
-        finite("--compliance-rad-per-n-m", values)?;
-        let given = values
-            .iter()
-            .map(|value| JointCompliance {
-                value: *value,
-                standard_uncertainty: 0.0,
-            })
-            .collect();
-        let refused = |error: armill_core::robot::RobotError| {
-            StudyError::value(
-                format!("--compliance-rad-per-n-m: {error}"),
-                "one a joint, 0 or more",
-            )
-        };
-        // Curves and covariance of the robot file were of other compliances.
-        let mut structure = found.robot.structure().clone();
-        structure.curves.clear();
-        structure.covariance = None;
-        let robot = found.robot.with_compliance(given);
-        found.robot = robot
-            .and_then(|robot| robot.with_structure(structure))
-            .map_err(refused)?;
-    }
-    let mut caution = None;
-    if let Some(name) = &arguments.compliance_class {
-        let class = ComplianceClass::named(name)?;
-        let assumed = class.compliance_of(&found.robot)?;
-        caution = Some(class.caution()?);
-        let refused = |error: armill_core::robot::RobotError| StudyError::value(error.to_string(), "");
-        found.robot = found.robot.with_compliance(assumed).map_err(refused)?;
-    }
+    let caution = with_compliances(arguments, &mut found)?;
     let question = PoseQuestion {
         at: at(arguments)?,
-        flange_from_tool: pose_mm_deg(&padded(
-            "--tool-mm",
-            arguments.tool_mm.as_deref().unwrap_or(&[0.0; 3]),
-        )?),
+        flange_from_tool: pose_mm_deg(&three_or_six("--tool-mm", arguments.tool_mm.as_deref())?),
         wrench: arguments.wrench_n.as_deref().map(wrench).transpose()?,
         load_dependent: arguments.load_dependent,
         reference_joints_deg: reference(arguments)?,
@@ -67,11 +39,39 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
         super::drawing::write(file, &drawing)?;
     }
     print(&if arguments.json {
-        as_json(&answer)?
+        serde_json::to_string_pretty(&answer)?
     } else {
         as_text(&answer)
     })?;
     Ok(Outcome::Fine)
+}
+
+/// Puts the compliances of `--compliance-rad-per-n-m` or `--compliance-class` into the robot; what to say of the latter.
+fn with_compliances(
+    arguments: &PoseArguments,
+    found: &mut RobotDescription,
+) -> Result<Option<String>, StudyError> {
+    let Some(name) = &arguments.compliance_class else {
+        if let Some(values) = &arguments.compliance_rad_per_n_m {
+            finite("--compliance-rad-per-n-m", values)?;
+            let given = values.iter().map(|value| JointCompliance {
+                value: *value,
+                standard_uncertainty: 0.0,
+            });
+            let refused = |error| {
+                let message = format!("--compliance-rad-per-n-m: {error}");
+                StudyError::value(message, "one a joint, 0 or more")
+            };
+            let robot = found.robot.clone().with_other_compliance(given.collect());
+            found.robot = robot.map_err(|error: RobotError| refused(error))?;
+        }
+        return Ok(None);
+    };
+    let class = ComplianceClass::named(name)?;
+    let assumed = class.compliance_of(&found.robot)?;
+    let robot = found.robot.clone().with_other_compliance(assumed);
+    found.robot = robot.map_err(|error| StudyError::value(error.to_string(), ""))?;
+    class.caution().map(Some)
 }
 
 fn reference(arguments: &PoseArguments) -> Result<Option<Vec<f64>>, StudyError> {
@@ -103,58 +103,11 @@ fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
 }
 
 fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
-    let [fx, fy, fz, mx, my, mz] = padded("--wrench-n", values)?;
+    let [fx, fy, fz, mx, my, mz] = three_or_six("--wrench-n", Some(values))?;
     Ok(Wrench {
         force: Vector3::new(fx, fy, fz),
         moment: Vector3::new(mx, my, mz),
     })
-}
-
-fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
-    finite(flag, values)?;
-    match values {
-        [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
-        _ => Err(StudyError::value(
-            format!("{flag}: {} numbers", values.len()),
-            "it takes three, such as 1000,0,800",
-        )),
-    }
-}
-
-/// Three numbers, or six; the last three are 0 if left out.
-pub(super) fn padded(flag: &str, values: &[f64]) -> Result<[f64; 6], StudyError> {
-    finite(flag, values)?;
-    match values {
-        [x, y, z] => Ok([*x, *y, *z, 0.0, 0.0, 0.0]),
-        [x, y, z, rx, ry, rz] => Ok([*x, *y, *z, *rx, *ry, *rz]),
-        _ => Err(StudyError::value(
-            format!("{flag}: {} numbers", values.len()),
-            "it takes three or six",
-        )),
-    }
-}
-
-/// No length, angle or force of a real cell is larger, in the units of the flags.
-const LARGEST: f64 = 1e9;
-
-pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
-    if let Some(value) = values.iter().find(|value| !value.is_finite()) {
-        return Err(StudyError::value(
-            format!("{flag}: {value} is not a finite number"),
-            "a plain number",
-        ));
-    }
-    match values.iter().find(|value| value.abs() > LARGEST) {
-        Some(value) => Err(StudyError::value(
-            format!("{flag}: {value:e} is beyond {LARGEST:e}"),
-            "is the unit right?",
-        )),
-        None => Ok(()),
-    }
-}
-
-fn as_json(answer: &PoseAnswer) -> Result<String, StudyError> {
-    Ok(serde_json::to_string_pretty(answer)?)
 }
 
 fn as_text(answer: &PoseAnswer) -> String {

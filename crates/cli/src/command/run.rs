@@ -1,20 +1,23 @@
 //! `armill run`: a study from file to report.
+//!
+//! Everything goes into `--out` (`out` beside the study): `--no-pictures` leaves pictures and report away, `--csv` adds tables.
+//! Stdout holds the answer in words, or with `--json` all of `result.json`; warnings and progress go to stderr. `--strict`
+//! exits with 1 unless every point holds its limit.
 
 use std::path::Path;
 
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::output::{self, Csv, Pictures, Wanted};
 use armill_study::run::{point_count, run as run_study};
-use armill_study::{Study, StudyError};
+use armill_study::{Study, StudyError, studies};
 
-use super::study_file::find;
 use crate::Outcome;
 use crate::arguments::RunArguments;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
-    let found = find(&arguments.study)?;
+    let found = studies::find(&arguments.study)?;
     let study = found.read()?;
     let out = arguments.out.clone().unwrap_or_else(|| found.folder.join("out"));
     output::prepare(&out)?;
@@ -28,10 +31,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
         say(&format!("warning: {warning}"));
     }
     say(&format!("results in {}", out.display()));
-    let held = answer.maps.iter().all(|map| map.fraction_within == 1.0)
-        && answer.paths.iter().all(|path| path.fraction_within == 1.0)
-        && answer.volumes.iter().all(|volume| volume.fraction_within == 1.0);
-    Ok(if arguments.strict && !held {
+    Ok(if arguments.strict && !answer.holds_everywhere() {
         Outcome::ToleranceNotHeld
     } else {
         Outcome::Fine
@@ -60,11 +60,10 @@ fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnsw
     if arguments.csv {
         wanted.csv = Csv::Every;
     }
-    let written = output::write(study, &found, &answer, (out, wanted), &|name| {
+    output::write(study, &found, &answer, (out, wanted), &|name| {
         progress.tell(name);
-    });
-    progress.clear();
-    written.map(|_| answer)
+    })?;
+    Ok(answer)
 }
 
 /// The answer as a person reads it.

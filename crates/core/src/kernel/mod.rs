@@ -7,6 +7,9 @@
 //! load of its own at every point, [`at_joints`] any chain at joint positions that are known. Blocks run on all
 //! threads of the current rayon pool; every point is written by index, so any number of threads gives the same
 //! bits.
+//!
+//! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
+//! points that each have a load of their own.
 
 mod answer;
 mod at_joints;

@@ -9,6 +9,8 @@
 //! its way), [`straying`] (the force on a tool that it pushes off its path).
 //!
 //! [`record`]: a force as it was measured over time.
+//!
+//! `quadrature`: sums for integrals along an edge; `error`: what a cutting force cannot be computed from.
 
 pub mod along;
 pub mod arc;

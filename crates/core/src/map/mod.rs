@@ -1,8 +1,10 @@
 //! Where does the tolerance hold?
 //!
-//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]:
-//! what becomes of a circle; [`worst_points`] and [`jumps`](fn@jumps): where it is worst, and where the arm jumps; [`limits`]: which cut a path permits; [`region`]: the part within a limit, its area, boundary
-//! and what fits; [`certainty`]: how sure that is.
+//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle;
+//! `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which cut a path permits; [`region`]: the
+//! part within a limit, its area, boundary and what fits; [`certainty`]: how sure that is.
+//!
+//! `marching_squares`, `inscribed`: boundaries, and shapes inside them; `turns`: whole turns of joints along a path.
 
 pub mod along;
 pub mod certainty;

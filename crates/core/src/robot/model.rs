@@ -157,6 +157,18 @@ impl Robot {
         Ok(self)
     }
 
+    /// This robot with joint compliances of another origin than those of its file. Curves of its drives and the
+    /// covariance go: they were of the compliances that these replace. Other springs and masses stay.
+    ///
+    /// # Errors
+    /// As [`Robot::with_compliance`].
+    pub fn with_other_compliance(self, compliance: Vec<JointCompliance>) -> Result<Robot, RobotError> {
+        let mut robot = self.with_compliance(compliance)?;
+        robot.structure.curves.clear();
+        robot.structure.covariance = None;
+        Ok(robot)
+    }
+
     /// This robot with what yields and weighs beside its drives.
     ///
     /// # Errors
@@ -302,4 +314,48 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
     joint
         .max_speed
         .map_or(Ok(()), |speed| finite("maximal speed", speed))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, Vector3};
+
+    use super::super::chain::Axis;
+    use super::super::spring::{Seat, Spring};
+    use super::super::torque_curve::{JointCurve, TorqueCurve};
+    use super::*;
+
+    const DRIVE: JointCompliance = JointCompliance {
+        value: 2e-6,
+        standard_uncertainty: 1e-7,
+    };
+
+    #[test]
+    fn other_compliances_take_curves_and_covariance_with_them() {
+        let joint = Joint::plain("A");
+        let rising = TorqueCurve::new(vec![[-500.0, -1e-3], [500.0, 1e-3]]).unwrap();
+        let curve = JointCurve {
+            rising,
+            falling: None,
+        };
+        let structure = Structure {
+            springs: vec![Spring::about(Seat::Base, Vector3::x(), DRIVE)],
+            curves: vec![Some(curve)],
+            covariance: Some(DMatrix::identity(2, 2) * 1e-14),
+            ..Structure::EMPTY
+        };
+        let motions = vec![Motion::About(Axis::Z, Amount::Joint(0))];
+        let robot = Robot::new("one joint", motions, vec![joint])
+            .and_then(|robot| robot.with_compliance(vec![DRIVE]))
+            .and_then(|robot| robot.with_structure(structure.clone()))
+            .unwrap();
+        let softer = JointCompliance { value: 5e-6, ..DRIVE };
+        let other = robot.with_other_compliance(vec![softer]).unwrap();
+        assert_eq!(other.compliance(), Some(&[softer][..]));
+        let left = Structure {
+            springs: structure.springs,
+            ..Structure::EMPTY
+        };
+        assert_eq!(*other.structure(), left);
+    }
 }

@@ -6,6 +6,8 @@
 //! [`elastic`]: drives and springs give way to the load. [`stiffness_model`]: which parts of the model are on.
 //! [`gravity`]: the weight of the arm itself. [`equilibrium`]: the load acts on the arm as it has yielded. [`standing`]:
 //! all of these for one arm in one posture.
+//!
+//! `linear_system`: small systems of equations, in room that is reused.
 
 pub mod elastic;
 pub mod equilibrium;

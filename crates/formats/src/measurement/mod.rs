@@ -7,6 +7,8 @@
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the tool
 //! or on the part, and how the sensor stands, no file tells: the caller says it.
+//!
+//! `columns`: what a column holds, in which unit; samples as they come.
 
 mod columns;
 pub mod csv;

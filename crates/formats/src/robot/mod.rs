@@ -14,6 +14,7 @@
 //!
 //! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: poses as six makers write
 //! them. `xml` is the ground of URDF and xacro.
+//! `description`: what all of them give.
 
 pub mod armill;
 pub mod chain;

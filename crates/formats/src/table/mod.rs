@@ -4,6 +4,8 @@
 //! - [`csv`]: for spreadsheets and for reading by eye.
 //! - `parquet` (feature `parquet`): for analysis; keeps types, units and meanings.
 //! - [`vtk`]: for ParaView, fields in space rather than rows.
+//!
+//! `sheet`: cells of a text table with their places, as readers need them.
 
 pub mod csv;
 #[cfg(feature = "parquet")]

@@ -7,6 +7,8 @@
 //! - [`notes`]: what a reader passed over or took for granted.
 //!
 //! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is, and a [`Summary`].
+//!
+//! `length_unit`: millimetres or inches.
 
 pub mod apt;
 pub mod csv;

@@ -1,4 +1,6 @@
 //! How the arm stands: a schematic drawing from joint origins and axes, seen from a chosen side.
+//!
+//! `view`: from which side; `body`: the posture as solids; `shapes`: solids on paper; `scene`: the whole drawing.
 
 mod body;
 mod scene;

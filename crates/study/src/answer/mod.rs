@@ -2,6 +2,9 @@
 //!
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
+//!
+//! A file for each part: `map`, `volume`, `path`, `program` with `limits` and `measured`, `point`; `statement`, `cautions` and
+//! `sentence` say what they mean.
 
 mod cautions;
 mod map;
@@ -273,4 +276,14 @@ fn warnings(
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
     warnings.extend(study.robot.note.clone());
     warnings
+}
+
+impl StudyAnswer {
+    /// Whether every point of every map, path and box holds the limit.
+    pub fn holds_everywhere(&self) -> bool {
+        let maps = self.maps.iter().map(|map| map.fraction_within);
+        let paths = self.paths.iter().map(|path| path.fraction_within);
+        let volumes = self.volumes.iter().map(|volume| volume.fraction_within);
+        maps.chain(paths).chain(volumes).all(|fraction| fraction == 1.0)
+    }
 }

@@ -251,19 +251,10 @@ fn find_robot(
     let own = compliance::of_study(places, file, &found.robot)?;
     if let Some(joints) = own {
         let refused = |error: armill_core::robot::RobotError| {
-            StudyError::value(
-                error.to_string(),
-                "one compliance for each joint of the robot, 0 for a rigid one",
-            )
+            let hint = "one compliance for each joint of the robot, 0 for a rigid one";
+            StudyError::value(error.to_string(), hint)
         };
-        // Curves and covariance of the robot file were of other compliances.
-        let mut structure = found.robot.structure().clone();
-        structure.curves.clear();
-        structure.covariance = None;
-        let robot = found.robot.with_compliance(joints);
-        found.robot = robot
-            .and_then(|robot| robot.with_structure(structure))
-            .map_err(refused)?;
+        found.robot = found.robot.with_other_compliance(joints).map_err(refused)?;
     }
     if let Some(table) = &file.positioner {
         found = positioner::beside(places, table, folder, found)?;

@@ -7,7 +7,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::{Axis, Robot, Seat};
 use armill_formats::robot::spring_tables::Yields;
 
-use crate::StudyError;
+use crate::{StudyError, robot_answers};
 
 /// A question about load tests.
 #[derive(Clone, Debug)]
@@ -125,12 +125,7 @@ impl Question {
 
 /// What a robot file calls the seat of an unknown.
 pub fn seat_name(robot: &Robot, unknown: &Unknown) -> String {
-    match unknown.seat {
-        Seat::Base => "base".to_owned(),
-        Seat::Joint(joint) => robot.joints()[joint].name.clone(),
-        Seat::Flange => "flange".to_owned(),
-        Seat::Tool => "tool".to_owned(),
-    }
+    robot_answers::seat_name(robot, unknown.seat)
 }
 
 /// How an unknown yields, as a robot file says it.

@@ -3,6 +3,8 @@
 //! Every file is written beside its place and renamed, and `result.json` comes last: a study that was killed
 //! leaves no half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does
 //! not write are removed.
+//!
+//! `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`, `program`, `limits`, `arm`, `report`: what they show.
 
 mod arm;
 mod folder;

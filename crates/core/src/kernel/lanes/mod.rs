@@ -7,6 +7,9 @@
 //! `compliance`, `forward`; [`Batch`] (the door for those with many poses), `stance`, `deviation`, `points` (whole
 //! answers, for [`super::evaluate`]).
 //!
+//! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
+//! as whole answers use it).
+//!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
 //! ```

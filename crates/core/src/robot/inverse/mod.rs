@@ -5,6 +5,9 @@
 //! [`standing_joint`] to spare, a search for any other chain, and rails. A [`Finder`] takes one pose after
 //! the other; [`postures`] gives everything about the postures of one. Each is checked by forward kinematics before
 //! it leaves.
+//!
+//! `finder` is the work behind them, `starts` and `descent` the search. The closed forms share `lines` (axes in space), `roots`,
+//! `two_links` and `three_turns`.
 
 pub mod closed_form;
 mod descent;

@@ -1,4 +1,6 @@
 //! The report: question, answer, tables, pictures, warnings, inputs with their sources; one HTML file.
+//!
+//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `program` with `cut`, `inputs`; `cells`: numbers in tables.
 
 mod cells;
 mod cut;

@@ -1,0 +1,14 @@
+//! What can be typed behind `armill completions`.
+
+use clap::Args;
+use clap_complete::Shell;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  armill completions bash > /etc/bash_completion.d/armill
+  armill completions fish > ~/.config/fish/completions/armill.fish")]
+pub(crate) struct CompletionsArguments {
+    /// Which shell
+    pub shell: Shell,
+}

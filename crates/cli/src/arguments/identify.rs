@@ -1,0 +1,82 @@
+//! What can be typed behind `armill identify`.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::ROBOT_HELP;
+
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+TESTS.csv has one row a test; the unit stands in each column's name: joint positions (A1_deg or q1_deg ...), force on
+the tool in base axes (fx_n, fy_n, fz_n), displacement in base axes (dx_mm, dy_mm, dz_mm; empty where not measured).
+Springs: drives; bending (about the two axes beside each drive); base (the floor); tool (holder and tool along the
+flange axes); lost-motion (gaps in drives). The guide: docs/guide/measure-stiffness.md
+
+Examples:
+  armill identify --plan 20 --robot yaskawa/mh12 --tool-mm 0,0,150 --out tests.csv
+  armill identify tests.csv --robot yaskawa/mh12 --tool-mm 0,0,150 --out my-mh12.toml
+  armill identify tests.csv --robot arm.toml --unknowns drives --json"
+)]
+pub(crate) struct IdentifyArguments {
+    /// Table of load tests (CSV)
+    #[arg(required_unless_present = "plan")]
+    pub tests: Option<PathBuf>,
+    #[arg(long, value_name = "NAME", help = ROBOT_HELP)]
+    pub robot: String,
+    /// Springs to find: groups with + between
+    #[arg(long, value_name = "GROUPS", default_value = "drives+bending+base")]
+    pub unknowns: String,
+    /// Whether force point and gauge point are where the tests say
+    #[arg(long, value_enum, default_value_t = PointsArgument::Known)]
+    pub points: PointsArgument,
+    /// How far off they may be (standard uncertainty), where they are not known
+    #[arg(long, value_name = "U", default_value_t = 200.0)]
+    pub point_u_mm: f64,
+    /// What is known of the springs beforehand
+    #[arg(long, value_enum, default_value_t = PriorArgument::Typical)]
+    pub prior: PriorArgument,
+    /// Flange to the point where force acts and displacement is measured
+    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]
+    pub tool_mm: Option<Vec<f64>>,
+    /// Write the robot with its new compliances (with --plan: the table) to this file
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Propose N tests instead
+    #[arg(long, value_name = "N", conflicts_with = "tests")]
+    pub plan: Option<usize>,
+    /// Pull that you can apply (with --plan)
+    #[arg(long, value_name = "F", default_value_t = 150.0)]
+    pub pull_n: f64,
+    /// Standard uncertainty of your gauge (with --plan)
+    #[arg(long, value_name = "U", default_value_t = 10.0)]
+    pub gauge_um: f64,
+    /// Take readings as they are, however far from those of any arm
+    #[arg(long)]
+    pub trust_units: bool,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Where force acts and displacement is measured.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PointsArgument {
+    /// As the tests say
+    Known,
+    /// Both off by the same shift, which is found
+    Common,
+    /// Each off by itself, which is found
+    Separate,
+}
+
+/// What is known beforehand.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PriorArgument {
+    /// Arms are alike within powers of ten; tests far off count less
+    Typical,
+    /// Nothing: plain least squares, no compliance negative
+    None,
+}

@@ -1,0 +1,86 @@
+//! What can be typed behind `armill`: a file here for each command of the same name in `command`.
+//!
+//! `run`, `check`, `new`, `robots`, `materials`, `pose`, `identify`, `forces`, `completions`.
+
+mod check;
+mod completions;
+mod forces;
+mod identify;
+mod materials;
+mod new;
+mod pose;
+mod robots;
+mod run;
+
+pub(crate) use check::CheckArguments;
+pub(crate) use completions::CompletionsArguments;
+pub(crate) use forces::ForcesArguments;
+pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
+pub(crate) use materials::MaterialsArguments;
+pub(crate) use new::NewArguments;
+pub(crate) use pose::PoseArguments;
+pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
+pub(crate) use run::RunArguments;
+
+use clap::{Parser, Subcommand};
+
+/// What every option says that takes a robot.
+const ROBOT_HELP: &str = "Library name, or a robot file (.toml, .urdf, .xacro, .yaml, .dh, .chain)";
+
+/// How far from the drawing will this robot cut, why, and what can be done about it?
+#[derive(Debug, Parser)]
+#[command(name = "armill", version, propagate_version = true, arg_required_else_help = true, after_help = EXAMPLES)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  armill run studies/mh12-groove            the paper's study, with pictures and a report in its folder out/
+  armill new cell && armill run cell        your own, from a commented study file
+  armill pose yaskawa/mh12 --at-mm 1000,0,800 --wrench-n 3,5,5
+Lengths in mm, angles in degrees, forces in N, moments in N m; deviations come back in micrometres.";
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Run a study: numbers, tables, pictures and a report
+    Run(RunArguments),
+    /// Check a study file without running it
+    Check(CheckArguments),
+    /// Make a folder with a commented study that runs
+    New(NewArguments),
+    /// List the robot library, show one robot, or import one
+    Robots(RobotsArguments),
+    /// List the material library, or show one material
+    Materials(MaterialsArguments),
+    /// Every posture of one pose: joints, compliance, deviation
+    Pose(Box<PoseArguments>),
+    /// Joint compliances from load tests, and which tests to do
+    Identify(IdentifyArguments),
+    /// What is in a record of a dynamometer, without drift and teeth
+    Forces(ForcesArguments),
+    /// Print shell completions
+    Completions(CompletionsArguments),
+}
+
+impl Command {
+    /// Whether stdout is to hold JSON, also of problems.
+    pub(crate) fn wants_json(&self) -> bool {
+        match self {
+            Command::Run(a) => a.json,
+            Command::Check(a) => a.json,
+            Command::New(a) => a.json,
+            Command::Robots(a) => match &a.action {
+                Some(RobotsAction::Import(import)) => import.json,
+                Some(RobotsAction::Check(check)) => check.json,
+                None => a.json,
+            },
+            Command::Materials(a) => a.json,
+            Command::Pose(a) => a.json,
+            Command::Identify(a) => a.json,
+            Command::Forces(a) => a.json,
+            Command::Completions(_) => false,
+        }
+    }
+}

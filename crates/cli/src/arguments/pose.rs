@@ -1,0 +1,124 @@
+//! What can be typed behind `armill pose`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::ROBOT_HELP;
+
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+Joints are in the robot file's own signs and zeros. Heights count from base_link unless --base says otherwise.
+--tool-mm is flange to TCP in the flange frame (z out of the flange), turns about the fixed axes x, y, z.
+--tilt-deg puts the tool against the outward normal of a plane tilted from the vertical about base y:
+0 faces the robot (tool along +x, the default), 90 faces up (tool down).
+
+Examples:
+  armill pose yaskawa/mh12 --joints-deg 0,11.6,-27.8,0,39.4,0
+  armill pose yaskawa/mh12 --at-mm 1000,0,800 --tilt-deg 90 --tool-mm 0,0,150 --wrench-n 3,5,5
+  armill pose arm.urdf --at-mm 900,0,700 --compliance-rad-per-n-m 1e-6,1e-6,2e-6,1e-5,1e-5,3e-5 --wrench-n 0,0,-50 --json
+  armill pose kuka/kr16-2 --at-mm 1000,0,900 --compliance-class light --wrench-n 0,0,-50"
+)]
+pub(crate) struct PoseArguments {
+    #[arg(help = ROBOT_HELP)]
+    pub robot: String,
+    /// Joint positions A,B,... in degrees (mm for sliding joints)
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        conflicts_with = "at_mm"
+    )]
+    pub joints_deg: Option<Vec<f64>>,
+    /// Position of the TCP
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        required_unless_present = "joints_deg"
+    )]
+    pub at_mm: Option<Vec<f64>>,
+    /// Tilt of the plane that the tool stands against
+    #[arg(long, value_name = "A", allow_hyphen_values = true, requires = "at_mm", conflicts_with_all = ["axis", "joints_deg"])]
+    pub tilt_deg: Option<f64>,
+    /// Tool axis, from the spindle towards the part
+    #[arg(
+        long,
+        value_name = "x,y,z",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
+    pub axis: Option<Vec<f64>>,
+    /// Turn of the tool about its axis; at 0 its second axis lies as near as possible to base y
+    #[arg(
+        long,
+        value_name = "S",
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
+    pub spin_deg: Option<f64>,
+    /// Where a rail stands (mm) and what joints to spare are drawn to (deg), one a joint; else the middle of their ranges
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true,
+        requires = "at_mm",
+        conflicts_with = "joints_deg"
+    )]
+    pub home_deg: Option<Vec<f64>>,
+    /// Flange to TCP
+    #[arg(
+        long,
+        value_name = "X,Y,Z[,RX,RY,RZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub tool_mm: Option<Vec<f64>>,
+    /// Force and moment on the tool at the TCP, base axes, N and N m
+    #[arg(
+        long,
+        value_name = "FX,FY,FZ[,MX,MY,MZ]",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub wrench_n: Option<Vec<f64>>,
+    /// Joint compliances in place of the robot file's (m/N for sliding joints)
+    #[arg(
+        long,
+        value_name = "C1,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub compliance_rad_per_n_m: Option<Vec<f64>>,
+    /// Assumed joint compliances by payload: light (to 20 kg), medium (to 100 kg), heavy (to 300 kg)
+    #[arg(long, value_name = "CLASS", conflicts_with = "compliance_rad_per_n_m")]
+    pub compliance_class: Option<String>,
+    /// Let the load act on the arm as it has yielded, instead of as it stood
+    #[arg(long)]
+    pub load_dependent: bool,
+    /// Joint positions where the tool was set: gravity counts against them (needs masses in the robot file)
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub reference_joints_deg: Option<Vec<f64>>,
+    /// Write a drawing of the arm there to this file (.svg, .png): the first posture inside limits, the others faintly
+    #[arg(long, value_name = "FILE")]
+    pub drawing: Option<PathBuf>,
+    /// Frame that positions count from
+    #[arg(long, value_name = "FRAME", default_value = armill_study::BASE_LINK)]
+    pub base: String,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}

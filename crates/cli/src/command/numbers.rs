@@ -1,0 +1,74 @@
+//! What an option that takes numbers refuses, in one voice: `--at-mm: 2 numbers`, `--axis: nan is not a finite number`.
+
+use armill_core::nalgebra::Vector3;
+use armill_study::StudyError;
+
+/// No length, angle or force of a real cell is larger, in the units of the options.
+const LARGEST: f64 = 1e9;
+
+/// Nothing, where all are numbers that a cell may have.
+///
+/// # Errors
+/// The first that is not finite, or beyond [`LARGEST`], behind the name of its option.
+pub(super) fn finite(flag: &str, values: &[f64]) -> Result<(), StudyError> {
+    if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+        return Err(StudyError::value(
+            format!("{flag}: {value} is not a finite number"),
+            "a plain number",
+        ));
+    }
+    match values.iter().find(|value| value.abs() > LARGEST) {
+        Some(value) => Err(StudyError::value(
+            format!("{flag}: {value:e} is beyond {LARGEST:e}"),
+            "is the unit right?",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// `value`, where it is above 0.
+///
+/// # Errors
+/// As [`finite`]; 0 or less.
+pub(super) fn above_zero(flag: &str, value: f64) -> Result<f64, StudyError> {
+    finite(flag, &[value])?;
+    if value > 0.0 {
+        return Ok(value);
+    }
+    Err(StudyError::value(
+        format!("{flag}: {value} is not above 0"),
+        "such as 1",
+    ))
+}
+
+/// Three numbers.
+///
+/// # Errors
+/// As [`finite`]; another count.
+pub(super) fn three(flag: &str, values: &[f64]) -> Result<Vector3<f64>, StudyError> {
+    finite(flag, values)?;
+    match values {
+        [x, y, z] => Ok(Vector3::new(*x, *y, *z)),
+        _ => Err(StudyError::value(
+            format!("{flag}: {} numbers", values.len()),
+            "it takes three, such as 1000,0,800",
+        )),
+    }
+}
+
+/// Three numbers, or six; the last three are 0 if left out, all six if the option is.
+///
+/// # Errors
+/// As [`finite`]; another count.
+pub(super) fn three_or_six(flag: &str, values: Option<&[f64]>) -> Result<[f64; 6], StudyError> {
+    let values = values.unwrap_or(&[0.0; 3]);
+    finite(flag, values)?;
+    match values {
+        [x, y, z] => Ok([*x, *y, *z, 0.0, 0.0, 0.0]),
+        [x, y, z, rx, ry, rz] => Ok([*x, *y, *z, *rx, *ry, *rz]),
+        _ => Err(StudyError::value(
+            format!("{flag}: {} numbers", values.len()),
+            "it takes three or six",
+        )),
+    }
+}

@@ -1,0 +1,67 @@
+//! `armill robots import`: a robot file of ours from one of another format.
+//!
+//! The file goes to `--out`, or to stdout; with `--json` stdout holds an [`ImportedRobot`]. Stderr says what was assumed and
+//! what is missing. What cannot be read again is not written.
+
+use armill_formats::file::write_atomically;
+use armill_formats::robot::RobotDescription;
+use armill_formats::robot::armill;
+use armill_formats::robot::format::Wanted;
+use armill_study::robot_answers::ImportedRobot;
+use armill_study::{StudyError, robots};
+
+use crate::Outcome;
+use crate::arguments::ImportArguments;
+use crate::terminal::{print, say};
+
+pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
+    let out = arguments.out.as_deref();
+    if let Some(path) = out.filter(|path| path.exists() && !arguments.force) {
+        let message = format!("{} exists already", path.display());
+        return Err(StudyError::value(
+            message,
+            "choose another name, or overwrite it with --force",
+        ));
+    }
+    let wanted = Wanted {
+        format: arguments.format,
+        tip: arguments.tip.clone(),
+    };
+    let found = robots::import(&arguments.file, &wanted)?;
+    let text = armill::write(&found);
+    let shown = out.map(|path| path.display().to_string());
+    armill::read(
+        shown.as_deref().unwrap_or("imported robot"),
+        found.robot.name(),
+        &text,
+    )?;
+    if let Some(path) = out {
+        write_atomically(path, text.as_bytes())?;
+    }
+    if arguments.json {
+        let answer = ImportedRobot::of(&found, shown.clone(), &text);
+        print(&serde_json::to_string(&answer)?)?;
+    } else if out.is_none() {
+        print(text.trim_end())?;
+    }
+    for line in summary(&found, shown.as_deref()) {
+        say(&line);
+    }
+    Ok(Outcome::Fine)
+}
+
+/// What a user should know of the robot that was made.
+fn summary(found: &RobotDescription, file: Option<&str>) -> Vec<String> {
+    let count = found.robot.joints().len();
+    let mut lines = vec![format!(
+        "{}: {count} joints; inverse: {}",
+        found.title,
+        found.robot.inverse()
+    )];
+    lines.extend(found.remarks.iter().map(|remark| format!("assumed: {remark}")));
+    lines.push("missing: joint compliances; see the comments in the file".to_owned());
+    lines.extend(file.map(|file| {
+        format!("made {file}; compare it with the pendant: armill pose {file} --joints-deg ...")
+    }));
+    lines
+}

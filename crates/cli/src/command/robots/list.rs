@@ -1,0 +1,50 @@
+//! `armill robots` without a name: the library, one line a robot, or a list of [`RobotRow`].
+
+use armill_study::robot_answers::RobotRow;
+use armill_study::{StudyError, library, robots};
+
+use crate::Outcome;
+use crate::arguments::RobotsArguments;
+use crate::terminal::{Align, columns, print};
+
+pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
+    let rows = library::ROBOTS.iter().map(|entry| {
+        let found = robots::find(entry.name, ".".as_ref())?;
+        Ok(RobotRow::of(entry.name, &found))
+    });
+    let rows: Vec<RobotRow> = rows.collect::<Result<_, StudyError>>()?;
+    print(&if arguments.json {
+        serde_json::to_string(&rows)?
+    } else {
+        table(&rows)
+    })?;
+    Ok(Outcome::Fine)
+}
+
+fn table(rows: &[RobotRow]) -> String {
+    let cells = |row: &RobotRow| {
+        let known = if row.compliance_known {
+            "known"
+        } else {
+            "not known"
+        };
+        vec![
+            row.name.clone(),
+            row.title.clone(),
+            row.payload_kg.map_or("-".to_owned(), |kg| format!("{kg} kg")),
+            row.reach_mm.map_or("-".to_owned(), |mm| format!("{mm:.0} mm")),
+            format!("inverse {}", row.inverse.replace('_', " ")),
+            format!("compliance {known}"),
+        ]
+    };
+    let cells: Vec<Vec<String>> = rows.iter().map(cells).collect();
+    let aligned = [
+        Align::Left,
+        Align::Left,
+        Align::Right,
+        Align::Right,
+        Align::Left,
+        Align::Left,
+    ];
+    columns(&cells, &aligned).join("\n")
+}

@@ -1,0 +1,100 @@
+//! `armill robots NAME`: one robot with everything that is known of it, in words or as [`KnownRobot`]; `--drawing` draws it.
+
+use armill_core::robot::reach;
+use armill_formats::robot::RobotDescription;
+use armill_study::joint_unit::JointUnit;
+use armill_study::number::without_rounding;
+use armill_study::output::arm_drawing;
+use armill_study::robot_answers::{KnownRobot, chain};
+use armill_study::{StudyError, robots};
+
+use super::structure;
+use crate::Outcome;
+use crate::arguments::RobotsArguments;
+use crate::command::drawing;
+use crate::terminal::print;
+
+pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
+    let found = robots::find(name, ".".as_ref())?;
+    if let Some(file) = &arguments.drawing {
+        drawing::write(file, &arm_drawing(&found.robot, &found.title))?;
+    }
+    print(&if arguments.json {
+        serde_json::to_string(&KnownRobot::of(&found))?
+    } else {
+        as_text(&found)
+    })?;
+    Ok(Outcome::Fine)
+}
+
+fn as_text(found: &RobotDescription) -> String {
+    let robot = &found.robot;
+    let mut lines = vec![format!("{} ({})", found.title, robot.name())];
+    lines.extend(found.note.iter().cloned());
+    lines.push(String::new());
+    lines.push(
+        "Chain of elementary motions, base to flange (right hand; joints in the chain's own sense):"
+            .to_owned(),
+    );
+    lines.extend(chain(found).iter().map(|motion| format!("  {motion}")));
+    lines.push(String::new());
+    lines.push("Joints as their controller counts them:".to_owned());
+    lines.extend((0..robot.joints().len()).flat_map(|index| joint_text(found, index)));
+    lines.extend(structure::as_text(robot));
+    lines.push(String::new());
+    if robot.inverse().has_branches() {
+        lines.push(format!("Nominal branch: {}", robot.nominal_branch()));
+    }
+    lines.push(format!("Inverse kinematics: {}", robot.inverse()));
+    lines.extend(reach(robot).map(|m| format!("Reach of the wrist centre from axis 1: {:.0} mm", m * 1e3)));
+    lines.extend(found.payload_kg.map(|kg| format!("Payload: {kg} kg")));
+    for frame in robot.frames() {
+        let at = frame.base_from_frame.translation.vector * 1e3;
+        lines.push(format!(
+            "Frame {}: at ({}, {}, {}) mm of base_link",
+            frame.name,
+            without_rounding(at.x),
+            without_rounding(at.y),
+            without_rounding(at.z)
+        ));
+    }
+    lines.extend(found.remarks.iter().map(|remark| format!("Assumed: {remark}")));
+    lines.push(String::new());
+    lines.push("Sources:".to_owned());
+    lines.extend(
+        found
+            .sources
+            .iter()
+            .map(|s| format!("  {}: {}; {}; {}", s.key, s.what, s.place, s.licence)),
+    );
+    lines.join("\n")
+}
+
+/// A line for the joint, and one for each other source of its limits.
+fn joint_text(found: &RobotDescription, index: usize) -> Vec<String> {
+    let robot = &found.robot;
+    let (joint, unit) = (&robot.joints()[index], JointUnit::of(robot, index));
+    let (name, told) = (unit.name, |value: f64| without_rounding(value * unit.scale));
+    let chain = if joint.sign.factor() < 0.0 { "-" } else { "+" };
+    let limits = joint.limits.map_or("limits not known".to_owned(), |limits| {
+        format!("{} to {} {name}", told(limits.lower), told(limits.upper))
+    });
+    let speed = joint.max_speed.map_or("speed not known".to_owned(), |speed| {
+        format!("{} {name}/s", told(speed))
+    });
+    let compliance = robot
+        .compliance()
+        .map_or("compliance not known".to_owned(), |all| {
+            structure::compliance_text(all[index], unit)
+        });
+    let line = format!(
+        "  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}",
+        joint.name, joint.name
+    );
+    let others = found.joints[index].other_limits.iter();
+    let others = others.map(|([lower, upper], source, note)| {
+        let note = note.as_ref().map_or(String::new(), |note| format!(": {note}"));
+        format!("       limits by {source}: {lower} to {upper} {name}{note}")
+    });
+    [line].into_iter().chain(others).collect()
+}

@@ -1,0 +1,86 @@
+//! What a robot has beside its drives, for `armill robots NAME`.
+
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::{JointCompliance, Robot};
+use armill_study::joint_unit::JointUnit;
+use armill_study::robot_answers::seat_name;
+
+/// Lines for people; none where drives alone are known.
+pub(super) fn as_text(robot: &Robot) -> Vec<String> {
+    let structure = robot.structure();
+    let mut lines = Vec::new();
+    for spring in &structure.springs {
+        let c = spring.compliance;
+        let (linear, angular) = (spring.direction.linear, spring.direction.angular);
+        let what = if linear == Vector3::zeros() {
+            format!(
+                "about {}, {}",
+                axis(&angular),
+                compliance_text(c, JointUnit::TURNING)
+            )
+        } else if angular == Vector3::zeros() {
+            format!(
+                "along {}, {}",
+                axis(&linear),
+                compliance_text(c, JointUnit::SLIDING)
+            )
+        } else {
+            format!(
+                "{:.2e} m/N along {} with a turn of {} rad/m",
+                c.value,
+                axis(&linear),
+                axis(&angular)
+            )
+        };
+        lines.push(format!("  spring at {}: {what}", seat_name(robot, spring.seat)));
+    }
+    for mass in &structure.masses {
+        let centre = axis(&(mass.centre.coords * 1e3));
+        lines.push(format!(
+            "  mass at {}: {} kg, centre {centre} mm",
+            seat_name(robot, mass.seat),
+            mass.mass
+        ));
+    }
+    for joint in 0..robot.joints().len() {
+        let name = &robot.joints()[joint].name;
+        lines.extend(structure.curve(joint).map(|curve| {
+            let sides = if curve.falling.is_some() { "rising and falling" } else { "both ways" };
+            let pairs = curve.rising.points().len();
+            format!("  torque curve of {name}: {pairs} pairs, {sides}; the compliance above is its slope without load")
+        }));
+    }
+    if let Some(c) = &structure.compensator {
+        let name = &robot.joints()[c.joint].name;
+        lines.push(format!(
+            "  gravity compensator of {name}: {} N/mm",
+            c.stiffness * 1e-3
+        ));
+    }
+    if structure.covariance.is_some() {
+        lines.push("  covariance of the compliances: known".to_owned());
+    }
+    if !lines.is_empty() {
+        lines.insert(0, "Beside the drives:".to_owned());
+        lines.insert(0, String::new());
+    }
+    lines
+}
+
+fn axis(v: &Vector3<f64>) -> String {
+    match [v.x, v.y, v.z] {
+        [1.0, 0.0, 0.0] => "x".to_owned(),
+        [0.0, 1.0, 0.0] => "y".to_owned(),
+        [0.0, 0.0, 1.0] => "z".to_owned(),
+        [x, y, z] => format!("({x:.3}, {y:.3}, {z:.3})"),
+    }
+}
+
+/// A compliance with its standard uncertainty, in the unit of its kind.
+pub(super) fn compliance_text(c: JointCompliance, unit: JointUnit) -> String {
+    let (value, u) = (
+        c.value * unit.compliance_scale,
+        c.standard_uncertainty * unit.compliance_scale,
+    );
+    format!("{value:.2e} ± {u:.1e} {}", unit.compliance_name)
+}

@@ -1,0 +1,178 @@
+//! `armill forces` as a user runs it: numbers, tables, pictures; and everything that can be wrong.
+
+use std::fmt::Write;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+/// 3 s at 1 kHz: (30, -40, 0) N from 1 s to 2 s with a hum of 2 N, 5 N of drift along x.
+fn record(separator: char, names: &str) -> String {
+    let mut text = names.to_owned();
+    for k in 0..3000 {
+        let cut = f64::from((1000..2000).contains(&k));
+        let hum = if k % 20 < 10 { 2.0 } else { -2.0 };
+        let (x, y) = (5.0 + cut * (30.0 + hum), -40.0 * cut);
+        let _ = writeln!(
+            text,
+            "{:.3}{separator}{x:.3}{separator}{y:.3}{separator}{:.3}",
+            f64::from(k) * 1e-3,
+            0.0
+        );
+    }
+    text
+}
+
+const CSV: &str = "time_s,fx_n,fy_n,fz_n\n";
+const EXPORT: &str = "Dyno file:\tone\nTime\tFx\tFy\tFz\ns\tN\tN\tN\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("r.csv"), record(',', CSV)).unwrap();
+    std::fs::write(folder.path().join("r.txt"), record('\t', EXPORT)).unwrap();
+    folder
+}
+
+#[test]
+fn a_record_is_told_before_and_after_whatever_its_format() {
+    let folder = folder();
+    for (file, format) in [("r.csv", "CSV"), ("r.txt", "DynoWare")] {
+        let (code, out, err) = armill(
+            folder.path(),
+            &[
+                "forces",
+                file,
+                "--air-s",
+                "0,0.9",
+                "--air-s",
+                "2.1,3",
+                "--spindle-rpm",
+                "3000",
+                "--json",
+            ],
+        );
+        assert_eq!(code, 0, "{err}");
+        let told: Value = serde_json::from_str(&out).unwrap();
+        assert_eq!(
+            (&told["format"], &told["samples"]),
+            (&format.into(), &3000.into())
+        );
+        let number = |value: &Value, expected: f64, slack: f64| {
+            let found = value.as_f64().unwrap();
+            assert!((found - expected).abs() <= slack, "{value} for {expected}");
+        };
+        number(&told["rate_hz"], 1000.0, 1e-6);
+        number(&told["drift"]["offset_n"][0], 5.0, 1e-9);
+        number(&told["before"]["fx_n"]["greatest"], 37.0, 0.0);
+        number(&told["after"]["fx_n"]["greatest"], 32.0, 1e-9);
+        number(&told["after"]["fy_n"]["mean"], -40.0 / 3.0, 1e-9);
+        number(&told["after"]["size_n"]["greatest"], 32_f64.hypot(40.0), 1e-9);
+        // A hum of whole turns has no mean but for the trapezia at its edges, a tenth of it.
+        number(&told["revolutions"]["largest_mean_n"], 50.0, 0.2);
+        assert_eq!(told["drift"]["air_found"], false);
+    }
+}
+
+#[test]
+fn quiet_stretches_are_found_and_said_so() {
+    let folder = folder();
+    let (code, out, err) = armill(folder.path(), &["forces", "r.csv"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        out.contains("found as the quietest") && out.contains("(5.000, 0.000, 0.000) N"),
+        "{out}"
+    );
+    let (_, out, _) = armill(folder.path(), &["forces", "r.csv", "--no-drift"]);
+    assert!(out.contains("left in") && out.contains("37.00"), "{out}");
+}
+
+#[test]
+fn tables_and_pictures_come_out_and_can_be_read_again() {
+    let folder = folder();
+    let (code, _, err) = armill(
+        folder.path(),
+        &[
+            "forces",
+            "r.txt",
+            "--low-pass-hz",
+            "20",
+            "--spindle-rpm",
+            "3000",
+            "--out",
+            "o",
+        ],
+    );
+    assert_eq!(code, 0, "{err}");
+    for file in ["forces.csv", "revolutions.csv", "forces.svg", "forces.png"] {
+        assert!(folder.path().join("o").join(file).is_file(), "{file}");
+    }
+    let turns = std::fs::read_to_string(folder.path().join("o/revolutions.csv")).unwrap();
+    assert_eq!(turns.lines().count(), 149 + 1);
+    let (code, out, err) = armill(folder.path(), &["forces", "o/forces.csv", "--no-drift", "--json"]);
+    assert_eq!(code, 0, "{err}");
+    let told: Value = serde_json::from_str(&out).unwrap();
+    assert!(told["unused"].to_string().contains("fx_before_n"));
+    assert!(told["after"]["fx_n"]["greatest"].as_f64().unwrap() < 33.0);
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place_and_a_hint() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write(
+        "trap.txt",
+        "Time,Fx,Fy,Fz\ns,N,N,N\n0,0,1,5,2,25,3,5\n0,1,1,2,25,3,5\n",
+    );
+    write("volts.txt", &record('\t', EXPORT).replace("\tN\t", "\tV\t"));
+    write("no-unit.csv", &record(',', CSV).replace("fy_n", "fy"));
+    write("two.txt", &record('\t', EXPORT).repeat(2));
+    for (arguments, words) in [
+        (&["none.csv"][..], &["cannot read none.csv", "help:"][..]),
+        (&["trap.txt"], &["trap.txt:4:1", "which is which cannot be told"]),
+        (&["volts.txt"], &["volts.txt:3", "`V` is no unit"]),
+        (&["no-unit.csv"], &["no-unit.csv:1", "missing columns: `Fy`"]),
+        (
+            &["two.txt", "--no-drift"],
+            &["--cycle", "holds 2 cycles", "from 1 to 2"],
+        ),
+        (&["r.txt", "--cycle", "0"], &["not a cycle 0"]),
+        (&["r.csv", "--air-s", "0"], &["--air-s", "`0` is no stretch"]),
+        (&["r.csv", "--air-s", "0,1,2"], &["is no stretch"]),
+        (
+            &["r.csv", "--air-s", "8,9"],
+            &["--air-s", "0 samples", "to 2.999 s"],
+        ),
+        (&["r.csv", "--air-s", "1,0"], &["no length"]),
+        (&["r.csv", "--low-pass-hz", "500"], &["--low-pass-hz", "500 Hz"]),
+        (&["r.csv", "--low-pass-hz", "nan"], &["--low-pass-hz", "NaN Hz"]),
+        (&["r.csv", "--spindle-rpm", "0"], &["--spindle-rpm"]),
+        (&["r.txt", "--channels", "Fx,Fy"], &["2 names of channels"]),
+        (&["r.csv", "--rate-hz", "10"], &["leave the rate out"]),
+        (&["r.csv", "--out", "r.txt"], &["r.txt"]),
+    ] {
+        let (code, out, err) = armill(folder.path(), &[&["forces"], arguments].concat());
+        assert_eq!(code, 2, "{arguments:?}: {out}{err}");
+        for word in words {
+            assert!(err.contains(word), "{arguments:?}: no `{word}` in\n{err}");
+        }
+    }
+    let (code, out, _) = armill(folder.path(), &["forces", "trap.txt", "--json"]);
+    let told: Value = serde_json::from_str(&out).unwrap();
+    assert!(code == 2 && told["problems"][0]["line"] == 4, "{out}");
+    let (code, out, _) = armill(folder.path(), &["forces", "two.txt", "--cycle", "2"]);
+    assert!(code == 0 && out.contains("cycle 2 of 2"), "{out}");
+}

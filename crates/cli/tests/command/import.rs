@@ -1,0 +1,97 @@
+//! `armill robots import`, and files of other formats wherever a robot is named.
+
+use crate::cell::{Cell, MH12_URDF, numbers};
+
+const CHAIN: &str =
+    "Tz(450) Rz(S) Tx(155) Ry(L) Tz(614) Ry(-U) Tz(200) Rx(-R) Tx(640) Ry(-B) Rx(-T) Tx(100) Ry(-90) Rx(180)";
+
+#[test]
+fn an_imported_urdf_poses_as_the_urdf_does() {
+    let cell = Cell::new();
+    cell.file("arm.urdf", MH12_URDF);
+    let said = cell
+        .armill(&["robots", "import", "arm.urdf", "--out", "arm.toml"])
+        .fine();
+    assert!(
+        said.err.contains("made arm.toml") && said.err.contains("6 joints; inverse: closed form"),
+        "{}",
+        said.err
+    );
+    let tcp = |file: &str| {
+        let flags = ["--joints-deg", "10,20,-30,40,50,60", "--json"];
+        let said = cell.armill(&[&["pose", file], &flags[..]].concat()).fine().json();
+        numbers(&said["postures"][0]["tool"]["xyz_mm"])
+    };
+    // 1e-12 m is promised.
+    for (theirs, ours) in tcp("arm.urdf").into_iter().zip(tcp("arm.toml")) {
+        assert!((theirs - ours).abs() < 1e-9, "{theirs} mm and {ours} mm");
+    }
+}
+
+#[test]
+fn a_file_that_is_there_is_overwritten_by_force_only() {
+    let cell = Cell::new();
+    cell.file("arm.chain", CHAIN);
+    cell.file("arm.toml", "mine");
+    let import = ["robots", "import", "arm.chain", "--out", "arm.toml"];
+    cell.armill(&import)
+        .refused(&["arm.toml exists already", "--force"]);
+    assert_eq!(std::fs::read(cell.at("arm.toml")).unwrap(), b"mine");
+    cell.armill(&[&import[..], &["--force"]].concat()).fine();
+    cell.armill(&["robots", "arm.toml"]).fine();
+}
+
+#[test]
+fn without_out_the_file_is_printed() {
+    let cell = Cell::new();
+    cell.file("arm.chain", CHAIN);
+    let said = cell.armill(&["robots", "import", "arm.chain"]).fine();
+    assert!(
+        said.out.contains("[chain]") && said.out.contains("# - the joints' compliances"),
+        "{}",
+        said.out
+    );
+    let said = cell
+        .armill(&["robots", "import", "arm.chain", "--json"])
+        .fine()
+        .json();
+    assert!(said["text"].as_str().unwrap().contains("format = 1"));
+    assert_eq!(said["joints"][0], "S");
+    assert_eq!(said["inverse"], "closed_form");
+}
+
+#[test]
+fn what_cannot_be_imported_is_refused_and_nothing_is_written() {
+    let cell = Cell::new();
+    cell.file("arm.urdf", MH12_URDF);
+    cell.file("arm.step", "ISO-10303-21;");
+    cell.file("table.csv", "a_mm, alpha_deg, d_mm, theta_deg\n1, 2, 3, 4\n");
+    for (arguments, words) in [
+        (["arm.urdf", "--tip", "gripper"], "`gripper`"),
+        (["arm.urdf", "--format", "chain"], "defines nothing"),
+        (["arm.step", "--tip", "x"], "the ending of no robot file"),
+        (["table.csv", "--format", "dh"], "convention = standard"),
+        (["gone.urdf", "--tip", "x"], "cannot read robot file gone.urdf"),
+        (["arm.toml", "--format", "armill"], "already"),
+    ] {
+        cell.armill(&[&["robots", "import", "--out", "made.toml"], &arguments[..]].concat())
+            .refused(&[words]);
+        assert!(!cell.at("made.toml").exists());
+    }
+    cell.armill(&["robots", "import", "arm.urdf", "--format", "step"])
+        .refused(&["urdf, xacro, opw, dh, chain"]);
+}
+
+#[test]
+fn every_format_is_a_robot_wherever_one_is_named() {
+    let cell = Cell::new();
+    cell.file("arm.fsf", CHAIN);
+    cell.armill(&["new", "cell", "--robot", "arm.fsf"]).fine();
+    cell.armill(&["check", "cell"]).fine();
+    let said = cell.armill(&["robots", "arm.fsf"]).fine();
+    assert!(
+        said.out.contains("Assumed: lengths are taken as mm"),
+        "{}",
+        said.out
+    );
+}

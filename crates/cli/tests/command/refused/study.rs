@@ -1,0 +1,374 @@
+//! Study files that cannot be.
+
+use std::time::{Duration, Instant};
+
+use super::{check, check_text};
+use crate::cell::{Cell, EVERY_KIND, LEVER, SMALL};
+
+#[test]
+fn an_unknown_field_is_named_with_its_place() {
+    check("limit_um", "colour = 3\nlimit_um").refused(&["study.toml:4:1", "unknown field `colour`"]);
+}
+
+#[test]
+fn a_slip_in_a_field_is_told_with_the_field_meant() {
+    check("half_size_mm", "halfsize_mm").refused(&["study.toml:9:1", "half_size_mm"]);
+}
+
+#[test]
+fn a_missing_unit_suffix_is_named() {
+    check("step_mm", "step").refused(&[
+        "study.toml:10:1",
+        "`plane.step`",
+        "lengths carry their unit: write `step_mm`",
+    ]);
+    check("limit_um", "limit").refused(&["study.toml:4:1", "limit_um"]);
+    check("cases_n", "cases").refused(&["study.toml:13:1", "cases_n"]);
+}
+
+#[test]
+fn a_number_that_is_none_is_told_with_its_line() {
+    for none in ["nan", "-nan", "inf", "-inf", "1e400"] {
+        check("step_mm = 50", &format!("step_mm = {none}")).refused(&[
+            "study.toml:10:11",
+            "`plane.step_mm`",
+            "finite",
+        ]);
+        check("[1000, 0, 800]", &format!("[{none}, 0, 800]")).refused(&["study.toml:7:14", "finite"]);
+    }
+}
+
+#[test]
+fn a_number_beyond_all_reason_is_told_with_its_limit_and_unit() {
+    check("[[3, 5, 5]", "[[1e308, 1e308, 5]").refused(&[
+        "study.toml:13:13",
+        "1e308 N",
+        "at most 1000000000 N",
+    ]);
+    check("[1000, 0, 800]", "[1e305, 0, 800]").refused(&["study.toml:7:14", "1e305 mm", "at most 1000000"]);
+}
+
+#[test]
+fn lengths_that_must_be_above_0_say_so() {
+    check("step_mm = 50", "step_mm = 0").refused(&[
+        "study.toml:10:11",
+        "`plane.step_mm` is 0 mm",
+        "above 0 mm",
+    ]);
+    check("step_mm = 50", "step_mm = -5").refused(&["`plane.step_mm` is -5 mm"]);
+    check("half_size_mm = 100", "half_size_mm = -1").refused(&[
+        "study.toml:9:16",
+        "`plane.half_size_mm` is -1 mm",
+        "must be",
+    ]);
+    check("limit_um = 130", "limit_um = -1").refused(&[
+        "study.toml:4:12",
+        "`limit_um` is -1 um",
+        "at least 0 um",
+    ]);
+    check("tilt_deg = 0", "tilt_deg = 200").refused(&["study.toml:8:12", "200 deg", "at most 180"]);
+}
+
+#[test]
+fn a_negative_compliance_is_told_with_its_place_and_unit() {
+    let own = "\n[compliance]\nrad_per_n_m = [1e-6, 1e-6, -2e-6, 1e-6, 1e-6, 1e-6]\nsource = \"a guess\"\n";
+    check_text(format!("{SMALL}{own}")).refused(&["study.toml:16:28", "-2e-6", "at least 0"]);
+}
+
+#[test]
+fn a_wrong_number_of_compliances_is_told_with_the_right_one() {
+    let own = "\n[compliance]\nrad_per_n_m = [1e-6, 1e-6]\nsource = \"a guess\"\n";
+    check_text(format!("{SMALL}{own}")).refused(&["study.toml:16", "2 values for the 6 joints"]);
+}
+
+#[test]
+fn an_empty_load_is_told() {
+    check("[[3, 5, 5], [3, -5, 5]]", "[]").refused(&[
+        "study.toml:13:11",
+        "the load has no case",
+        "cases_n = [[3, 5, 5]]",
+    ]);
+}
+
+#[test]
+fn moments_are_one_a_case() {
+    check("cases_n", "moments_n_m = [[0, 0, 1]]\ncases_n")
+        .refused(&["study.toml:13", "1 moments for 2 cases"]);
+}
+
+#[test]
+fn an_unknown_robot_is_told_with_the_one_meant() {
+    check("yaskawa/mh12", "yaskawa/mh21").refused(&[
+        "study.toml:3:9",
+        "`yaskawa/mh21`",
+        "did you mean `yaskawa/mh12`?",
+    ]);
+    Cell::new()
+        .armill(&["robots", "mh12"])
+        .refused(&["did you mean `yaskawa/mh12`?"]);
+}
+
+#[test]
+fn a_robot_without_compliance_is_told_what_to_add() {
+    let words = [
+        "study.toml:3:9",
+        "no joint compliance is known",
+        "[compliance]",
+        "armill identify",
+        "rad_per_n_m",
+        "class = \"...\"",
+    ];
+    check("yaskawa/mh12", "kuka/kr120r2500pro").refused(&words);
+}
+
+#[test]
+fn a_robot_of_too_few_joints_is_told_in_a_study() {
+    let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
+    cell.file("lever.toml", LEVER);
+    cell.armill(&["run", "."])
+        .refused(&["study.toml:3:9", "`lever.toml` has 2 joints"]);
+}
+
+#[test]
+fn a_missing_robot_file_is_told_with_the_path_that_was_tried() {
+    let cell = Cell::new();
+    cell.file("deep/study.toml", SMALL.replace("yaskawa/mh12", "arm.urdf"));
+    cell.armill(&["check", "deep"])
+        .refused(&["deep/study.toml:3:9", "deep/arm.urdf", "folder of the study"]);
+}
+
+#[test]
+fn problems_of_a_robot_file_are_told_at_the_robot_file() {
+    let cell = Cell::with_study(&SMALL.replace("yaskawa/mh12", "lever.toml"));
+    cell.file("lever.toml", LEVER.replace("[-100, 120]", "[120, -100]"));
+    cell.armill(&["check", "."]).refused(&[
+        "lever.toml:14:",
+        "lower limit 120 deg is not below upper limit -100 deg",
+    ]);
+}
+
+#[test]
+fn a_frame_or_branch_that_is_none_is_told_with_those_that_are() {
+    check("limit_um", "base = \"flor\"\nlimit_um").refused(&[
+        "study.toml:4:8",
+        "no frame `flor`",
+        "base_link, controller",
+    ]);
+    let posture = format!("{SMALL}\n[posture]\nbranch = \"sideways\"\n");
+    check_text(posture).refused(&[
+        "study.toml:16:10",
+        "`sideways`",
+        "elbow-up",
+        "`nominal` or `best`",
+    ]);
+}
+
+#[test]
+fn a_grid_of_a_billion_points_is_refused_at_once_with_its_memory() {
+    for (step, words) in [
+        ("0.0063", ["points would take", "GiB of memory, more than 4 GiB"]),
+        ("1e-8", ["points would take", "GiB of memory, more than 4 GiB"]),
+        ("1e-300", ["points would take", "GiB of memory, more than 4 GiB"]),
+    ] {
+        let start = Instant::now();
+        check("step_mm = 50", &format!("step_mm = {step}"))
+            .refused(&words)
+            .refused(&["study.toml:10:11"]);
+        // Two starts of a program; a billion points take minutes.
+        assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    }
+}
+
+#[test]
+fn boxes_paths_and_sections_are_measured_before_they_are_made() {
+    let ask = |ask: &str, words: &[&str]| check_text(format!("{SMALL}[[ask]]\n{ask}\n")).refused(words);
+    let memory = ["points would take", "GiB", "study.toml:"];
+    ask(
+        "kind = \"volume\"\nbox = { half_size_mm = [500, 500, 500], step_mm = 1 }",
+        &memory,
+    );
+    let count = ["points, more than 8000000", "study.toml:"];
+    ask("kind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 1e-7", &count);
+    ask(
+        "kind = \"path\"\nline = { from_mm = [0, 0], to_mm = [100, 0] }\nstep_mm = 1e-300",
+        &count,
+    );
+}
+
+#[test]
+fn asks_that_fit_one_by_one_but_not_together_are_refused() {
+    // 7 million points a section, some 2.9 GiB; three of them are held at once.
+    let sections = "[[ask]]\nkind = \"sections\"\ndistances_mm = [900, 1000, 1100]\nplane.step_mm = 0.0756\n";
+    check_text(format!("{SMALL}{sections}")).refused(&["all asks together", "GiB", "more than 4 GiB"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_grid_too_large_is_refused_without_allocating_it() {
+    let cell = Cell::with_study(&SMALL.replace("step_mm = 50", "step_mm = 0.0063"));
+    // The shell bounds the address space, KiB: a hundredth of what the points would take.
+    let script = format!(
+        "ulimit -v 1000000; exec '{}' check study.toml",
+        crate::cell::ARMILL
+    );
+    let output = std::process::Command::new("sh")
+        .args(["-c", &script])
+        .current_dir(cell.path())
+        .output()
+        .unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(2),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert!(String::from_utf8_lossy(&output.stderr).contains("GiB of memory"));
+}
+
+#[test]
+fn every_problem_of_a_file_is_told_at_once() {
+    let broken = SMALL
+        .replace("yaskawa/mh12", "yaskawa/mh21")
+        .replace("step_mm = 50", "step_mm = 0")
+        .replace("half_size_mm = 100", "half_size_mm = -1")
+        .replace("[[3, 5, 5], [3, -5, 5]]", "[]");
+    let asks = "[posture]\nbranch = \"sideways\"\n[[ask]]\nkind = \"volume\"\n[[ask]]\nkind = \"path\"\n\
+                [[ask]]\nkind = \"sections\"\n[[ask]]\nkind = \"map\"\ncircle.radius_mm = 3\n";
+    check_text(format!("{broken}{asks}")).refused(&[
+        "did you mean `yaskawa/mh12`?",
+        "`plane.step_mm` is 0 mm",
+        "-1 mm",
+        "the load has no case",
+        "`sideways`",
+        "a volume needs its `box`",
+        "a path has exactly one shape",
+        "sections vary either",
+        "`circle` means nothing to a map",
+    ]);
+    let fields = SMALL
+        .replace("step_mm", "step")
+        .replace("limit_um", "limit")
+        .replace("[1000, 0, 800]", "[1000, \"0\"]");
+    check_text(fields).refused(&["write `step_mm`", "write `limit_um`", "study.toml:7:"]);
+}
+
+#[test]
+fn a_value_that_several_asks_take_is_wrong_once() {
+    let said = check_text(format!(
+        "{}{EVERY_KIND}",
+        SMALL.replace("[[3, 5, 5], [3, -5, 5]]", "[]")
+    ));
+    assert_eq!(said.err.matches("error:").count(), 1, "{}", said.err);
+}
+
+#[test]
+fn problems_as_json_have_file_line_and_hint() {
+    let cell = Cell::with_study(&SMALL.replace("step_mm", "step").replace("limit_um", "limit"));
+    for command in ["check", "run"] {
+        let said = cell.armill(&[command, "study.toml", "--json"]).refused(&[]);
+        let problems = said.json()["problems"].clone();
+        // Two unknown fields, and the two that are missing for them.
+        assert!(problems.as_array().unwrap().len() >= 2, "{problems}");
+        for problem in problems.as_array().unwrap() {
+            assert_eq!(problem["file"], "study.toml");
+            assert!(
+                problem["line"].as_u64().is_some() && problem["message"].as_str().is_some(),
+                "{problem}"
+            );
+        }
+    }
+    let said = Cell::new().armill(&["run", "nowhere", "--json"]).refused(&[]);
+    let problem = said.json()["problems"][0].clone();
+    assert!(
+        !problem["message"].as_str().unwrap().contains("help:"),
+        "{problem}"
+    );
+    assert!(
+        problem["hint"].as_str().unwrap().contains("armill new"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn windows_line_ends_and_a_byte_order_mark_are_taken() {
+    for text in [
+        SMALL.replace('\n', "\r\n"),
+        format!("\u{feff}{SMALL}"),
+        format!("\u{feff}{}", SMALL.replace('\n', "\r\n")),
+    ] {
+        Cell::with_study(&text).armill(&["check", "study.toml"]).fine();
+    }
+    // Lines are counted alike.
+    check_text(SMALL.replace("step_mm", "step").replace('\n', "\r\n")).refused(&["study.toml:10:1"]);
+    check_text(format!("\u{feff}{}", SMALL.replace("format = 1", "formt = 1")))
+        .refused(&["study.toml:1:1", "`format`"]);
+}
+
+#[test]
+fn bytes_that_are_no_text_are_told_with_their_place() {
+    check_text([SMALL.as_bytes(), b"# \xff\n"].concat()).refused(&["study.toml:14:3", "0xff", "UTF-8"]);
+    let cell = Cell::new();
+    cell.file("arm.toml", [LEVER.as_bytes(), b"# \xff\n"].concat());
+    cell.armill(&["robots", "arm.toml"])
+        .refused(&["arm.toml:", "0xff", "UTF-8"]);
+}
+
+#[test]
+fn what_is_no_toml_is_told_with_its_line() {
+    for text in [
+        "",
+        "format = 1",
+        "format = ",
+        "[[[",
+        "\0",
+        "{\"format\": 1}",
+        "format = 2\n",
+    ] {
+        check_text(text).refused(&["study.toml:"]);
+    }
+    check("format = 1", "format = 2").refused(&["study.toml:1:10", "`format` is 2", "at most 1"]);
+    check_text("a".repeat(1 << 20)).refused(&["study.toml:1:"]);
+    check_text(format!("x = {}", "[".repeat(100_000))).refused(&["study.toml:1:"]);
+}
+
+#[test]
+fn a_missing_study_is_told_with_what_to_do() {
+    let cell = Cell::new();
+    std::fs::create_dir(cell.at("empty")).unwrap();
+    cell.armill(&["run", "nowhere"])
+        .refused(&["no study at nowhere", "armill new DIR", "mh12-groove"]);
+    cell.armill(&["run", "empty"])
+        .refused(&["no study at empty/study.toml"]);
+    cell.armill(&["check", "empty"])
+        .refused(&["no study at empty/study.toml"]);
+    std::fs::create_dir(cell.at("empty/study.toml")).unwrap();
+    cell.armill(&["run", "empty"]).refused(&["empty/study.toml"]);
+}
+
+#[test]
+fn two_asks_never_write_the_same_files() {
+    let named = |names: &[&str]| {
+        let asks: String = names
+            .iter()
+            .map(|name| format!("[[ask]]\nkind = \"map\"\n{name}\n"))
+            .collect();
+        check_text(format!("{SMALL}{asks}"))
+    };
+    named(&["name = \"plate\"", "name = \"Plate!\""])
+        .refused(&["`plate` and `Plate!` would write the same files"]);
+    named(&["", "name = \"map 1\""]).refused(&["`map 1` and `map 1` would write the same files"]);
+    named(&["name = \"...\""]).refused(&["`...` has no letter and no digit"]);
+    named(&["name = \"\""]).refused(&["no letter and no digit"]);
+    named(&[&format!("name = \"{}\"", "n".repeat(300))]).refused(&["300 bytes", "160"]);
+}
+
+#[test]
+fn a_statement_of_nothing_that_was_asked_is_told() {
+    let of = |name: &str| {
+        let statement = "[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 70\n";
+        check_text(format!("{SMALL}{EVERY_KIND}{statement}of = [\"{name}\"]\n"))
+    };
+    of("plat").refused(&["no ask is called `plat`"]);
+    of("distances").refused(&["`distances` is a series of sections", "`distances: x = 900 mm`"]);
+    of("space").refused(&["`space` is a volume"]);
+}

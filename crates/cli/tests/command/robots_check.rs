@@ -1,0 +1,110 @@
+//! `armill robots check`: a robot file beside what its pendant shows.
+
+use crate::cell::Cell;
+
+/// Yaskawa MH12, counted from the controller's frame, worked out by hand-written 4 x 4 products; two decimals as a pendant shows.
+const READINGS: [&str; 2] = [
+    "10,20,-30,40,50,60 = 991.88,224.90,203.74,96.64,-5.38,129.09",
+    "-25,35,-15,-50,35,-70 = 1026.10,-526.96,102.20,-113.47,11.34,-148.39",
+];
+
+fn check<'a>(file: &'a str, more: &[&'a str]) -> Vec<&'a str> {
+    let poses = ["--pose", READINGS[0], "--pose", READINGS[1]];
+    [
+        &["robots", "check", file, "--convention", "yaskawa"][..],
+        &poses,
+        more,
+    ]
+    .concat()
+}
+
+/// The MH12 of the library with one thing changed.
+fn changed(from: &str, to: &str) -> Cell {
+    let cell = Cell::new();
+    let text = include_str!("../../../../robots/yaskawa/mh12.toml");
+    assert!(text.contains(from), "the robot file has no `{from}`");
+    cell.file("arm.toml", text.replacen(from, to, 1));
+    cell
+}
+
+#[test]
+fn the_library_arm_agrees_with_its_pendant() {
+    let said = Cell::new()
+        .armill(&check("yaskawa/mh12", &["--base", "controller"]))
+        .fine();
+    assert!(
+        said.out
+            .contains("The file and the pendant agree within 1 mm and 0.1 deg."),
+        "{}",
+        said.out
+    );
+}
+
+#[test]
+fn a_wrong_sign_and_the_base_are_named_in_the_words_of_the_file() {
+    let cell = changed("name = \"U\"\nsign = -1", "name = \"U\"\nsign = 1");
+    let said = cell.armill(&check("arm.toml", &[])).fine();
+    for words in [
+        "joint U counts the other way: sign = -1 in place of 1",
+        "a base 450.00 mm above base_link, its frame `controller`",
+    ] {
+        assert!(said.out.contains(words), "no `{words}` in:\n{}", said.out);
+    }
+    let json = cell.armill(&check("arm.toml", &["--json"])).fine().json();
+    assert_eq!(json["verdict"], "explained");
+    assert_eq!(json["explanations"][0]["changes"].as_array().unwrap().len(), 2);
+    assert!(json["readings"][0]["apart_mm"].as_f64().unwrap() > 100.0);
+}
+
+#[test]
+fn a_wrong_length_is_explained_by_nothing() {
+    let cell = changed("length_mm = 614", "length_mm = 640");
+    let said = cell.armill(&check("arm.toml", &[])).fine();
+    assert!(said.out.contains("no sign, zero, coupling"), "{}", said.out);
+}
+
+#[test]
+fn one_reading_at_zero_is_told_to_be_too_little() {
+    let arguments = [
+        "robots",
+        "check",
+        "yaskawa/mh12",
+        "--convention",
+        "yaskawa",
+        "--pose",
+    ];
+    // At zero the flange looks forward: tool z along base x.
+    let pose = "0,0,0,0,0,0 = 895,0,1264,180,-90,0";
+    let said = Cell::new().armill(&[&arguments[..], &[pose]].concat()).fine();
+    assert!(
+        said.out.contains("These readings would not show it if")
+            && said.out.contains("joint L counts the other way"),
+        "{}",
+        said.out
+    );
+}
+
+#[test]
+fn what_is_no_reading_is_refused() {
+    let cell = Cell::new();
+    let said = |convention: &str, pose: &str| {
+        cell.armill(&[
+            "robots",
+            "check",
+            "yaskawa/mh12",
+            "--convention",
+            convention,
+            "--pose",
+            pose,
+        ])
+    };
+    said("yaskawa", "0,0,0").refused(&["no `=`", "X,Y,Z,Rx,Ry,Rz"]);
+    said("abb", "0,0,0,0,0,0 = 1,2,3,4,5,6").refused(&["6 numbers of the pose, where abb has 7"]);
+    said("abb", "0,0,0,0,0,0 = 1,2,3,1,1,0,0").refused(&["length 1.4142"]);
+    said("kuka", "0,0 = 1,2,3,4,5,6").refused(&["2 joint positions for the 6 joints"]);
+    said("comau", "0,0 = 1,2,3,4,5,6").refused(&["`comau`", "kuka, abb, fanuc, yaskawa, staubli, ur"]);
+    cell.armill(&check("yaskawa/mh12", &["--within-mm", "0"]))
+        .refused(&["--within-mm: 0 is not above 0"]);
+    cell.armill(&check("yaskawa/mh12", &["--base", "table"]))
+        .refused(&["`table`", "controller"]);
+}

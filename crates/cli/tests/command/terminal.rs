@@ -1,0 +1,151 @@
+//! Stdout that closes, that is full, that is no terminal; colour only where it is wanted.
+
+use std::io::Read;
+use std::process::{Command, Stdio};
+
+use crate::cell::{ARMILL, Cell, EVERY_KIND, SMALL};
+
+/// A study with two problems, so that there is something to colour.
+fn broken() -> Cell {
+    Cell::with_study(&SMALL.replace("step_mm", "step").replace("limit_um", "limit"))
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    for arguments in [
+        &["pose", "yaskawa/mh12", "--at-mm", "1000,0,800", "--json"][..],
+        &["robots", "yaskawa/mh12"],
+        &["check", "--schema"],
+        &["completions", "bash"],
+        &["run", "study.toml", "--no-pictures", "--json"],
+    ] {
+        let mut command = Command::new(ARMILL);
+        command
+            .args(arguments)
+            .current_dir(cell.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        // Closed before a byte was read, as `| head -0` does.
+        drop(child.stdout.take());
+        let mut said = String::new();
+        child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{arguments:?}: {said}");
+        assert!(
+            !said.contains("panicked") && !said.contains("error:"),
+            "{arguments:?}: {said}"
+        );
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn the_first_line_of_a_long_answer_can_be_taken_alone() {
+    let script =
+        format!("set -e; '{ARMILL}' completions bash | head -1; '{ARMILL}' robots yaskawa/mh12 | head -1");
+    let output = Command::new("sh").args(["-c", &script]).output().unwrap();
+    assert!(
+        output.status.success() && output.stderr.is_empty(),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert_eq!(String::from_utf8_lossy(&output.stdout).lines().count(), 2);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_answer_that_could_not_be_written_is_an_error() {
+    let full = || Stdio::from(std::fs::File::options().write(true).open("/dev/full").unwrap());
+    for arguments in [
+        &["robots"][..],
+        &["pose", "yaskawa/mh12", "--joints-deg", "0,0,0,0,0,0"],
+        &["check", "--schema"],
+    ] {
+        let output = Command::new(ARMILL)
+            .args(arguments)
+            .stdout(full())
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(
+            said.contains("standard output") && !said.contains("panicked"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn without_a_terminal_nothing_is_coloured_and_no_bar_is_drawn() {
+    let said = broken().armill(&["check", "study.toml"]).refused(&[]);
+    assert!(!said.err.contains('\u{1b}'), "{:?}", said.err);
+    let said = Cell::with_study(SMALL).armill(&["run", "study.toml"]).fine();
+    let talk = |line: &str| line.starts_with("warning: ") || line == "results in out";
+    assert!(
+        said.err.lines().all(talk) && said.err.ends_with("results in out\n"),
+        "{:?}",
+        said.err
+    );
+    assert!(!said.out.contains('\u{1b}'), "{:?}", said.out);
+    let said = Cell::new().armill(&["run", "--help"]).fine();
+    assert!(!said.out.contains('\u{1b}'), "{:?}", said.out);
+}
+
+/// What armill writes on a terminal of its own, through script(1); `None` where there is none.
+#[cfg(target_os = "linux")]
+fn on_a_terminal(cell: &Cell, command: &str, no_colour: Option<&str>) -> Option<String> {
+    let mut script = Command::new("script");
+    script
+        .args(["-qec", &format!("'{ARMILL}' {command}"), "/dev/null"])
+        .current_dir(cell.path());
+    script
+        .env_remove("NO_COLOR")
+        .env("TERM", "xterm-256color")
+        .stdin(Stdio::null());
+    script.envs(no_colour.map(|value| ("NO_COLOR", value)));
+    script
+        .output()
+        .ok()
+        .map(|output| String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
+/// How a terminal is told a colour: bold red, or any other.
+#[cfg(target_os = "linux")]
+fn is_coloured(text: &str) -> bool {
+    text.split("\u{1b}[").skip(1).any(|rest| {
+        let digits = rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == ';');
+        digits.starts_with('m') && !rest.starts_with("0m") && !rest.starts_with('m')
+    })
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn on_a_terminal_problems_are_coloured_unless_no_color_is_set() {
+    let cell = broken();
+    let Some(coloured) = on_a_terminal(&cell, "check study.toml", None) else {
+        println!("skipped: script(1), which makes a terminal, is not installed");
+        return;
+    };
+    assert!(coloured.contains("study.toml:4"), "{coloured:?}");
+    assert!(is_coloured(&coloured), "{coloured:?}");
+    let plain = on_a_terminal(&cell, "check study.toml", Some("1")).unwrap();
+    assert!(!is_coloured(&plain), "{plain:?}");
+    // An empty value does not count, as no-color.org has it.
+    assert!(is_coloured(
+        &on_a_terminal(&cell, "check study.toml", Some("")).unwrap()
+    ));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn no_color_holds_for_wrong_arguments_and_the_progress_bar_too() {
+    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    for command in ["fly", "--help", "run study.toml"] {
+        let Some(said) = on_a_terminal(&cell, command, Some("1")) else {
+            println!("skipped: script(1), which makes a terminal, is not installed");
+            return;
+        };
+        assert!(!said.is_empty() && !is_coloured(&said), "{command}: {said:?}");
+    }
+}

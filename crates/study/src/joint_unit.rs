@@ -1,0 +1,55 @@
+//! In which units is a joint told? Degrees and rad/(N m) where it turns, millimetres and µm/N where it slides.
+
+use armill_core::robot::Robot;
+
+/// The units of one joint at the boundary.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointUnit {
+    /// Unit of its positions, limits, and (a second) speed.
+    pub name: &'static str,
+    /// That unit in one rad (m).
+    pub scale: f64,
+    /// Unit of its compliance.
+    pub compliance_name: &'static str,
+    /// That unit in one rad/(N m) (m/N).
+    pub compliance_scale: f64,
+}
+
+impl JointUnit {
+    /// Of a joint that turns.
+    pub const TURNING: JointUnit = JointUnit {
+        name: "deg",
+        scale: 180.0 / std::f64::consts::PI,
+        compliance_name: "rad/(N m)",
+        compliance_scale: 1.0,
+    };
+
+    /// Of a joint that slides.
+    pub const SLIDING: JointUnit = JointUnit {
+        name: "mm",
+        scale: 1e3,
+        compliance_name: "µm/N",
+        compliance_scale: 1e6,
+    };
+
+    /// The units of joint `index` of `robot`.
+    pub fn of(robot: &Robot, index: usize) -> JointUnit {
+        if robot.slides(index) {
+            JointUnit::SLIDING
+        } else {
+            JointUnit::TURNING
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_is_told_as_to_degrees_tells_it() {
+        for q in [1.0_f64, -2.705260340591211, 0.1] {
+            assert_eq!(q * JointUnit::TURNING.scale, q.to_degrees());
+        }
+    }
+}

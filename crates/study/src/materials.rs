@@ -1,0 +1,280 @@
+//! What is known of a material, as JSON: `armill materials`, `armill materials NAME`. Units are those of the file.
+
+use armill_formats::material::{KienzleSet, Material, MechanisticSet};
+use armill_formats::robot::Source;
+use serde::Serialize;
+
+use crate::number::without_rounding;
+
+/// Size of the units of the six mechanistic coefficients in SI: N/mm2 of the chip, N/mm of the edge.
+const MECHANISTIC: [f64; 6] = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3];
+/// The same of Kienzle's two values.
+const KIENZLE: [f64; 2] = [1e6, 1.0];
+
+/// A row of the list of materials.
+#[derive(Clone, Debug, Serialize)]
+pub struct MaterialRow {
+    /// Its name in the library.
+    pub name: String,
+    /// For people.
+    pub title: String,
+    /// Whole sets of mechanistic coefficients: those that forces are computed from.
+    pub mechanistic_sets: usize,
+    /// Sets of Kienzle values.
+    pub kienzle_sets: usize,
+    /// Sets of mechanistic coefficients, parts of sets included.
+    #[serde(skip)]
+    pub mechanistic_listed: usize,
+}
+
+impl MaterialRow {
+    /// The row of a material that the library calls `name`.
+    pub fn of(name: &str, found: &Material) -> MaterialRow {
+        MaterialRow {
+            name: name.to_owned(),
+            title: found.name.clone(),
+            mechanistic_sets: found.mechanistic().map_or(0, |together| together.sets),
+            kienzle_sets: found.kienzle().map_or(0, |together| together.sets),
+            mechanistic_listed: found.mechanistic.len(),
+        }
+    }
+}
+
+/// Everything that is known of one material.
+#[derive(Clone, Debug, Serialize)]
+pub struct KnownMaterial {
+    /// Its name in the library.
+    pub name: String,
+    /// For people.
+    pub title: String,
+    /// What a user should know before trusting the numbers.
+    pub note: Option<String>,
+    /// Every set of mechanistic coefficients.
+    pub mechanistic: Vec<KnownMechanistic>,
+    /// Every set of Kienzle values.
+    pub kienzle: Vec<KnownKienzle>,
+    /// What forces are computed from.
+    pub used: Used,
+    /// Where the numbers come from.
+    pub sources: Vec<Source>,
+}
+
+/// A set of mechanistic coefficients; a key is left out where the source lacks the coefficient.
+#[derive(Clone, Debug, Serialize)]
+pub struct KnownMechanistic {
+    /// Shear, tangential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ktc_n_per_mm2: Option<f64>,
+    /// Shear, radial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub krc_n_per_mm2: Option<f64>,
+    /// Shear, axial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kac_n_per_mm2: Option<f64>,
+    /// Edge, tangential.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kte_n_per_mm: Option<f64>,
+    /// Edge, radial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kre_n_per_mm: Option<f64>,
+    /// Edge, axial.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub kae_n_per_mm: Option<f64>,
+    /// With which tool they were identified.
+    pub tool: String,
+    /// Key of the source.
+    pub source: String,
+    /// What to make of them.
+    pub note: Option<String>,
+}
+
+/// A set of Kienzle values, at 0 deg rake.
+#[derive(Clone, Debug, Serialize)]
+pub struct KnownKienzle {
+    /// Cutting force over the section of a chip 1 mm thick.
+    pub kc1_n_per_mm2: f64,
+    /// How fast it falls with the thickness.
+    pub mc_exponent: f64,
+    /// Group of VDI 3323, if the source goes by them.
+    pub group: Option<u8>,
+    /// Strength, hardness or treatment that they hold for.
+    pub condition: Option<String>,
+    /// Key of the source.
+    pub source: String,
+}
+
+/// What forces are computed from: the mean of whole sets, and the standard deviation of one set among them (`spread`),
+/// which of a single set is not known.
+#[derive(Clone, Debug, Serialize)]
+pub struct Used {
+    /// Of the mechanistic law; none without a whole set.
+    pub mechanistic: Option<UsedMechanistic>,
+    /// Of Kienzle's law; none without a set.
+    pub kienzle: Option<UsedKienzle>,
+}
+
+/// The mechanistic coefficients that forces are computed from.
+#[derive(Clone, Debug, Serialize)]
+pub struct UsedMechanistic {
+    /// How many sets.
+    pub sets: usize,
+    /// Shear, tangential.
+    pub ktc_n_per_mm2: f64,
+    /// Its spread.
+    pub spread_ktc_n_per_mm2: Option<f64>,
+    /// Shear, radial.
+    pub krc_n_per_mm2: f64,
+    /// Its spread.
+    pub spread_krc_n_per_mm2: Option<f64>,
+    /// Shear, axial.
+    pub kac_n_per_mm2: f64,
+    /// Its spread.
+    pub spread_kac_n_per_mm2: Option<f64>,
+    /// Edge, tangential.
+    pub kte_n_per_mm: f64,
+    /// Its spread.
+    pub spread_kte_n_per_mm: Option<f64>,
+    /// Edge, radial.
+    pub kre_n_per_mm: f64,
+    /// Its spread.
+    pub spread_kre_n_per_mm: Option<f64>,
+    /// Edge, axial.
+    pub kae_n_per_mm: f64,
+    /// Its spread.
+    pub spread_kae_n_per_mm: Option<f64>,
+}
+
+/// The Kienzle values that forces are computed from.
+#[derive(Clone, Debug, Serialize)]
+pub struct UsedKienzle {
+    /// How many sets.
+    pub sets: usize,
+    /// Cutting force over the section of a chip 1 mm thick.
+    pub kc1_n_per_mm2: f64,
+    /// Its spread.
+    pub spread_kc1_n_per_mm2: Option<f64>,
+    /// How fast it falls with the thickness.
+    pub mc_exponent: f64,
+    /// Its spread.
+    pub spread_mc_exponent: Option<f64>,
+}
+
+impl KnownMaterial {
+    /// Everything that is known of the material that the library calls `name`.
+    pub fn of(name: &str, found: &Material) -> KnownMaterial {
+        KnownMaterial {
+            name: name.to_owned(),
+            title: found.name.clone(),
+            note: found.note.clone(),
+            mechanistic: found.mechanistic.iter().map(KnownMechanistic::of).collect(),
+            kienzle: found.kienzle.iter().map(KnownKienzle::of).collect(),
+            used: Used {
+                mechanistic: UsedMechanistic::of(found),
+                kienzle: UsedKienzle::of(found),
+            },
+            sources: found.sources.clone(),
+        }
+    }
+}
+
+impl KnownMechanistic {
+    fn of(set: &MechanisticSet) -> KnownMechanistic {
+        let told = |i: usize| set.coefficients[i].map(|value| without_rounding(value / MECHANISTIC[i]));
+        KnownMechanistic {
+            ktc_n_per_mm2: told(0),
+            krc_n_per_mm2: told(1),
+            kac_n_per_mm2: told(2),
+            kte_n_per_mm: told(3),
+            kre_n_per_mm: told(4),
+            kae_n_per_mm: told(5),
+            tool: set.tool.clone(),
+            source: set.source.clone(),
+            note: set.note.clone(),
+        }
+    }
+
+    /// Ktc, Krc, Kac, Kte, Kre, Kae.
+    pub fn coefficients(&self) -> [Option<f64>; 6] {
+        [
+            self.ktc_n_per_mm2,
+            self.krc_n_per_mm2,
+            self.kac_n_per_mm2,
+            self.kte_n_per_mm,
+            self.kre_n_per_mm,
+            self.kae_n_per_mm,
+        ]
+    }
+}
+
+impl KnownKienzle {
+    fn of(set: &KienzleSet) -> KnownKienzle {
+        KnownKienzle {
+            kc1_n_per_mm2: without_rounding(set.specific_force / KIENZLE[0]),
+            mc_exponent: without_rounding(set.exponent / KIENZLE[1]),
+            group: set.group,
+            condition: set.condition.clone(),
+            source: set.source.clone(),
+        }
+    }
+}
+
+impl UsedMechanistic {
+    fn of(found: &Material) -> Option<UsedMechanistic> {
+        let together = found.mechanistic()?;
+        let law = together.law;
+        let mean = |i: usize| without_rounding(law.coefficients()[i] / MECHANISTIC[i]);
+        let u = |i: usize| law.covariance()[(i, i)].max(0.0).sqrt() / MECHANISTIC[i];
+        let spread = |i: usize| (together.sets > 1).then(|| without_rounding(u(i)));
+        Some(UsedMechanistic {
+            sets: together.sets,
+            ktc_n_per_mm2: mean(0),
+            spread_ktc_n_per_mm2: spread(0),
+            krc_n_per_mm2: mean(1),
+            spread_krc_n_per_mm2: spread(1),
+            kac_n_per_mm2: mean(2),
+            spread_kac_n_per_mm2: spread(2),
+            kte_n_per_mm: mean(3),
+            spread_kte_n_per_mm: spread(3),
+            kre_n_per_mm: mean(4),
+            spread_kre_n_per_mm: spread(4),
+            kae_n_per_mm: mean(5),
+            spread_kae_n_per_mm: spread(5),
+        })
+    }
+
+    /// Mean and spread of Ktc, Krc, Kac, Kte, Kre, Kae.
+    pub fn coefficients(&self) -> [(f64, Option<f64>); 6] {
+        [
+            (self.ktc_n_per_mm2, self.spread_ktc_n_per_mm2),
+            (self.krc_n_per_mm2, self.spread_krc_n_per_mm2),
+            (self.kac_n_per_mm2, self.spread_kac_n_per_mm2),
+            (self.kte_n_per_mm, self.spread_kte_n_per_mm),
+            (self.kre_n_per_mm, self.spread_kre_n_per_mm),
+            (self.kae_n_per_mm, self.spread_kae_n_per_mm),
+        ]
+    }
+}
+
+impl UsedKienzle {
+    fn of(found: &Material) -> Option<UsedKienzle> {
+        let together = found.kienzle()?;
+        let mean = |i: usize| without_rounding(together.law[i].value / KIENZLE[i]);
+        let u = |i: usize| without_rounding(together.law[i].standard_uncertainty / KIENZLE[i]);
+        let spread = |i: usize| (together.sets > 1).then(|| u(i));
+        Some(UsedKienzle {
+            sets: together.sets,
+            kc1_n_per_mm2: mean(0),
+            spread_kc1_n_per_mm2: spread(0),
+            mc_exponent: mean(1),
+            spread_mc_exponent: spread(1),
+        })
+    }
+
+    /// Mean and spread of kc1.1 and mc.
+    pub fn values(&self) -> [(f64, Option<f64>); 2] {
+        [
+            (self.kc1_n_per_mm2, self.spread_kc1_n_per_mm2),
+            (self.mc_exponent, self.spread_mc_exponent),
+        ]
+    }
+}

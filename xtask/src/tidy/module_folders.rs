@@ -1,0 +1,124 @@
+//! A module that is a folder begins with its `mod.rs`, which introduces every file of it: by name in its header, or by a
+//! comment over a group of them.
+
+use super::Rule;
+use super::rust::{RustFile, find_word};
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "module folders",
+    reason: "whoever opens a folder finds its question first, and what to read next",
+    check,
+};
+
+/// Modules that are still in two places; none may come in.
+const TO_MOVE: &[&str] = &[
+    "crates/core/src/load/record.rs",
+    "crates/core/src/source/standing.rs",
+    "crates/formats/src/document.rs",
+    "crates/formats/src/material.rs",
+    "crates/formats/src/robot/armill.rs",
+    "crates/formats/src/robot/dh.rs",
+    "crates/formats/src/robot/elementary.rs",
+    "crates/formats/src/robot/opw.rs",
+    "crates/formats/src/robot/urdf.rs",
+    "crates/formats/src/robot/xacro.rs",
+    "crates/formats/src/table/vtk.rs",
+    "crates/formats/src/toolpath/apt.rs",
+    "crates/study/src/answer/program.rs",
+    "crates/study/src/file/ask.rs",
+    "crates/study/src/file/program.rs",
+    "crates/study/src/output/tables.rs",
+];
+
+/// Looks at all Rust that ships; the tests of a module may lie in a folder beside it.
+fn check(tree: &Tree) -> Vec<Violation> {
+    let files = tree.rust_files("");
+    let mut violations = Vec::new();
+    for file in &files {
+        let stem = file.path.trim_end_matches(".rs");
+        let beside = files.iter().find(|other| {
+            other
+                .path
+                .strip_prefix(stem)
+                .is_some_and(|rest| rest.starts_with('/'))
+        });
+        if let Some(beside) = beside.filter(|_| !TO_MOVE.contains(&file.path)) {
+            let what = format!("its module goes on in `{}`", beside.path);
+            let hint = format!("move it to {stem}/mod.rs");
+            violations.push(Violation::new(file.path, 1, what, hint));
+        }
+        if file.path.ends_with("/mod.rs") {
+            violations.extend(unnamed(file));
+        }
+    }
+    violations
+}
+
+/// Modules that a `mod.rs` neither names in its header nor introduces by a comment over their group.
+fn unnamed(file: &RustFile<'_>) -> Vec<Violation> {
+    let header: Vec<&str> = file
+        .raw
+        .iter()
+        .filter_map(|line| line.strip_prefix("//!"))
+        .collect();
+    let header = header.join("\n");
+    let declared = file.code.iter().enumerate().filter_map(|(index, line)| {
+        let is_test = index > 0 && file.code[index - 1].trim() == "#[cfg(test)]";
+        let name = line[find_word(line, "mod")? + 3..].trim().strip_suffix(';')?;
+        (!is_test && !has_comment(&file.raw[..index])).then_some((index, name))
+    });
+    declared
+        .filter(|(_, name)| find_word(&header, name).is_none())
+        .map(|(index, name)| {
+            let what = format!("the header does not name `{name}`");
+            Violation::new(
+                file.path,
+                index + 1,
+                what,
+                "say what it answers, in reading order",
+            )
+        })
+        .collect()
+}
+
+/// Whether the group of lines that `before` ends in begins with a comment.
+fn has_comment(before: &[&str]) -> bool {
+    let group = before.iter().rev().take_while(|line| !line.is_empty());
+    group.last().is_some_and(|line| line.starts_with("// "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(files: &[(&str, &str)]) -> Vec<String> {
+        let violations = check(&Tree::of(files)).into_iter();
+        violations
+            .map(|violation| format!("{} {}", violation.path, violation.what))
+            .collect()
+    }
+
+    #[test]
+    fn a_folder_beside_its_file_is_told_unless_it_holds_tests_alone() {
+        let found = told(&[
+            ("src/a.rs", "mod b;\n"),
+            ("src/a/b.rs", ""),
+            ("src/c.rs", "#[cfg(test)]\nmod tests;\n"),
+            ("src/c/tests.rs", ""),
+            ("src/ab.rs", ""),
+        ]);
+        assert_eq!(found, ["src/a.rs its module goes on in `src/a/b.rs`"]);
+    }
+
+    #[test]
+    fn a_module_that_the_header_leaves_out_is_told() {
+        let text = "//! [`shape`](mod@shape): what is drawn.\n\npub mod shape;\nmod sha;\n\n// Beneath it.\nmod line;\nmod point;\n\n#[cfg(test)]\nmod tests;\n";
+        assert_eq!(
+            told(&[("src/a/mod.rs", text)]),
+            ["src/a/mod.rs the header does not name `sha`"]
+        );
+    }
+}

@@ -1,0 +1,50 @@
+//! The command makes no JSON by hand: what it prints are answers of the crates below it.
+
+use super::Rule;
+use super::rust::find_word;
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "thin command",
+    reason: "an answer that only the command can give is one that no other surface gives alike",
+    check,
+};
+
+/// Where problems become JSON: they are of no answer.
+const PROBLEMS: &str = "crates/cli/src/terminal.rs";
+
+/// Looks at the command without its tests.
+fn check(tree: &Tree) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    let files = tree.rust_files("crates/cli/src/").into_iter();
+    for file in files.filter(|file| file.path != PROBLEMS) {
+        for (index, line) in file.code.iter().enumerate() {
+            if find_word(line, "json").is_some_and(|at| line[at + 4..].starts_with('!')) {
+                let hint = "give armill-study a type that serialises";
+                violations.push(Violation::new(file.path, index + 1, "json! by hand", hint));
+            }
+        }
+    }
+    violations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_by_hand_is_told_but_for_problems() {
+        let tree = Tree::of(&[
+            (
+                "crates/cli/src/a.rs",
+                "if arguments.json { f() }\nserde_json::json!({})\n",
+            ),
+            (PROBLEMS, "json!([])\n"),
+            ("crates/study/src/a.rs", "json!([])\n"),
+        ]);
+        let lines: Vec<usize> = check(&tree).iter().map(|violation| violation.line).collect();
+        assert_eq!(lines, [2]);
+    }
+}

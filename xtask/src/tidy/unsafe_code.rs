@@ -1,0 +1,65 @@
+//! No unsafe code but where ARCHITECTURE.md names it.
+
+use super::Rule;
+use super::rust::find_word;
+use super::tree::Tree;
+use super::violation::Violation;
+
+/// The rule and its reason.
+pub const RULE: Rule = Rule {
+    name: "unsafe code",
+    reason: "memory is safe because the compiler says so, and two calls that anyone can check",
+    check,
+};
+
+/// Where it may stand, and how often.
+const ALLOWED: &[(&str, usize)] = &[
+    // After the check for AVX2, and for AVX-512.
+    ("crates/core/src/kernel/lanes/backend.rs", 2),
+    // A larger stack for the handler of signals: libc has no safe call for it.
+    ("fuzz/src/signal_stack.rs", 1),
+];
+
+/// Counts the word in all Rust that ships.
+fn check(tree: &Tree) -> Vec<Violation> {
+    let mut violations = Vec::new();
+    for file in tree.rust_files("") {
+        let allowed = ALLOWED.iter().find(|(path, _)| *path == file.path);
+        let allowed = allowed.map_or(0, |(_, count)| *count);
+        let lines = file.code.iter().enumerate();
+        let found = lines.filter(|(_, line)| find_word(line, "unsafe").is_some());
+        violations.extend(found.skip(allowed).map(|(index, _)| {
+            let what = format!("`unsafe`, more than the {allowed} of this file");
+            Violation::new(file.path, index + 1, what, "do it safely")
+        }));
+    }
+    violations
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_more_than_allowed_is_told_and_the_name_of_the_lint_is_none() {
+        let call = "unsafe { f() }\n";
+        let tree = Tree::of(&[
+            (
+                ALLOWED[0].0,
+                &format!("#[allow(unsafe_code)]\n{}", call.repeat(3)),
+            ),
+            ("crates/study/src/a.rs", call),
+        ]);
+        let told: Vec<(String, usize)> = check(&tree)
+            .into_iter()
+            .map(|violation| (violation.path, violation.line))
+            .collect();
+        assert_eq!(
+            told,
+            [
+                (ALLOWED[0].0.to_owned(), 4),
+                ("crates/study/src/a.rs".to_owned(), 1)
+            ]
+        );
+    }
+}
