@@ -1,7 +1,7 @@
 //! What is known of a material, as JSON: `armill materials`, `armill materials NAME`. Units are those of the file.
 
 use armill_formats::material::{KienzleSet, Material, MechanisticSet};
-use armill_formats::robot::Source;
+use armill_formats::sources::Source;
 use serde::Serialize;
 
 use crate::number::without_rounding;
@@ -221,10 +221,11 @@ impl KnownKienzle {
 impl UsedMechanistic {
     fn of(found: &Material) -> Option<UsedMechanistic> {
         let together = found.mechanistic()?;
-        let law = together.law;
-        let mean = |i: usize| without_rounding(law.coefficients()[i] / MECHANISTIC[i]);
-        let u = |i: usize| law.covariance()[(i, i)].max(0.0).sqrt() / MECHANISTIC[i];
-        let spread = |i: usize| (together.sets > 1).then(|| without_rounding(u(i)));
+        let mean = |i: usize| without_rounding(together.mean[i] / MECHANISTIC[i]);
+        let spread = |i: usize| {
+            let covariance = together.covariance?;
+            Some(without_rounding(covariance[(i, i)].sqrt() / MECHANISTIC[i]))
+        };
         Some(UsedMechanistic {
             sets: together.sets,
             ktc_n_per_mm2: mean(0),
@@ -258,9 +259,11 @@ impl UsedMechanistic {
 impl UsedKienzle {
     fn of(found: &Material) -> Option<UsedKienzle> {
         let together = found.kienzle()?;
-        let mean = |i: usize| without_rounding(together.law[i].value / KIENZLE[i]);
-        let u = |i: usize| without_rounding(together.law[i].standard_uncertainty / KIENZLE[i]);
-        let spread = |i: usize| (together.sets > 1).then(|| u(i));
+        let mean = |i: usize| without_rounding(together.mean[i] / KIENZLE[i]);
+        let spread = |i: usize| {
+            let covariance = together.covariance?;
+            Some(without_rounding(covariance[(i, i)].sqrt() / KIENZLE[i]))
+        };
         Some(UsedKienzle {
             sets: together.sets,
             kc1_n_per_mm2: mean(0),

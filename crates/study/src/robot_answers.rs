@@ -3,7 +3,8 @@
 //! A joint that turns is told in deg and rad/(N m), one that slides in mm and µm/N, under keys that say so.
 
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Seat, TorqueCurve, reach};
-use armill_formats::robot::{RobotDescription, Source};
+use armill_formats::robot::RobotDescription;
+use armill_formats::sources::Source;
 use serde::Serialize;
 
 use crate::joint_unit::JointUnit;
@@ -285,7 +286,7 @@ impl KnownRobot {
 impl KnownJoint {
     fn of(found: &RobotDescription, index: usize) -> KnownJoint {
         let robot = &found.robot;
-        let (joint, note) = (&robot.joints()[index], &found.joints[index]);
+        let (joint, note) = (&robot.joints()[index], &found.joint_notes[index]);
         let unit = JointUnit::of(robot, index);
         let told = |value: f64| without_rounding(value * unit.scale);
         let compliance = robot.compliance().map(|all| all[index]);

@@ -4,7 +4,7 @@ use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{LoadTest, Points, Prior, Role, Unknown};
 use armill_core::nalgebra::Vector3;
-use armill_core::robot::{Axis, Robot, Seat};
+use armill_core::robot::{Axis, Robot};
 use armill_formats::robot::spring_tables::Yields;
 
 use crate::{StudyError, robot_answers};

@@ -91,10 +91,10 @@ fn joint_text(found: &RobotDescription, index: usize) -> Vec<String> {
         "  {:<4} chain {chain}{:<4} {limits:<20} {speed:<14} {compliance}",
         joint.name, joint.name
     );
-    let others = found.joints[index].other_limits.iter();
-    let others = others.map(|([lower, upper], source, note)| {
-        let note = note.as_ref().map_or(String::new(), |note| format!(": {note}"));
-        format!("       limits by {source}: {lower} to {upper} {name}{note}")
+    let others = found.joint_notes[index].other_limits.iter().map(|limits| {
+        let ([lower, upper], source) = (limits.limits_deg, &limits.source);
+        let note = limits.note.as_ref().map_or(String::new(), |note| format!(": {note}"));
+        format!("       limits by {source}: {lower} to {upper} deg{note}")
     });
     [line].into_iter().chain(others).collect()
 }
