@@ -11,6 +11,8 @@
 //!
 //! Lengths in m, angles in rad. Source: `docs/notation.md`.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A rigid displacement; the name of the variable says from which frame to which.
@@ -42,10 +44,59 @@ pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f
     about_axis * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(unspun))
 }
 
+/// Axis times angle (rad, up to half a turn) of the turn that takes the axes `from` to the axes `to`, both as columns.
+///
+/// Not checked: that both are rotations.
+pub fn turn_between(from: &Matrix3<f64>, to: &Matrix3<f64>) -> Vector3<f64> {
+    // Each pair of axes spans the sine of the angle between them: exact where the cosine has lost it.
+    let sine: Vector3<f64> = (0..3)
+        .map(|i| from.column(i).cross(&to.column(i)))
+        .sum::<Vector3<f64>>()
+        * 0.5;
+    let cosine = 0.5 * (from.dot(to) - 1.0);
+    let length = sine.norm();
+    if length > 1e-6 || cosine > 0.0 {
+        // For small angles the sine is the angle, to rounding.
+        let factor = if length > 1e-9 {
+            length.atan2(cosine) / length
+        } else {
+            1.0
+        };
+        return sine * factor;
+    }
+    // Half a turn: the axis is the longest column of R + I.
+    let turn = to * from.transpose() + Matrix3::identity();
+    let axis = turn
+        .column_iter()
+        .map(nalgebra::Matrix::into_owned)
+        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        .unwrap_or_else(Vector3::x);
+    axis.normalize() * PI
+}
+
+/// Some unit vector across `axis`, always the same one; `axis` must not be zero.
+pub fn some_across(axis: &Vector3<f64>) -> Vector3<f64> {
+    axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::{FRAC_PI_2, PI};
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn turns_between_axes_are_those_that_were_made() {
+        let from = Rotation3::from_euler_angles(0.3, -1.0, 2.0);
+        let axis = Vector3::new(0.48, -0.6, 0.64);
+        for angle in [0.0, 1e-12, 1e-5, 0.3, 1.7, 3.0, 3.1] {
+            let to = Rotation3::new(axis * angle) * from;
+            let found = turn_between(from.matrix(), to.matrix());
+            assert!((found - axis * angle).norm() < 1e-9, "{angle}: {found}");
+        }
+        let half = Rotation3::new(axis * PI) * from;
+        let found = turn_between(from.matrix(), half.matrix());
+        assert!((found.norm() - PI).abs() < 1e-9 && found.cross(&axis).norm() < 1e-6);
+    }
 
     #[test]
     fn fixed_angles_turn_about_x_first() {

@@ -8,6 +8,8 @@
 //! | `linear`, `angular` | small displacement of the reference point, small rotation | m, rad |
 //! | `force`, `moment` | acting *on the tool*, moment about the reference point | N, N m |
 
+use std::ops::{Add, Mul, Sub};
+
 use nalgebra::{Matrix6, Point3, Vector3, Vector6};
 
 use crate::frame::Isometry;
@@ -28,17 +30,25 @@ impl Twist {
         angular: Vector3::new(0.0, 0.0, 0.0),
     };
 
+    /// A turn about `axis` (unit), per radian, told at a point of it.
+    pub fn about(axis: Vector3<f64>) -> Twist {
+        Twist {
+            angular: axis,
+            ..Twist::ZERO
+        }
+    }
+
+    /// A slide along `axis` (unit), per metre.
+    pub fn along(axis: Vector3<f64>) -> Twist {
+        Twist {
+            linear: axis,
+            ..Twist::ZERO
+        }
+    }
+
     /// Work (J) that `wrench` does on this displacement; both at the same point and basis.
     pub fn dot(&self, wrench: &Wrench) -> f64 {
         self.linear.dot(&wrench.force) + self.angular.dot(&wrench.moment)
-    }
-
-    /// This twist times a number, for example a screw times a joint angle.
-    pub fn scaled(&self, factor: f64) -> Twist {
-        Twist {
-            linear: self.linear * factor,
-            angular: self.angular * factor,
-        }
     }
 
     /// `[linear; angular]` as one column.
@@ -62,12 +72,33 @@ impl Twist {
     }
 }
 
-impl std::ops::Add for Twist {
+impl Add for Twist {
     type Output = Twist;
     fn add(self, other: Twist) -> Twist {
         Twist {
             linear: self.linear + other.linear,
             angular: self.angular + other.angular,
+        }
+    }
+}
+
+impl Sub for Twist {
+    type Output = Twist;
+    fn sub(self, other: Twist) -> Twist {
+        Twist {
+            linear: self.linear - other.linear,
+            angular: self.angular - other.angular,
+        }
+    }
+}
+
+/// A twist times a number, for example a screw times a joint angle.
+impl Mul<f64> for Twist {
+    type Output = Twist;
+    fn mul(self, factor: f64) -> Twist {
+        Twist {
+            linear: self.linear * factor,
+            angular: self.angular * factor,
         }
     }
 }
@@ -88,6 +119,12 @@ pub struct Wrench {
 }
 
 impl Wrench {
+    /// No load.
+    pub const ZERO: Wrench = Wrench {
+        force: Vector3::new(0.0, 0.0, 0.0),
+        moment: Vector3::new(0.0, 0.0, 0.0),
+    };
+
     /// A wrench with no moment about its reference point.
     pub fn from_force(force: Vector3<f64>) -> Wrench {
         Wrench {
@@ -108,6 +145,17 @@ impl Wrench {
     pub fn to_vector(&self) -> Vector6<f64> {
         let (f, m) = (&self.force, &self.moment);
         Vector6::new(f.x, f.y, f.z, m.x, m.y, m.z)
+    }
+}
+
+/// A load so many times as large.
+impl Mul<f64> for Wrench {
+    type Output = Wrench;
+    fn mul(self, factor: f64) -> Wrench {
+        Wrench {
+            force: self.force * factor,
+            moment: self.moment * factor,
+        }
     }
 }
 

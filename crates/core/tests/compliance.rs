@@ -79,7 +79,7 @@ proptest! {
             .collect();
         for other in [predict(&posture, joints, &scaled), predict(&posture, &softer, &load)] {
             let away = other.twist.to_vector() - once.twist.to_vector() * factor;
-            let size: f64 = once.joint_shares.iter().map(|s| s.to_vector().norm()).sum();
+            let size: f64 = once.shares.iter().map(|s| s.to_vector().norm()).sum();
             prop_assert!(away.norm() <= ROUNDING * size * factor);
         }
     }
@@ -88,7 +88,7 @@ proptest! {
     fn shares_of_the_joints_add_up_to_the_deviation((arm, unit) in arm(), load in wrench()) {
         let robot = &arms::all()[arm];
         let told = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
-        let sum: armill_core::spatial::Twist = told.joint_shares.iter().copied().sum();
+        let sum: armill_core::spatial::Twist = told.shares.iter().copied().sum();
         prop_assert_eq!(sum, told.twist);
     }
 
@@ -104,7 +104,7 @@ proptest! {
             let by = predict(&posture, &moved, &load).twist.linear - told.twist.linear;
             variance += by.component_mul(&by);
         }
-        let size: f64 = told.joint_shares.iter().map(|s| s.linear.norm_squared()).sum();
+        let size: f64 = told.shares.iter().map(|s| s.linear.norm_squared()).sum();
         // The difference of two nearly equal numbers keeps half the digits that matter here.
         prop_assert!((variance - told.covariance.diagonal()).amax() <= 1e-9 * size);
     }
@@ -162,7 +162,7 @@ proptest! {
         let told = predict(&posture, &joints, &load);
         let stiffness = stiffness_at_tool(&compliance_at_tool(&posture.screws, &joints), 1.0);
         prop_assert!(stiffness.rank <= 1);
-        let along = posture.screws[soft].scaled(1e-6 * posture.screws[soft].dot(&load));
+        let along = posture.screws[soft] * (1e-6 * posture.screws[soft].dot(&load));
         let away = told.twist.to_vector() - along.to_vector();
         prop_assert!(away.norm() <= ROUNDING * along.to_vector().norm());
     }

@@ -10,7 +10,7 @@ use armill_core::load::Doubt;
 use armill_core::nalgebra::{
     DMatrix, Isometry3, IsometryMatrix3, Matrix6, Point3, Unit, UnitQuaternion, Vector3,
 };
-use armill_core::predict::{predict, predict_in_full};
+use armill_core::predict::predict;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::spring::springs_of;
 use armill_core::robot::yielding::{Yielded, yield_into};
@@ -148,10 +148,10 @@ proptest! {
             ..Structure::EMPTY
         };
         for model in [StiffnessModel::DRIVES.clone(), weighing(structure)] {
-            let full = predict_in_full(&held(robot, &model, &tool), &q, &w).unwrap();
+            let full = arms::predicted(&held(robot, &model, &tool), &q, &w).unwrap();
             prop_assert_eq!(full.twist.linear, simple.twist.linear);
             prop_assert_eq!(full.twist.angular, simple.twist.angular);
-            for (a, b) in full.joint_shares.iter().zip(&simple.joint_shares) {
+            for (a, b) in full.shares.iter().zip(&simple.shares) {
                 prop_assert!((a.to_vector() - b.to_vector()).amax() <= 4.0 * f64::EPSILON * b.to_vector().amax());
             }
             let rounding = 10.0 * f64::EPSILON * simple.covariance.amax();
@@ -202,10 +202,10 @@ proptest! {
         let (q, tool) = (positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY };
         let model = weighing(structure);
-        let full = predict_in_full(&held(robot, &model, &tool), &q, &w).unwrap();
-        prop_assert_eq!(full.joint_shares.len(), 9);
-        let sum: armill_core::spatial::Twist = full.joint_shares.iter().copied().sum();
-        let longest = full.joint_shares.iter().map(|s| s.linear.norm()).fold(0.0, f64::max);
+        let full = arms::predicted(&held(robot, &model, &tool), &q, &w).unwrap();
+        prop_assert_eq!(full.shares.len(), 9);
+        let sum: armill_core::spatial::Twist = full.shares.iter().copied().sum();
+        let longest = full.shares.iter().map(|s| s.linear.norm()).fold(0.0, f64::max);
         prop_assert!((sum.linear - full.twist.linear).norm() < 1e-14 * longest);
         prop_assert_eq!(model.sharer_names(robot.joints())[6..].join(" "), "base flange tool");
     }
@@ -311,7 +311,7 @@ proptest! {
             prop_assert!(balance.abs() < 1e-12, "{k}: {balance} rad");
         }
         // To first order it is the simple model: the rest is of the order of the turns themselves.
-        let plain = predict_in_full(&held(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
+        let plain = arms::predicted(&held(robot, &simple, &tool), &q, &w).unwrap().twist.linear;
         let largest = equilibrium.turns().iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let reach = 4.0;
         prop_assert!((delta.linear - plain).norm() < 40.0 * largest * largest * reach);
@@ -352,7 +352,7 @@ proptest! {
         let structure = Structure { springs: springs(), covariance: Some(s.clone()), ..Structure::EMPTY };
         let model = StiffnessModel { structure, ..StiffnessModel::DRIVES.clone() };
         let arm = held(robot, &model, &tool);
-        let found = predict_in_full(&arm, &q, &w).unwrap().covariance;
+        let found = arms::predicted(&arm, &q, &w).unwrap().covariance;
         // Witness: columns by changing one compliance at a time, the last four springs independent.
         let mut columns = DMatrix::zeros(3, 12);
         for k in 0..12 {
@@ -361,8 +361,8 @@ proptest! {
             let step = 1e-6;
             if k < 6 { drives[k].value += step } else { more.structure.springs[k - 6].compliance.value += step }
             let changed = Arm { compliance: &drives, model: &more, ..arm };
-            let by = predict_in_full(&changed, &q, &w).unwrap().twist.linear;
-            let from = predict_in_full(&arm, &q, &w).unwrap().twist.linear;
+            let by = arms::predicted(&changed, &q, &w).unwrap().twist.linear;
+            let from = arms::predicted(&arm, &q, &w).unwrap().twist.linear;
             columns.set_column(k, &((by - from) / step));
         }
         let mut full = DMatrix::zeros(12, 12);
@@ -396,7 +396,7 @@ fn a_pressed_column_buckles_at_stiffness_over_length() {
     let arm = held(&robot, &model, &tool);
     let press = |down: f64, side: f64| {
         let wrench = Wrench::from_force(Vector3::new(side, 0.0, -down));
-        predict_in_full(&arm, &[0.0], &wrench).map(|d| d.twist)
+        arms::predicted(&arm, &[0.0], &wrench).map(|d| d.twist)
     };
     assert_eq!(press(999.0, 0.0).unwrap().linear.x, 0.0);
     assert_eq!(press(1001.0, 0.0).unwrap_err(), Unstable::Buckles);
@@ -434,14 +434,14 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     });
     let reference = vec![0.1, 0.2, -0.3, 0.4, 0.5, -0.6];
     model.gravity.as_mut().unwrap().reference.clone_from(&reference);
-    let none = Wrench::from_force(Vector3::zeros());
+    let none = Wrench::ZERO;
     let arm = held(&robot, &model, &tool);
-    let there = predict_in_full(&arm, &reference, &none).unwrap();
+    let there = arms::predicted(&arm, &reference, &none).unwrap();
     assert_eq!(there.twist.linear, Vector3::zeros());
     assert_eq!(there.covariance.amax(), 0.0);
     // Elsewhere: compliances times torques times screws, less the same at the reference.
     let q = [0.1, 0.5, -0.5, 0.4, 0.5, -0.6];
-    let elsewhere = predict_in_full(&arm, &q, &none).unwrap().twist.linear;
+    let elsewhere = arms::predicted(&arm, &q, &none).unwrap().twist.linear;
     let sag = |q: &[f64]| -> Vector3<f64> {
         let posture = posture_at(&robot, q, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, q)).collect();
@@ -461,7 +461,7 @@ fn gravity_does_not_count_where_the_tool_was_set_and_differs_elsewhere() {
     assert!((elsewhere - witness).norm() < 1e-10);
     // The same arm hung from the ceiling sags the other way.
     model.gravity.as_mut().unwrap().acceleration = -DOWN;
-    let hung = predict_in_full(&held(&robot, &model, &tool), &q, &none)
+    let hung = arms::predicted(&held(&robot, &model, &tool), &q, &none)
         .unwrap()
         .twist
         .linear;
@@ -489,7 +489,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     };
     let q = [0.1, 0.4, -0.3, 0.4, 0.5, -0.6];
     let push = Wrench::from_force(Vector3::new(100.0, 50.0, -300.0));
-    let found = predict_in_full(&held(&robot, &model, &tool), &q, &push)
+    let found = arms::predicted(&held(&robot, &model, &tool), &q, &push)
         .unwrap()
         .twist
         .linear;
@@ -511,7 +511,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
         ..model.clone()
     };
     let small = Wrench::from_force(push.force * 1e-3);
-    let loaded = predict_in_full(&held(&robot, &soft, &tool), &q, &small)
+    let loaded = arms::predicted(&held(&robot, &soft, &tool), &q, &small)
         .unwrap()
         .twist
         .linear;
@@ -526,7 +526,7 @@ fn a_compensator_takes_its_slope_from_the_joint_and_its_torque_from_gravity() {
     // A compensator stiffer than its joint lets the arm fall: an outcome, not a number.
     let mut strong = weighed.clone();
     strong.structure.compensator.as_mut().unwrap().stiffness = 1e12;
-    let fallen = predict_in_full(&held(&robot, &strong, &tool), &q, &push);
+    let fallen = arms::predicted(&held(&robot, &strong, &tool), &q, &push);
     assert_eq!(fallen.unwrap_err(), Unstable::Buckles);
 }
 
@@ -555,7 +555,7 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
         });
         model.gravity.as_mut().unwrap().reference = q.to_vec();
         model.load_dependent = load_dependent;
-        predict_in_full(&held(&robot, &model, &tool), &q, &push)
+        arms::predicted(&held(&robot, &model, &tool), &q, &push)
             .unwrap()
             .twist
             .linear
@@ -635,7 +635,7 @@ fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
         for (i, point) in all.held() {
             let q = all.joints_at(i);
             for (deviation, wrench) in all.deviations_at(i).iter().zip(&cases) {
-                let witness = predict_in_full(&arm, q, wrench).unwrap().twist.linear;
+                let witness = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
                 assert!((deviation - witness).norm() < 1e-13, "{deviation} {witness}");
             }
             // Shares add up to first order of a load-dependent model: its turns are some 1e-3 rad.

@@ -13,7 +13,7 @@ use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{PostureName, Seat, Unreachable};
 use crate::source::Standing;
-use crate::source::standing::Loaded;
+use crate::source::standing::AsItStands;
 use crate::workpiece::Split;
 
 /// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
@@ -198,14 +198,16 @@ impl<'q> General<'q> {
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
         let mut variance = self.standing.variance_along(&along).max(0.0);
         if !question.doubt.is_none() {
-            let loaded = Loaded {
+            let standing = AsItStands {
                 joints: &self.joints,
                 frames: &self.frames,
                 tcp: base_from_tool.translation.vector.into(),
                 tool_axis: base_from_tool.rotation * Vector3::z(),
                 wrench: &question.cases[case],
             };
-            let of_doubt = self.standing.variance_of_doubt(&question.doubt, &loaded, &along);
+            let of_doubt = self
+                .standing
+                .variance_of_doubt(&question.doubt, &standing, &along);
             variance += of_doubt.map_err(unstable)?;
         }
         Ok(variance.sqrt())

@@ -56,7 +56,7 @@ pub fn evaluate_loaded(
     };
     let rows = Rows {
         answers: &mut answers,
-        wrenches: vec![Wrench::from_force(Vector3::zeros()); case_count],
+        wrenches: vec![Wrench::ZERO; case_count],
     };
     if question.arm.model.is_affine() {
         rows.by_unit_loads(&question, stop, load, watch)?;
@@ -158,7 +158,7 @@ impl Rows<'_> {
 
 /// No load, then one newton along each base axis, then one newton metre about each.
 fn unit_loads() -> [Wrench; 7] {
-    let none = Wrench::from_force(Vector3::zeros());
+    let none = Wrench::ZERO;
     let force = |axis| Wrench::from_force(axis);
     let moment = |axis| Wrench { moment: axis, ..none };
     let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];

@@ -118,7 +118,7 @@ pub fn along_program(
     load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<ProgramAnswer, Cancelled> {
-    let cases = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let cases = vec![Wrench::ZERO; load.case_count()];
     let asked = Question {
         cases: &cases,
         ..*question

@@ -6,7 +6,7 @@
 //!
 //! Reference point: the TCP. Basis: base. m/rad and rad/rad. Source: `docs/theory/chain.md`.
 
-use nalgebra::{DMatrix, Matrix6xX, Point3, Vector3};
+use nalgebra::{DMatrix, Matrix6xX, Point3};
 
 use super::chain::{Chain, Motion};
 use super::forward::{Frames, chain_axis};
@@ -34,10 +34,7 @@ pub(super) fn chain_screws_into(chain: &Chain, frames: &Frames, tcp: &Point3<f64
                 linear: z.cross(&(tcp - frames.origin(index))),
                 angular: z,
             },
-            Motion::Along(..) => Twist {
-                linear: z,
-                angular: Vector3::zeros(),
-            },
+            Motion::Along(..) => Twist::along(z),
         };
     }
 }

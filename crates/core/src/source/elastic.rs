@@ -22,7 +22,7 @@ use crate::spatial::{Twist, Wrench};
 
 /// Deviation of the tool by one joint, per unit of its compliance: `a_i = s_i (s_i . w)`.
 pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
-    screw.scaled(screw.dot(wrench))
+    *screw * screw.dot(wrench)
 }
 
 /// Displacement of the tool by all joints, m: what a map needs of it.
@@ -39,7 +39,7 @@ pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> 
     screws
         .iter()
         .zip(joints)
-        .map(|(s, c)| s.scaled(c.value * s.dot(wrench)))
+        .map(|(s, c)| *s * (c.value * s.dot(wrench)))
         .collect()
 }
 

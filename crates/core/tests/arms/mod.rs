@@ -5,8 +5,11 @@ pub mod other;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
+use armill_core::predict::{Deviation, predict_in_full};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Limits, Motion, Robot};
+use armill_core::source::{Arm, Standing, Unstable};
+use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
 use Axis::{X, Y, Z};
@@ -252,6 +255,13 @@ pub fn hung() -> Robot {
 /// All of them.
 pub fn all() -> [Robot; 6] {
     [mh12(), kr120(), tx2_90(), r2000ic(), irb2400(), hung()]
+}
+
+/// The deviation of the tool held by `arm` at joint positions `q` under `wrench`.
+pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
+    let mut standing = Standing::new(*arm);
+    standing.stand(q);
+    predict_in_full(&mut standing, wrench)
 }
 
 /// A tool that is bent and turned against the flange.

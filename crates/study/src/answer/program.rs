@@ -298,7 +298,7 @@ impl Told<'_> {
     /// One point asked in full: with shares and uncertainty, on a plane across the tool.
     fn here(&self, index: usize) -> Option<(Setting, Answers)> {
         let track = self.track();
-        let mut cases = vec![Wrench::from_force(Vector3::zeros()); self.found.answer.answers.case_count];
+        let mut cases = vec![Wrench::ZERO; self.found.answer.answers.case_count];
         track.wrenches(&self.found.answer.load, index, &mut cases);
         let stop = track.stop(index);
         let across = Plane {

@@ -354,7 +354,7 @@ fn predicted(table: &MeasuredTable, course: &Course<'_>, cut: &Cut) -> Result<Ve
     })?;
     let load = PathLoad::Cuts(load.cuts);
     let part_from_base = course.base_from_part.rotation.inverse();
-    let mut wrenches = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let mut wrenches = vec![Wrench::ZERO; load.case_count()];
     let force = |(index, point): (usize, &PathPoint)| {
         let base_from_feed = course.placing.base_from_feed(point);
         load.in_base(index, course.base_from_part, &base_from_feed, &mut wrenches);

@@ -28,13 +28,13 @@ pub use spherical_wrist::SphericalWrist;
 pub use standing_joint::StandingJoint;
 pub use three_parallel::ThreeParallel;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 
 use super::forward::{Frames, forward, forward_into};
 use super::jacobian::screws_at;
 use super::model::Robot;
 use super::posture::{Posture, Unreachable};
-use crate::frame::Isometry;
+use crate::frame::{Isometry, turn_between};
 
 /// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.
 ///
@@ -63,7 +63,7 @@ pub struct ToolAt<'a> {
 /// The reason of the branch that misses by least, if no branch reaches; how near a search came.
 ///
 /// # Panics
-/// If `near` or `home` have fewer entries than the robot has joints.
+/// If `near` or `home` have not as many entries as the robot has joints.
 pub fn postures(
     robot: &Robot,
     base_from_tool: &Isometry,
@@ -96,16 +96,9 @@ pub fn postures(
 pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreachable> {
     let reached = &frames.base_from_flange;
     let away = reached.translation.vector - base_from_flange.translation.vector;
-    let (a, b) = (
-        reached.rotation.matrix(),
-        base_from_flange.rotation.to_rotation_matrix(),
-    );
-    // Each pair of axes spans the sine of the angle between them; an angle above pi/2 shows in the trace.
-    let turned: Vector3<f64> = (0..3)
-        .map(|i| a.column(i).cross(&b.matrix().column(i)))
-        .sum::<Vector3<f64>>()
-        * 0.5;
-    if away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0 {
+    let wanted = base_from_flange.rotation.to_rotation_matrix();
+    let turned = turn_between(reached.rotation.matrix(), wanted.matrix());
+    if away.norm() < VERIFIED && turned.norm() < VERIFIED {
         Ok(())
     } else {
         Err(Unreachable::Unverified { by: away.norm() })
