@@ -149,7 +149,7 @@ fn closed_forms_give_back_the_joints_that_made_the_pose() {
         other::on_rail(&arms::mh12()),
         other::on_rail(&other::ur10e()),
     ] {
-        assert_eq!(robot.inverse().kind(), "closed_form", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "closed_form", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert_eq!(trips.returned, trips.poses, "{}", robot.name());
     }
@@ -190,7 +190,7 @@ fn with_spherical_wrist() -> [(Robot, [DhRow; 6]); 4] {
 #[test]
 fn spherical_wrists_give_back_the_joints_that_made_the_pose() {
     for (robot, _) in with_spherical_wrist() {
-        assert_eq!(robot.inverse().kind(), "closed_form", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "closed_form", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert!(trips.returned as f64 > 0.9999 * trips.poses as f64, "{trips:?}");
     }
@@ -354,7 +354,7 @@ fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_a
         (other::on_rail(&iiwa), "closed_form", 3),
         (counted, "closed_form", 2),
     ] {
-        assert_eq!(robot.inverse().kind(), kind);
+        assert_eq!(robot.inverse().word(), kind);
         let mut stream = Stream(13);
         for _ in 0..1000 {
             let q = stream.joints(&robot);
@@ -437,7 +437,7 @@ fn a_search_that_follows_keeps_the_postures_that_continue() {
 fn calibrated_spherical_wrists_give_back_the_joints_that_made_the_pose() {
     for (ideal, _) in with_spherical_wrist() {
         let robot = other::calibrated(&ideal, 5e-4);
-        assert_eq!(robot.inverse().kind(), "polished", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "polished", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert!(trips.returned as f64 > 0.999 * trips.poses as f64, "{trips:?}");
     }

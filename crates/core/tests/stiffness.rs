@@ -688,7 +688,7 @@ fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
     };
     let pose = |_| from_xyz_and_fixed_angles(Vector3::new(0.9, 0.1, 0.8), Vector3::new(0.0, 1.5, 0.0));
     let found = evaluate(&question, 1, pose, Watch::NONE).unwrap();
-    assert_eq!(found.points[0].as_ref().unwrap_err().reason(), "unstable");
+    assert_eq!(found.points[0].as_ref().unwrap_err().word(), "unstable");
     assert!(found.deviations.iter().all(|d| *d == Vector3::zeros()));
     let held = Arm {
         robot: &robot,

@@ -389,13 +389,9 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
         _ => None,
     };
     UnreachableAnswer {
-        reason: miss.reason().to_owned(),
+        reason: miss.word().to_owned(),
         // Nothing is missed where the arm does not hold itself.
-        amount_mm: if miss.amount().is_finite() {
-            miss.amount() * 1e3
-        } else {
-            0.0
-        },
+        amount_mm: miss.amount().unwrap_or_default() * 1e3,
         amount_deg: turned,
         message: miss.to_string(),
     }

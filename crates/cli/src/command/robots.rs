@@ -186,7 +186,7 @@ fn as_json(found: &RobotDescription) -> Value {
         "joints": joints,
         "structure": super::structure::as_json(robot),
         "nominal_branch": robot.nominal_branch().to_string(),
-        "inverse": robot.inverse().kind(),
+        "inverse": robot.inverse().word(),
         "frames": robot.frames().iter().map(|f| json!({
             "name": f.name,
             "origin_mm": (f.base_from_frame.translation.vector * 1e3).as_slice(),

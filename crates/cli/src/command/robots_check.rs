@@ -1,6 +1,7 @@
 //! `armill robots check`: a robot file beside poses read from its pendant.
 
 use armill_core::robot::convention::Apart;
+use armill_core::watch::Watch;
 use armill_formats::robot::pendant::{Convention, reading};
 use armill_study::file::quantities::pose_mm_deg;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
@@ -48,7 +49,7 @@ pub(crate) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
         },
     };
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let answer = check(&found, &question)?;
+    let answer = check(&found, &question, Watch::NONE)?;
     print(&if arguments.json {
         serde_json::to_string_pretty(&answer)?
     } else {

@@ -54,7 +54,7 @@ fn as_json(found: &RobotDescription, file: Option<&str>, text: &str) -> serde_js
         "text": if file.is_none() { Some(text) } else { None },
         "title": found.title,
         "joints": joints.iter().map(|joint| &joint.name).collect::<Vec<_>>(),
-        "inverse": found.robot.inverse().kind(),
+        "inverse": found.robot.inverse().word(),
         "assumed": found.remarks,
         "without_limits": joints.iter().filter(|j| j.limits.is_none()).map(|j| &j.name).collect::<Vec<_>>(),
     })

@@ -56,7 +56,7 @@ fn row_as_json(name: &str, found: &RobotDescription) -> Value {
         "title": found.title,
         "payload_kg": found.payload_kg,
         "reach_mm": reach(&found.robot).map(|m| (m * 1e6).round() / 1e3),
-        "inverse": found.robot.inverse().kind(),
+        "inverse": found.robot.inverse().word(),
         "compliance": found.robot.compliance().is_some(),
     })
 }

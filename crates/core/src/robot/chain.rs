@@ -6,8 +6,8 @@
 //!
 //! | object | components in frame n | transform |
 //! |---|---|---|
-//! | position `r` | `[x, y, z, 1]`, m | [`Chain::position`] |
-//! | direction `c` | `[x, y, z, 0]`, unit | [`Chain::direction`] |
+//! | position `r` | `[x, y, z, 1]`, m | [`Chain::base_from_flange`] times `r` |
+//! | direction `c` | `[x, y, z, 0]`, unit | its rotation times `c` |
 //! | screw (twist about the origin) | `[linear; angular]` | [`Chain::screw`], 6 x 6 |
 //!
 //! For speed all reduce to one inner form: a fixed isometry before each joint, the joint's axis, and a fixed
@@ -277,16 +277,6 @@ impl Chain {
             })
     }
 
-    /// Position form of the FSF, eq. (1): `r` (m) of the flange frame, told in base.
-    pub fn position(&self, theta: &[f64], r: &Point3<f64>) -> Point3<f64> {
-        self.base_from_flange(theta) * r
-    }
-
-    /// Direction form of the FSF, eq. (3): `c` of the flange frame, told in base.
-    pub fn direction(&self, theta: &[f64], c: &Vector3<f64>) -> Vector3<f64> {
-        self.base_from_flange(theta) * c
-    }
-
     /// Screw form of the FSF: the 6 x 6 matrix that takes a twist told at the flange (its origin, its axes)
     /// to the twist of the same motion told at the base origin in base axes.
     pub fn screw(&self, theta: &[f64]) -> Matrix6<f64> {
@@ -331,15 +321,6 @@ mod tests {
             product *= elementary;
         }
         assert!((product - chain.screw(&theta)).norm() < 1e-15);
-    }
-
-    #[test]
-    fn position_moves_and_direction_only_turns() {
-        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
-        let tip = chain.position(&theta, &Point3::new(0.0, 0.0, 0.1));
-        let origin = chain.position(&theta, &Point3::origin());
-        let axis = chain.direction(&theta, &Vector3::z());
-        assert!((tip - origin - axis * 0.1).norm() < 1e-15);
     }
 
     #[test]

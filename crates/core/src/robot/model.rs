@@ -1,9 +1,9 @@
 //! The robot: chain, joints, compliance, frames. Immutable and shareable once made.
 
+use super::branch::BranchPattern;
 use super::chain::{Amount, Chain, ChainError, Motion};
 use super::inverse::{Inverse, OrthoParallel};
 use super::joint::{Joint, JointCompliance};
-use super::posture::BranchPattern;
 use super::structure::{Structure, StructureError};
 use crate::frame::Isometry;
 

@@ -7,7 +7,7 @@ pub use feature::FeatureResult;
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Held, evaluate};
 use armill_core::map::Track;
-use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
+use armill_core::nalgebra::{Translation3, UnitQuaternion};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;

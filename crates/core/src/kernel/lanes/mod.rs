@@ -4,7 +4,7 @@
 //! once for each set of instructions. In reading order: `real` (a number of one lane), [`Backend`] (which instructions),
 //! `block` (planes); `arm`, `prepared` (a question made ready); `aims` (poses in the arm's axes), `solve` (postures
 //! without angles), `limits`, `angle`, `positions` (joint positions); `screws`, `flexibility`, `envelope`,
-//! `compliance`, `forward`; [`Batch`] (the door for those with many poses), `stance`, `deviation`, `points` (whole
+//! `compliance`, `forward`; [`Batch`] (the door for those with many poses) and its `steps`, `stance`, `deviation`, `points` (whole
 //! answers, for [`super::evaluate`]).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
@@ -67,6 +67,7 @@ mod real;
 mod screws;
 mod solve;
 mod stance;
+mod steps;
 mod vector;
 
 pub use arrays::{Arrays, Envelopes, Poses};

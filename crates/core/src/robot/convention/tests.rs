@@ -4,13 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::change::{joint_changes, positions_of_the_file, sets};
+use super::change::{joint_changes, positions_of_the_file, visit_sets};
 use super::frames::{Free, FreeBase, fit};
 use super::*;
 use crate::frame::Isometry;
 use crate::robot::inverse::posture_at;
 use crate::robot::joint::{Coupling, Sign};
 use crate::robot::{Amount, Axis, Joint, Motion};
+use crate::watch::Watch;
 
 const Q: [[f64; 6]; 2] = [
     [0.2, -0.6, 0.4, 0.7, -0.9, 1.1],
@@ -116,9 +117,19 @@ fn sets_hold_no_two_changes_of_one_zero() {
     let listed = joint_changes(&arm(|_| {}));
     // Six signs, three zeros for each of six joints, two couplings.
     assert_eq!(listed.len(), 6 + 18 + 2);
-    assert_eq!(sets(&listed, 1).len(), 26);
+    let count = |size| {
+        let mut count = 0;
+        let visited = visit_sets(&listed, size, &mut |set| {
+            assert_eq!(set.len(), size);
+            count += 1;
+            Ok::<(), ()>(())
+        });
+        visited.map(|()| count)
+    };
+    assert_eq!(count(0), Ok(1));
+    assert_eq!(count(1), Ok(26));
     // Pairs, less three of each joint's zeros, less the two couplings.
-    assert_eq!(sets(&listed, 2).len(), 26 * 25 / 2 - 6 * 3 - 1);
+    assert_eq!(count(2), Ok(26 * 25 / 2 - 6 * 3 - 1));
 }
 
 #[test]
@@ -171,7 +182,9 @@ fn a_base_elsewhere_is_found_as_a_shift() {
         .iter()
         .map(|flange| Isometry::from_parts(shift.into(), UnitQuaternion::identity()).inverse() * flange)
         .collect();
-    let verdict = compared(&file, &readings(&moved), |comparison| inspect(comparison).verdict);
+    let verdict = compared(&file, &readings(&moved), |comparison| {
+        inspect(comparison, Watch::NONE).unwrap().verdict
+    });
     let Verdict::Explained { explanation, .. } = verdict else {
         panic!("{verdict:?}");
     };
@@ -191,7 +204,7 @@ fn fewer_changes_are_preferred() {
         joints[5].zero_offset += PI;
     });
     let verdict = compared(&file, &readings(&flanges(&same)), |comparison| {
-        inspect(comparison).verdict
+        inspect(comparison, Watch::NONE).unwrap().verdict
     });
     let Verdict::Explained { explanation, .. } = verdict else {
         panic!("{verdict:?}");

@@ -18,7 +18,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, chain_forward_into};
 use super::super::jacobian::chain_screws_into;
-use super::super::posture::Unreachable;
+use super::super::unreachable::Unreachable;
 use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 

@@ -2,7 +2,7 @@
 //!
 //! An axis is a line: a point on it (m) and its unit direction, both told at chain zero in base.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use super::super::chain::{Chain, Motion};
 
@@ -77,6 +77,20 @@ pub(super) fn lines_at_zero<const N: usize>(chain: &Chain) -> Option<[Line; N]> 
         }
     }
     lines.try_into().ok()
+}
+
+/// An arm whose axis 2 is perpendicular to axis 1: x to the front, y along axis 2, z along axis 1 and up; origin on axis 1
+/// at the height of axis 2.
+pub(super) fn base_from_arm(lines: &[Line; 6], wrist: Point3<f64>) -> IsometryMatrix3<f64> {
+    let (z1, z2) = (lines[0].axis, lines[1].axis);
+    let up = z1 * sense_of(z1.z);
+    let centre = lines[0].point + up * (lines[1].point - lines[0].point).dot(&up);
+    // The front is where base x points; if it points along axis 2, where the wrist is.
+    let forwards = z2.cross(&up);
+    let front = up_to_noise(forwards.x).or_else(|| up_to_noise((wrist - centre).dot(&forwards)));
+    let y = z2 * sense_of(front.unwrap_or(1.0));
+    let axes = Matrix3::from_columns(&[y.cross(&up), y, up]);
+    IsometryMatrix3::from_parts(centre.into(), Rotation3::from_matrix_unchecked(axes))
 }
 
 /// `axis` without its part along the unit vector `other`, of unit length.

@@ -18,7 +18,7 @@ pub mod standing_joint;
 mod starts;
 pub mod three_parallel;
 mod three_turns;
-mod two_links;
+pub(crate) mod two_links;
 
 pub use closed_form::ClosedForm;
 pub use finder::{Finder, Found, Wanted};
@@ -33,7 +33,8 @@ use nalgebra::UnitQuaternion;
 use super::forward::{Frames, forward, forward_into};
 use super::jacobian::screws_at;
 use super::model::Robot;
-use super::posture::{Posture, Unreachable};
+use super::posture::Posture;
+use super::unreachable::Unreachable;
 use crate::frame::{Isometry, turn_between};
 
 /// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.

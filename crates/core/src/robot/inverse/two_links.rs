@@ -10,8 +10,15 @@
 
 use nalgebra::Point3;
 
-use super::super::posture::{Elbow, Shoulder, Unreachable};
+use super::super::branch::{Elbow, Shoulder};
+use super::super::posture::Singularity;
+use super::super::unreachable::Unreachable;
 use super::lines::Turn;
+
+/// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
+pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
+/// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
+pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 
 /// Lengths of upper arm and forearm, m.
 #[derive(Clone, Copy, Debug)]
@@ -83,6 +90,20 @@ impl TwoLinks {
         let psi = Turn::new(v * k1 + u * k2, u * k1 - v * k2);
         let chi = Turn::new(v - self.l2 * psi.cos, u - self.l2 * psi.sin);
         Ok((psi, chi))
+    }
+
+    /// The singularity near which an arm stands with these sines of wrist bend and elbow bend, and its wrist centre at the
+    /// signed distance `r` (m) from axis 1.
+    pub(super) fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
+        if sin_bend.abs() < NEAR_SINGULAR {
+            Some(Singularity::Wrist)
+        } else if sin_elbow.abs() < NEAR_SINGULAR {
+            Some(Singularity::Elbow)
+        } else if r.abs() < NEAR_SINGULAR * (self.l2 + self.l3) {
+            Some(Singularity::Shoulder)
+        } else {
+            None
+        }
     }
 
     /// Up or down, from the bend (rad) and the place `u` of the end before the shoulder.
