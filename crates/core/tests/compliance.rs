@@ -15,7 +15,7 @@ use armill_core::spatial::{Wrench, adjoint};
 use proptest::prelude::*;
 
 fn arm() -> impl Strategy<Value = (usize, [f64; 6])> {
-    (0..4usize, prop::array::uniform6(0.0..1.0_f64))
+    (0..arms::ALL.len(), prop::array::uniform6(0.0..1.0_f64))
 }
 
 fn wrench() -> impl Strategy<Value = Wrench> {
@@ -50,7 +50,7 @@ proptest! {
 
     #[test]
     fn compliance_is_symmetric_and_positive_semidefinite((arm, unit) in arm()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let c = compliance(robot, &stand(robot, &unit));
         prop_assert!((c - c.transpose()).norm() <= ROUNDING * c.norm());
         let least = c.symmetric_eigenvalues().min();
@@ -59,7 +59,7 @@ proptest! {
 
     #[test]
     fn deviation_is_compliance_times_wrench((arm, unit) in arm(), load in wrench()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let posture = stand(robot, &unit);
         let told = predict(&posture, robot.compliance().unwrap(), &load).twist.to_vector();
         let c = compliance(robot, &posture);
@@ -69,7 +69,7 @@ proptest! {
 
     #[test]
     fn deviation_is_linear_in_force_and_in_compliance((arm, unit) in arm(), load in wrench(), factor in 0.1..10.0_f64) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
         let once = predict(&posture, joints, &load);
         let scaled = Wrench { force: load.force * factor, moment: load.moment * factor };
@@ -86,7 +86,7 @@ proptest! {
 
     #[test]
     fn shares_of_the_joints_add_up_to_the_deviation((arm, unit) in arm(), load in wrench()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let told = predict(&stand(robot, &unit), robot.compliance().unwrap(), &load);
         let sum: armill_core::spatial::Twist = told.shares.iter().copied().sum();
         prop_assert_eq!(sum, told.twist);
@@ -94,7 +94,7 @@ proptest! {
 
     #[test]
     fn uncertainty_agrees_with_moving_each_compliance_by_its_own((arm, unit) in arm(), load in wrench()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
         let told = predict(&posture, joints, &load);
         let mut variance = Vector3::zeros();
@@ -112,7 +112,7 @@ proptest! {
     /// Turning and moving the whole cell changes nothing but the names of the axes.
     #[test]
     fn compliance_follows_the_base_frame((arm, unit) in arm(), angles in prop::array::uniform3(-3.0..3.0_f64)) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let here = stand(robot, &unit);
         let shift = Vector3::new(0.7, -1.1, 0.4);
         let mut motions = vec![
@@ -139,7 +139,7 @@ proptest! {
 
     #[test]
     fn the_wrist_flip_leaves_the_compliance_unchanged((arm, unit) in arm()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let here = stand(robot, &unit);
         prop_assume!(here.singularity.is_none());
         let tool = arms::bent_tool();
@@ -153,7 +153,7 @@ proptest! {
 
     #[test]
     fn a_rigid_arm_with_one_soft_joint_turns_about_that_joint((arm, unit) in arm(), soft in 0..6usize, load in wrench()) {
-        let robot = &arms::all()[arm];
+        let robot = &arms::ALL[arm];
         let posture = stand(robot, &unit);
         let mut joints = robot.compliance().unwrap().to_vec();
         for (i, joint) in joints.iter_mut().enumerate() {

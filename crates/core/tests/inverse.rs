@@ -18,29 +18,8 @@ use armill_core::robot::{Posture, Robot, Singularity, Unreachable};
 use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
+use arms::Stream;
 use arms::other::{self, DhRow};
-
-/// A stream of numbers in 0..1 (SplitMix64), the same on every machine.
-struct Stream(u64);
-
-impl Stream {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Joint positions inside the limits.
-    fn joints(&mut self, robot: &Robot) -> Vec<f64> {
-        let within = |joint: &armill_core::robot::Joint| {
-            let limits = joint.limits.unwrap();
-            limits.lower + (limits.upper - limits.lower) * self.next()
-        };
-        robot.joints().iter().map(within).collect()
-    }
-}
 
 fn at(tool: &Isometry) -> ToolAt<'_> {
     ToolAt {

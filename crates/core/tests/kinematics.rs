@@ -35,8 +35,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn jacobian_matches_finite_differences(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
+    fn jacobian_matches_finite_differences(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
         let q = inside_limits(robot, &unit);
         let tool = arms::bent_tool();
         let posture = posture_at(robot, &q, &tool);
@@ -56,8 +56,8 @@ proptest! {
     }
 
     #[test]
-    fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
+    fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
         prop_assert!(robot.ortho_parallel().is_some(), "all test arms have a closed form");
         let q = inside_limits(robot, &unit);
         let tool = arms::bent_tool();
@@ -75,8 +75,8 @@ proptest! {
     }
 
     #[test]
-    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
+    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
         let tool = arms::bent_tool();
         let target = posture_at(robot, &inside_limits(robot, &unit), &tool).base_from_tool;
         let found = postures(robot, &target, ToolAt { flange_from_tool: &tool, near: None, home: None }).unwrap();

@@ -87,17 +87,8 @@ fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> 
     }
 }
 
-fn positions(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
-    let each = robot.joints().iter().zip(unit);
-    each.map(|(joint, t)| {
-        let limits = joint.limits.unwrap();
-        limits.lower + t * (limits.upper - limits.lower)
-    })
-    .collect()
-}
-
 fn arm() -> impl Strategy<Value = (usize, [f64; 6])> {
-    (0..6usize, prop::array::uniform6(0.0..1.0_f64))
+    (0..arms::ALL.len(), prop::array::uniform6(0.0..1.0_f64))
 }
 
 fn wrench() -> impl Strategy<Value = Wrench> {
@@ -136,8 +127,8 @@ proptest! {
 
     #[test]
     fn parts_that_do_nothing_leave_every_bit_of_the_simple_model(((which, unit), w) in (arm(), wrench())) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let posture = posture_at(robot, &q, &tool);
         let simple = predict(&posture, robot.compliance().unwrap(), &w);
         let rigid = |mut s: Spring| { s.compliance = JointCompliance { value: 0.0, standard_uncertainty: 0.0 }; s };
@@ -163,8 +154,8 @@ proptest! {
     fn a_spring_of_six_by_six_numbers_is_the_adjoint_of_its_matrix(
         ((which, unit), raw) in (arm(), prop::collection::vec(-1.0..1.0_f64, 36)),
     ) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let posture = posture_at(robot, &q, &tool);
         let tcp = Point3::from(posture.base_from_tool.translation.vector);
         let root = Matrix6::from_iterator(raw);
@@ -198,8 +189,8 @@ proptest! {
 
     #[test]
     fn shares_add_up_and_springs_count_for_their_joint(((which, unit), w) in (arm(), wrench())) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY };
         let model = weighing(structure);
         let full = arms::predicted(&held(robot, &model, &tool), &q, &w).unwrap();
@@ -213,7 +204,7 @@ proptest! {
     #[test]
     fn gravity_torques_are_the_falling_potential_energy(unit in prop::array::uniform6(0.0..1.0_f64)) {
         let robot = arms::r2000ic();
-        let (q, tool) = (positions(&robot, &unit), Isometry::identity());
+        let (q, tool) = (arms::positions(&robot, &unit), Isometry::identity());
         let model = weighing(Structure { masses: fanuc_masses(), ..Structure::EMPTY });
         let mut standing = Standing::new(held(&robot, &model, &tool));
         standing.stand(&q);
@@ -232,8 +223,8 @@ proptest! {
         ((which, unit), seed) in (arm(), -1.0..1.0_f64),
     ) {
         // Move each spring by a small amount, weigh again: -dE/dx, E from the seats of the yielded arm.
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut masses = fanuc_masses();
         masses.push(Mass { seat: Seat::Flange, mass: 60.0, centre: Point3::new(0.1, seed, 0.2) });
         masses.push(Mass { seat: Seat::Tool, mass: 5.0, centre: Point3::new(0.0, 0.0, -0.1) });
@@ -258,8 +249,8 @@ proptest! {
 
     #[test]
     fn load_stiffness_matches_finite_differences(((which, unit), w) in (arm(), wrench())) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let mut model = weighing(Structure { springs: springs(), masses: fanuc_masses(), ..Structure::EMPTY });
         model.load_dependent = true;
         let arm = held(robot, &model, &tool);
@@ -290,8 +281,8 @@ proptest! {
 
     #[test]
     fn an_arm_under_load_stands_where_its_springs_balance(((which, unit), w) in (arm(), wrench())) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, gravity: None };
         let simple = StiffnessModel { load_dependent: false, ..model.clone() };
@@ -319,8 +310,8 @@ proptest! {
 
     #[test]
     fn the_tangent_is_the_derivative_of_the_deflection(((which, unit), w) in (arm(), wrench())) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
         let model = StiffnessModel { structure, load_dependent: true, gravity: None };
         let mut standing = Standing::new(held(robot, &model, &tool));
@@ -345,8 +336,8 @@ proptest! {
     fn known_covariance_goes_through_as_a_s_at(((which, unit), w, raw) in
         (arm(), wrench(), prop::collection::vec(-1.0..1.0_f64, 64)),
     ) {
-        let robot = &arms::all()[which];
-        let (q, tool) = (positions(robot, &unit), arms::bent_tool());
+        let robot = &arms::ALL[which];
+        let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let root = DMatrix::from_iterator(8, 8, raw);
         let s = &root * root.transpose() * 1e-14;
         let structure = Structure { springs: springs(), covariance: Some(s.clone()), ..Structure::EMPTY };

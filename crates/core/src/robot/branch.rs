@@ -246,4 +246,107 @@ mod tests {
             assert_eq!(text.parse::<BranchPattern>().unwrap_err().word, word);
         }
     }
+
+    /// All patterns: each word said, its opposite said, or left open.
+    fn patterns() -> Vec<BranchPattern> {
+        let mut all = Vec::new();
+        for shoulder in [None, Some(Shoulder::Front), Some(Shoulder::Back)] {
+            for elbow in [None, Some(Elbow::Up), Some(Elbow::Down)] {
+                for wrist in [None, Some(Wrist::NoFlip), Some(Wrist::Flip)] {
+                    all.push(BranchPattern {
+                        shoulder,
+                        elbow,
+                        wrist,
+                    });
+                }
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn every_pattern_but_the_open_one_reads_back() {
+        assert_eq!(patterns().len(), 27);
+        for pattern in patterns() {
+            let text = pattern.to_string();
+            if pattern == BranchPattern::default() {
+                assert_eq!(text, "any");
+                assert_eq!(text.parse::<BranchPattern>().unwrap_err().word, "any");
+            } else {
+                assert_eq!(text.parse(), Ok(pattern), "{text}");
+                // Words may come in any order, with any blanks.
+                let reversed: Vec<&str> = text.split(' ').rev().collect();
+                assert_eq!(format!("  {} ", reversed.join("\t")).parse(), Ok(pattern));
+            }
+        }
+    }
+
+    #[test]
+    fn a_pattern_of_so_many_words_means_so_many_branches() {
+        for pattern in patterns() {
+            let said = pattern
+                .to_string()
+                .split(' ')
+                .filter(|word| *word != "any")
+                .count();
+            let meant = Branch::ALL
+                .into_iter()
+                .filter(|branch| pattern.matches(*branch))
+                .count();
+            assert_eq!(meant, 8 >> said, "{pattern}");
+        }
+    }
+
+    #[test]
+    fn own_words_stay_and_open_ones_are_taken() {
+        for own in patterns() {
+            assert_eq!(own.or(BranchPattern::default()), own);
+            assert_eq!(BranchPattern::default().or(own), own);
+            for other in patterns() {
+                let both = own.or(other);
+                assert_eq!(both.shoulder, own.shoulder.or(other.shoulder));
+                assert_eq!(both.elbow, own.elbow.or(other.elbow));
+                assert_eq!(both.wrist, own.wrist.or(other.wrist));
+                // Whatever both mean, own means.
+                let narrower = |branch: &Branch| !both.matches(*branch) || own.matches(*branch);
+                assert!(Branch::ALL.iter().all(narrower));
+            }
+        }
+    }
+
+    #[test]
+    fn branches_are_distinct_and_each_is_followed_by_its_flip() {
+        for (i, a) in Branch::ALL.iter().enumerate() {
+            assert!(Branch::ALL[..i].iter().all(|b| a != b));
+        }
+        for pair in Branch::ALL.chunks(2) {
+            assert_eq!(
+                (pair[0].shoulder, pair[0].elbow),
+                (pair[1].shoulder, pair[1].elbow)
+            );
+            assert_eq!((pair[0].wrist, pair[1].wrist), (Wrist::NoFlip, Wrist::Flip));
+        }
+        assert!(BranchPattern::FRONT_ELBOW_UP.matches(Branch::ALL[0]));
+    }
+
+    #[test]
+    fn zero_counts_as_front_and_as_no_flip() {
+        assert_eq!(
+            (Shoulder::at(0.0), Shoulder::at(-1e-300)),
+            (Shoulder::Front, Shoulder::Back)
+        );
+        assert_eq!(
+            (Wrist::bent(0.0), Wrist::bent(-1e-300)),
+            (Wrist::NoFlip, Wrist::Flip)
+        );
+    }
+
+    #[test]
+    fn an_unknown_word_is_told_with_those_that_there_are() {
+        let error = "front up".parse::<BranchPattern>().unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "`up` names no branch: write words out of `front|back elbow-up|elbow-down flip|no-flip`, each pair at most once"
+        );
+    }
 }

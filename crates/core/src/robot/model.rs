@@ -303,3 +303,6 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
         .max_speed
         .map_or(Ok(()), |speed| finite("maximal speed", speed))
 }
+
+#[cfg(test)]
+mod tests;

@@ -116,3 +116,71 @@ impl fmt::Display for Singularity {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sides_tell_for_each_joint_whether_it_stands_above_the_middle() {
+        let middles = [0.5, 0.0, -1.0, 2.0];
+        assert_eq!(Sides::of(&[0.5, -0.1, 3.0, 1.9], &middles).to_string(), "+-+-");
+        assert_eq!(Sides::of(&[], &[]).to_string(), "");
+        assert_eq!(Sides::default(), Sides::of(&[], &[]));
+    }
+
+    #[test]
+    fn sides_of_joints_beyond_the_thirty_second_are_left_out() {
+        let (mut joints, middles) = (vec![1.0; 40], vec![0.0; 40]);
+        let all = Sides::of(&joints, &middles);
+        assert_eq!(all.to_string(), "+".repeat(32));
+        joints[32] = -1.0;
+        assert_eq!(Sides::of(&joints, &middles), all);
+        joints[31] = -1.0;
+        assert_eq!(Sides::of(&joints, &middles).to_string(), "+".repeat(31) + "-");
+    }
+
+    #[test]
+    fn different_sides_have_different_names() {
+        let names: Vec<Sides> = (0..64)
+            .map(|bits: u32| {
+                let joints: Vec<f64> = (0..6).map(|i| f64::from(bits >> i & 1)).collect();
+                Sides::of(&joints, &[0.5; 6])
+            })
+            .collect();
+        for (i, a) in names.iter().enumerate() {
+            for b in &names[..i] {
+                assert!(a != b && a.to_string() != b.to_string());
+            }
+        }
+    }
+
+    #[test]
+    fn a_posture_is_called_by_its_branch_or_by_its_sides() {
+        let sides = Sides::of(&[1.0, -1.0], &[0.0, 0.0]);
+        assert_eq!(PostureName::Sides(sides).to_string(), "+-");
+        assert_eq!(PostureName::Sides(sides).branch(), None);
+        for branch in Branch::ALL {
+            assert_eq!(PostureName::Branch(branch).to_string(), branch.to_string());
+            assert_eq!(PostureName::Branch(branch).branch(), Some(branch));
+        }
+    }
+
+    #[test]
+    fn every_singularity_has_a_word_that_its_sentence_begins_with() {
+        let all = [
+            Singularity::Shoulder,
+            Singularity::Elbow,
+            Singularity::Wrist,
+            Singularity::Dependent,
+        ];
+        for (i, singularity) in all.iter().enumerate() {
+            assert!(
+                singularity
+                    .to_string()
+                    .starts_with(&format!("{}: ", singularity.word()))
+            );
+            assert!(all[..i].iter().all(|other| other.word() != singularity.word()));
+        }
+    }
+}

@@ -166,3 +166,103 @@ impl fmt::Display for Unreachable {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outside(by: Overrun) -> Unreachable {
+        Unreachable::OutsideLimits { joint: 2, by }
+    }
+
+    /// Each reason with its word, its amount (m) and how its sentence ends.
+    fn all() -> [(Unreachable, &'static str, Option<f64>, &'static str); 9] {
+        [
+            (
+                Unreachable::TooFar { by: 0.0123 },
+                "too_far",
+                Some(0.0123),
+                "is 12.3 mm beyond the stretched arm",
+            ),
+            (
+                Unreachable::TooNear { by: 0.0123 },
+                "too_near",
+                Some(0.0123),
+                "is 12.3 mm inside the folded arm",
+            ),
+            (
+                Unreachable::InsideLateralOffset { by: 0.0123 },
+                "inside_lateral_offset",
+                Some(0.0123),
+                "is 12.3 mm inside the lateral offset",
+            ),
+            (
+                Unreachable::NotFound {
+                    by: 0.0123,
+                    turned: 0.5_f64.to_radians(),
+                },
+                "not_found",
+                Some(0.0123),
+                "the nearest misses by 12.3 mm and 0.50 deg",
+            ),
+            (
+                Unreachable::Unverified { by: 2e-6 },
+                "unverified",
+                Some(2e-6),
+                "by 0.002000 mm: no posture is given",
+            ),
+            (
+                outside(Overrun::Turned(1.5_f64.to_radians())),
+                "no_posture_inside_limits",
+                None,
+                "the range of joint number 3 by 1.5 deg",
+            ),
+            (
+                outside(Overrun::Slid(0.0123)),
+                "no_posture_inside_limits",
+                Some(0.0123),
+                "the range of joint number 3 by 12.3 mm",
+            ),
+            (
+                Unreachable::OtherBranch,
+                "other_branch",
+                None,
+                "in none of the branches asked for",
+            ),
+            (
+                Unreachable::Unstable { case: 1 },
+                "unstable",
+                None,
+                "under load case 2: it buckles, or is far too soft for this load",
+            ),
+        ]
+    }
+
+    #[test]
+    fn every_reason_has_a_word_an_amount_and_a_sentence_with_its_unit() {
+        for (miss, word, amount, ends) in all() {
+            assert_eq!((miss.word(), miss.amount()), (word, amount));
+            assert!(miss.to_string().ends_with(ends), "{miss}");
+        }
+    }
+
+    #[test]
+    fn the_smaller_miss_is_nearer_and_an_arm_without_rest_the_farthest() {
+        let (small, large) = (
+            Unreachable::TooFar { by: 1e-3 },
+            Unreachable::TooNear { by: 2e-3 },
+        );
+        assert!(small.is_nearer_than(&large) && !large.is_nearer_than(&small));
+        assert!(!small.is_nearer_than(&small));
+        // A radian counts as much as a metre.
+        assert!(outside(Overrun::Turned(1.5e-3)).is_nearer_than(&large));
+        assert!(small.is_nearer_than(&outside(Overrun::Turned(1.5e-3))));
+        assert!(outside(Overrun::Slid(1.5e-3)).is_nearer_than(&large));
+        for (miss, ..) in all() {
+            let unstable = Unreachable::Unstable { case: 0 };
+            assert!(!unstable.is_nearer_than(&miss));
+            let has_size = miss.amount().is_some() || matches!(miss, Unreachable::OutsideLimits { .. });
+            assert_eq!(miss.is_nearer_than(&unstable), has_size);
+        }
+    }
+}

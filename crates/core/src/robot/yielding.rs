@@ -256,4 +256,74 @@ mod tests {
         let orthogonal = below.0 * below.0.transpose() - Matrix3::identity();
         assert!(orthogonal.norm() < 1e-15);
     }
+
+    #[test]
+    fn going_and_coming_back_along_a_twist_ends_where_it_began() {
+        for angle in [0.0, 1e-9, 1e-4, 0.009, 0.011, 0.5, 2.5] {
+            let twist = Twist {
+                linear: Vector3::new(0.3, -0.2, 0.9),
+                angular: Vector3::new(0.6, 0.0, -0.8) * angle,
+            };
+            let ((turn, way), (back, way_back)) = (exponential(&twist), exponential(&(twist * -1.0)));
+            assert!((turn * back - Matrix3::identity()).norm() < 1e-14, "{angle}");
+            // First the one, then the other: way + R way_back.
+            assert!((way + turn * way_back).norm() < 1e-14, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_twist_goes_twice_as_far_in_two_steps() {
+        let twist = Twist {
+            linear: Vector3::new(0.3, -0.2, 0.9),
+            angular: Vector3::new(0.6, 0.1, -0.8),
+        };
+        let ((half, way), (whole, all_the_way)) = (exponential(&(twist * 0.5)), exponential(&twist));
+        assert!((half * half - whole).norm() < 1e-14);
+        assert!((way + half * way - all_the_way).norm() < 1e-14);
+    }
+
+    #[test]
+    fn the_twist_between_two_poses_turns_as_far_as_half_a_turn() {
+        let (robot, springs, tool) = arm();
+        let mut before = Yielded::for_robot(&robot, springs.len());
+        yield_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
+        for angle in [0.1, 1.4, 1.7, 3.0] {
+            // Beyond a quarter turn the sine of the angle falls again.
+            let mut x = [0.0; 8];
+            x[0] = angle;
+            let mut after = Yielded::for_robot(&robot, springs.len());
+            yield_into((&robot, &springs, &tool), &THETA, &x, &mut after);
+            let twist = twist_between(&before.base_from_tool(), &after.base_from_tool());
+            assert!(
+                (twist.angular - Vector3::z() * angle).norm() < 1e-12,
+                "{angle}: {}",
+                twist.angular
+            );
+        }
+    }
+
+    #[test]
+    fn springs_of_one_seat_in_another_order_differ_in_the_second_order_alone() {
+        let (robot, springs, tool) = arm();
+        let mut swapped = springs.clone();
+        swapped.swap(1, 3);
+        let reached = |springs: &[Spring], x: &[f64]| {
+            let mut out = Yielded::for_robot(&robot, springs.len());
+            yield_into((&robot, springs, &tool), &THETA, x, &mut out);
+            out.base_from_tool()
+        };
+        let apart = |size: f64| {
+            let (mut x, mut y) = ([0.0; 8], [0.0; 8]);
+            (x[4], x[6]) = (size, 2.0 * size);
+            (y[4], y[6]) = (2.0 * size, size);
+            twist_between(&reached(&springs, &x), &reached(&swapped, &y))
+                .to_vector()
+                .norm()
+        };
+        let (large, small) = (apart(2e-3), apart(1e-3));
+        assert!(
+            large > 0.0 && (large / small - 4.0).abs() < 0.05,
+            "{large} {small}"
+        );
+    }
 }

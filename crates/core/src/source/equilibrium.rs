@@ -269,3 +269,6 @@ fn add_weight(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -323,3 +323,6 @@ impl<'a> Standing<'a> {
 const MOST_ROUNDS: usize = 200;
 /// Rounding left after them, relative.
 const SETTLED: f64 = 1e-14;
+
+#[cfg(test)]
+mod tests;

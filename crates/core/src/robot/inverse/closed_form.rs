@@ -71,3 +71,6 @@ impl ClosedForm {
         matches!(self, ClosedForm::OrthoParallel(_))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -250,3 +250,6 @@ impl Descent {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -205,3 +205,6 @@ fn meeting(lines: [&Line; 3]) -> Option<Point3<f64>> {
     let right: Vector3<f64> = lines.iter().map(|line| off(line) * (line.point - origin)).sum();
     (normal.determinant() > IDEAL).then(|| normal.cholesky().map(|factor| origin + factor.solve(&right)))?
 }
+
+#[cfg(test)]
+mod tests;

@@ -376,3 +376,6 @@ fn nearest_turn(angle: f64, middle: f64) -> f64 {
     // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
     angle - TAU * (away - 0.5 - 1e-12).ceil()
 }
+
+#[cfg(test)]
+mod tests;
