@@ -26,15 +26,7 @@ fn wrench() -> impl Strategy<Value = Wrench> {
 }
 
 fn stand(robot: &Robot, unit: &[f64; 6]) -> Posture {
-    let q: Vec<f64> = robot
-        .joints()
-        .iter()
-        .zip(unit)
-        .map(|(joint, t)| {
-            let limits = joint.limits.unwrap();
-            limits.lower + t * (limits.upper - limits.lower)
-        })
-        .collect();
+    let q = arms::positions(robot, unit);
     posture_at(robot, &q, &arms::bent_tool())
 }
 
@@ -72,7 +64,7 @@ proptest! {
         let robot = &arms::ALL[arm];
         let (posture, joints) = (stand(robot, &unit), robot.compliance().unwrap());
         let once = predict(&posture, joints, &load);
-        let scaled = Wrench { force: load.force * factor, moment: load.moment * factor };
+        let scaled = load * factor;
         let softer: Vec<_> = joints
             .iter()
             .map(|c| armill_core::robot::JointCompliance { value: c.value * factor, ..*c })

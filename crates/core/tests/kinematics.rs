@@ -9,17 +9,8 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Vector3, Vector6};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::jacobian;
-use armill_core::robot::{Robot, Singularity, Unreachable};
+use armill_core::robot::{Singularity, Unreachable};
 use proptest::prelude::*;
-
-/// Joint positions inside the limits from six numbers in 0..1.
-fn inside_limits(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
-    let span = |(joint, t): (&armill_core::robot::Joint, &f64)| {
-        let limits = joint.limits.unwrap();
-        limits.lower + t * (limits.upper - limits.lower)
-    };
-    robot.joints().iter().zip(unit).map(span).collect()
-}
 
 fn six_numbers() -> impl Strategy<Value = [f64; 6]> {
     prop::array::uniform6(0.0..1.0_f64)
@@ -37,7 +28,7 @@ proptest! {
     #[test]
     fn jacobian_matches_finite_differences(arm in 0..arms::ALL.len(), unit in six_numbers()) {
         let robot = &arms::ALL[arm];
-        let q = inside_limits(robot, &unit);
+        let q = arms::positions(robot, &unit);
         let tool = arms::bent_tool();
         let posture = posture_at(robot, &q, &tool);
         let analytic = jacobian(robot, &posture.screws);
@@ -59,7 +50,7 @@ proptest! {
     fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..arms::ALL.len(), unit in six_numbers()) {
         let robot = &arms::ALL[arm];
         prop_assert!(robot.ortho_parallel().is_some(), "all test arms have a closed form");
-        let q = inside_limits(robot, &unit);
+        let q = arms::positions(robot, &unit);
         let tool = arms::bent_tool();
         let made = posture_at(robot, &q, &tool);
         let found = postures(robot, &made.base_from_tool, ToolAt { flange_from_tool: &tool, near: None, home: None })
@@ -78,7 +69,7 @@ proptest! {
     fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..arms::ALL.len(), unit in six_numbers()) {
         let robot = &arms::ALL[arm];
         let tool = arms::bent_tool();
-        let target = posture_at(robot, &inside_limits(robot, &unit), &tool).base_from_tool;
+        let target = posture_at(robot, &arms::positions(robot, &unit), &tool).base_from_tool;
         let found = postures(robot, &target, ToolAt { flange_from_tool: &tool, near: None, home: None }).unwrap();
         prop_assert!(found.len() >= 2);
         for posture in &found {

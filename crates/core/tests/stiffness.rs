@@ -291,10 +291,10 @@ proptest! {
         let c = arm.compliances();
         let mut equilibrium = Equilibrium::for_arm(&arm);
         let law = |k: usize, torque: f64| (c[k].value * torque, c[k].value);
-        let Ok(delta) = equilibrium.find(&arm, (&theta, &[0.0; 12]), &w, law) else {
-            // MH12 under 500 N at full stretch may be too soft; no number is told then.
-            return Ok(());
-        };
+        let found = equilibrium.find(&arm, (&theta, &[0.0; 12]), &w, law);
+        // MH12 under 500 N at full stretch may be too soft; no number is told then.
+        prop_assume!(found.is_ok());
+        let delta = found.unwrap();
         let mut there = Yielded::for_robot(robot, 6);
         yield_into((robot, &model.structure.springs, &tool), &theta, equilibrium.turns(), &mut there);
         for (k, screw) in there.screws.iter().enumerate() {
@@ -317,9 +317,7 @@ proptest! {
         let mut standing = Standing::new(held(robot, &model, &tool));
         standing.stand(&q);
         let w = Wrench { force: w.force * 0.2, moment: w.moment * 0.2 };
-        if standing.elastic(&w).is_err() {
-            return Ok(());
-        }
+        prop_assume!(standing.elastic(&w).is_ok());
         let tangent = standing.loaded_compliance().unwrap();
         let h = 0.1;
         for j in 0..3 {
@@ -569,7 +567,10 @@ fn a_straight_torque_curve_is_a_compliance_and_a_bent_one_depends_on_gravity() {
             .twist
             .linear
     };
-    assert!((freely - simple).norm() < 1e-12 * simple.norm() || (freely - rigid).norm() > 1e-6);
+    // Without gravity it is soft up to the knee, and stands on it if the load goes beyond.
+    let screw = posture_at(&robot, &q, &tool).screws[1];
+    let soft = rigid + screw.linear * (screw.dot(&push).clamp(-500.0, 500.0) * c);
+    assert!((freely - soft).norm() < 1e-12 * simple.norm(), "{freely} {soft}");
     assert!(
         (under_gravity - rigid).norm() < 1e-12 * rigid.norm(),
         "{under_gravity} {rigid}"

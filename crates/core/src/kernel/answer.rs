@@ -236,3 +236,6 @@ pub(super) struct Slot<'a> {
     pub deviations: &'a mut [Vector3<f64>],
     pub shares: &'a mut [f64],
 }
+
+#[cfg(test)]
+mod tests;

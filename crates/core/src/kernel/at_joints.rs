@@ -137,3 +137,6 @@ impl<'a> Room<'a> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -188,3 +188,6 @@ impl Yields {
         self.tip.under(wrench.force) + self.by_moment * wrench.moment
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -75,3 +75,6 @@ pub fn evaluate_in_order(
     }
     Ok(answers)
 }
+
+#[cfg(test)]
+mod tests;

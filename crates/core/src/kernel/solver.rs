@@ -105,3 +105,6 @@ impl<'q> Solver<'q> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -76,3 +76,6 @@ pub use batch::Batch;
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;
+
+#[cfg(test)]
+mod tests;

@@ -178,3 +178,6 @@ impl fmt::Display for Inverse {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
