@@ -22,11 +22,7 @@ use arms::Stream;
 use arms::other::{self, DhRow};
 
 fn at(tool: &Isometry) -> ToolAt<'_> {
-    ToolAt {
-        flange_from_tool: tool,
-        near: None,
-        home: None,
-    }
+    ToolAt::on(tool)
 }
 
 /// Largest difference of two joint positions, whole turns aside, rad (m).

@@ -53,7 +53,7 @@ proptest! {
         let q = arms::positions(robot, &unit);
         let tool = arms::bent_tool();
         let made = posture_at(robot, &q, &tool);
-        let found = postures(robot, &made.base_from_tool, ToolAt { flange_from_tool: &tool, near: None, home: None })
+        let found = postures(robot, &made.base_from_tool, ToolAt::on(&tool))
             .expect("a pose made by forward kinematics is reachable");
         let same = found.iter().find(|posture| posture.name == made.name).expect("its own branch is found");
         // Near a singularity the joints are worse known than the pose, by about 1 / sine.
@@ -70,7 +70,7 @@ proptest! {
         let robot = &arms::ALL[arm];
         let tool = arms::bent_tool();
         let target = posture_at(robot, &arms::positions(robot, &unit), &tool).base_from_tool;
-        let found = postures(robot, &target, ToolAt { flange_from_tool: &tool, near: None, home: None }).unwrap();
+        let found = postures(robot, &target, ToolAt::on(&tool)).unwrap();
         prop_assert!(found.len() >= 2);
         for posture in &found {
             let reached = posture_at(robot, &posture.joints, &tool);
@@ -97,15 +97,7 @@ fn mh12_has_eight_postures_in_the_middle_of_its_space() {
     let robot = arms::mh12();
     let tool = Isometry::identity();
     let target = posture_at(&robot, &[0.3, 0.2, -0.4, 0.5, 0.6, -0.2], &tool).base_from_tool;
-    let found = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    );
+    let found = postures(&robot, &target, ToolAt::on(&tool));
     assert_eq!(found.unwrap().len(), 8);
 }
 
@@ -116,15 +108,7 @@ fn a_pose_beyond_the_stretched_arm_says_by_how_much() {
     // Shoulder at (155, 0, 450) mm; wrist centre 100 mm behind the flange, tool along +x.
     let target = armill_core::workpiece::Plane::tilted([3.0, 0.0, 0.45].into(), 0.0)
         .base_from_tool([0.0, 0.0].into(), 0.0);
-    let miss = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    );
+    let miss = postures(&robot, &target, ToolAt::on(&tool));
     let reach = 0.614 + 0.640_f64.hypot(0.200);
     let Err(Unreachable::TooFar { by }) = miss else {
         panic!("{miss:?}")
@@ -148,16 +132,7 @@ fn at_the_wrist_singularity_joint_4_stays_or_shares_the_turn() {
         },
     )
     .unwrap();
-    let shared = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    )
-    .unwrap();
+    let shared = postures(&robot, &target, ToolAt::on(&tool)).unwrap();
     let front_up = |found: &[armill_core::robot::Posture]| {
         found
             .iter()

@@ -158,11 +158,7 @@ fn the_roomier_flip_stands_unless_one_is_named() {
                 wrist: None,
                 ..branch.into()
             };
-            let at = ToolAt {
-                flange_from_tool: &tool,
-                near: None,
-                home: None,
-            };
+            let at = ToolAt::on(&tool);
             let all = postures(&robot, &made.base_from_tool, at).unwrap();
             let room = |name: PostureName| {
                 let found = all.iter().find(|posture| posture.name == name).unwrap();
@@ -250,11 +246,7 @@ fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
             let Err(Unreachable::OutsideLimits { joint, by }) = point else {
                 panic!("{point:?}");
             };
-            let at = ToolAt {
-                flange_from_tool: &tool,
-                near: None,
-                home: None,
-            };
+            let at = ToolAt::on(&tool);
             let margins = postures(&robot, pose, at).unwrap();
             let least = margins
                 .iter()

@@ -254,8 +254,8 @@ impl Robot {
         joint.sign.factor() * (theta - joint.zero_offset) - coupled
     }
 
-    /// Joint positions outside which no joint may stand: the least margin over all joints with limits, with
-    /// the joint that has it. `None` where no joint has limits.
+    /// The joint that stands nearest to one of its limits, or farthest outside, and how much room it has: rad, m of a
+    /// sliding joint, compared as they are; negative outside. `None` where no joint has limits.
     pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {
         let margins = self
             .joints

@@ -168,7 +168,7 @@ mod tests {
                 })];
             }),
             ("covariance", |m| {
-                m.structure.covariance = Some(DMatrix::identity(6, 6) * 1e-16)
+                m.structure.covariance = Some(DMatrix::identity(6, 6) * 1e-16);
             }),
             ("load", |m| m.load_dependent = true),
         ]

@@ -54,6 +54,17 @@ pub struct ToolAt<'a> {
     pub home: Option<&'a [f64]>,
 }
 
+impl<'a> ToolAt<'a> {
+    /// The tool on an arm that stood nowhere before and likes the middle of its ranges.
+    pub fn on(flange_from_tool: &'a Isometry) -> ToolAt<'a> {
+        ToolAt {
+            flange_from_tool,
+            near: None,
+            home: None,
+        }
+    }
+}
+
 /// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found; without names the
 /// nearest to `near` (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
 /// and 6 of a spherical wrist share the turn evenly.

@@ -75,17 +75,17 @@ fn every_number_of_a_joint_must_be_finite() {
             joint.limits = Some(Limits {
                 lower: value,
                 upper: 1.0,
-            })
+            });
         }),
         ("upper limit", |joint, value| {
             joint.limits = Some(Limits {
                 lower: -1.0,
                 upper: value,
-            })
+            });
         }),
         ("maximal speed", |joint, value| joint.max_speed = Some(value)),
         ("coupling factor", |joint, factor| {
-            joint.coupling = vec![Coupling { joint: 0, factor }]
+            joint.coupling = vec![Coupling { joint: 0, factor }];
         }),
     ];
     for (what, set) in parts {
@@ -121,7 +121,7 @@ fn only_an_earlier_joint_can_be_coupled() {
             joints[1].coupling = vec![Coupling {
                 joint: other,
                 factor: 1.0,
-            }]
+            }];
         });
         assert_eq!(
             error.to_string(),
