@@ -122,7 +122,7 @@ impl Arm {
 
 /// Front elbow-up flip, the posture of the paper.
 pub const ONE_POSTURE: BranchChoice = BranchChoice::Of(BranchPattern {
-    wrist: Some(armill_core::robot::posture::Wrist::Flip),
+    wrist: Some(armill_core::robot::Wrist::Flip),
     ..BranchPattern::FRONT_ELBOW_UP
 });
 

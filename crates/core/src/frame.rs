@@ -11,6 +11,8 @@
 //!
 //! Lengths in m, angles in rad. Source: `docs/notation.md`.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A rigid displacement; the name of the variable says from which frame to which.
@@ -55,6 +57,41 @@ pub fn tool_orientation(axis: Unit<Vector3<f64>>, spin: f64) -> UnitQuaternion<f
     let unspun = Matrix3::from_columns(&[y.cross(&z), y, z]);
     let about_axis = UnitQuaternion::from_axis_angle(&axis, spin);
     about_axis * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(unspun))
+}
+
+/// Axis times angle (rad, up to half a turn) of the turn that takes the axes `from` to the axes `to`, both as columns.
+///
+/// Not checked: that both are rotations.
+pub fn turn_between(from: &Matrix3<f64>, to: &Matrix3<f64>) -> Vector3<f64> {
+    // Each pair of axes spans the sine of the angle between them: exact where the cosine has lost it.
+    let sine: Vector3<f64> = (0..3)
+        .map(|i| from.column(i).cross(&to.column(i)))
+        .sum::<Vector3<f64>>()
+        * 0.5;
+    let cosine = 0.5 * (from.dot(to) - 1.0);
+    let length = sine.norm();
+    if length > 1e-6 || cosine > 0.0 {
+        // For small angles the sine is the angle, to rounding.
+        let factor = if length > 1e-9 {
+            length.atan2(cosine) / length
+        } else {
+            1.0
+        };
+        return sine * factor;
+    }
+    // Half a turn: the axis is the longest column of R + I.
+    let turn = to * from.transpose() + Matrix3::identity();
+    let axis = turn
+        .column_iter()
+        .map(nalgebra::Matrix::into_owned)
+        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
+        .unwrap_or_else(Vector3::x);
+    axis.normalize() * PI
+}
+
+/// Some unit vector across `axis`, always the same one; `axis` must not be zero.
+pub fn some_across(axis: &Vector3<f64>) -> Vector3<f64> {
+    axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
 }
 
 #[cfg(test)]
@@ -103,6 +140,20 @@ mod tests {
     }
 
     #[test]
+    fn turns_between_axes_are_those_that_were_made() {
+        let from = Rotation3::from_euler_angles(0.3, -1.0, 2.0);
+        let axis = Vector3::new(0.48, -0.6, 0.64);
+        for angle in [0.0, 1e-12, 1e-5, 0.3, 1.7, 3.0, 3.1] {
+            let to = Rotation3::new(axis * angle) * from;
+            let found = turn_between(from.matrix(), to.matrix());
+            assert!((found - axis * angle).norm() < 1e-9, "{angle}: {found}");
+        }
+        let half = Rotation3::new(axis * PI) * from;
+        let found = turn_between(from.matrix(), half.matrix());
+        assert!((found.norm() - PI).abs() < 1e-9 && found.cross(&axis).norm() < 1e-6);
+    }
+
+    #[test]
     fn fixed_angles_turn_about_x_first() {
         let quarter_turns =
             from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(FRAC_PI_2, 0.0, FRAC_PI_2));
@@ -132,5 +183,102 @@ mod tests {
     fn positive_spin_follows_the_right_hand() {
         let y = tool_orientation(Vector3::x_axis(), FRAC_PI_2) * Vector3::y();
         assert!((y - Vector3::z()).norm() < 1e-15);
+    }
+
+    /// Axes all over the sphere, none of them special.
+    fn axes() -> impl Iterator<Item = Unit<Vector3<f64>>> {
+        (0..60).map(|i| {
+            let (a, b) = (0.37 * f64::from(i), 1.3 * f64::from(i));
+            Unit::new_normalize(Vector3::new(a.sin() * b.cos(), a.sin() * b.sin(), a.cos()))
+        })
+    }
+
+    #[test]
+    fn spins_add_up() {
+        for axis in axes() {
+            let (once, rest) = (tool_orientation(axis, 0.9), tool_orientation(axis, 0.9 + 1.7));
+            let turned = UnitQuaternion::from_axis_angle(&axis, 1.7) * once;
+            assert!(
+                (turned.coords - rest.coords)
+                    .norm()
+                    .min((turned.coords + rest.coords).norm())
+                    < 1e-14
+            );
+            let whole = tool_orientation(axis, 2.0 * PI + 0.9);
+            assert!((whole * Vector3::y() - once * Vector3::y()).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn every_orientation_is_a_rotation_with_its_third_axis_where_it_was_asked() {
+        for axis in axes().chain([Vector3::x_axis(), -Vector3::y_axis(), Vector3::z_axis()]) {
+            let rotation = tool_orientation(axis, 0.4).to_rotation_matrix();
+            let away = rotation.matrix() * rotation.matrix().transpose() - Matrix3::identity();
+            assert!(away.norm() < 1e-14 && rotation.matrix().determinant() > 0.0);
+            assert!((rotation * Vector3::z() - axis.into_inner()).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn base_y_is_given_up_within_a_microradian_alone() {
+        // On either side of 1e-6 rad from base y: before it tool y lies near base y, across the axis; behind it base x rules.
+        for (angle, near_x) in [(2e-6_f64, false), (0.5e-6, true)] {
+            // Tilted towards z, so that the projection of y has nothing of x.
+            let axis = Unit::new_normalize(Vector3::new(0.0, angle.cos(), angle.sin()));
+            let y = tool_orientation(axis, 0.0) * Vector3::y();
+            assert_eq!(y.x.abs() > 0.5, near_x, "{angle} rad: {y}");
+            assert!(y.dot(&axis).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn fixed_angles_are_the_product_of_turns_about_z_y_and_x() {
+        let (xyz, [rx, ry, rz]) = (Vector3::new(0.1, -0.2, 0.3), [0.4, -0.9, 2.3]);
+        let product = Rotation3::from_axis_angle(&Vector3::z_axis(), rz)
+            * Rotation3::from_axis_angle(&Vector3::y_axis(), ry)
+            * Rotation3::from_axis_angle(&Vector3::x_axis(), rx);
+        let found = from_xyz_and_fixed_angles(xyz, Vector3::new(rx, ry, rz));
+        assert!((found.rotation.to_rotation_matrix().matrix() - product.matrix()).norm() < 1e-15);
+        assert_eq!(found.translation.vector, xyz);
+    }
+
+    #[test]
+    fn turning_back_is_the_opposite_turn() {
+        for axis in axes() {
+            let (from, to) = (tool_orientation(axis, 0.3), tool_orientation(-axis, -1.9));
+            let (a, b) = (from.to_rotation_matrix(), to.to_rotation_matrix());
+            let (there, back) = (
+                turn_between(a.matrix(), b.matrix()),
+                turn_between(b.matrix(), a.matrix()),
+            );
+            // Near half a turn, where the axis may have either sign, both are the same turn still.
+            let undone = Rotation3::new(back) * Rotation3::new(there);
+            assert!(
+                (undone.matrix() - Matrix3::identity()).norm() < 1e-9,
+                "{there} {back}"
+            );
+            let reached = Rotation3::new(there) * a;
+            assert!((reached.matrix() - b.matrix()).norm() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn no_turn_is_zero_whatever_the_axes() {
+        for axis in axes() {
+            let rotation = tool_orientation(axis, 1.0).to_rotation_matrix();
+            // Rounding of the columns: some ulps.
+            assert!(turn_between(rotation.matrix(), rotation.matrix()).norm() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn some_vector_across_is_a_unit_vector_across() {
+        for axis in axes().chain([Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()]) {
+            let across = some_across(&axis);
+            assert!((across.norm() - 1.0).abs() < 1e-15 && across.dot(&axis).abs() < 1e-15);
+            assert_eq!(some_across(&axis), across);
+            // The length of the axis has no say.
+            assert!((some_across(&(axis.into_inner() * 7.0)) - across).norm() < 1e-15);
+        }
     }
 }

@@ -24,5 +24,12 @@ pub mod spatial;
 pub mod watch;
 pub mod workpiece;
 
+/// Arms for tests, those of the integration tests: they name this crate as its users do.
+#[cfg(test)]
+extern crate self as armill_core;
+#[cfg(test)]
+#[path = "../tests/arms/mod.rs"]
+mod arms;
+
 /// The linear algebra that the public types are made of.
 pub use nalgebra;

@@ -17,7 +17,7 @@ use nalgebra::Matrix3;
 
 use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
-use crate::source::{Arm, Standing, Unstable, elastic};
+use crate::source::{Standing, Unstable, elastic};
 use crate::spatial::{Twist, Wrench};
 
 /// How far the tool is from where it was asked to be, and why.
@@ -26,7 +26,7 @@ pub struct Deviation {
     /// Displacement (m) and rotation (rad) of the tool.
     pub twist: Twist,
     /// Share of each joint, base to flange, then of base, flange and tool where springs sit; they add up to `twist`.
-    pub joint_shares: Vec<Twist>,
+    pub shares: Vec<Twist>,
     /// Covariance of the displacement, m^2, from the uncertainties of the inputs.
     pub covariance: Matrix3<f64>,
 }
@@ -54,20 +54,18 @@ pub fn predict(posture: &Posture, joints: &[JointCompliance], wrench: &Wrench) -
     Deviation {
         twist: elastic.iter().copied().sum(),
         covariance: elastic::covariance(&posture.screws, joints, wrench),
-        joint_shares: elastic,
+        shares: elastic,
     }
 }
 
-/// The deviation of a tool held by `arm` at joint positions `q` under `wrench`, with all that yields and weighs.
+/// The deviation of the tool where an arm stands, under `wrench`, with all that yields and weighs.
 ///
 /// # Errors
 /// [`Unstable`] where the arm finds no stable rest under the load.
-pub fn predict_in_full(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
-    let mut standing = Standing::new(*arm);
-    standing.stand(q);
+pub fn predict_in_full(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<Deviation, Unstable> {
     Ok(Deviation {
-        twist: deviation_of(&mut standing, wrench)?,
-        joint_shares: standing.shares(),
+        twist: deviation_of(standing, wrench)?,
+        shares: standing.shares(),
         covariance: standing.covariance(),
     })
 }

@@ -18,36 +18,11 @@ use armill_core::robot::{Posture, Robot, Singularity, Unreachable};
 use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
+use arms::Stream;
 use arms::other::{self, DhRow};
 
-/// A stream of numbers in 0..1 (SplitMix64), the same on every machine.
-struct Stream(u64);
-
-impl Stream {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Joint positions inside the limits.
-    fn joints(&mut self, robot: &Robot) -> Vec<f64> {
-        let within = |joint: &armill_core::robot::Joint| {
-            let limits = joint.limits.unwrap();
-            limits.lower + (limits.upper - limits.lower) * self.next()
-        };
-        robot.joints().iter().map(within).collect()
-    }
-}
-
 fn at(tool: &Isometry) -> ToolAt<'_> {
-    ToolAt {
-        flange_from_tool: tool,
-        near: None,
-        home: None,
-    }
+    ToolAt::on(tool)
 }
 
 /// Largest difference of two joint positions, whole turns aside, rad (m).
@@ -149,7 +124,7 @@ fn closed_forms_give_back_the_joints_that_made_the_pose() {
         other::on_rail(&arms::mh12()),
         other::on_rail(&other::ur10e()),
     ] {
-        assert_eq!(robot.inverse().kind(), "closed_form", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "closed_form", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert_eq!(trips.returned, trips.poses, "{}", robot.name());
     }
@@ -190,7 +165,7 @@ fn with_spherical_wrist() -> [(Robot, [DhRow; 6]); 4] {
 #[test]
 fn spherical_wrists_give_back_the_joints_that_made_the_pose() {
     for (robot, _) in with_spherical_wrist() {
-        assert_eq!(robot.inverse().kind(), "closed_form", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "closed_form", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert!(trips.returned as f64 > 0.9999 * trips.poses as f64, "{trips:?}");
     }
@@ -354,7 +329,7 @@ fn calibrated_railed_and_otherwise_counted_iiwas_hold_their_poses_with_joint_3_a
         (other::on_rail(&iiwa), "closed_form", 3),
         (counted, "closed_form", 2),
     ] {
-        assert_eq!(robot.inverse().kind(), kind);
+        assert_eq!(robot.inverse().word(), kind);
         let mut stream = Stream(13);
         for _ in 0..1000 {
             let q = stream.joints(&robot);
@@ -437,7 +412,7 @@ fn a_search_that_follows_keeps_the_postures_that_continue() {
 fn calibrated_spherical_wrists_give_back_the_joints_that_made_the_pose() {
     for (ideal, _) in with_spherical_wrist() {
         let robot = other::calibrated(&ideal, 5e-4);
-        assert_eq!(robot.inverse().kind(), "polished", "{}", robot.name());
+        assert_eq!(robot.inverse().word(), "polished", "{}", robot.name());
         let trips = round_trips(&robot, 10_000);
         assert!(trips.returned as f64 > 0.999 * trips.poses as f64, "{trips:?}");
     }

@@ -18,31 +18,10 @@ use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 use armill_core::workpiece::{Plane, Split};
+use arms::Stream;
 
-/// A stream of numbers in [0, 1), the same in every run.
-struct Stream(u64);
-
-impl Stream {
-    fn next(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Joint positions up to 20 deg outside the limits.
-    fn joints(&mut self, robot: &Robot) -> Vec<f64> {
-        robot
-            .joints()
-            .iter()
-            .map(|joint| {
-                let limits = joint.limits.unwrap();
-                limits.lower - 0.35 + (limits.upper - limits.lower + 0.7) * self.next()
-            })
-            .collect()
-    }
-}
+/// How far (rad) outside their limits joints may stand: 20 deg.
+const BEYOND: f64 = 0.35;
 
 /// Three cases, one with a moment; five where many are asked.
 fn cases(count: usize) -> Vec<Wrench> {
@@ -87,7 +66,7 @@ fn batch<T: Precision>(question: &Question<'_>, backend: Backend) -> Batch<T> {
 fn some(robot: &Robot, count: usize) -> Vec<Posture> {
     let mut stream = Stream(7);
     (0..count)
-        .map(|_| posture_at(robot, &stream.joints(robot), &arms::bent_tool()))
+        .map(|_| posture_at(robot, &stream.joints_beyond(robot, BEYOND), &arms::bent_tool()))
         .collect()
 }
 

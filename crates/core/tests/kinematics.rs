@@ -9,17 +9,8 @@ use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Vector3, Vector6};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::jacobian;
-use armill_core::robot::{Robot, Singularity, Unreachable};
+use armill_core::robot::{Singularity, Unreachable};
 use proptest::prelude::*;
-
-/// Joint positions inside the limits from six numbers in 0..1.
-fn inside_limits(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
-    let span = |(joint, t): (&armill_core::robot::Joint, &f64)| {
-        let limits = joint.limits.unwrap();
-        limits.lower + t * (limits.upper - limits.lower)
-    };
-    robot.joints().iter().zip(unit).map(span).collect()
-}
 
 fn six_numbers() -> impl Strategy<Value = [f64; 6]> {
     prop::array::uniform6(0.0..1.0_f64)
@@ -35,9 +26,9 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn jacobian_matches_finite_differences(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
-        let q = inside_limits(robot, &unit);
+    fn jacobian_matches_finite_differences(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
+        let q = arms::positions(robot, &unit);
         let tool = arms::bent_tool();
         let posture = posture_at(robot, &q, &tool);
         let analytic = jacobian(robot, &posture.screws);
@@ -56,13 +47,13 @@ proptest! {
     }
 
     #[test]
-    fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
+    fn some_posture_gives_back_the_joints_that_made_the_pose(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
         prop_assert!(robot.ortho_parallel().is_some(), "all test arms have a closed form");
-        let q = inside_limits(robot, &unit);
+        let q = arms::positions(robot, &unit);
         let tool = arms::bent_tool();
         let made = posture_at(robot, &q, &tool);
-        let found = postures(robot, &made.base_from_tool, ToolAt { flange_from_tool: &tool, near: None, home: None })
+        let found = postures(robot, &made.base_from_tool, ToolAt::on(&tool))
             .expect("a pose made by forward kinematics is reachable");
         let same = found.iter().find(|posture| posture.name == made.name).expect("its own branch is found");
         // Near a singularity the joints are worse known than the pose, by about 1 / sine.
@@ -75,11 +66,11 @@ proptest! {
     }
 
     #[test]
-    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..4usize, unit in six_numbers()) {
-        let robot = &arms::all()[arm];
+    fn every_posture_holds_the_tool_where_it_was_asked(arm in 0..arms::ALL.len(), unit in six_numbers()) {
+        let robot = &arms::ALL[arm];
         let tool = arms::bent_tool();
-        let target = posture_at(robot, &inside_limits(robot, &unit), &tool).base_from_tool;
-        let found = postures(robot, &target, ToolAt { flange_from_tool: &tool, near: None, home: None }).unwrap();
+        let target = posture_at(robot, &arms::positions(robot, &unit), &tool).base_from_tool;
+        let found = postures(robot, &target, ToolAt::on(&tool)).unwrap();
         prop_assert!(found.len() >= 2);
         for posture in &found {
             let reached = posture_at(robot, &posture.joints, &tool);
@@ -106,15 +97,7 @@ fn mh12_has_eight_postures_in_the_middle_of_its_space() {
     let robot = arms::mh12();
     let tool = Isometry::identity();
     let target = posture_at(&robot, &[0.3, 0.2, -0.4, 0.5, 0.6, -0.2], &tool).base_from_tool;
-    let found = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    );
+    let found = postures(&robot, &target, ToolAt::on(&tool));
     assert_eq!(found.unwrap().len(), 8);
 }
 
@@ -125,15 +108,7 @@ fn a_pose_beyond_the_stretched_arm_says_by_how_much() {
     // Shoulder at (155, 0, 450) mm; wrist centre 100 mm behind the flange, tool along +x.
     let target = armill_core::workpiece::Plane::tilted([3.0, 0.0, 0.45].into(), 0.0)
         .base_from_tool([0.0, 0.0].into(), 0.0);
-    let miss = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    );
+    let miss = postures(&robot, &target, ToolAt::on(&tool));
     let reach = 0.614 + 0.640_f64.hypot(0.200);
     let Err(Unreachable::TooFar { by }) = miss else {
         panic!("{miss:?}")
@@ -157,16 +132,7 @@ fn at_the_wrist_singularity_joint_4_stays_or_shares_the_turn() {
         },
     )
     .unwrap();
-    let shared = postures(
-        &robot,
-        &target,
-        ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        },
-    )
-    .unwrap();
+    let shared = postures(&robot, &target, ToolAt::on(&tool)).unwrap();
     let front_up = |found: &[armill_core::robot::Posture]| {
         found
             .iter()

@@ -258,11 +258,7 @@ fn best_is_the_least_of_all_branches_inside_limits() {
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     for (index, point) in map.answers.points.iter().enumerate() {
         let pose = plane.base_from_tool(grid.point(index), 0.0);
-        let tool_at = ToolAt {
-            flange_from_tool: &tool,
-            near: None,
-            home: None,
-        };
+        let tool_at = ToolAt::on(&tool);
         let found = postures(&robot, &pose, tool_at).unwrap_or_default();
         let inside = found
             .iter()

@@ -15,7 +15,6 @@ use armill_core::nalgebra::{Point3, Unit, Vector2, Vector3};
 use armill_core::path::{
     Arc, Course, Cutting, Greatest, Move, Pace, PathBuilder, Placing, Sampling, Spin, Step, Track,
 };
-use armill_core::predict::predict_in_full;
 use armill_core::robot::{BranchPattern, JointCompliance, Mass, Robot, Seat, Spring, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
 use armill_core::source::{Arm, Gravity, StiffnessModel};
@@ -114,7 +113,7 @@ fn followed(robot: &Robot, model: &StiffnessModel, choice: BranchChoice, load: P
     along_path(&question, &track(), load, Watch::NONE).unwrap()
 }
 
-/// Every point against [`predict_in_full`] at its joint positions, with wrenches turned here.
+/// Every point against [`arms::predicted`] at its joint positions, with wrenches turned here.
 fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f64) {
     let choice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
     let found = followed(robot, model, choice, cases(frame));
@@ -147,7 +146,7 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
                 force: turn(wrench.force),
                 moment: turn(wrench.moment),
             };
-            let predicted = predict_in_full(&arm, found.answers.joints_at(i), &turned).unwrap();
+            let predicted = arms::predicted(&arm, found.answers.joints_at(i), &turned).unwrap();
             let away = found.answers.deviations_at(i)[case] - predicted.twist.linear;
             assert!(
                 away.norm() < tolerance * predicted.twist.linear.norm(),

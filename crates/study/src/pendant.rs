@@ -3,7 +3,10 @@
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
-use armill_core::robot::convention::{Apart, Change, Comparison, Explanation, Reading, Verdict, inspect};
+use armill_core::robot::convention::{
+    Apart, Change, Comparison, Explanation, NotInspected, Reading, Verdict, inspect,
+};
+use armill_core::watch::Watch;
 use armill_formats::robot::RobotDescription;
 use serde::Serialize;
 
@@ -61,8 +64,13 @@ pub struct ExplanationAnswer {
 /// Compares the readings with the file.
 ///
 /// # Errors
-/// No reading, a reading with another number of joints, an unknown frame.
-pub fn check(described: &RobotDescription, question: &PendantQuestion) -> Result<PendantAnswer, StudyError> {
+/// No reading, a reading with another number of joints, an unknown frame, more turning joints than can be searched;
+/// cancelled by the watch.
+pub fn check(
+    described: &RobotDescription,
+    question: &PendantQuestion,
+    watch: Watch<'_>,
+) -> Result<PendantAnswer, StudyError> {
     let robot = &described.robot;
     let counted = base_from_counted(robot, &question.base).map_err(|known| {
         StudyError::value(
@@ -89,7 +97,12 @@ pub fn check(described: &RobotDescription, question: &PendantQuestion) -> Result
         readings: &readings,
         within: question.within,
     };
-    let found = inspect(&comparison);
+    let found = inspect(&comparison, watch).map_err(|not| match not {
+        NotInspected::Cancelled(cancelled) => StudyError::Cancelled(cancelled),
+        NotInspected::TooManyJoints { .. } => {
+            StudyError::value(not.to_string(), "compare the arm without what carries it")
+        }
+    })?;
     let words = Words {
         robot,
         counted: &counted,

@@ -1,12 +1,12 @@
 //! One pose: every posture there, its compliance, and what a load does to it.
 
 use armill_core::compliance::{
-    permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
+    by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
 };
 use armill_core::frame::{Isometry, tool_orientation};
 use armill_core::kernel::AT_LIMIT;
 use armill_core::nalgebra::{DMatrix, Matrix6, Point3, Unit, Vector3};
-use armill_core::predict::Deviation;
+use armill_core::predict::{Deviation, predict_in_full};
 use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use armill_core::robot::jacobian::{condition_number, jacobian, manipulability};
 use armill_core::robot::{Posture, Robot, Unreachable};
@@ -269,16 +269,9 @@ fn yielding(standing: &mut Standing<'_>, posture: &Posture, wrench: Option<Wrenc
         ..Yielding::default()
     };
     let Some(wrench) = wrench else { return found };
-    let both = standing
-        .elastic(&wrench)
-        .and_then(|elastic| Ok((elastic, standing.gravity()?)));
-    match both {
-        Ok((elastic, gravity)) => {
-            found.deviation = Some(Deviation {
-                twist: gravity.map_or(elastic, |gravity| elastic + gravity),
-                joint_shares: standing.shares(),
-                covariance: standing.covariance(),
-            });
+    match predict_in_full(standing, &wrench) {
+        Ok(deviation) => {
+            found.deviation = Some(deviation);
             found.loaded_compliance = standing.loaded_compliance();
         }
         Err(unstable) => found.unstable = Some(unstable),
@@ -367,7 +360,7 @@ fn posture_answer(
         rotation_urad: deviation.as_ref().map(|d| um(d.twist.angular)),
         joint_share_um: deviation
             .as_ref()
-            .map(|d| d.joint_shares.iter().map(|s| um(s.linear)).collect()),
+            .map(|d| d.shares.iter().map(|s| um(s.linear)).collect()),
         deviation_u_um: deviation
             .as_ref()
             .map(|d| um(d.covariance.diagonal().map(|v| v.max(0.0).sqrt()))),
@@ -376,7 +369,8 @@ fn posture_answer(
 
 fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> StiffnessAnswer {
     let stiffness = stiffness_at_tool(compliance, WEIGHING_LENGTH);
-    let principal = principal_compliances(compliance);
+    let by_force = by_force(compliance);
+    let principal = principal_compliances(&by_force);
     StiffnessAnswer {
         stiffness: six_rows(&stiffness.matrix),
         rank: stiffness.rank,
@@ -386,7 +380,7 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
             .then_some(stiffness.condition_number),
         principal_um_per_n: principal.map(|p| p.value * 1e6),
         principal_direction: principal.map(|p| p.direction.into()),
-        permissible_n_per_um: permissible_force_in_worst_direction(compliance, axis, 1e-6).0,
+        permissible_n_per_um: permissible_force_in_worst_direction(&by_force, axis, 1e-6).0,
     }
 }
 
@@ -396,13 +390,9 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
         _ => None,
     };
     UnreachableAnswer {
-        reason: miss.reason().to_owned(),
+        reason: miss.word().to_owned(),
         // Nothing is missed where the arm does not hold itself.
-        amount_mm: if miss.amount().is_finite() {
-            miss.amount() * 1e3
-        } else {
-            0.0
-        },
+        amount_mm: miss.amount().unwrap_or_default() * 1e3,
         amount_deg: turned,
         message: miss.to_string(),
     }

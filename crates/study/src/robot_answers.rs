@@ -36,7 +36,7 @@ impl RobotRow {
             title: found.title.clone(),
             payload_kg: found.payload_kg,
             reach_mm: reach(&found.robot).map(|m| decimals(m * 1e3, 3)),
-            inverse: found.robot.inverse().kind(),
+            inverse: found.robot.inverse().word(),
             compliance_known: found.robot.compliance().is_some(),
         }
     }
@@ -248,7 +248,7 @@ impl ImportedRobot {
             file,
             title: found.title.clone(),
             joints: names(&joints.iter().collect::<Vec<_>>()),
-            inverse: found.robot.inverse().kind(),
+            inverse: found.robot.inverse().word(),
             assumed: found.remarks.clone(),
             without_limits: names(&joints.iter().filter(|j| j.limits.is_none()).collect::<Vec<_>>()),
         }
@@ -273,7 +273,7 @@ impl KnownRobot {
                 .collect(),
             structure: KnownStructure::of(robot),
             nominal_branch: robot.nominal_branch().to_string(),
-            inverse: robot.inverse().kind(),
+            inverse: robot.inverse().word(),
             frames: frames.collect(),
             payload_kg: found.payload_kg,
             assumed: found.remarks.clone(),

@@ -7,7 +7,7 @@ use armill_core::map::{
     AlongPath, Jump, PlaneMap, ProgramLimits, RadialDeviation, VolumeMap, along_path, jumps, plane_map,
     program_limits, radial_deviations, volume_map, worst_points,
 };
-use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
 use armill_core::path::{ForcesTold, NoForces, Shape, Stock};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::source::Arm;
@@ -221,7 +221,7 @@ impl Runner<'_> {
     }
 
     fn in_full(&self, ask: &PathAsk, along: &AlongPath, index: usize) -> Result<InFull, Cancelled> {
-        let mut cases = vec![Wrench::from_force(Vector3::zeros()); along.answers.case_count];
+        let mut cases = vec![Wrench::ZERO; along.answers.case_count];
         ask.track.wrenches(&along.load, index, &mut cases);
         let stop = ask.track.stop(index);
         let across = Plane {

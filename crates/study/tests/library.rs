@@ -32,7 +32,7 @@ fn every_arm_with_a_spherical_wrist_has_its_closed_form_inverse() {
     let without: Vec<&str> = library::ROBOTS
         .iter()
         .map(|entry| entry.name)
-        .filter(|name| robot(name).inverse().kind() != "closed_form")
+        .filter(|name| robot(name).inverse().word() != "closed_form")
         .collect();
     assert!(without.is_empty(), "{without:?}");
     assert!(library::ROBOTS.len() >= 28, "{}", library::ROBOTS.len());

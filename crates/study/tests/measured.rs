@@ -91,7 +91,7 @@ impl Witness {
         let (ask, found) = program(&of_cut);
         let count = ask.track.len();
         let force = |i: usize| {
-            let mut out = [Wrench::from_force(Vector3::zeros())];
+            let mut out = [Wrench::ZERO];
             ask.track.wrenches(&found.load, i, &mut out);
             out[0].force
         };

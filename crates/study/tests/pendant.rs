@@ -9,6 +9,7 @@ use armill_core::robot::convention::Apart;
 use armill_core::robot::inverse::posture_at;
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Joint, Robot};
+use armill_core::watch::Watch;
 use armill_formats::robot::RobotDescription;
 use armill_study::library;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
@@ -66,7 +67,7 @@ fn asked(file: &RobotDescription, readings: Vec<(Vec<f64>, Isometry)>) -> Pendan
             radians: 0.1_f64.to_radians(),
         },
     };
-    check(file, &question).unwrap()
+    check(file, &question, Watch::NONE).unwrap()
 }
 
 fn assert_explained(answer: &PendantAnswer, changes: &[&str]) {
@@ -276,12 +277,16 @@ fn a_reading_of_other_joints_and_an_unknown_frame_are_refused() {
             radians: 1e-3,
         },
     };
-    let error = check(&arm, &question(7, "base_link")).unwrap_err().to_string();
+    let error = check(&arm, &question(7, "base_link"), Watch::NONE)
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("reading 1: 7 joint positions for the 6 joints"),
         "{error}"
     );
-    let error = check(&arm, &question(6, "table")).unwrap_err().to_string();
+    let error = check(&arm, &question(6, "table"), Watch::NONE)
+        .unwrap_err()
+        .to_string();
     assert!(
         error.contains("`table`") && error.contains("controller"),
         "{error}"

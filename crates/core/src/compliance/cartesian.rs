@@ -11,7 +11,7 @@
 //! Reference point: TCP. Basis: base. This replaces eqs (7)-(8) of Shneor & Chapsky 2021, which lack the shift
 //! to the TCP; see `docs/theory/compliance.md`.
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix3, Matrix6};
 
 use crate::robot::joint::JointCompliance;
 use crate::spatial::Twist;
@@ -24,6 +24,11 @@ pub fn compliance_at_tool(screws: &[Twist], joints: &[JointCompliance]) -> Matri
         compliance += s * s.transpose() * joint.value;
     }
     compliance
+}
+
+/// The block of a 6 x 6 compliance that tells displacement by force, m/N.
+pub fn by_force(compliance: &Matrix6<f64>) -> Matrix3<f64> {
+    compliance.fixed_view::<3, 3>(0, 0).into_owned()
 }
 
 /// The stiffness matrix of eq. (7) and how far it can be trusted.

@@ -1,6 +1,7 @@
 //! Directions: where the arm yields most, and how much force a tolerance permits there.
 //!
-//! With `C_t` the translational 3 x 3 block and `C_plane` its two in-plane rows (2 x 3, force free in space):
+//! With `C_t` the translational 3 x 3 block (displacement by force) and `C_plane` its two in-plane rows (2 x 3, force free
+//! in space):
 //!
 //! - principal compliances: eigenvalues and eigenvectors of `C_t`;
 //! - permissible force in the unit direction `f` for a limit `e`: `e / |C_plane f|`;
@@ -8,7 +9,9 @@
 //!
 //! Units: C in m/N, e in m, force in N. Source: `docs/notation.md`; standard linear algebra.
 
-use nalgebra::{Matrix2x3, Matrix3, Matrix6, Unit, Vector3};
+use nalgebra::{Matrix2x3, Matrix3, Unit, Vector3};
+
+use crate::frame::some_across;
 
 /// A direction in which a force moves the tool along itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,9 +23,8 @@ pub struct PrincipalCompliance {
 }
 
 /// Principal compliances of the translational block, softest first.
-pub fn principal_compliances(compliance: &Matrix6<f64>) -> [PrincipalCompliance; 3] {
-    let translational: Matrix3<f64> = compliance.fixed_view::<3, 3>(0, 0).into();
-    let eigen = translational.symmetric_eigen();
+pub fn principal_compliances(by_force: &Matrix3<f64>) -> [PrincipalCompliance; 3] {
+    let eigen = by_force.symmetric_eigen();
     let mut principal = [0, 1, 2].map(|i| PrincipalCompliance {
         value: eigen.eigenvalues[i],
         direction: eigen.eigenvectors.column(i).into(),
@@ -34,21 +36,21 @@ pub fn principal_compliances(compliance: &Matrix6<f64>) -> [PrincipalCompliance;
 /// Greatest force (N) in direction `f` whose in-plane deviation stays within `limit` (m); infinite where such
 /// a force moves nothing in the plane. `normal` is the plane's normal, base basis.
 pub fn permissible_force(
-    compliance: &Matrix6<f64>,
+    by_force: &Matrix3<f64>,
     normal: Unit<Vector3<f64>>,
     f: Unit<Vector3<f64>>,
     limit: f64,
 ) -> f64 {
-    limit / (in_plane_rows(compliance, normal) * f.into_inner()).norm()
+    limit / (in_plane_rows(by_force, normal) * f.into_inner()).norm()
 }
 
 /// Force (N) that every direction permits for `limit` (m), and the direction that permits no more.
 pub fn permissible_force_in_worst_direction(
-    compliance: &Matrix6<f64>,
+    by_force: &Matrix3<f64>,
     normal: Unit<Vector3<f64>>,
     limit: f64,
 ) -> (f64, Vector3<f64>) {
-    let rows = in_plane_rows(compliance, normal);
+    let rows = in_plane_rows(by_force, normal);
     let eigen = (rows.transpose() * rows).symmetric_eigen();
     let worst = eigen.eigenvalues.imax();
     (
@@ -58,20 +60,19 @@ pub fn permissible_force_in_worst_direction(
 }
 
 /// The two in-plane rows of the translational compliance, in an arbitrary basis of the plane.
-fn in_plane_rows(compliance: &Matrix6<f64>, normal: Unit<Vector3<f64>>) -> Matrix2x3<f64> {
+fn in_plane_rows(by_force: &Matrix3<f64>, normal: Unit<Vector3<f64>>) -> Matrix2x3<f64> {
     let n = normal.into_inner();
-    let u = n.cross(&Vector3::ith(n.iamin(), 1.0)).normalize();
+    let u = some_across(&n);
     let v = n.cross(&u);
-    let translational = compliance.fixed_view::<3, 3>(0, 0);
-    Matrix2x3::from_rows(&[u.transpose() * translational, v.transpose() * translational])
+    Matrix2x3::from_rows(&[u.transpose() * by_force, v.transpose() * by_force])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn some_compliance() -> Matrix6<f64> {
-        let a = Matrix6::from_fn(|i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
+    fn some_compliance() -> Matrix3<f64> {
+        let a = Matrix3::from_fn(|i, j| ((3 * i + 5 * j + i * j) % 7) as f64 - 2.5);
         a * a.transpose() * 1e-7
     }
 
@@ -81,7 +82,7 @@ mod tests {
         let principal = principal_compliances(&c);
         assert!(principal[0].value >= principal[1].value && principal[1].value >= principal[2].value);
         for p in principal {
-            let moved = c.fixed_view::<3, 3>(0, 0) * p.direction;
+            let moved = c * p.direction;
             assert!((moved - p.direction * p.value).norm() < 1e-12 * c.norm());
         }
     }
@@ -94,7 +95,7 @@ mod tests {
         );
         let f = Unit::new_normalize(Vector3::new(1.0, 2.0, -0.5));
         let force = permissible_force(&c, n, f, 50e-6);
-        let moved = c.fixed_view::<3, 3>(0, 0) * f.into_inner() * force;
+        let moved = c * f.into_inner() * force;
         let in_plane = moved - n.into_inner() * moved.dot(&n);
         assert!((in_plane.norm() - 50e-6).abs() < 1e-18);
     }

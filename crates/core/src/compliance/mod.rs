@@ -6,7 +6,7 @@
 pub mod cartesian;
 pub mod directions;
 
-pub use cartesian::{Stiffness, compliance_at_tool, stiffness_at_tool};
+pub use cartesian::{Stiffness, by_force, compliance_at_tool, stiffness_at_tool};
 pub use directions::{
     PrincipalCompliance, permissible_force, permissible_force_in_worst_direction, principal_compliances,
 };

@@ -1,9 +1,10 @@
 //! What comes out at every point.
 
-use nalgebra::Vector3;
+use nalgebra::{Unit, Vector3};
 
 use super::question::Question;
-use crate::robot::{PostureName, Singularity, Unreachable};
+use crate::robot::{PostureName, Seat, Singularity, Unreachable};
+use crate::workpiece::Split;
 
 /// How far (rad) outside a limit still counts as at it: rounding of a joint that stands at its limit.
 pub const AT_LIMIT: f64 = 1e-9;
@@ -35,6 +36,21 @@ pub struct Held {
 }
 
 impl Held {
+    /// Takes in the deviations of the load cases (m, base): what they are along and across `normal`, and which decides.
+    pub(super) fn take_envelope(&mut self, deviations: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
+        (self.in_plane, self.normal, self.full, self.deciding_case) = (0.0, 0.0, 0.0, 0);
+        for (case, deviation) in deviations.iter().enumerate() {
+            let split = Split::of(deviation, normal);
+            if split.in_plane > self.in_plane {
+                (self.in_plane, self.deciding_case) = (split.in_plane, case);
+            }
+            if split.normal.abs() > self.normal.abs() {
+                self.normal = split.normal;
+            }
+            self.full = self.full.max(split.full);
+        }
+    }
+
     /// Whether every joint stands inside its limits.
     pub fn within_limits(&self) -> bool {
         self.limit_margin >= -AT_LIMIT
@@ -63,11 +79,12 @@ pub struct Answers {
 }
 
 impl Answers {
-    pub(super) fn empty(question: &Question<'_>, count: usize) -> Answers {
+    /// Room for the answers of `question` at so many points, each unanswered; without shares where none are told.
+    pub(super) fn new(question: &Question<'_>, count: usize, told: Told) -> Answers {
         let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
-        let share_count = question.arm.model.sharers(joint_count).len();
+        let share_count = told.sharers(question).len();
         Answers {
-            points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
+            points: vec![UNANSWERED; count],
             joints: vec![0.0; count * joint_count],
             deviations: vec![Vector3::zeros(); count * case_count],
             shares: vec![0.0; count * share_count],
@@ -75,6 +92,23 @@ impl Answers {
             case_count,
             share_count,
         }
+    }
+
+    /// Where the answers go, in blocks of so many points.
+    pub(super) fn blocks(&mut self, size: usize) -> Vec<Slots<'_>> {
+        let mut rest = Slots {
+            points: &mut self.points,
+            joints: &mut self.joints,
+            deviations: &mut self.deviations,
+            shares: &mut self.shares,
+        };
+        let mut blocks = Vec::with_capacity(rest.points.len().div_ceil(size));
+        while !rest.points.is_empty() {
+            let (block, after) = rest.split(size);
+            blocks.push(block);
+            rest = after;
+        }
+        blocks
     }
 
     /// Memory that the answers at one point take, bytes.
@@ -125,3 +159,83 @@ impl Answers {
             .filter_map(|(i, point)| Some((i, point.as_ref().ok()?)))
     }
 }
+
+/// What a point holds until it is answered.
+const UNANSWERED: Result<Held, Unreachable> = Err(Unreachable::OtherBranch);
+
+/// What is told of a point beside its posture and its deviations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Told {
+    /// Who made the deviation of the deciding case, and how sure it is.
+    Shares,
+    /// Nothing more.
+    DeviationsAlone,
+}
+
+impl Told {
+    /// Whom shares are told for.
+    pub fn sharers(self, question: &Question<'_>) -> Vec<Seat> {
+        match self {
+            Told::Shares => question.arm.model.sharers(question.arm.robot.joints().len()),
+            Told::DeviationsAlone => Vec::new(),
+        }
+    }
+}
+
+/// Where the answers of a block of points go; as many values a point as [`Answers`] have.
+pub(super) struct Slots<'a> {
+    pub points: &'a mut [Result<Held, Unreachable>],
+    pub joints: &'a mut [f64],
+    pub deviations: &'a mut [Vector3<f64>],
+    pub shares: &'a mut [f64],
+}
+
+impl<'a> Slots<'a> {
+    /// The first points, `count` or as many as there are, and the rest.
+    fn split(self, count: usize) -> (Slots<'a>, Slots<'a>) {
+        let all = self.points.len();
+        let count = count.min(all);
+        let (points, later_points) = self.points.split_at_mut(count);
+        let (joints, later_joints) = self.joints.split_at_mut(self.joints.len() / all * count);
+        let (deviations, later_deviations) =
+            self.deviations.split_at_mut(self.deviations.len() / all * count);
+        let (shares, later_shares) = self.shares.split_at_mut(self.shares.len() / all * count);
+        let first = Slots {
+            points,
+            joints,
+            deviations,
+            shares,
+        };
+        let rest = Slots {
+            points: later_points,
+            joints: later_joints,
+            deviations: later_deviations,
+            shares: later_shares,
+        };
+        (first, rest)
+    }
+
+    /// Where the answer of one point of the block goes.
+    pub fn at(&mut self, index: usize) -> Slot<'_> {
+        let all = self.points.len();
+        let [joints, cases, shares] =
+            [self.joints.len(), self.deviations.len(), self.shares.len()].map(|values| values / all);
+        Slot {
+            point: &mut self.points[index],
+            joints: &mut self.joints[index * joints..][..joints],
+            deviations: &mut self.deviations[index * cases..][..cases],
+            shares: &mut self.shares[index * shares..][..shares],
+        }
+    }
+}
+
+/// Where the answer of one point goes.
+pub(super) struct Slot<'a> {
+    pub point: &'a mut Result<Held, Unreachable>,
+    pub joints: &'a mut [f64],
+    pub deviations: &'a mut [Vector3<f64>],
+    pub shares: &'a mut [f64],
+}
+
+#[cfg(test)]
+mod tests;

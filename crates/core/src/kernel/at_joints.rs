@@ -16,7 +16,7 @@ use crate::spatial::{Twist, Wrench};
 use crate::watch::{Cancelled, Watch};
 
 /// Points in a block: enough to make the hand-over cheap, few enough to cancel soon.
-const BLOCK: usize = 256;
+const AT_ONCE: usize = 256;
 
 /// What comes out at each joint position.
 #[derive(Clone, Debug)]
@@ -61,11 +61,11 @@ pub fn at_joints(
         rests: vec![true; count],
     };
     joints
-        .par_chunks(BLOCK * dof)
-        .zip(out.base_from_tool.par_chunks_mut(BLOCK))
-        .zip(out.screws.par_chunks_mut(BLOCK * yields))
-        .zip(out.deviations.par_chunks_mut(BLOCK * case_count))
-        .zip(out.rests.par_chunks_mut(BLOCK))
+        .par_chunks(AT_ONCE * dof)
+        .zip(out.base_from_tool.par_chunks_mut(AT_ONCE))
+        .zip(out.screws.par_chunks_mut(AT_ONCE * yields))
+        .zip(out.deviations.par_chunks_mut(AT_ONCE * case_count))
+        .zip(out.rests.par_chunks_mut(AT_ONCE))
         .try_for_each_init(
             || Room::new(arm),
             |room, ((((joints, tools), screws), deviations), rests)| {
@@ -137,3 +137,6 @@ impl<'a> Room<'a> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -5,16 +5,15 @@
 
 use nalgebra::Vector3;
 
-use super::answer::Held;
+use super::answer::{Held, Told};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
-use crate::robot::{PostureName, Seat, Unreachable};
+use crate::robot::{Overrun, PostureName, Seat, Unreachable};
 use crate::source::Standing;
-use crate::source::standing::Loaded;
-use crate::workpiece::Split;
+use crate::source::standing::AsItStands;
 
 /// Envelopes that differ by less (relative) are equal, and the first posture stands: two flips without names differ by
 /// rounding, which would take one here and the other beside it.
@@ -28,7 +27,7 @@ pub(super) struct General<'q> {
     candidates: Vec<Found>,
     frames: Frames,
     standing: Standing<'q>,
-    /// Whom shares are told for.
+    /// Whom shares are told for; nobody where they are not asked for.
     sharers: Vec<Seat>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
@@ -38,9 +37,9 @@ pub(super) struct General<'q> {
 }
 
 impl<'q> General<'q> {
-    pub(super) fn new(question: &Question<'q>) -> General<'q> {
+    pub(super) fn new(question: &Question<'q>, told: Told) -> General<'q> {
         let (joints, cases) = (question.arm.robot.joints().len(), question.cases.len());
-        let sharers = question.arm.model.sharers(joints);
+        let sharers = told.sharers(question);
         General {
             tool_from_flange: question.arm.flange_from_tool.inverse(),
             finder: Finder::new(question.arm.robot),
@@ -120,10 +119,7 @@ impl<'q> General<'q> {
             let outside = |held: &Held| question.choice == BranchChoice::Best && !held.within_limits();
             let missed = match judged {
                 Err(reason) => Some(reason),
-                Ok(held) if outside(&held) => Some(Unreachable::OutsideLimits {
-                    joint: held.limit_joint,
-                    by: -held.limit_margin,
-                }),
+                Ok(held) if outside(&held) => Some(outside_limits(question, &held)),
                 Ok(held) => {
                     if best.is_none_or(|b| held.in_plane < b.in_plane * (1.0 - ALIKE)) {
                         best = Some(held);
@@ -132,11 +128,11 @@ impl<'q> General<'q> {
                     None
                 }
             };
-            let nearer = |missed: &Unreachable| miss.is_none_or(|miss| missed.amount() < miss.amount());
+            let nearer = |missed: &Unreachable| miss.is_none_or(|miss| missed.is_nearer_than(&miss));
             miss = missed.filter(nearer).or(miss);
         }
         self.candidates = candidates;
-        best.ok_or(miss.unwrap_or(Unreachable::TooFar { by: f64::INFINITY }))
+        best.ok_or(miss.unwrap_or(Unreachable::OtherBranch))
     }
 
     /// Works out the deviations of a posture.
@@ -157,25 +153,19 @@ impl<'q> General<'q> {
             limit_joint,
             singularity: found.singularity,
             deciding_case: 0,
-            in_plane: -1.0,
+            in_plane: 0.0,
             in_plane_uncertainty: 0.0,
             normal: 0.0,
             full: 0.0,
         };
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
-            let deviation = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
-            self.deviations[case] = deviation;
-            let split = Split::of(&deviation, question.normal);
-            if split.in_plane > held.in_plane {
-                (held.in_plane, held.deciding_case) = (split.in_plane, case);
-            }
-            if split.normal.abs() > held.normal.abs() {
-                held.normal = split.normal;
-            }
-            held.full = held.full.max(split.full);
+            self.deviations[case] = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
         }
-        held.in_plane_uncertainty = self.share(question, &held, base_from_tool)?;
+        held.take_envelope(&self.deviations, question.normal);
+        if !self.sharers.is_empty() {
+            held.in_plane_uncertainty = self.share(question, &held, base_from_tool)?;
+        }
         Ok(held)
     }
 
@@ -198,14 +188,16 @@ impl<'q> General<'q> {
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
         let mut variance = self.standing.variance_along(&along).max(0.0);
         if !question.doubt.is_none() {
-            let loaded = Loaded {
+            let standing = AsItStands {
                 joints: &self.joints,
                 frames: &self.frames,
                 tcp: base_from_tool.translation.vector.into(),
                 tool_axis: base_from_tool.rotation * Vector3::z(),
                 wrench: &question.cases[case],
             };
-            let of_doubt = self.standing.variance_of_doubt(&question.doubt, &loaded, &along);
+            let of_doubt = self
+                .standing
+                .variance_of_doubt(&question.doubt, &standing, &along);
             variance += of_doubt.map_err(unstable)?;
         }
         Ok(variance.sqrt())
@@ -227,6 +219,17 @@ fn roomiest<'f>(question: &Question<'_>, found: &'f [Found]) -> Option<&'f Found
         }
     }
     roomiest.map(|(_, one)| one)
+}
+
+/// By how much a posture leaves the range of the joint that is farthest outside.
+fn outside_limits(question: &Question<'_>, held: &Held) -> Unreachable {
+    let (joint, by) = (held.limit_joint, -held.limit_margin);
+    let by = if question.arm.robot.slides(joint) {
+        Overrun::Slid(by)
+    } else {
+        Overrun::Turned(by)
+    };
+    Unreachable::OutsideLimits { joint, by }
 }
 
 /// Whether two branches are the flip of each other.

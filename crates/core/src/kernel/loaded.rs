@@ -3,15 +3,14 @@
 //! Of a model whose deviation is `C w + g` a point is asked under unit loads, and `C` and `g` serve any wrench, also one
 //! that depends on how the tip yields there; a model in which the load changes the arm is asked under each wrench as it is.
 
-use nalgebra::{Matrix3, Unit, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
-use super::answer::{Answers, Held};
+use super::answer::{Answers, Slot, Slots, Told};
 use super::general::General;
 use super::question::Question;
-use super::solver::{BLOCK, Order, Slots, Solver};
+use super::solver::{BLOCK, Order, Solver};
 use crate::load::{Doubt, TipYield};
 use crate::path::Stop;
-use crate::robot::Unreachable;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -24,6 +23,9 @@ use crate::watch::{Cancelled, Watch};
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If the question has no load case.
 pub fn evaluate_loaded(
     question: &Question<'_>,
     count: usize,
@@ -35,19 +37,11 @@ pub fn evaluate_loaded(
         doubt: Doubt::NONE,
         ..*question
     };
-    let (joint_count, case_count) = (question.arm.robot.joints().len(), question.cases.len());
-    let mut answers = Answers {
-        points: vec![Err(Unreachable::TooFar { by: 0.0 }); count],
-        joints: vec![0.0; count * joint_count],
-        deviations: vec![Vector3::zeros(); count * case_count],
-        shares: Vec::new(),
-        joint_count,
-        case_count,
-        share_count: 0,
-    };
+    assert!(!question.cases.is_empty(), "a question has a load case at least");
+    let mut answers = Answers::new(&question, count, Told::DeviationsAlone);
     let rows = Rows {
         answers: &mut answers,
-        wrenches: vec![Wrench::from_force(Vector3::zeros()); case_count],
+        wrenches: vec![Wrench::ZERO; question.cases.len()],
     };
     if question.arm.model.is_affine() {
         rows.by_unit_loads(&question, stop, load, watch)?;
@@ -76,35 +70,30 @@ impl Rows<'_> {
             cases: &units,
             ..*question
         };
-        let (count, joint_count) = (self.answers.points.len(), self.answers.joint_count);
-        let mut solver = Solver::new(&asked, Order::AlongPath);
+        let mut solver = Solver::new(&asked, Order::AlongPath, Told::DeviationsAlone);
         let mut under_units = vec![Vector3::zeros(); BLOCK * units.len()];
-        let mut shares = vec![0.0; BLOCK * question.arm.model.sharers(joint_count).len()];
-        for first in (0..count).step_by(BLOCK) {
-            let here = first..(first + BLOCK).min(count);
-            let size = here.len();
-            let slots = Slots {
-                points: &mut self.answers.points[here.clone()],
-                joints: &mut self.answers.joints[first * joint_count..][..size * joint_count],
-                deviations: &mut under_units[..size * units.len()],
-                shares: {
-                    let width = shares.len() / BLOCK;
-                    &mut shares[..size * width]
-                },
+        for (block, mut slots) in self.answers.blocks(BLOCK).into_iter().enumerate() {
+            let first = block * BLOCK;
+            let count = slots.points.len();
+            let asked = Slots {
+                points: &mut *slots.points,
+                joints: &mut *slots.joints,
+                deviations: &mut under_units[..count * units.len()],
+                shares: &mut *slots.shares,
             };
-            solver.answer(|i| stop(first + i).base_from_tool, slots, watch)?;
-            for index in here {
-                let Ok(held) = &mut self.answers.points[index] else {
-                    continue;
-                };
-                let yields = Yields::of(&under_units[(index - first) * units.len()..][..units.len()]);
-                load(index, Some(&yields.tip), &mut self.wrenches);
-                let cases = self.answers.case_count;
-                let deviations = &mut self.answers.deviations[index * cases..][..cases];
+            solver.answer(|i| stop(first + i).base_from_tool, asked, watch)?;
+            for (i, under_units) in under_units.chunks(units.len()).take(count).enumerate() {
+                let Slot {
+                    point, deviations, ..
+                } = slots.at(i);
+                let Ok(held) = point else { continue };
+                let yields = Yields::of(under_units);
+                load(first + i, Some(&yields.tip), &mut self.wrenches);
                 for (deviation, wrench) in deviations.iter_mut().zip(&self.wrenches) {
                     *deviation = yields.under(wrench);
                 }
-                settle(held, deviations, stop(index).normal);
+                held.take_envelope(deviations, stop(first + i).normal);
+                held.in_plane_uncertainty = 0.0;
             }
         }
         Ok(())
@@ -117,11 +106,10 @@ impl Rows<'_> {
         mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
-        let mut general = General::new(question);
-        let (joint_count, case_count) = (self.answers.joint_count, self.answers.case_count);
-        let mut shares = vec![0.0; question.arm.model.sharers(joint_count).len()];
+        let mut general = General::new(question, Told::DeviationsAlone);
         let mut before: Option<Vec<f64>> = None;
-        for index in 0..self.answers.points.len() {
+        let slots = self.answers.blocks(1).into_iter();
+        for (index, mut slots) in slots.enumerate() {
             if watch.is_cancelled() {
                 return Err(Cancelled);
             }
@@ -132,15 +120,16 @@ impl Rows<'_> {
                 normal: stop.normal,
                 ..*question
             };
-            let joints = &mut self.answers.joints[index * joint_count..][..joint_count];
-            let deviations = &mut self.answers.deviations[index * case_count..][..case_count];
-            self.answers.points[index] = general
+            let Slot {
+                point,
+                joints,
+                deviations,
+                shares,
+            } = slots.at(0);
+            *point = general
                 .answer(&asked, &stop.base_from_tool, before.as_deref())
-                .inspect(|_| general.write(joints, deviations, &mut shares))
+                .inspect(|_| general.write(joints, deviations, shares))
                 .inspect(|_| before = Some(joints.to_vec()));
-            if let Ok(held) = &mut self.answers.points[index] {
-                settle(held, deviations, stop.normal);
-            }
             (watch.finished)(1);
         }
         Ok(())
@@ -149,7 +138,7 @@ impl Rows<'_> {
 
 /// No load, then one newton along each base axis, then one newton metre about each.
 fn unit_loads() -> [Wrench; 7] {
-    let none = Wrench::from_force(Vector3::zeros());
+    let none = Wrench::ZERO;
     let force = |axis| Wrench::from_force(axis);
     let moment = |axis| Wrench { moment: axis, ..none };
     let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
@@ -191,18 +180,5 @@ impl Yields {
     }
 }
 
-/// Fills in what the deviations of a point are on its normal.
-fn settle(held: &mut Held, deviations: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
-    (held.in_plane, held.normal, held.full) = (0.0, 0.0, 0.0);
-    (held.deciding_case, held.in_plane_uncertainty) = (0, 0.0);
-    for (case, deviation) in deviations.iter().enumerate() {
-        let split = crate::workpiece::Split::of(deviation, normal);
-        if split.in_plane > held.in_plane {
-            (held.in_plane, held.deciding_case) = (split.in_plane, case);
-        }
-        if split.normal.abs() > held.normal.abs() {
-            held.normal = split.normal;
-        }
-        held.full = held.full.max(split.full);
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -3,10 +3,9 @@
 //! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
 //! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
-//! other. [`evaluate_loaded`] takes a
-//! load of its own at every point, [`at_joints`] any chain at joint positions that are known. Blocks run on all
-//! threads of the current rayon pool; every point is written by index, so any number of threads gives the same
-//! bits.
+//! other. [`evaluate_loaded`] takes a load of its own at every point, [`at_joints`] any chain at joint positions that are
+//! known. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
+//! gives the same bits.
 //!
 //! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
 //! points that each have a load of their own.
@@ -30,38 +29,30 @@ use rayon::prelude::*;
 
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
-use solver::{BLOCK, Order, Slots, Solver};
+use answer::Told;
+use solver::{BLOCK, Order, Solver};
 
 /// Answers `question` at `count` tool poses; `base_from_tool(i)` gives the pose of point `i`.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If the question has no load case.
 pub fn evaluate(
     question: &Question<'_>,
     count: usize,
     base_from_tool: impl Fn(usize) -> Isometry + Sync,
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
-    let mut answers = Answers::empty(question, count);
-    let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
+    let mut answers = Answers::new(question, count, Told::Shares);
     answers
-        .points
-        .par_chunks_mut(BLOCK)
-        .zip(answers.joints.par_chunks_mut(BLOCK * joints))
-        .zip(answers.deviations.par_chunks_mut(BLOCK * cases))
-        .zip(answers.shares.par_chunks_mut(BLOCK * shares))
+        .blocks(BLOCK)
+        .into_par_iter()
         .enumerate()
         .try_for_each_init(
-            || Solver::new(question, Order::Any),
-            |solver, (block, (((points, joints), deviations), shares))| {
-                let slots = Slots {
-                    points,
-                    joints,
-                    deviations,
-                    shares,
-                };
-                solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch)
-            },
+            || Solver::new(question, Order::Any, Told::Shares),
+            |solver, (block, slots)| solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch),
         )?;
     Ok(answers)
 }
@@ -71,29 +62,22 @@ pub fn evaluate(
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If the question has no load case.
 pub fn evaluate_in_order(
     question: &Question<'_>,
     count: usize,
     base_from_tool: impl Fn(usize) -> Isometry,
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
-    let mut answers = Answers::empty(question, count);
-    let (joints, cases, shares) = (answers.joint_count, answers.case_count, answers.share_count);
-    let mut solver = Solver::new(question, Order::AlongPath);
-    let blocks = answers
-        .points
-        .chunks_mut(BLOCK)
-        .zip(answers.joints.chunks_mut(BLOCK * joints))
-        .zip(answers.deviations.chunks_mut(BLOCK * cases))
-        .zip(answers.shares.chunks_mut(BLOCK * shares));
-    for (block, (((points, joints), deviations), shares)) in blocks.enumerate() {
-        let slots = Slots {
-            points,
-            joints,
-            deviations,
-            shares,
-        };
+    let mut answers = Answers::new(question, count, Told::Shares);
+    let mut solver = Solver::new(question, Order::AlongPath, Told::Shares);
+    for (block, slots) in answers.blocks(BLOCK).into_iter().enumerate() {
         solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch)?;
     }
     Ok(answers)
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,26 +2,15 @@
 //!
 //! A block knows nothing of the blocks beside it, but along a path: whatever thread takes it, it gives the same bits.
 
-use nalgebra::Vector3;
-
-use super::answer::Held;
+use super::answer::{Slot, Slots, Told};
 use super::general::General;
 use super::lanes::{POINTS, Points};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
-use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
 
 /// Points in a block: what lanes take at once.
 pub(super) const BLOCK: usize = POINTS;
-
-/// Where the answers of a block go.
-pub(super) struct Slots<'a> {
-    pub points: &'a mut [Result<Held, Unreachable>],
-    pub joints: &'a mut [f64],
-    pub deviations: &'a mut [Vector3<f64>],
-    pub shares: &'a mut [f64],
-}
 
 /// Room to answer a question, one a thread.
 pub(super) struct Solver<'q> {
@@ -45,7 +34,12 @@ pub(super) enum Order {
 }
 
 impl<'q> Solver<'q> {
-    pub fn new(question: &'q Question<'q>, order: Order) -> Solver<'q> {
+    /// Room for blocks of this question.
+    ///
+    /// # Panics
+    /// If it has no load case.
+    pub fn new(question: &'q Question<'q>, order: Order, told: Told) -> Solver<'q> {
+        assert!(!question.cases.is_empty(), "a question has a load case at least");
         Solver {
             question,
             order,
@@ -53,7 +47,7 @@ impl<'q> Solver<'q> {
                 .then(|| question.arm.robot.ortho_parallel())
                 .flatten()
                 .map(|arm| Points::new(question, arm)),
-            general: General::new(question),
+            general: General::new(question, told),
             poses: Vec::with_capacity(BLOCK),
             before: None,
         }
@@ -63,15 +57,13 @@ impl<'q> Solver<'q> {
     pub fn answer(
         &mut self,
         base_from_tool: impl Fn(usize) -> Isometry,
-        slots: Slots<'_>,
+        mut slots: Slots<'_>,
         watch: Watch<'_>,
     ) -> Result<(), Cancelled> {
         if watch.is_cancelled() {
             return Err(Cancelled);
         }
         let count = slots.points.len();
-        let (joint_count, case_count) = (slots.joints.len() / count, slots.deviations.len() / count);
-        let share_count = slots.shares.len() / count;
         self.poses.clear();
         self.poses.extend((0..count).map(base_from_tool));
         if let Some(lanes) = &mut self.lanes {
@@ -81,13 +73,13 @@ impl<'q> Solver<'q> {
         if self.order == Order::Any || self.question.choice == BranchChoice::Best {
             self.general.forget();
         }
-        let rows = slots
-            .points
-            .iter_mut()
-            .zip(slots.joints.chunks_mut(joint_count))
-            .zip(slots.deviations.chunks_mut(case_count))
-            .zip(slots.shares.chunks_mut(share_count));
-        for (i, (((point, joints), deviations), shares)) in rows.enumerate() {
+        for i in 0..count {
+            let Slot {
+                point,
+                joints,
+                deviations,
+                shares,
+            } = slots.at(i);
             let in_lanes = self
                 .lanes
                 .as_ref()
@@ -113,3 +105,6 @@ impl<'q> Solver<'q> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,8 +6,6 @@
 //! deviation come to rest at every point ([`crate::load::straying`]); the branch is chosen under the forces of the path as
 //! drawn.
 
-use nalgebra::Vector3;
-
 use super::turns;
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
 use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
@@ -59,7 +57,7 @@ pub fn along_path(
     load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<AlongPath, Cancelled> {
-    let mut cases = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let mut cases = vec![Wrench::ZERO; load.case_count()];
     let asked = Question {
         cases: &cases,
         ..*question

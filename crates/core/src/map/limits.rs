@@ -19,14 +19,14 @@
 //! Asked at points spread over the path, and where the deviation is largest; a limit of the whole path is the least of
 //! theirs. Under a model in which the load changes the arm there are no limits here.
 
-use nalgebra::{Matrix2x3, Vector3};
+use nalgebra::Vector3;
 
 use super::along::AlongPath;
+use crate::compliance::{permissible_force, permissible_force_in_worst_direction};
 use crate::kernel::Question;
 use crate::load::{Cut, CutHere, CutsAlong, PathLoad, Straying, TipYield};
 use crate::path::Track;
 use crate::source::Standing;
-use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
 /// What a point permits.
@@ -203,27 +203,18 @@ impl Tips<'_> {
     /// Feed frame; `None` where the arm does not hold its own weight.
     fn at(&mut self, index: usize) -> Option<TipYield> {
         self.standing.stand(self.found.answers.joints_at(index));
-        let mut under = |force| {
-            let twist = self.standing.elastic(&Wrench::from_force(force));
-            twist.map(|twist| twist.linear).ok()
-        };
-        let columns = [under(Vector3::x())?, under(Vector3::y())?, under(Vector3::z())?];
-        let gravity = self.standing.gravity().ok()?;
-        let tip = TipYield {
-            by_force: nalgebra::Matrix3::from_columns(&columns),
-            unloaded: gravity.map_or_else(Vector3::zeros, |gravity| gravity.linear),
-        };
+        let tip = self.standing.tip_yield().ok()?;
         Some(tip.seen_from(&self.track.base_from_feed(index).inverse()))
     }
 }
 
 /// Force (N) that a tip permits along the feed, to its left, along the tool, and in the direction that permits least.
 fn forces(tip: &TipYield, limit: f64) -> [f64; 4] {
-    let across: Matrix2x3<f64> = tip.by_force.fixed_rows::<2>(0).into_owned();
-    let along = |axis: usize| limit / across.column(axis).norm();
-    // The square of the largest singular value.
-    let softest = (across * across.transpose()).symmetric_eigenvalues().max();
-    [along(0), along(1), along(2), limit / softest.max(0.0).sqrt()]
+    let (a, tool) = (&tip.by_force, Vector3::z_axis());
+    let axes = [Vector3::x_axis(), Vector3::y_axis(), Vector3::z_axis()];
+    let [forwards, left, along] = axes.map(|axis| permissible_force(a, tool, axis, limit));
+    let any = permissible_force_in_worst_direction(a, tool, limit).0;
+    [forwards, left, along, any]
 }
 
 /// The cut at a point, to be made deeper, wider or faster.

@@ -61,7 +61,7 @@ impl Counts {
                     counts.near_singularity += usize::from(held.singularity.is_some());
                 }
                 Err(Unreachable::OutsideLimits { .. }) => counts.no_posture_inside_limits += 1,
-                Err(Unreachable::NotFound { .. }) => counts.not_found += 1,
+                Err(Unreachable::NotFound { .. } | Unreachable::OtherBranch) => counts.not_found += 1,
                 Err(Unreachable::Unverified { .. }) => counts.unverified += 1,
                 Err(Unreachable::Unstable { .. }) => counts.unstable += 1,
                 Err(

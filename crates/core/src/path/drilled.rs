@@ -4,8 +4,6 @@
 //! last: the program does not tell where the surface is, so the way to it counts as drilled. Withdrawals have no force, and
 //! a drill does not mill: points that go across its axis have none either, and are counted.
 
-use nalgebra::Vector3;
-
 use super::cutting::{ForcesTold, NoForces, feed_at, spindle_of};
 use super::placing::Placing;
 use super::program::Operation;
@@ -41,7 +39,7 @@ impl Drill {
         operations: &[(usize, Operation)],
         placing: &Placing,
     ) -> Result<(PathLoad, ForcesTold), NoForces> {
-        let none = Wrench::from_force(Vector3::zeros());
+        let none = Wrench::ZERO;
         let mut wrenches = Vec::with_capacity(points.len());
         let mut told = ForcesTold::default();
         let mut operation = operations.iter().peekable();
@@ -89,6 +87,7 @@ mod tests {
     use crate::frame::Isometry;
     use crate::load::{Estimate, KienzleValues};
     use crate::path::{Pace, Spin};
+    use nalgebra::Vector3;
     use nalgebra::{Point3, Unit};
     use std::f64::consts::TAU;
 
@@ -149,10 +148,7 @@ mod tests {
         let thrust = 0.5 * kc * 10.0 * 0.2 / 2.0 * 59_f64.to_radians().sin();
         assert!((wrenches[0].force - Vector3::z() * thrust).norm() < 1e-9);
         assert!((wrenches[0].moment.z - kc * 10.0 * 10.0 * 0.2 / 8.0 * 1e-3).abs() < 1e-9);
-        assert_eq!(
-            [wrenches[1], wrenches[2]],
-            [Wrench::from_force(Vector3::zeros()); 2]
-        );
+        assert_eq!([wrenches[1], wrenches[2]], [Wrench::ZERO; 2]);
         assert_eq!(told.without_force, 1);
         assert!((told.relative_uncertainty - 0.1).abs() < 1e-9 && told.largest_mean == wrenches[0].force.z);
     }

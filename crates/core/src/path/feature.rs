@@ -15,6 +15,7 @@
 use nalgebra::{Matrix3, Point2, Point3, Unit, Vector3};
 
 use super::roundness::roundness;
+use crate::frame::some_across;
 
 /// What a stretch of the path was to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,7 +92,7 @@ pub fn became(kind: FeatureKind, points: &[Strayed]) -> Option<Became> {
 fn circle(points: &[Strayed]) -> Option<Became> {
     let middle = mean(points.iter().map(|p| p.at.coords))?;
     let normal = least_direction(points.iter().map(|p| p.at.coords - middle))?;
-    let x = across(&normal);
+    let x = some_across(&normal);
     let y = normal.cross(&x);
     let seen = |v: Vector3<f64>| Point2::new((v - middle).dot(&x), (v - middle).dot(&y));
     let told: Vec<_> = points.iter().map(|p| seen(p.at.coords)).collect();
@@ -131,7 +132,7 @@ fn plane(points: &[Strayed]) -> Option<Became> {
         return None;
     }
     let normal = mean(points.iter().map(|p| p.axis.into_inner()))?.try_normalize(1e-9)?;
-    let x = across(&normal);
+    let x = some_across(&normal);
     let y = normal.cross(&x);
     let middle = mean(points.iter().map(|p| p.at.coords))?;
     let part = |p: &Strayed| {
@@ -165,11 +166,6 @@ fn least_direction(vectors: impl Iterator<Item = Vector3<f64>>) -> Option<Vector
     // Points on a line have no plane.
     let middle = values.sum() - values[least] - values[most];
     (middle > 1e-9 * values[most]).then(|| eigen.eigenvectors.column(least).into_owned())
-}
-
-/// Some unit vector across `axis`.
-fn across(axis: &Vector3<f64>) -> Vector3<f64> {
-    axis.cross(&Vector3::ith(axis.iamin(), 1.0)).normalize()
 }
 
 /// Peak to valley of the heights (third entries) about their least-squares plane over the first two; about a line, where

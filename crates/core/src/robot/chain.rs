@@ -6,8 +6,8 @@
 //!
 //! | object | components in frame n | transform |
 //! |---|---|---|
-//! | position `r` | `[x, y, z, 1]`, m | [`Chain::position`] |
-//! | direction `c` | `[x, y, z, 0]`, unit | [`Chain::direction`] |
+//! | position `r` | `[x, y, z, 1]`, m | [`Chain::base_from_flange`] times `r` |
+//! | direction `c` | `[x, y, z, 0]`, unit | its rotation times `c` |
 //! | screw (twist about the origin) | `[linear; angular]` | [`Chain::screw`], 6 x 6 |
 //!
 //! For speed all reduce to one inner form: a fixed isometry before each joint, the joint's axis, and a fixed
@@ -289,16 +289,6 @@ impl Chain {
             })
     }
 
-    /// Position form of the FSF, eq. (1): `r` (m) of the flange frame, told in base.
-    pub fn position(&self, theta: &[f64], r: &Point3<f64>) -> Point3<f64> {
-        self.base_from_flange(theta) * r
-    }
-
-    /// Direction form of the FSF, eq. (3): `c` of the flange frame, told in base.
-    pub fn direction(&self, theta: &[f64], c: &Vector3<f64>) -> Vector3<f64> {
-        self.base_from_flange(theta) * c
-    }
-
     /// Screw form of the FSF: the 6 x 6 matrix that takes a twist told at the flange (its origin, its axes)
     /// to the twist of the same motion told at the base origin in base axes.
     pub fn screw(&self, theta: &[f64]) -> Matrix6<f64> {
@@ -346,15 +336,6 @@ mod tests {
     }
 
     #[test]
-    fn position_moves_and_direction_only_turns() {
-        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
-        let tip = chain.position(&theta, &Point3::new(0.0, 0.0, 0.1));
-        let origin = chain.position(&theta, &Point3::origin());
-        let axis = chain.direction(&theta, &Vector3::z());
-        assert!((tip - origin - axis * 0.1).norm() < 1e-15);
-    }
-
-    #[test]
     fn a_chain_without_joint_is_refused() {
         let rigid = Chain::new(vec![Motion::Along(Axis::Z, Amount::Constant(1.0))]);
         assert_eq!(rigid.unwrap_err(), ChainError::NoJoint(1));
@@ -387,6 +368,79 @@ mod tests {
                 matches!(broken, Err(ChainError::Amount { motion: 1, .. })),
                 "{value}"
             );
+        }
+    }
+
+    #[test]
+    fn a_chain_parted_before_a_joint_multiplies_back_to_the_whole() {
+        let (chain, theta) = (elbow(), [0.4, -0.7, 0.25]);
+        for count in 0..3 {
+            let (before, rest) = chain.split(count).unwrap();
+            let mut at = Isometry::identity();
+            for motion in &before {
+                at *= motion.displacement(match motion.amount() {
+                    Amount::Constant(value) => value,
+                    Amount::Joint(joint) => theta[joint],
+                });
+            }
+            let product = (at * rest.base_from_flange(&theta[count..])).to_homogeneous();
+            assert!((product - chain.base_from_flange(&theta).to_homogeneous()).norm() < 1e-15);
+            assert_eq!(rest.links().len(), 3 - count);
+        }
+        assert!(chain.split(3).is_none());
+    }
+
+    #[test]
+    fn the_length_is_half_of_what_stands_between_the_joints() {
+        // 0.5 m before joint 1 and 0.2 m before joint 2; what turns or slides has no length.
+        assert!((elbow().length() - 0.35).abs() < 1e-15);
+        let gantry = Chain::new(vec![Motion::Along(Axis::X, Amount::Joint(0))]).unwrap();
+        assert_eq!(gantry.length(), 1.0);
+    }
+
+    #[test]
+    fn constants_may_be_as_long_as_the_longest() {
+        let with = |value| {
+            Chain::new(vec![
+                Motion::About(Axis::Z, Amount::Joint(0)),
+                Motion::Along(Axis::X, Amount::Constant(value)),
+            ])
+        };
+        assert!(with(LONGEST).is_ok() && with(-LONGEST).is_ok());
+        let error = with(LONGEST.next_up()).unwrap_err().to_string();
+        assert!(
+            error.starts_with("motion number 2 goes by 1000.") && error.ends_with("within 1000 m"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn joints_come_in_order_from_the_first() {
+        let from_one = Chain::new(vec![Motion::About(Axis::Z, Amount::Joint(1))]).unwrap_err();
+        assert_eq!(
+            from_one.to_string(),
+            "motion 0 uses joint 1, but joint 0 comes next: joints appear once each, in order"
+        );
+    }
+
+    #[test]
+    fn moving_a_frame_on_is_multiplying_by_the_displacement() {
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            for motion in [
+                Motion::Along(axis, Amount::Joint(0)),
+                Motion::About(axis, Amount::Joint(0)),
+            ] {
+                let start = crate::frame::from_xyz_and_fixed_angles(
+                    Vector3::new(0.1, 0.2, -0.3),
+                    Vector3::new(0.5, -0.4, 1.3),
+                );
+                let mut axes = start.rotation.to_rotation_matrix().into_inner();
+                let mut origin = start.translation.vector;
+                motion.advance(0.8, &mut axes, &mut origin);
+                let product = start * motion.displacement(0.8);
+                assert!((origin - product.translation.vector).norm() < 1e-15);
+                assert!((axes - product.rotation.to_rotation_matrix().matrix()).norm() < 1e-15);
+            }
         }
     }
 }

@@ -86,6 +86,7 @@ pub(super) fn chain_axis(chain: &Chain, frames: &Frames, index: usize) -> Vector
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arms;
     use crate::robot::{Amount, Axis, Joint};
 
     #[test]
@@ -104,5 +105,62 @@ mod tests {
         let q = [0.4, -0.7, 0.25, 2.0];
         let product = robot.chain().base_from_flange(&q).to_homogeneous();
         assert!((forward(&robot, &q).base_from_flange.to_homogeneous() - product).norm() < 1e-15);
+    }
+
+    #[test]
+    fn frames_of_all_arms_end_where_the_product_of_motions_does() {
+        let mut stream = arms::Stream(3);
+        for robot in arms::all()
+            .into_iter()
+            .chain([arms::other::on_rail(&arms::mh12()), arms::other::iiwa14()])
+        {
+            for _ in 0..50 {
+                let q = stream.joints(&robot);
+                let theta: Vec<f64> = (0..q.len()).map(|i| robot.theta(i, &q)).collect();
+                let product = robot.chain().base_from_flange(&theta).to_homogeneous();
+                let away = forward(&robot, &q).base_from_flange.to_homogeneous() - product;
+                // Some thirty motions, each rounding by an ulp of some metres.
+                assert!(away.norm() < 1e-13, "{}", robot.name());
+            }
+        }
+    }
+
+    #[test]
+    fn frames_are_rotations_and_axes_unit_vectors() {
+        let robot = arms::hung();
+        let frames = forward(&robot, &arms::Stream(8).joints(&robot));
+        for (index, frame) in frames.base_from_joint.iter().enumerate() {
+            let m = frame.rotation.matrix();
+            assert!((m * m.transpose() - Matrix3::identity()).norm() < 1e-14);
+            assert!((joint_axis(&robot, &frames, index).norm() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_joint_leaves_its_own_axis_and_all_before_it_where_they_are() {
+        let robot = arms::kr120();
+        let q = arms::Stream(5).joints(&robot);
+        let here = forward(&robot, &q);
+        for joint in 0..6 {
+            let mut moved = q.clone();
+            moved[joint] += 0.7;
+            let there = forward(&robot, &moved);
+            for fixed in 0..=joint {
+                assert!((here.origin(fixed) - there.origin(fixed)).norm() < 1e-13);
+                let axes = [&here, &there].map(|frames| joint_axis(&robot, frames, fixed));
+                assert!((axes[0] - axes[1]).norm() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn frames_used_again_hold_nothing_of_before() {
+        let robot = arms::irb2400();
+        let mut stream = arms::Stream(9);
+        let (a, b) = (stream.joints(&robot), stream.joints(&robot));
+        let mut used = forward(&robot, &a);
+        forward_into(&robot, &b, &mut used);
+        assert_eq!(used.base_from_flange, forward(&robot, &b).base_from_flange);
+        assert_eq!(used.base_from_joint, forward(&robot, &b).base_from_joint);
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! Reference point: the TCP. Basis: base. m/rad and rad/rad. Source: `docs/theory/chain.md`.
 
-use nalgebra::{DMatrix, Matrix6xX, Point3, Vector3};
+use nalgebra::{DMatrix, Matrix6xX, Point3};
 
 use super::chain::{Chain, Motion};
 use super::forward::{Frames, chain_axis};
@@ -34,10 +34,7 @@ pub(super) fn chain_screws_into(chain: &Chain, frames: &Frames, tcp: &Point3<f64
                 linear: z.cross(&(tcp - frames.origin(index))),
                 angular: z,
             },
-            Motion::Along(..) => Twist {
-                linear: z,
-                angular: Vector3::zeros(),
-            },
+            Motion::Along(..) => Twist::along(z),
         };
     }
 }
@@ -82,6 +79,9 @@ pub fn condition_number(jacobian: &Matrix6xX<f64>, length: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::arms;
+    use crate::robot::forward::forward;
+    use crate::robot::yielding::twist_between;
 
     #[test]
     fn two_equal_axes_are_singular_and_six_orthogonal_screws_are_not() {
@@ -95,5 +95,82 @@ mod tests {
         doubled.set_column(1, &first);
         assert!(manipulability(&doubled) < 1e-12);
         assert_eq!(condition_number(&doubled, 1.0), None);
+    }
+
+    /// The Jacobian of the flange by central differences in the controller's counting.
+    fn by_differences(robot: &Robot, q: &[f64], h: f64) -> Matrix6xX<f64> {
+        let columns: Vec<nalgebra::Vector6<f64>> = (0..q.len())
+            .map(|joint| {
+                let at = |by: f64| {
+                    let mut moved = q.to_vec();
+                    moved[joint] += by;
+                    forward(robot, &moved).base_from_flange
+                };
+                (twist_between(&at(-h), &at(h)) * (0.5 / h)).to_vector()
+            })
+            .collect();
+        Matrix6xX::from_columns(&columns)
+    }
+
+    #[test]
+    fn columns_match_differences_also_where_joints_are_coupled_or_slide() {
+        let mut stream = arms::Stream(4);
+        let arms = [
+            arms::r2000ic(),
+            arms::hung(),
+            arms::other::on_rail(&arms::r2000ic()),
+        ];
+        for robot in arms {
+            for _ in 0..20 {
+                let q = stream.joints(&robot);
+                let frames = forward(&robot, &q);
+                let flange = frames.base_from_flange.translation.vector.into();
+                let found = jacobian(&robot, &screws_at(&robot, &frames, &flange));
+                // h^2 of the third derivative (some metres), and rounding of some metres over h.
+                let away = (found - by_differences(&robot, &q, 1e-5)).amax();
+                assert!(away < 1e-9, "{}: {away}", robot.name());
+            }
+        }
+    }
+
+    #[test]
+    fn manipulability_is_the_root_of_the_determinant_and_the_product_of_singular_values() {
+        let mut stream = arms::Stream(6);
+        for robot in [arms::mh12(), arms::other::iiwa14()] {
+            for _ in 0..20 {
+                let q = stream.joints(&robot);
+                let frames = forward(&robot, &q);
+                let flange = frames.base_from_flange.translation.vector.into();
+                let j = jacobian(&robot, &screws_at(&robot, &frames, &flange));
+                let root = (&j * j.transpose()).determinant().abs().sqrt();
+                // The determinant has lost the square of the condition: 1e3 squared times eps.
+                assert!((manipulability(&j) - root).abs() < 1e-8, "{root}");
+                let one_less = j.clone().remove_column(0);
+                assert!(manipulability(&one_less) >= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn the_condition_does_not_change_when_the_base_is_turned_and_needs_six_joints() {
+        let robot = arms::mh12();
+        let q = arms::Stream(11).joints(&robot);
+        let frames = forward(&robot, &q);
+        let flange = frames.base_from_flange.translation.vector.into();
+        let j = jacobian(&robot, &screws_at(&robot, &frames, &flange));
+        let turn = nalgebra::Rotation3::from_euler_angles(0.4, -0.7, 2.0);
+        let mut turned = j.clone();
+        for column in 0..6 {
+            for half in [0, 3] {
+                let v = turn * j.fixed_view::<3, 1>(half, column);
+                turned.fixed_view_mut::<3, 1>(half, column).copy_from(&v);
+            }
+        }
+        let (a, b) = (
+            condition_number(&j, 1.0).unwrap(),
+            condition_number(&turned, 1.0).unwrap(),
+        );
+        assert!(a >= 1.0 && (a / b - 1.0).abs() < 1e-9, "{a} {b}");
+        assert_eq!(condition_number(&j.columns(0, 5).into_owned(), 1.0), None);
     }
 }

@@ -114,4 +114,31 @@ mod tests {
         assert_eq!(limits.margin(1.5), 0.5);
         assert_eq!(limits.margin(-1.25), -0.25);
     }
+
+    #[test]
+    fn the_margin_is_largest_in_the_middle_and_zero_at_the_limits() {
+        let limits = Limits {
+            lower: -1.0,
+            upper: 2.0,
+        };
+        assert_eq!(limits.middle(), 0.5);
+        assert_eq!(limits.margin(limits.middle()), 1.5);
+        assert_eq!((limits.margin(-1.0), limits.margin(2.0)), (0.0, 0.0));
+        for step in 0..100 {
+            let q = -3.0 + 0.08 * f64::from(step);
+            assert!(limits.margin(q) <= 1.5);
+            assert_eq!(limits.margin(q) >= 0.0, (-1.0..=2.0).contains(&q));
+        }
+    }
+
+    #[test]
+    fn a_plain_joint_counts_like_the_chain() {
+        let plain = Joint::plain("A1");
+        assert_eq!(
+            (plain.name.as_str(), plain.sign.factor(), plain.zero_offset),
+            ("A1", 1.0, 0.0)
+        );
+        assert!(plain.coupling.is_empty() && plain.limits.is_none() && plain.max_speed.is_none());
+        assert_eq!(Sign::Negative.factor(), -1.0);
+    }
 }

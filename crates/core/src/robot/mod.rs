@@ -3,10 +3,11 @@
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
 //! compliance), [`spring`], [`compensator`], [`torque_curve`], [`structure`] (what else yields and weighs), [`model`]
 //! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`yielding`]
-//! (frames and screws once springs have given way), [`posture`] (branches and why a point may be out of reach),
+//! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`] (why there may be none),
 //! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
 //! disagrees with the pendant).
 
+pub mod branch;
 pub mod chain;
 pub mod compensator;
 pub mod convention;
@@ -20,14 +21,17 @@ pub mod reach;
 pub mod spring;
 pub mod structure;
 pub mod torque_curve;
+pub mod unreachable;
 pub mod yielding;
 
+pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};
 pub use joint::{Joint, JointCompliance, Limits};
 pub use model::{Robot, RobotError};
-pub use posture::{Branch, BranchPattern, Posture, PostureName, Sides, Singularity, Unreachable};
+pub use posture::{Posture, PostureName, Sides, Singularity};
 pub use reach::reach;
 pub use spring::{Seat, Spring};
 pub use structure::{Structure, StructureError};
 pub use torque_curve::{JointCurve, TorqueCurve};
+pub use unreachable::{Overrun, Unreachable};

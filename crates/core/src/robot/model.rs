@@ -1,9 +1,9 @@
 //! The robot: chain, joints, compliance, frames. Immutable and shareable once made.
 
+use super::branch::BranchPattern;
 use super::chain::{Amount, Chain, ChainError, Motion};
 use super::inverse::{Inverse, OrthoParallel};
 use super::joint::{Joint, JointCompliance};
-use super::posture::BranchPattern;
 use super::structure::{Structure, StructureError};
 use crate::frame::Isometry;
 
@@ -266,8 +266,8 @@ impl Robot {
         joint.sign.factor() * (theta - joint.zero_offset) - coupled
     }
 
-    /// Joint positions outside which no joint may stand: the least margin over all joints with limits, with
-    /// the joint that has it. `None` where no joint has limits.
+    /// The joint that stands nearest to one of its limits, or farthest outside, and how much room it has: rad, m of a
+    /// sliding joint, compared as they are; negative outside. `None` where no joint has limits.
     pub fn limit_margin(&self, q: &[f64]) -> Option<(usize, f64)> {
         let margins = self
             .joints
@@ -317,45 +317,4 @@ fn check_joint(index: usize, joint: &Joint) -> Result<(), RobotError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use nalgebra::{DMatrix, Vector3};
-
-    use super::super::chain::Axis;
-    use super::super::spring::{Seat, Spring};
-    use super::super::torque_curve::{JointCurve, TorqueCurve};
-    use super::*;
-
-    const DRIVE: JointCompliance = JointCompliance {
-        value: 2e-6,
-        standard_uncertainty: 1e-7,
-    };
-
-    #[test]
-    fn other_compliances_take_curves_and_covariance_with_them() {
-        let joint = Joint::plain("A");
-        let rising = TorqueCurve::new(vec![[-500.0, -1e-3], [500.0, 1e-3]]).unwrap();
-        let curve = JointCurve {
-            rising,
-            falling: None,
-        };
-        let structure = Structure {
-            springs: vec![Spring::about(Seat::Base, Vector3::x(), DRIVE)],
-            curves: vec![Some(curve)],
-            covariance: Some(DMatrix::identity(2, 2) * 1e-14),
-            ..Structure::EMPTY
-        };
-        let motions = vec![Motion::About(Axis::Z, Amount::Joint(0))];
-        let robot = Robot::new("one joint", motions, vec![joint])
-            .and_then(|robot| robot.with_compliance(vec![DRIVE]))
-            .and_then(|robot| robot.with_structure(structure.clone()))
-            .unwrap();
-        let softer = JointCompliance { value: 5e-6, ..DRIVE };
-        let other = robot.with_other_compliance(vec![softer]).unwrap();
-        assert_eq!(other.compliance(), Some(&[softer][..]));
-        let left = Structure {
-            springs: structure.springs,
-            ..Structure::EMPTY
-        };
-        assert_eq!(*other.structure(), left);
-    }
-}
+mod tests;

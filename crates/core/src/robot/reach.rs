@@ -11,36 +11,18 @@
 //! Makers name most arms by it (KR 120 R2500: 2.5 m). Joint limits are not looked at: an arm whose elbow cannot
 //! stretch gets less far.
 
-use nalgebra::{Point3, Vector3};
-
-use super::forward::{forward, joint_axis};
 use super::model::Robot;
 
 /// The reach of `robot`, m; `None` where it is no ortho-parallel arm with spherical wrist.
 pub fn reach(robot: &Robot) -> Option<f64> {
-    robot.ortho_parallel()?;
-    let frames = forward(robot, &vec![0.0; robot.joints().len()]);
-    let line = |i: usize| (frames.origin(i), joint_axis(robot, &frames, i));
-    let ((shoulder_1, z1), (shoulder_2, z2), (elbow, _)) = (line(0), line(1), line(2));
-    let wrist = nearest_point(line(3), line(4));
-    let seen_along_z2 = |v: Vector3<f64>| v - z2 * v.dot(&z2);
-    let a1 = (shoulder_2 - shoulder_1).dot(&z1.cross(&z2)).abs();
-    let links = seen_along_z2(elbow - shoulder_2).norm() + seen_along_z2(wrist - elbow).norm();
-    Some((a1 + links).hypot((wrist - shoulder_1).dot(&z2)))
-}
-
-/// The point of the first line nearest to the second; they must not be parallel.
-fn nearest_point(
-    (o1, z1): (Point3<f64>, Vector3<f64>),
-    (o2, z2): (Point3<f64>, Vector3<f64>),
-) -> Point3<f64> {
-    let normal = z1.cross(&z2);
-    o1 + z1 * ((o2 - o1).cross(&z2).dot(&normal) / normal.norm_squared())
+    let arm = robot.ortho_parallel()?;
+    Some((arm.a1.abs() + arm.links.l2 + arm.links.l3).hypot(arm.b))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::forward::forward;
     use crate::robot::{Amount, Axis, Joint, Motion};
 
     /// An arm of lengths 150, 600, 700 and 50 mm across, with its wrist 30 mm to the side.

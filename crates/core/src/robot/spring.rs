@@ -63,26 +63,18 @@ pub struct Spring {
 impl Spring {
     /// A spring that turns about `axis` (unit vector, seat's axes); rad/(N m).
     pub fn about(seat: Seat, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
-        let direction = Twist {
-            linear: Vector3::zeros(),
-            angular: axis,
-        };
         Spring {
             seat,
-            direction,
+            direction: Twist::about(axis),
             compliance,
         }
     }
 
     /// A spring that slides along `axis` (unit vector, seat's axes); m/N.
     pub fn along(seat: Seat, axis: Vector3<f64>, compliance: JointCompliance) -> Spring {
-        let direction = Twist {
-            linear: axis,
-            angular: Vector3::zeros(),
-        };
         Spring {
             seat,
-            direction,
+            direction: Twist::along(axis),
             compliance,
         }
     }

@@ -192,3 +192,6 @@ fn check_covariance(covariance: &DMatrix<f64>, compliances: usize) -> Result<(),
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests;

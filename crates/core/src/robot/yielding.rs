@@ -12,11 +12,11 @@
 
 use nalgebra::{IsometryMatrix3, Matrix3, Rotation3, Vector3};
 
-use super::chain::Motion;
+use super::chain::{Axis, Motion};
 use super::forward::Frames;
 use super::model::Robot;
 use super::spring::{Seat, Spring};
-use crate::frame::Isometry;
+use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 
 /// An arm whose drives and springs have given way.
@@ -89,7 +89,12 @@ pub fn yield_into(
             link.before.advance(&mut axes, &mut origin);
             link.motion
                 .advance(theta[joint] + x[joint], &mut axes, &mut origin);
-            out.screws[joint] = drive_twist(&link.motion, &axes).moved(-origin);
+            let of = |axis: Axis| axes.column(axis.index()).into_owned();
+            let drive = match link.motion {
+                Motion::About(axis, _) => Twist::about(of(axis)),
+                Motion::Along(axis, _) => Twist::along(of(axis)),
+            };
+            out.screws[joint] = drive.moved(-origin);
         } else if rank == Seat::Flange.rank(joints) {
             chain.last_joint_from_flange().advance(&mut axes, &mut origin);
         } else if rank == Seat::Tool.rank(joints) {
@@ -105,7 +110,7 @@ pub fn yield_into(
                 angular: axes * spring.direction.angular,
             };
             out.screws[joints + index] = at_seat.moved(-origin);
-            let (turn, shift) = exponential(&spring.direction.scaled(x[joints + index]));
+            let (turn, shift) = exponential(&(spring.direction * x[joints + index]));
             origin += axes * shift;
             axes *= turn;
         }
@@ -114,22 +119,6 @@ pub fn yield_into(
     // Until here told at the base origin; the tool stands at `origin` now.
     for screw in &mut out.screws {
         *screw = screw.moved(origin);
-    }
-}
-
-/// Twist of a drive per unit, told at a point of its axis.
-fn drive_twist(motion: &Motion, axes: &Matrix3<f64>) -> Twist {
-    let (Motion::Along(axis, _) | Motion::About(axis, _)) = motion;
-    let z = axes.column(axis.index()).into_owned();
-    match motion {
-        Motion::About(..) => Twist {
-            linear: Vector3::zeros(),
-            angular: z,
-        },
-        Motion::Along(..) => Twist {
-            linear: z,
-            angular: Vector3::zeros(),
-        },
     }
 }
 
@@ -160,26 +149,12 @@ fn exponential(twist: &Twist) -> (Matrix3<f64>, Vector3<f64>) {
     (rotation, way)
 }
 
-/// The displacement of the tool from `before` to `after`: of its centre point (m), and its rotation vector (rad,
-/// below a quarter turn), base basis.
-pub fn displacement(before: &IsometryMatrix3<f64>, after: &IsometryMatrix3<f64>) -> Twist {
-    let turn = after.rotation.matrix() * before.rotation.matrix().transpose();
-    // The skew part holds the sine of the angle: exact where the cosine has lost it.
-    let skew = 0.5
-        * Vector3::new(
-            turn[(2, 1)] - turn[(1, 2)],
-            turn[(0, 2)] - turn[(2, 0)],
-            turn[(1, 0)] - turn[(0, 1)],
-        );
-    let sine = skew.norm();
-    let stretch = if sine > 0.0 {
-        sine.min(1.0).asin() / sine
-    } else {
-        1.0
-    };
+/// The displacement of the tool from `before` to `after`: of its centre point (m), and its rotation vector (rad), base
+/// basis.
+pub fn twist_between(before: &IsometryMatrix3<f64>, after: &IsometryMatrix3<f64>) -> Twist {
     Twist {
         linear: after.translation.vector - before.translation.vector,
-        angular: skew * stretch,
+        angular: turn_between(before.rotation.matrix(), after.rotation.matrix()),
     }
 }
 
@@ -189,7 +164,7 @@ mod tests {
     use crate::robot::forward::forward;
     use crate::robot::inverse::tool_on;
     use crate::robot::jacobian::screws_at;
-    use crate::robot::{Amount, Axis, Joint, JointCompliance};
+    use crate::robot::{Amount, Joint, JointCompliance};
 
     fn arm() -> (Robot, Vec<Spring>, Isometry) {
         let motions = vec![
@@ -259,8 +234,8 @@ mod tests {
             let (mut less, mut more) = (x.clone(), x.clone());
             less[k] -= h;
             more[k] += h;
-            let moved = displacement(&stand(&less).base_from_tool(), &stand(&more).base_from_tool());
-            let difference = moved.scaled(0.5 / h).to_vector() - here.screws[k].to_vector();
+            let moved = twist_between(&stand(&less).base_from_tool(), &stand(&more).base_from_tool());
+            let difference = (moved * (0.5 / h)).to_vector() - here.screws[k].to_vector();
             // h^2, and rounding over h.
             assert!(difference.norm() < 1e-9, "{k}: {difference}");
         }
@@ -280,5 +255,75 @@ mod tests {
         assert!((below.0 - above.0).norm() < 1e-8 && (below.1 - above.1).norm() < 1e-8);
         let orthogonal = below.0 * below.0.transpose() - Matrix3::identity();
         assert!(orthogonal.norm() < 1e-15);
+    }
+
+    #[test]
+    fn going_and_coming_back_along_a_twist_ends_where_it_began() {
+        for angle in [0.0, 1e-9, 1e-4, 0.009, 0.011, 0.5, 2.5] {
+            let twist = Twist {
+                linear: Vector3::new(0.3, -0.2, 0.9),
+                angular: Vector3::new(0.6, 0.0, -0.8) * angle,
+            };
+            let ((turn, way), (back, way_back)) = (exponential(&twist), exponential(&(twist * -1.0)));
+            assert!((turn * back - Matrix3::identity()).norm() < 1e-14, "{angle}");
+            // First the one, then the other: way + R way_back.
+            assert!((way + turn * way_back).norm() < 1e-14, "{angle}");
+        }
+    }
+
+    #[test]
+    fn a_twist_goes_twice_as_far_in_two_steps() {
+        let twist = Twist {
+            linear: Vector3::new(0.3, -0.2, 0.9),
+            angular: Vector3::new(0.6, 0.1, -0.8),
+        };
+        let ((half, way), (whole, all_the_way)) = (exponential(&(twist * 0.5)), exponential(&twist));
+        assert!((half * half - whole).norm() < 1e-14);
+        assert!((way + half * way - all_the_way).norm() < 1e-14);
+    }
+
+    #[test]
+    fn the_twist_between_two_poses_turns_as_far_as_half_a_turn() {
+        let (robot, springs, tool) = arm();
+        let mut before = Yielded::for_robot(&robot, springs.len());
+        yield_into((&robot, &springs, &tool), &THETA, &[0.0; 8], &mut before);
+        for angle in [0.1, 1.4, 1.7, 3.0] {
+            // Beyond a quarter turn the sine of the angle falls again.
+            let mut x = [0.0; 8];
+            x[0] = angle;
+            let mut after = Yielded::for_robot(&robot, springs.len());
+            yield_into((&robot, &springs, &tool), &THETA, &x, &mut after);
+            let twist = twist_between(&before.base_from_tool(), &after.base_from_tool());
+            assert!(
+                (twist.angular - Vector3::z() * angle).norm() < 1e-12,
+                "{angle}: {}",
+                twist.angular
+            );
+        }
+    }
+
+    #[test]
+    fn springs_of_one_seat_in_another_order_differ_in_the_second_order_alone() {
+        let (robot, springs, tool) = arm();
+        let mut swapped = springs.clone();
+        swapped.swap(1, 3);
+        let reached = |springs: &[Spring], x: &[f64]| {
+            let mut out = Yielded::for_robot(&robot, springs.len());
+            yield_into((&robot, springs, &tool), &THETA, x, &mut out);
+            out.base_from_tool()
+        };
+        let apart = |size: f64| {
+            let (mut x, mut y) = ([0.0; 8], [0.0; 8]);
+            (x[4], x[6]) = (size, 2.0 * size);
+            (y[4], y[6]) = (2.0 * size, size);
+            twist_between(&reached(&springs, &x), &reached(&swapped, &y))
+                .to_vector()
+                .norm()
+        };
+        let (large, small) = (apart(2e-3), apart(1e-3));
+        assert!(
+            large > 0.0 && (large / small - 4.0).abs() < 0.05,
+            "{large} {small}"
+        );
     }
 }

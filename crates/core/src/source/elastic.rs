@@ -22,7 +22,7 @@ use crate::spatial::{Twist, Wrench};
 
 /// Deviation of the tool by one joint, per unit of its compliance: `a_i = s_i (s_i . w)`.
 pub fn sensitivity(screw: &Twist, wrench: &Wrench) -> Twist {
-    screw.scaled(screw.dot(wrench))
+    *screw * screw.dot(wrench)
 }
 
 /// Displacement of the tool by all joints, m: what a map needs of it.
@@ -39,7 +39,7 @@ pub fn shares(screws: &[Twist], joints: &[JointCompliance], wrench: &Wrench) -> 
     screws
         .iter()
         .zip(joints)
-        .map(|(s, c)| s.scaled(c.value * s.dot(wrench)))
+        .map(|(s, c)| *s * (c.value * s.dot(wrench)))
         .collect()
 }
 
@@ -91,5 +91,56 @@ mod tests {
         let share = shares(&screws[1..], &joints[1..], &push)[0].linear;
         let u = covariance(&screws[1..], &joints[1..], &push);
         assert!((u.trace().sqrt() - 0.1 * share.norm()).abs() < 1e-18);
+    }
+
+    #[test]
+    fn shares_displacement_and_sensitivity_say_the_same() {
+        let (screws, joints) = arm();
+        let load = Wrench {
+            force: Vector3::new(3.0, -5.0, 5.0),
+            moment: Vector3::new(0.1, 0.2, -0.4),
+        };
+        let shares = shares(&screws, &joints, &load);
+        let sum: Twist = shares.iter().copied().sum();
+        assert!((sum.linear - displacement(&screws, &joints, &load)).norm() < 1e-19);
+        for ((share, screw), joint) in shares.iter().zip(&screws).zip(&joints) {
+            let away = *share - sensitivity(screw, &load) * joint.value;
+            assert!(away.to_vector().norm() < 1e-19);
+        }
+    }
+
+    #[test]
+    fn a_push_along_a_lever_or_a_rigid_joint_moves_nothing() {
+        let (screws, mut joints) = arm();
+        // The first axis is along z through (-1, 0, 0): a push along x passes through it.
+        assert_eq!(
+            shares(&screws[..1], &joints[..1], &Wrench::from_force(Vector3::x()))[0],
+            Twist::ZERO
+        );
+        joints.iter_mut().for_each(|joint| joint.value = 0.0);
+        let push = Wrench::from_force(Vector3::new(3.0, -5.0, 5.0));
+        assert_eq!(displacement(&screws, &joints, &push), Vector3::zeros());
+        assert_eq!(covariance(&[], &[], &push), Matrix3::zeros());
+    }
+
+    #[test]
+    fn deviations_under_two_loads_add_up_and_work_is_never_negative() {
+        let (screws, joints) = arm();
+        let loads = [
+            Wrench::from_force(Vector3::new(3.0, -5.0, 5.0)),
+            Wrench {
+                force: Vector3::new(-1.0, 2.0, 0.5),
+                moment: Vector3::new(0.1, 0.2, -0.4),
+            },
+        ];
+        let of = |load: &Wrench| shares(&screws, &joints, load).into_iter().sum::<Twist>();
+        let both = Wrench {
+            force: loads[0].force + loads[1].force,
+            moment: loads[0].moment + loads[1].moment,
+        };
+        assert!((of(&both) - of(&loads[0]) - of(&loads[1])).to_vector().norm() < 1e-18);
+        // Maxwell and Betti: the work of one load on the displacement by the other is mutual.
+        let (a, b) = (of(&loads[0]).dot(&loads[1]), of(&loads[1]).dot(&loads[0]));
+        assert!((a - b).abs() < 1e-18 && of(&loads[0]).dot(&loads[0]) > 0.0);
     }
 }

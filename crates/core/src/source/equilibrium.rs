@@ -28,7 +28,7 @@ use super::gravity::{Carried, carry_into, torque};
 use super::linear_system::{is_positive_definite, solve};
 use super::stiffness_model::Arm;
 use crate::robot::Seat;
-use crate::robot::yielding::{Yielded, displacement, yield_into};
+use crate::robot::yielding::{Yielded, twist_between, yield_into};
 use crate::spatial::{Twist, Wrench};
 
 /// Why an arm does not come to rest under its load.
@@ -230,7 +230,7 @@ impl Equilibrium {
         if !is_positive_definite(&mut self.matrix) {
             return Err(Unstable::Buckles);
         }
-        Ok(displacement(
+        Ok(twist_between(
             &self.rest.base_from_tool(),
             &self.yielded.base_from_tool(),
         ))
@@ -269,3 +269,6 @@ fn add_weight(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -98,4 +98,90 @@ mod tests {
         assert!((torque(&screw, &carried[1], &g) - 49.05).abs() < 1e-12);
         assert_eq!(carried[2], Carried::NOTHING);
     }
+
+    /// Masses on every seat of an arm of two joints.
+    fn masses() -> Vec<Mass> {
+        let mass = |seat, mass, x| Mass {
+            seat,
+            mass,
+            centre: Point3::new(x, 0.2, -0.1),
+        };
+        vec![
+            mass(Seat::Tool, 1.0, 0.3),
+            mass(Seat::Base, 100.0, -0.4),
+            mass(Seat::Joint(0), 30.0, 0.1),
+            mass(Seat::Joint(1), 20.0, 0.5),
+            mass(Seat::Joint(1), 5.0, -0.2),
+            mass(Seat::Flange, 7.0, 0.0),
+        ]
+    }
+
+    /// A frame of its own for every seat.
+    fn frame(seat: Seat) -> IsometryMatrix3<f64> {
+        let rank = seat.rank(2) as f64;
+        IsometryMatrix3::new(
+            Vector3::new(rank, 0.1 * rank, 1.0),
+            Vector3::new(0.2, -0.3, 0.5) * rank,
+        )
+    }
+
+    #[test]
+    fn the_base_carries_the_whole_weight_and_its_moment() {
+        let (tcp, mut carried) = (Vector3::new(1.0, -0.3, 0.4), [Carried::NOTHING; 5]);
+        carry_into(&masses(), frame, tcp, &mut carried);
+        let g = Vector3::new(0.0, 0.0, -9.81);
+        let weight = carried[0].weight(&g);
+        assert!((weight.force - g * 163.0).norm() < 1e-12);
+        let moment: Vector3<f64> = masses()
+            .iter()
+            .map(|mass| ((frame(mass.seat) * mass.centre).coords - tcp).cross(&(g * mass.mass)))
+            .sum();
+        assert!((weight.moment - moment).norm() < 1e-12);
+        // Tool, then flange and tool, then joint 2 and all behind it.
+        assert_eq!(
+            [4, 3, 2, 1].map(|rank: usize| carried[rank].mass),
+            [1.0, 8.0, 33.0, 63.0]
+        );
+    }
+
+    #[test]
+    fn a_mass_on_the_base_loads_no_drive() {
+        let on_base: Vec<Mass> = masses()
+            .into_iter()
+            .filter(|mass| mass.seat == Seat::Base)
+            .collect();
+        let mut carried = [Carried::NOTHING; 5];
+        carry_into(&on_base, frame, Vector3::zeros(), &mut carried);
+        assert!(carried[0].mass == 100.0 && carried[1..].iter().all(|carried| *carried == Carried::NOTHING));
+    }
+
+    #[test]
+    fn what_was_carried_before_is_forgotten_and_the_order_of_masses_does_not_count() {
+        let (mut once, mut twice) = ([Carried::NOTHING; 5], [Carried::NOTHING; 5]);
+        carry_into(&masses(), frame, Vector3::x(), &mut once);
+        let mut reversed = masses();
+        reversed.reverse();
+        for masses in [masses(), reversed] {
+            carry_into(&masses, frame, Vector3::x(), &mut twice);
+            for (a, b) in once.iter().zip(&twice) {
+                assert!((a.mass - b.mass).abs() < 1e-13 && (a.moment - b.moment).norm() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn the_torque_of_a_weight_does_not_depend_on_where_the_tool_is() {
+        let axis = Twist::about(Vector3::new(0.0, 0.6, 0.8));
+        let g = Vector3::new(0.3, -0.2, -9.81);
+        let of = |tcp: Vector3<f64>| {
+            let mut carried = [Carried::NOTHING; 5];
+            carry_into(&masses(), frame, tcp, &mut carried);
+            // The axis goes through (0.5, 0, 0).
+            torque(&axis.moved(tcp - Vector3::x() * 0.5), &carried[2], &g)
+        };
+        let (here, there) = (of(Vector3::zeros()), of(Vector3::new(2.0, -1.0, 3.0)));
+        // Some kN m.
+        assert!((here - there).abs() < 1e-11, "{here} {there}");
+        assert!(here.abs() > 1.0);
+    }
 }

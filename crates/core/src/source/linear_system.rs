@@ -91,4 +91,59 @@ mod tests {
             &mut (twisted - DMatrix::identity(5, 5) * 500.0)
         ));
     }
+
+    #[test]
+    fn zeros_on_the_diagonal_are_no_hindrance() {
+        // A permutation: every pivot must be fetched from below.
+        let cycle = DMatrix::from_row_slice(3, 3, &[0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 4.0, 0.0, 0.0]);
+        let mut x = DMatrix::from_column_slice(3, 1, &[5.0, 6.0, 8.0]);
+        assert!(solve(&mut cycle.clone(), &mut x));
+        assert_eq!(x.as_slice(), [2.0, 5.0, 3.0]);
+    }
+
+    #[test]
+    fn the_largest_pivot_is_taken() {
+        // Without it the one would be lost beside 1e20.
+        let mut a = DMatrix::from_row_slice(2, 2, &[1e-20, 1.0, 1.0, 1.0]);
+        let mut x = DMatrix::from_column_slice(2, 1, &[1.0, 2.0]);
+        assert!(solve(&mut a, &mut x));
+        assert!((x[(0, 0)] - 1.0).abs() < 1e-15 && (x[(1, 0)] - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn numbers_that_are_none_have_no_solution() {
+        for broken in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            for at in 0..3 {
+                let mut a = some(3);
+                a[(at, at)] = broken;
+                assert!(
+                    !solve(&mut a.clone(), &mut DMatrix::zeros(3, 1)),
+                    "{broken} at {at}"
+                );
+                assert!(!is_positive_definite(&mut a), "{broken} at {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn two_equal_rows_have_no_solution() {
+        let mut a = some(4);
+        let row = a.row(0).into_owned();
+        a.set_row(2, &row);
+        assert!(!solve(&mut a, &mut DMatrix::zeros(4, 2)));
+    }
+
+    #[test]
+    fn definite_is_what_has_positive_eigenvalues_alone() {
+        for least in [-1e-9, 1e-9] {
+            // Eigenvalues 1, 2 and this one, in axes that are turned.
+            let turn = nalgebra::Rotation3::from_euler_angles(0.3, -1.0, 2.0);
+            let diagonal = nalgebra::Matrix3::from_diagonal(&nalgebra::Vector3::new(1.0, 2.0, least));
+            let turned = turn.matrix() * diagonal * turn.matrix().transpose();
+            let mut a = DMatrix::from_column_slice(3, 3, turned.as_slice());
+            assert_eq!(is_positive_definite(&mut a), least > 0.0, "{least}");
+        }
+        assert!(!is_positive_definite(&mut DMatrix::zeros(2, 2)));
+        assert!(is_positive_definite(&mut DMatrix::zeros(0, 0)));
+    }
 }

@@ -1,11 +1,8 @@
 //! What moves the tool away from where it was asked to be?
 //!
-//! Every source is a module of the same shape: parameters, deviation, sensitivity, tests. `predict.rs` adds
-//! them in a visible row.
-//!
-//! [`elastic`]: drives and springs give way to the load. [`stiffness_model`]: which parts of the model are on.
-//! [`gravity`]: the weight of the arm itself. [`equilibrium`]: the load acts on the arm as it has yielded. [`standing`]:
-//! all of these for one arm in one posture.
+//! [`elastic`]: joints give way to the load, the simple model by itself. [`stiffness_model`]: which parts beyond it are on.
+//! [`gravity`]: what masses do to drives and springs. [`equilibrium`]: where an arm comes to rest that the load changes.
+//! [`standing`]: one arm in one posture, and what each of these moves there; `predict.rs` adds them in a visible row.
 //!
 //! `linear_system`: small systems of equations, in room that is reused.
 

@@ -20,13 +20,14 @@
 mod doubt;
 mod shares;
 
-pub use doubt::Loaded;
+pub use doubt::AsItStands;
 
-use nalgebra::{IsometryMatrix3, Matrix6, Point3, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Matrix6, Point3, Vector3};
 
 use super::equilibrium::{Equilibrium, Unstable};
 use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
+use crate::load::TipYield;
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
@@ -189,7 +190,7 @@ impl<'a> Standing<'a> {
             let torque = screw.dot(wrench);
             let turn = self.turn(k, self.before[k], torque).ok_or(Unstable::Buckles)?;
             (self.torques[k], self.turns[k]) = (torque, turn);
-            sum = sum + screw.scaled(turn);
+            sum = sum + *screw * turn;
         }
         Ok(sum)
     }
@@ -207,9 +208,25 @@ impl<'a> Standing<'a> {
         };
         let each = self.screws.iter().zip(sag).zip(there);
         Ok(Some(
-            each.map(|((screw, sag), (there, _))| screw.scaled(*sag) + there.scaled(-1.0))
+            each.map(|((screw, sag), (there, _))| *screw * *sag - *there)
                 .sum(),
         ))
+    }
+
+    /// How the tip yields to a force where the arm stands: its displacement under one newton along each base axis, and by
+    /// gravity alone.
+    ///
+    /// # Errors
+    /// [`Unstable`] where the arm finds no stable rest under one of them.
+    pub fn tip_yield(&mut self) -> Result<TipYield, Unstable> {
+        let mut under = |axis| Ok(self.elastic(&Wrench::from_force(axis))?.linear);
+        let columns = [under(Vector3::x())?, under(Vector3::y())?, under(Vector3::z())?];
+        Ok(TipYield {
+            by_force: Matrix3::from_columns(&columns),
+            unloaded: self
+                .gravity()?
+                .map_or_else(Vector3::zeros, |gravity| gravity.linear),
+        })
     }
 
     /// The compliance of the unloaded arm at the TCP: 6 x 6, base, translation first; `None` where it does not hold.
@@ -296,7 +313,7 @@ impl<'a> Standing<'a> {
         let each = |(k, sag): (usize, &f64)| {
             let grown = self.held(k).map_or(1.0, |held| 1.0 / (held * held));
             let per_unit = self.screws[k].linear * (self.before[k] * grown);
-            (self.screws[k].scaled(*sag), per_unit)
+            (self.screws[k] * *sag, per_unit)
         };
         Some(sag.iter().enumerate().map(each).collect())
     }
@@ -306,3 +323,6 @@ impl<'a> Standing<'a> {
 const MOST_ROUNDS: usize = 200;
 /// Rounding left after them, relative.
 const SETTLED: f64 = 1e-14;
+
+#[cfg(test)]
+mod tests;

@@ -109,3 +109,143 @@ impl Arm<'_> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::arms;
+    use crate::robot::{Compensator, JointCurve, Mass, Spring, TorqueCurve};
+    use crate::spatial::Wrench;
+    use nalgebra::{DMatrix, Point3};
+
+    type Part = (&'static str, fn(&mut StiffnessModel));
+
+    fn compliance() -> JointCompliance {
+        JointCompliance {
+            value: 3e-7,
+            standard_uncertainty: 1e-8,
+        }
+    }
+
+    /// Every part that a model may have.
+    fn parts() -> [Part; 7] {
+        [
+            ("springs", |m| {
+                m.structure.springs = vec![
+                    Spring::about(Seat::Tool, Vector3::x(), compliance()),
+                    Spring::about(Seat::Base, Vector3::y(), compliance()),
+                    Spring::about(Seat::Joint(1), Vector3::y(), compliance()),
+                ];
+            }),
+            ("masses", |m| {
+                m.structure.masses = vec![Mass {
+                    seat: Seat::Joint(2),
+                    mass: 40.0,
+                    centre: Point3::new(0.1, 0.0, 0.3),
+                }];
+            }),
+            ("gravity", |m| {
+                m.gravity = Some(Gravity {
+                    acceleration: Vector3::new(0.0, 0.0, -FREE_FALL),
+                    reference: vec![0.2; 6],
+                });
+            }),
+            ("compensator", |m| {
+                m.structure.compensator = Some(Compensator {
+                    joint: 1,
+                    fixed_radius: 0.69,
+                    arm_radius: 0.185,
+                    angle: 0.17,
+                    free_length: 0.458,
+                    stiffness: 1e4,
+                });
+            }),
+            ("curve", |m| {
+                let knee = TorqueCurve::new(vec![[-90.0, -1e-3], [-30.0, -6e-4], [30.0, 6e-4], [90.0, 1e-3]]);
+                m.structure.curves = vec![Some(JointCurve {
+                    rising: knee.unwrap(),
+                    falling: None,
+                })];
+            }),
+            ("covariance", |m| {
+                m.structure.covariance = Some(DMatrix::identity(6, 6) * 1e-16);
+            }),
+            ("load", |m| m.load_dependent = true),
+        ]
+    }
+
+    fn with(chosen: &[&str]) -> StiffnessModel {
+        let mut model = StiffnessModel::DRIVES.clone();
+        for (_, put) in parts().iter().filter(|(name, _)| chosen.contains(name)) {
+            put(&mut model);
+        }
+        model
+    }
+
+    #[test]
+    fn drives_alone_are_those_beside_which_nothing_counts() {
+        assert!(StiffnessModel::DRIVES.is_drives_alone());
+        // Masses count under gravity alone, and gravity on masses alone.
+        for alone in ["masses", "gravity"] {
+            assert!(with(&[alone]).is_drives_alone(), "{alone}");
+        }
+        assert!(!with(&["masses", "gravity"]).is_drives_alone());
+        for part in ["springs", "compensator", "curve", "covariance", "load"] {
+            assert!(!with(&[part]).is_drives_alone(), "{part}");
+        }
+    }
+
+    #[test]
+    fn a_model_is_affine_where_doubling_the_load_doubles_what_it_adds() {
+        let robot = &arms::ALL[1];
+        let (tool, q) = (arms::bent_tool(), [0.4, -1.2, 1.0, 0.3, 0.9, -0.2]);
+        let load = Wrench::from_force(Vector3::new(300.0, -200.0, 100.0));
+        for (name, _) in parts() {
+            let model = with(&[name, "masses", "gravity"]);
+            let arm = Arm {
+                robot,
+                compliance: robot.compliance().unwrap(),
+                model: &model,
+                flange_from_tool: &tool,
+            };
+            let under = |times: f64| arms::predicted(&arm, &q, &(load * times)).unwrap().twist.linear;
+            let (none, once, twice) = (under(0.0), under(1.0), under(2.0));
+            let bent = ((twice - none) - (once - none) * 2.0).norm() / (once - none).norm();
+            assert_eq!(model.is_affine(), bent < 1e-12, "{name}: {bent}");
+            assert_eq!(model.is_affine(), !["curve", "load"].contains(&name));
+        }
+    }
+
+    #[test]
+    fn shares_are_told_for_joints_and_for_where_springs_sit() {
+        let joints: Vec<Joint> = ["A1", "A2"].map(Joint::plain).to_vec();
+        assert_eq!(StiffnessModel::DRIVES.sharer_names(&joints), ["A1", "A2"]);
+        // Base before tool, whatever the order of the list; springs of a joint count for it.
+        assert_eq!(
+            with(&["springs"]).sharer_names(&joints),
+            ["A1", "A2", "base", "tool"]
+        );
+        let mut flange = StiffnessModel::DRIVES.clone();
+        flange.structure.springs = vec![Spring::along(Seat::Flange, Vector3::x(), compliance()); 2];
+        assert_eq!(flange.sharers(1), [Seat::Joint(0), Seat::Flange]);
+        assert_eq!(flange.sharer_names(&joints[..1]), ["A1", "flange"]);
+    }
+
+    #[test]
+    fn compliances_and_seats_of_an_arm_are_those_of_drives_then_of_springs() {
+        let (robot, model, tool) = (&arms::ALL[0], with(&["springs"]), arms::bent_tool());
+        let arm = Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let compliances = arm.compliances();
+        assert_eq!(&compliances[..6], robot.compliance().unwrap());
+        assert_eq!(compliances[6..], [compliance(); 3]);
+        assert_eq!(
+            arm.seats()[5..],
+            [Seat::Joint(5), Seat::Tool, Seat::Base, Seat::Joint(1)]
+        );
+    }
+}

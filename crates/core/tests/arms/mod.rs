@@ -3,14 +3,64 @@
 
 pub mod other;
 
+use std::sync::LazyLock;
+
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::Vector3;
+use armill_core::predict::{Deviation, predict_in_full};
 use armill_core::robot::joint::Sign;
 use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Limits, Motion, Robot};
+use armill_core::source::{Arm, Standing, Unstable};
+use armill_core::spatial::Wrench;
 
 use Amount::{Constant, Joint as Var};
 use Axis::{X, Y, Z};
 use Motion::{About, Along};
+
+/// A stream of numbers in 0..1 (SplitMix64), the same on every machine; the seed is part of the test.
+pub struct Stream(pub u64);
+
+impl Stream {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, lower: f64, upper: f64) -> f64 {
+        lower + (upper - lower) * self.next()
+    }
+
+    /// Joint positions inside the limits.
+    pub fn joints(&mut self, robot: &Robot) -> Vec<f64> {
+        self.joints_beyond(robot, 0.0)
+    }
+
+    /// Joint positions up to `beyond` (rad, m) outside the limits.
+    pub fn joints_beyond(&mut self, robot: &Robot, beyond: f64) -> Vec<f64> {
+        let within = |joint: &Joint| {
+            let limits = joint.limits.unwrap();
+            self.between(limits.lower - beyond, limits.upper + beyond)
+        };
+        robot.joints().iter().map(within).collect()
+    }
+
+    /// A vector of this length at the most in each direction.
+    pub fn vector(&mut self, most: f64) -> Vector3<f64> {
+        Vector3::from_fn(|_, _| self.between(-most, most))
+    }
+}
+
+/// Joint positions at these parts of the ranges of their joints.
+pub fn positions(robot: &Robot, unit: &[f64; 6]) -> Vec<f64> {
+    let at = |(joint, part): (&Joint, &f64)| {
+        let limits = joint.limits.unwrap();
+        limits.lower + part * (limits.upper - limits.lower)
+    };
+    robot.joints().iter().zip(unit).map(at).collect()
+}
 
 /// A joint counted against the right hand, with limits in degrees.
 fn joint(name: &str, sign: Sign, limits_deg: [f64; 2]) -> Joint {
@@ -251,7 +301,18 @@ pub fn hung() -> Robot {
 
 /// All of them.
 pub fn all() -> [Robot; 6] {
-    [mh12(), kr120(), tx2_90(), r2000ic(), irb2400(), hung()]
+    ALL.clone()
+}
+
+/// All of them, made once.
+pub static ALL: LazyLock<[Robot; 6]> =
+    LazyLock::new(|| [mh12(), kr120(), tx2_90(), r2000ic(), irb2400(), hung()]);
+
+/// The deviation of the tool held by `arm` at joint positions `q` under `wrench`.
+pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation, Unstable> {
+    let mut standing = Standing::new(*arm);
+    standing.stand(q);
+    predict_in_full(&mut standing, wrench)
 }
 
 /// A tool that is bent and turned against the flange.

@@ -2,7 +2,6 @@
 
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
-use armill_core::robot::Unreachable;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer, tidy};
@@ -254,8 +253,7 @@ fn remarks(map: &PlaneMap) -> Vec<Remark> {
                     add("near_singularity", index);
                 }
             }
-            Err(Unreachable::OutsideLimits { .. }) => add("no_posture_inside_limits", index),
-            Err(miss) => add(miss.reason(), index),
+            Err(miss) => add(miss.word(), index),
         }
     }
     remarks

@@ -1,6 +1,6 @@
 //! One point of an answer, and the setting that all points of an ask share.
 
-use armill_core::compliance::{permissible_force, permissible_force_in_worst_direction};
+use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::kernel::{Answers, Held};
 use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
@@ -125,7 +125,7 @@ impl PointAnswer {
         let (index, held, tcp) = at;
         let robot = &study.robot.robot;
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
-        let compliance = setting.compliance_at(robot, answers.joints_at(index));
+        let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
         let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
             .map(|f| permissible_force(&compliance, normal, f, setting.limit));

@@ -5,7 +5,6 @@ use std::ops::Range;
 use armill_core::kernel::{Answers, Held};
 use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
-use armill_core::robot::Unreachable;
 
 use crate::file::path::PathAsk;
 use crate::file::resolve::Setting;
@@ -48,8 +47,7 @@ impl<'a> Rows<'a> {
         match &self.answers.points[index] {
             Ok(held) if held.in_plane <= self.setting.limit => "within",
             Ok(_) => "over_limit",
-            Err(Unreachable::OutsideLimits { .. }) => "no_posture_inside_limits",
-            Err(miss) => miss.reason(),
+            Err(miss) => miss.word(),
         }
     }
 }

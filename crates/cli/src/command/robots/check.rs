@@ -4,6 +4,7 @@
 //! `--base`; `--within-mm` and `--within-deg` say when they agree. The verdict is data: it goes to stdout.
 
 use armill_core::robot::convention::Apart;
+use armill_core::watch::Watch;
 use armill_formats::robot::pendant::{Convention, reading};
 use armill_study::file::quantities::pose_mm_deg;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
@@ -36,7 +37,7 @@ pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
         within,
     };
     let found = robots::find(&arguments.robot, ".".as_ref())?;
-    let answer = check(&found, &question)?;
+    let answer = check(&found, &question, Watch::NONE)?;
     print(&if arguments.json {
         serde_json::to_string_pretty(&answer)?
     } else {

@@ -4,7 +4,7 @@
 //! once for each set of instructions. In reading order: `real` (a number of one lane), [`Backend`] (which instructions),
 //! `block` (planes); `arm`, `prepared` (a question made ready); `aims` (poses in the arm's axes), `solve` (postures
 //! without angles), `limits`, `angle`, `positions` (joint positions); `screws`, `flexibility`, `envelope`,
-//! `compliance`, `forward`; [`Batch`] (the door for those with many poses), `stance`, `deviation`, `points` (whole
+//! `compliance`, `forward`; [`Batch`] (the door for those with many poses) and its `steps`, `stance`, `deviation`, `points` (whole
 //! answers, for [`super::evaluate`]).
 //!
 //! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
@@ -70,6 +70,7 @@ mod real;
 mod screws;
 mod solve;
 mod stance;
+mod steps;
 mod vector;
 
 pub use arrays::{Arrays, Envelopes, Poses};
@@ -78,3 +79,6 @@ pub use batch::Batch;
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;
+
+#[cfg(test)]
+mod tests;

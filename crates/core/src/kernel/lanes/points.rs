@@ -3,16 +3,17 @@
 use nalgebra::Vector3;
 
 use super::aimed::Solved;
-use super::batch::{Batch, Second};
+use super::batch::Batch;
 use super::block::{BLOCK, Plane, Planes, planes};
 use super::deviation::{OneCase, Shares, Worst};
 use super::solve::flag;
 use super::stance::{Preference, Stances, Stand};
+use super::steps::{FOUR, Second};
 use crate::frame::Isometry;
 use crate::kernel::answer::{AT_LIMIT, Held};
 use crate::kernel::question::{BranchChoice, Question};
 use crate::robot::inverse::OrthoParallel;
-use crate::robot::posture::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
+use crate::robot::{Branch, BranchPattern, Elbow, PostureName, Shoulder, Singularity, Wrist};
 
 /// Points that are answered at once.
 pub(in crate::kernel) const POINTS: usize = BLOCK;
@@ -151,7 +152,7 @@ impl<'q> Points<'q> {
         let Room { chosen, score, .. } = &mut *self.room;
         score.fill(f64::INFINITY);
         self.batch.orient(Second::InTheMiddle);
-        for (four, signs) in super::batch::FOUR.into_iter().enumerate() {
+        for (four, signs) in FOUR.into_iter().enumerate() {
             let (in_plane, flags) = self.batch.envelope_in_turn(four);
             for i in 0..BLOCK {
                 let flags = flags[i] as u32;
@@ -168,7 +169,7 @@ impl<'q> Points<'q> {
 
     /// Chooses, of the postures that match, the one with most room to its limits.
     fn choose_most_room(&mut self, pattern: BranchPattern, preference: Preference) {
-        let matching: Vec<[f64; 2]> = super::batch::FOUR
+        let matching: Vec<[f64; 2]> = FOUR
             .into_iter()
             .zip(Branch::ALL.chunks(2))
             .filter(|(_, pair)| pair.iter().any(|branch| pattern.matches(*branch)))

@@ -4,6 +4,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::arm::Arm;
 use super::limits::CosineLimits;
+use crate::frame::some_across;
 use crate::kernel::Question;
 use crate::robot::inverse::OrthoParallel;
 
@@ -35,7 +36,7 @@ impl Prepared {
             .map(|wrench| [turn(wrench.force), turn(wrench.moment)])
             .collect();
         let normal = turn(question.normal.into_inner());
-        let first = across(&normal);
+        let first = some_across(&normal);
         let of = |get: fn(&crate::robot::JointCompliance) -> f64| {
             std::array::from_fn(|i| question.arm.compliance.get(i).map_or(0.0, get))
         };
@@ -50,12 +51,4 @@ impl Prepared {
             arm,
         }
     }
-}
-
-/// A unit vector across `normal`.
-fn across(normal: &Vector3<f64>) -> Vector3<f64> {
-    let least = normal.iamin();
-    let mut axis = Vector3::zeros();
-    axis[least] = 1.0;
-    normal.cross(&axis).normalize()
 }

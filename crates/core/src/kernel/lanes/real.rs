@@ -15,7 +15,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::robot::inverse::ortho_parallel::WRIST_SINGULAR;
+use crate::robot::inverse::two_links::WRIST_SINGULAR;
 
 /// What a block stores: `f64` or `f32`.
 pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {

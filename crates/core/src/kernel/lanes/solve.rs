@@ -16,6 +16,7 @@ use super::block::{Aims, BLOCK, Plane, Planes, aim, planes, put};
 use super::prepared::Prepared;
 use super::real::{Float, Real};
 use super::vector::Vector;
+use crate::robot::inverse::two_links::NEAR_SINGULAR;
 
 /// Where the tool shall be, in the arm's axes.
 #[derive(Clone, Copy)]
@@ -168,9 +169,6 @@ pub(super) struct Links<R> {
     near_shoulder: R,
     forearm: [Vector<R>; 3],
 }
-
-/// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
-const NEAR_SINGULAR: f64 = crate::robot::inverse::ortho_parallel::NEAR_SINGULAR;
 
 impl<R: Real> Links<R> {
     #[inline(always)]

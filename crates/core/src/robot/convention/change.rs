@@ -90,21 +90,37 @@ pub fn joint_changes(robot: &Robot) -> Vec<Change> {
     changes
 }
 
-/// Every set of `count` of these changes that fits together.
-pub fn sets(changes: &[Change], count: usize) -> Vec<Vec<Change>> {
-    if count == 0 {
-        return vec![Vec::new()];
+/// Visits every set of `count` of these changes that fits together, in the order of the list, until `visit` fails.
+///
+/// # Errors
+/// What `visit` fails with.
+pub fn visit_sets<E>(
+    changes: &[Change],
+    count: usize,
+    visit: &mut impl FnMut(&[Change]) -> Result<(), E>,
+) -> Result<(), E> {
+    extend_set(&mut Vec::with_capacity(count), changes, count, visit)
+}
+
+/// Visits every set of those chosen and `more` of the changes.
+fn extend_set<E>(
+    chosen: &mut Vec<Change>,
+    changes: &[Change],
+    more: usize,
+    visit: &mut impl FnMut(&[Change]) -> Result<(), E>,
+) -> Result<(), E> {
+    if more == 0 {
+        return visit(chosen);
     }
-    let mut found = Vec::new();
     for (index, change) in changes.iter().enumerate() {
-        for mut rest in sets(&changes[index + 1..], count - 1) {
-            if !rest.iter().any(|other| change.excludes(other)) {
-                rest.insert(0, *change);
-                found.push(rest);
-            }
+        if !chosen.iter().any(|other| change.excludes(other)) {
+            chosen.push(*change);
+            let visited = extend_set(chosen, &changes[index + 1..], more - 1, visit);
+            chosen.pop();
+            visited?;
         }
     }
-    found
+    Ok(())
 }
 
 /// The positions at which the file's joints stand where the changed ones stand at `read` (rad, m).

@@ -24,7 +24,7 @@ pub mod frames;
 pub mod search;
 
 pub use change::Change;
-pub use search::{Explanation, Inspection, Verdict, inspect};
+pub use search::{Explanation, Inspection, NotInspected, Verdict, inspect};
 
 use super::model::Robot;
 use crate::frame::Isometry;

@@ -4,15 +4,18 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::Translation3;
 
-use super::change::{Change, joint_changes, positions_of_the_file, sets};
+use super::change::{Change, joint_changes, positions_of_the_file, visit_sets};
 use super::frames::{Free, FreeBase, fit};
 use super::{Apart, Comparison};
 use crate::frame::Isometry;
 use crate::robot::forward::{forward, joint_axis};
 use crate::robot::inverse::posture_at;
+use crate::watch::{Cancelled, Watch};
 
 /// Largest count of changes that is searched: beyond it a file is better typed anew than mended.
 const MOST: usize = 5;
+/// Turning joints at most: the sets of changes grow with the fifth power of their number.
+pub const MOST_TURNING: usize = 12;
 
 /// A set of changes with which the readings agree.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,64 +51,103 @@ pub struct Inspection {
     pub verdict: Verdict,
 }
 
-/// Compares readings with a file, and searches for what differs.
+/// Why readings are not compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NotInspected {
+    /// More joints than [`MOST_TURNING`] turn.
+    #[error(
+        "{turning} joints turn, but what differs is searched for at {MOST_TURNING} at the most: the sets of changes grow with the fifth power of their number"
+    )]
+    TooManyJoints {
+        /// Turning joints of the robot.
+        turning: usize,
+    },
+    /// Stopped from outside.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Compares readings with a file, and searches for what differs. The watch is told of every set of changes tried.
+///
+/// # Errors
+/// More joints than can be searched; [`Cancelled`] if the watch says so.
 ///
 /// # Panics
 /// If a reading has another number of joints than the robot.
-pub fn inspect(comparison: &Comparison<'_>) -> Inspection {
+pub fn inspect(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Inspection, NotInspected> {
+    let robot = comparison.robot;
+    let turning = (0..robot.joints().len())
+        .filter(|joint| !robot.slides(*joint))
+        .count();
+    if turning > MOST_TURNING {
+        return Err(NotInspected::TooManyJoints { turning });
+    }
     let as_the_file_has_it = comparison.readings.iter().map(|reading| {
         let found = posture_at(comparison.robot, &reading.joints, comparison.flange_from_tool);
         let read = comparison.base_from_counted * reading.counted_from_tool;
         Apart::between(&found.base_from_tool, &read)
     });
-    Inspection {
+    Ok(Inspection {
         as_the_file_has_it: as_the_file_has_it.collect(),
-        verdict: verdict(comparison),
-    }
+        verdict: verdict(comparison, watch)?,
+    })
 }
 
-fn verdict(comparison: &Comparison<'_>) -> Verdict {
+fn verdict(comparison: &Comparison<'_>, watch: Watch<'_>) -> Result<Verdict, Cancelled> {
     let listed = joint_changes(comparison.robot);
     for count in 0..=MOST {
-        let mut found = explanations(comparison, &listed, count);
+        let mut found = explanations(comparison, &listed, count, watch)?;
         found.sort_by(|a, b| a.apart.metres.total_cmp(&b.apart.metres));
         match found.len() {
             0 => {}
             1 => {
                 let explanation = found.remove(0);
                 let unseen = unseen(comparison, &listed, &explanation);
-                return Verdict::Explained { explanation, unseen };
+                return Ok(Verdict::Explained { explanation, unseen });
             }
-            _ => return Verdict::Undecided(found),
+            _ => return Ok(Verdict::Undecided(found)),
         }
     }
-    Verdict::Unexplained
+    Ok(Verdict::Unexplained)
 }
 
 /// Every explanation that counts `count`.
-fn explanations(comparison: &Comparison<'_>, listed: &[Change], count: usize) -> Vec<Explanation> {
+fn explanations(
+    comparison: &Comparison<'_>,
+    listed: &[Change],
+    count: usize,
+    watch: Watch<'_>,
+) -> Result<Vec<Explanation>, Cancelled> {
+    let go_on = || {
+        (watch.finished)(1);
+        if watch.is_cancelled() {
+            Err(Cancelled)
+        } else {
+            Ok(())
+        }
+    };
     let mut found = Vec::new();
     for of_frames in 0..=count {
         let free = Free::counting(of_frames);
         if free.is_empty() {
             break;
         }
-        for joints in sets(listed, count - of_frames) {
-            found.extend(
-                free.iter()
-                    .filter_map(|free| explained_by(comparison, &joints, *free)),
-            );
-        }
+        visit_sets(listed, count - of_frames, &mut |joints| {
+            let by = |free: &Free| explained_by(comparison, joints, *free);
+            found.extend(free.iter().filter_map(by));
+            go_on()
+        })?;
         // A zero of any value counts 2; with a turned flange it could not be told from the turn.
         if let Some(others) = (count - of_frames).checked_sub(2) {
-            for joints in sets(listed, others) {
+            visit_sets(listed, others, &mut |joints| {
                 for free in free.iter().filter(|free| !free.flange) {
-                    found.extend(with_one_zero_free(comparison, &joints, *free));
+                    found.extend(with_one_zero_free(comparison, joints, *free));
                 }
-            }
+                go_on()
+            })?;
         }
     }
-    found
+    Ok(found)
 }
 
 /// These changes of joints with the best of these frames, if all readings then agree.

@@ -4,13 +4,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::change::{joint_changes, positions_of_the_file, sets};
+use super::change::{joint_changes, positions_of_the_file, visit_sets};
 use super::frames::{Free, FreeBase, fit};
 use super::*;
 use crate::frame::Isometry;
 use crate::robot::inverse::posture_at;
 use crate::robot::joint::{Coupling, Sign};
 use crate::robot::{Amount, Axis, Joint, Motion};
+use crate::watch::Watch;
 
 const Q: [[f64; 6]; 2] = [
     [0.2, -0.6, 0.4, 0.7, -0.9, 1.1],
@@ -116,9 +117,19 @@ fn sets_hold_no_two_changes_of_one_zero() {
     let listed = joint_changes(&arm(|_| {}));
     // Six signs, three zeros for each of six joints, two couplings.
     assert_eq!(listed.len(), 6 + 18 + 2);
-    assert_eq!(sets(&listed, 1).len(), 26);
+    let count = |size| {
+        let mut count = 0;
+        let visited = visit_sets(&listed, size, &mut |set| {
+            assert_eq!(set.len(), size);
+            count += 1;
+            Ok::<(), ()>(())
+        });
+        visited.map(|()| count)
+    };
+    assert_eq!(count(0), Ok(1));
+    assert_eq!(count(1), Ok(26));
     // Pairs, less three of each joint's zeros, less the two couplings.
-    assert_eq!(sets(&listed, 2).len(), 26 * 25 / 2 - 6 * 3 - 1);
+    assert_eq!(count(2), Ok(26 * 25 / 2 - 6 * 3 - 1));
 }
 
 #[test]
@@ -171,7 +182,9 @@ fn a_base_elsewhere_is_found_as_a_shift() {
         .iter()
         .map(|flange| Isometry::from_parts(shift.into(), UnitQuaternion::identity()).inverse() * flange)
         .collect();
-    let verdict = compared(&file, &readings(&moved), |comparison| inspect(comparison).verdict);
+    let verdict = compared(&file, &readings(&moved), |comparison| {
+        inspect(comparison, Watch::NONE).unwrap().verdict
+    });
     let Verdict::Explained { explanation, .. } = verdict else {
         panic!("{verdict:?}");
     };
@@ -191,10 +204,261 @@ fn fewer_changes_are_preferred() {
         joints[5].zero_offset += PI;
     });
     let verdict = compared(&file, &readings(&flanges(&same)), |comparison| {
-        inspect(comparison).verdict
+        inspect(comparison, Watch::NONE).unwrap().verdict
     });
     let Verdict::Explained { explanation, .. } = verdict else {
         panic!("{verdict:?}");
     };
     assert_eq!(explanation.changes, []);
+}
+
+/// More postures than [`Q`], none of them special.
+const MORE: [[f64; 6]; 4] = [
+    Q[0],
+    Q[1],
+    [1.1, -0.3, 0.2, 1.9, 0.7, -0.4],
+    [-1.3, -0.8, 0.6, -1.2, -1.4, 2.3],
+];
+
+/// What a pendant shows of the file's arm, whose joints count with these changes.
+fn shown(file: &Robot, changes: &[Change], at: &[[f64; 6]]) -> Vec<Reading> {
+    let reading = |q: &[f64; 6]| {
+        let positions = positions_of_the_file(file, changes, q);
+        Reading {
+            joints: q.to_vec(),
+            counted_from_tool: posture_at(file, &positions, &Isometry::identity()).base_from_tool,
+        }
+    };
+    at.iter().map(reading).collect()
+}
+
+fn verdict(file: &Robot, read: &[Reading]) -> Verdict {
+    compared(file, read, |comparison| {
+        inspect(comparison, Watch::NONE).unwrap().verdict
+    })
+}
+
+/// The changes of the only explanation.
+fn explained(file: &Robot, read: &[Reading]) -> Vec<Change> {
+    match verdict(file, read) {
+        Verdict::Explained { explanation, .. } => explanation.changes,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_zero_of_any_value_and_a_coupling_are_found() {
+    let file = arm(|_| {});
+    let off = arm(|joints| joints[1].zero_offset += 0.1234);
+    let readings = |pendant: &Robot| -> Vec<Reading> {
+        let of = |q: &[f64; 6]| Reading {
+            joints: q.to_vec(),
+            counted_from_tool: posture_at(pendant, q, &Isometry::identity()).base_from_tool,
+        };
+        MORE.iter().map(of).collect()
+    };
+    let [
+        Change::Zero {
+            joint: 1,
+            by,
+            free: true,
+        },
+    ] = explained(&file, &readings(&off))[..]
+    else {
+        panic!("no zero of any value");
+    };
+    assert!((by - 0.1234).abs() < 1e-9, "{by}");
+    for factor in [1.0, -1.0] {
+        let coupled = arm(|joints| joints[2].coupling = vec![Coupling { joint: 1, factor }]);
+        let change = Change::Coupling {
+            joint: 2,
+            other: 1,
+            factor,
+        };
+        assert_eq!(explained(&file, &readings(&coupled)), [change]);
+    }
+}
+
+#[test]
+fn what_two_changes_explain_alike_is_undecided() {
+    // With joint 5 straight joints 4 and 6 turn about one axis: whose zero is off cannot be seen.
+    let file = arm(|_| {});
+    let straight = MORE.map(|mut q| {
+        q[4] = 0.0;
+        q
+    });
+    let zero = |joint| Change::Zero {
+        joint,
+        by: FRAC_PI_2,
+        free: false,
+    };
+    let Verdict::Undecided(explanations) = verdict(&file, &shown(&file, &[zero(3)], &straight)) else {
+        panic!("decided");
+    };
+    let changes: Vec<&[Change]> = explanations.iter().map(|e| &e.changes[..]).collect();
+    assert!(
+        changes.contains(&&[zero(3)][..]) && changes.contains(&&[zero(5)][..]),
+        "{changes:?}"
+    );
+    assert!(explanations.iter().all(|e| e.apart.metres < 1e-6));
+    // A bent wrist decides.
+    assert_eq!(explained(&file, &shown(&file, &[zero(3)], &MORE)), [zero(3)]);
+}
+
+#[test]
+fn an_axis_that_is_tilted_is_unexplained() {
+    let file = arm(|_| {});
+    let mut motions = file.chain().motions().to_vec();
+    motions.insert(4, Motion::About(Axis::X, Amount::Constant(0.05)));
+    let tilted = Robot::new("tilted", motions, file.joints().to_vec()).unwrap();
+    let read: Vec<Reading> = MORE[..3]
+        .iter()
+        .map(|q| Reading {
+            joints: q.to_vec(),
+            counted_from_tool: posture_at(&tilted, q, &Isometry::identity()).base_from_tool,
+        })
+        .collect();
+    assert_eq!(verdict(&file, &read), Verdict::Unexplained);
+}
+
+#[test]
+fn whatever_two_changes_made_is_explained_by_no_more() {
+    let file = arm(|_| {});
+    let listed = joint_changes(&file);
+    let mut stream = crate::arms::Stream(71);
+    let pick = |stream: &mut crate::arms::Stream| listed[(stream.next() * listed.len() as f64) as usize];
+    for _ in 0..25 {
+        let (first, second) = (pick(&mut stream), pick(&mut stream));
+        let mut fits = false;
+        visit_sets(&[first, second], 2, &mut |_| {
+            fits = true;
+            Ok::<(), ()>(())
+        })
+        .unwrap();
+        let made = if fits { vec![first, second] } else { vec![first] };
+        let explanations = match verdict(&file, &shown(&file, &made, &MORE)) {
+            Verdict::Explained { explanation, .. } => vec![explanation],
+            Verdict::Undecided(explanations) => explanations,
+            Verdict::Unexplained => panic!("{made:?} is unexplained"),
+        };
+        let count = |changes: &[Change]| changes.iter().map(Change::count).sum::<usize>();
+        for explanation in explanations {
+            assert!(
+                count(&explanation.changes) <= count(&made),
+                "{made:?}: {explanation:?}"
+            );
+            // Whatever it says, the readings agree with it.
+            assert!(explanation.apart.metres < 1e-6 && explanation.apart.radians < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn a_joint_that_stood_at_zero_hides_its_sign() {
+    let file = arm(|_| {});
+    let at_zero = MORE.map(|mut q| {
+        q[0] = 0.0;
+        q
+    });
+    let Verdict::Explained { explanation, unseen } = verdict(&file, &shown(&file, &[], &at_zero)) else {
+        panic!("the file is right");
+    };
+    assert_eq!(explanation.changes, []);
+    assert!(unseen.contains(&Change::Sign { joint: 0 }), "{unseen:?}");
+    assert!(!unseen.contains(&Change::Sign { joint: 1 }));
+}
+
+#[test]
+fn readings_of_a_right_file_agree_and_others_tell_how_far_they_lie() {
+    let file = arm(|_| {});
+    let mut read = shown(&file, &[], &MORE);
+    read[2].counted_from_tool = Isometry::translation(0.0, 0.03, 0.04) * read[2].counted_from_tool;
+    let apart = compared(&file, &read, |comparison| {
+        inspect(comparison, Watch::NONE).unwrap().as_the_file_has_it
+    });
+    assert!((apart[2].metres - 0.05).abs() < 1e-12 && apart[2].radians < 1e-7);
+    assert!([0, 1, 3].into_iter().all(|i| apart[i].metres < 1e-12));
+}
+
+#[test]
+fn too_many_turning_joints_are_refused_with_a_reason() {
+    let count = search::MOST_TURNING + 1;
+    let motions = (0..count).flat_map(|joint| {
+        let axis = if joint % 2 == 0 { Axis::Z } else { Axis::Y };
+        [
+            Motion::About(axis, Amount::Joint(joint)),
+            Motion::Along(Axis::X, Amount::Constant(0.1)),
+        ]
+    });
+    let snake = Robot::new("snake", motions.collect(), vec![Joint::plain("j"); count]).unwrap();
+    let refused = compared(&snake, &[], |comparison| {
+        inspect(comparison, Watch::NONE).unwrap_err()
+    });
+    assert_eq!(refused, NotInspected::TooManyJoints { turning: 13 });
+    assert!(
+        refused.to_string().starts_with("13 joints turn, but"),
+        "{refused}"
+    );
+}
+
+#[test]
+fn a_search_is_cancelled_between_two_sets() {
+    use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+    let file = arm(|_| {});
+    let read = shown(
+        &file,
+        &[Change::Sign { joint: 0 }, Change::Sign { joint: 2 }],
+        &MORE,
+    );
+    let (tried, cancel) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let finished = |sets: usize| {
+        let before = tried.fetch_add(sets, Ordering::Relaxed);
+        cancel.store(before + sets >= 7, Ordering::Relaxed);
+    };
+    let watch = Watch {
+        finished: &finished,
+        cancel: &cancel,
+    };
+    let stopped = compared(&file, &read, |comparison| inspect(comparison, watch).unwrap_err());
+    assert_eq!(stopped, NotInspected::Cancelled(crate::watch::Cancelled));
+    assert_eq!(tried.load(Ordering::Relaxed), 7);
+}
+
+#[test]
+fn sets_come_in_the_order_of_the_list_and_a_failure_ends_them() {
+    let listed = [0, 1, 2, 3].map(|joint| Change::Sign { joint });
+    let mut seen = Vec::new();
+    let visited = visit_sets(&listed, 2, &mut |set| {
+        let joints: Vec<usize> = set
+            .iter()
+            .filter_map(|change| match change {
+                Change::Sign { joint } => Some(*joint),
+                _ => None,
+            })
+            .collect();
+        seen.push([joints[0], joints[1]]);
+        if seen.len() == 4 { Err("enough") } else { Ok(()) }
+    });
+    assert_eq!(visited, Err("enough"));
+    assert_eq!(seen, [[0, 1], [0, 2], [0, 3], [1, 2]]);
+}
+
+#[test]
+fn the_worse_of_two_distances_is_the_worse_of_each() {
+    let (a, b) = (
+        Apart {
+            metres: 1.0,
+            radians: 0.1,
+        },
+        Apart {
+            metres: 0.5,
+            radians: 0.2,
+        },
+    );
+    let worse = a.or_worse(b);
+    assert_eq!((worse.metres, worse.radians), (1.0, 0.2));
+    assert!(a.is_within(&worse) && b.is_within(&worse) && !worse.is_within(&a));
+    let pose = Isometry::translation(0.3, 0.0, 0.4) * Isometry::rotation(Vector3::z() * 0.7);
+    let found = Apart::between(&Isometry::identity(), &pose);
+    assert!((found.metres - 0.5).abs() < 1e-15 && (found.radians - 0.7).abs() < 1e-12);
 }

@@ -1,7 +1,9 @@
 //! The closed forms: eight branches each, by name.
 
+use super::super::branch::Branch;
 use super::super::chain::Chain;
-use super::super::posture::{Branch, Singularity, Unreachable};
+use super::super::posture::Singularity;
+use super::super::unreachable::Unreachable;
 use super::ortho_parallel::OrthoParallel;
 use super::three_parallel::ThreeParallel;
 use crate::frame::Isometry;
@@ -69,3 +71,6 @@ impl ClosedForm {
         matches!(self, ClosedForm::OrthoParallel(_))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -13,12 +13,13 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use super::super::chain::{Chain, Motion};
 use super::super::forward::{Frames, chain_forward_into};
 use super::super::jacobian::chain_screws_into;
-use super::super::posture::Unreachable;
+use super::super::unreachable::Unreachable;
+use crate::frame::{Isometry, turn_between};
 use crate::spatial::Twist;
 
 /// Error (l, rad) below which a pose counts as reached: a hundred times below what is checked afterwards.
@@ -40,12 +41,12 @@ const DEPENDENT: f64 = 300.0;
 /// A pose to reach, as rotation matrix and point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Goal {
-    rotation: SMatrix<f64, 3, 3>,
+    rotation: Matrix3<f64>,
     point: Vector3<f64>,
 }
 
 impl Goal {
-    pub fn new(base_from_flange: &crate::frame::Isometry) -> Goal {
+    pub fn new(base_from_flange: &Isometry) -> Goal {
         Goal {
             rotation: base_from_flange.rotation.to_rotation_matrix().into_inner(),
             point: base_from_flange.translation.vector,
@@ -250,49 +251,5 @@ impl Descent {
     }
 }
 
-/// Axis times angle (rad) of the turn that takes the axes `from` to the axes `to`.
-fn turn_between(from: &SMatrix<f64, 3, 3>, to: &SMatrix<f64, 3, 3>) -> Vector3<f64> {
-    let sine: Vector3<f64> = (0..3)
-        .map(|i| from.column(i).cross(&to.column(i)))
-        .sum::<Vector3<f64>>()
-        * 0.5;
-    let cosine = 0.5 * (from.dot(to) - 1.0);
-    let length = sine.norm();
-    if length > 1e-6 || cosine > 0.0 {
-        // For small angles the sine is the angle, to rounding.
-        let factor = if length > 1e-9 {
-            length.atan2(cosine) / length
-        } else {
-            1.0
-        };
-        return sine * factor;
-    }
-    // Half a turn: the axis is the longest column of R + I.
-    let turn = to * from.transpose() + SMatrix::identity();
-    let axis = turn
-        .column_iter()
-        .map(nalgebra::Matrix::into_owned)
-        .max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))
-        .unwrap_or_else(Vector3::x);
-    axis.normalize() * std::f64::consts::PI
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use nalgebra::Rotation3;
-
-    #[test]
-    fn turns_between_axes_are_those_that_were_made() {
-        let from = Rotation3::from_euler_angles(0.3, -1.0, 2.0);
-        let axis = Vector3::new(0.48, -0.6, 0.64);
-        for angle in [0.0, 1e-12, 1e-5, 0.3, 1.7, 3.0, 3.1] {
-            let to = Rotation3::new(axis * angle) * from;
-            let found = turn_between(from.matrix(), to.matrix());
-            assert!((found - axis * angle).norm() < 1e-9, "{angle}: {found}");
-        }
-        let half = Rotation3::new(axis * std::f64::consts::PI) * from;
-        let found = turn_between(from.matrix(), half.matrix());
-        assert!((found.norm() - std::f64::consts::PI).abs() < 1e-9 && found.cross(&axis).norm() < 1e-6);
-    }
-}
+mod tests;

@@ -123,7 +123,7 @@ impl Inverse {
     }
 
     /// One word for JSON: `closed_form`, `polished`, `searched`; of an arm on a rail that of the arm.
-    pub fn kind(&self) -> &'static str {
+    pub fn word(&self) -> &'static str {
         match self.of_arm() {
             Inverse::Closed(_) => "closed_form",
             Inverse::SphericalWrist(form) if form.is_exact() => "closed_form",
@@ -178,3 +178,6 @@ impl fmt::Display for Inverse {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 //!
 //! An axis is a line: a point on it (m) and its unit direction, both told at chain zero in base.
 
-use nalgebra::{Matrix3, Point3, Rotation3, Unit, Vector3};
+use nalgebra::{IsometryMatrix3, Matrix3, Point3, Rotation3, Unit, Vector3};
 
 use super::super::chain::{Chain, Motion};
 
@@ -77,6 +77,20 @@ pub(super) fn lines_at_zero<const N: usize>(chain: &Chain) -> Option<[Line; N]> 
         }
     }
     lines.try_into().ok()
+}
+
+/// An arm whose axis 2 is perpendicular to axis 1: x to the front, y along axis 2, z along axis 1 and up; origin on axis 1
+/// at the height of axis 2.
+pub(super) fn base_from_arm(lines: &[Line; 6], wrist: Point3<f64>) -> IsometryMatrix3<f64> {
+    let (z1, z2) = (lines[0].axis, lines[1].axis);
+    let up = z1 * sense_of(z1.z);
+    let centre = lines[0].point + up * (lines[1].point - lines[0].point).dot(&up);
+    // The front is where base x points; if it points along axis 2, where the wrist is.
+    let forwards = z2.cross(&up);
+    let front = up_to_noise(forwards.x).or_else(|| up_to_noise((wrist - centre).dot(&forwards)));
+    let y = z2 * sense_of(front.unwrap_or(1.0));
+    let axes = Matrix3::from_columns(&[y.cross(&up), y, up]);
+    IsometryMatrix3::from_parts(centre.into(), Rotation3::from_matrix_unchecked(axes))
 }
 
 /// `axis` without its part along the unit vector `other`, of unit length.
@@ -190,5 +204,77 @@ mod tests {
         let quarter = Turn::by(std::f64::consts::FRAC_PI_2);
         assert!((quarter.back_about_z(Vector3::y()) - Vector3::x()).norm() < 1e-15);
         assert!((quarter.less(turn).angle() + turn.angle() - quarter.angle()).abs() < 1e-15);
+    }
+
+    /// Lines of some arm that hangs from a tilted beam.
+    fn lines() -> [Line; 6] {
+        lines_at_zero(crate::arms::hung().chain()).unwrap()
+    }
+
+    #[test]
+    fn points_on_a_line_stay_where_they_are_when_it_turns_them() {
+        for line in lines() {
+            let on = line.point + line.axis * 0.7;
+            assert!((line.turned(1.3, &on) - on).norm() < 1e-15);
+            let beside = Point3::new(0.3, 2.0, -0.4);
+            assert!((line.distance(line.turned(1.3, &beside)) - line.distance(beside)).abs() < 1e-14);
+            assert!((line.turned(-1.3, &line.turned(1.3, &beside)) - beside).norm() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_line_told_near_a_point_is_the_same_line() {
+        let other = Point3::new(0.3, 2.0, -0.4);
+        for line in lines() {
+            let told = line.told_near(other);
+            assert!(line.distance(told.point) < 1e-14 && told.axis == line.axis);
+            // No point of the line is nearer.
+            assert!(((other - told.point).norm() - line.distance(other)).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_carried_line_keeps_its_angle_and_distance_to_the_one_that_carries_it() {
+        let [a, b, ..] = lines();
+        let there = a.carried(0.9, &b);
+        assert!((there.axis.dot(&a.axis) - b.axis.dot(&a.axis)).abs() < 1e-15);
+        assert!((a.distance(there.point) - a.distance(b.point)).abs() < 1e-14);
+        let back = a.carried(-0.9, &there);
+        assert!((back.axis - b.axis).norm() < 1e-15 && (back.point - b.point).norm() < 1e-15);
+    }
+
+    #[test]
+    fn the_arm_stands_on_axis_1_at_the_height_of_axis_2_with_y_along_it() {
+        let lines = lines();
+        let wrist = lines[3].nearest_to(&lines[4]).unwrap();
+        let frame = base_from_arm(&lines, wrist);
+        let m = frame.rotation.matrix();
+        assert!((m * m.transpose() - Matrix3::identity()).norm() < 1e-14 && m.determinant() > 0.0);
+        let (y, up) = (m.column(1), m.column(2));
+        assert!(y.cross(&lines[1].axis).norm() < 1e-14 && up.cross(&lines[0].axis).norm() < 1e-14);
+        assert!(up.z > 0.0);
+        let origin = Point3::from(frame.translation.vector);
+        assert!(lines[0].distance(origin) < 1e-14);
+        assert!((lines[1].point - origin).dot(&up).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_chain_that_slides_or_has_another_count_has_no_such_lines() {
+        let railed = crate::arms::other::on_rail(&crate::arms::mh12());
+        assert!(lines_at_zero::<7>(railed.chain()).is_none());
+        assert!(lines_at_zero::<6>(crate::arms::other::iiwa14().chain()).is_none());
+        assert!(lines_at_zero::<7>(crate::arms::other::iiwa14().chain()).is_some());
+    }
+
+    #[test]
+    fn small_things_count_as_none_and_zero_has_a_sense() {
+        assert_eq!(
+            (up_to_noise(0.9 * IDEAL), up_to_noise(-1.1 * IDEAL)),
+            (None, Some(-1.1 * IDEAL))
+        );
+        assert_eq!((sense_of(0.0), sense_of(-1e-300)), (1.0, -1.0));
+        let zero = Turn::new(0.0, 0.0);
+        assert_eq!((zero.cos, zero.sin), (1.0, 0.0));
+        assert!((across(Vector3::new(1.0, 5.0, 0.0), &Vector3::y()) - Vector3::x()).norm() < 1e-15);
     }
 }

@@ -21,7 +21,7 @@ pub mod standing_joint;
 mod starts;
 pub mod three_parallel;
 mod three_turns;
-mod two_links;
+pub(crate) mod two_links;
 
 pub use closed_form::ClosedForm;
 pub use finder::{Finder, Found, Wanted};
@@ -31,13 +31,14 @@ pub use spherical_wrist::SphericalWrist;
 pub use standing_joint::StandingJoint;
 pub use three_parallel::ThreeParallel;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 
 use super::forward::{Frames, forward, forward_into};
 use super::jacobian::screws_at;
 use super::model::Robot;
-use super::posture::{Posture, Unreachable};
-use crate::frame::Isometry;
+use super::posture::Posture;
+use super::unreachable::Unreachable;
+use crate::frame::{Isometry, turn_between};
 
 /// How far the forward kinematics of a solution may lie from the pose asked for, m and rad.
 ///
@@ -56,6 +57,17 @@ pub struct ToolAt<'a> {
     pub home: Option<&'a [f64]>,
 }
 
+impl<'a> ToolAt<'a> {
+    /// The tool on an arm that stood nowhere before and likes the middle of its ranges.
+    pub fn on(flange_from_tool: &'a Isometry) -> ToolAt<'a> {
+        ToolAt {
+            flange_from_tool,
+            near: None,
+            home: None,
+        }
+    }
+}
+
 /// Every posture that holds the tool at `base_from_tool`, of a searched chain those that were found; without names the
 /// nearest to `near` (or `home`) first. At the wrist singularity the joint that is left free stays as in `near`; without, joints 4
 /// and 6 of a spherical wrist share the turn evenly.
@@ -66,7 +78,7 @@ pub struct ToolAt<'a> {
 /// The reason of the branch that misses by least, if no branch reaches; how near a search came.
 ///
 /// # Panics
-/// If `near` or `home` have fewer entries than the robot has joints.
+/// If `near` or `home` have not as many entries as the robot has joints.
 pub fn postures(
     robot: &Robot,
     base_from_tool: &Isometry,
@@ -99,16 +111,9 @@ pub fn postures(
 pub fn holds(frames: &Frames, base_from_flange: &Isometry) -> Result<(), Unreachable> {
     let reached = &frames.base_from_flange;
     let away = reached.translation.vector - base_from_flange.translation.vector;
-    let (a, b) = (
-        reached.rotation.matrix(),
-        base_from_flange.rotation.to_rotation_matrix(),
-    );
-    // Each pair of axes spans the sine of the angle between them; an angle above pi/2 shows in the trace.
-    let turned: Vector3<f64> = (0..3)
-        .map(|i| a.column(i).cross(&b.matrix().column(i)))
-        .sum::<Vector3<f64>>()
-        * 0.5;
-    if away.norm() < VERIFIED && turned.norm() < VERIFIED && a.dot(b.matrix()) > 1.0 {
+    let wanted = base_from_flange.rotation.to_rotation_matrix();
+    let turned = turn_between(reached.rotation.matrix(), wanted.matrix());
+    if away.norm() < VERIFIED && turned.norm() < VERIFIED {
         Ok(())
     } else {
         Err(Unreachable::Unverified { by: away.norm() })

@@ -19,18 +19,15 @@
 //!
 //! Lengths m, angles rad. Source: textbook geometry; compare Brandstoetter, Angerer, Hofbaur 2014 (OPW).
 
-use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Vector3};
 
+use super::super::branch::{Branch, Shoulder, Wrist};
 use super::super::chain::Chain;
-use super::super::posture::{Branch, Shoulder, Singularity, Unreachable, Wrist};
-use super::lines::{IDEAL, Line, Turn, across, lines_at_zero, sense_of, up_to_noise};
-use super::two_links::TwoLinks;
+use super::super::posture::Singularity;
+use super::super::unreachable::Unreachable;
+use super::lines::{IDEAL, Line, Turn, across, base_from_arm, lines_at_zero, sense_of, up_to_noise};
+use super::two_links::{TwoLinks, WRIST_SINGULAR};
 use crate::frame::Isometry;
-
-/// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
-pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
-/// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
-pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 
 /// The geometry of an ortho-parallel arm with spherical wrist, read off its chain.
 #[derive(Clone, Debug)]
@@ -86,21 +83,11 @@ impl OrthoParallel {
 
     fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<OrthoParallel> {
         let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
-        let [o1, o2, o3, ..] = lines.map(|line| line.point);
+        let [_, o2, o3, ..] = lines.map(|line| line.point);
         let base_from_flange = chain.base_from_flange(&[0.0; 6]);
-        let up = z1 * sense_of(z1.z);
-        let centre = o1 + up * (o2 - o1).dot(&up);
-        // The front is where base x points; if it points along axis 2, where the wrist is.
-        let front =
-            up_to_noise(z2.cross(&up).x).or_else(|| up_to_noise((wrist - centre).dot(&z2.cross(&up))));
-        let y = z2 * sense_of(front.unwrap_or(1.0));
-        let x = y.cross(&up);
-        let base_from_arm = Isometry::from_parts(
-            centre.into(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(Matrix3::from_columns(
-                &[x, y, up],
-            ))),
-        );
+        let arm = base_from_arm(lines, wrist);
+        let [y, up] = [1, 2].map(|i| arm.rotation.matrix().column(i).into_owned());
+        let base_from_arm = Isometry::from_parts(arm.translation, arm.rotation.into());
         let arm_from_base = base_from_arm.inverse();
         let (shoulder, elbow, w) = (arm_from_base * o2, arm_from_base * o3, arm_from_base * wrist);
         let (upper_arm, forearm) = (elbow - shoulder, w - elbow);
@@ -174,7 +161,7 @@ impl OrthoParallel {
             *phi *= sense;
         }
         let sin_elbow = chi.sin * psi.cos - chi.cos * psi.sin;
-        Ok((positions, self.singularity(bend.sin, sin_elbow, r)))
+        Ok((positions, self.links.singularity(bend.sin, sin_elbow, r)))
     }
 
     /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
@@ -191,7 +178,7 @@ impl OrthoParallel {
             elbow: TwoLinks::elbow(eps, u),
             wrist: Wrist::bent(bend.sin()),
         };
-        (branch, self.singularity(bend.sin(), eps.sin(), u + self.a1))
+        (branch, self.links.singularity(bend.sin(), eps.sin(), u + self.a1))
     }
 
     /// Joint 4, bend and joint 6; at the singularity joint 4 is `kept`.
@@ -229,18 +216,6 @@ impl OrthoParallel {
             Turn::new(-flip * up, flip * side)
         };
         [phi4, bend, rest(phi4)]
-    }
-
-    fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
-        if sin_bend.abs() < NEAR_SINGULAR {
-            Some(Singularity::Wrist)
-        } else if sin_elbow.abs() < NEAR_SINGULAR {
-            Some(Singularity::Elbow)
-        } else if r.abs() < NEAR_SINGULAR * (self.links.l2 + self.links.l3) {
-            Some(Singularity::Shoulder)
-        } else {
-            None
-        }
     }
 }
 

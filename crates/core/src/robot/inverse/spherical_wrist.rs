@@ -28,8 +28,8 @@ use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use super::super::chain::Chain;
 use super::closed_form::{CALIBRATED, SLACK};
 use super::lines::{IDEAL, Line, across, lines_at_zero};
-use super::ortho_parallel::WRIST_SINGULAR;
 use super::three_turns::ThreeTurns;
+use super::two_links::WRIST_SINGULAR;
 use crate::frame::Isometry;
 
 /// The least sine between neighbouring axes of a wrist: nearer to parallel it does not reach most directions.
@@ -205,3 +205,6 @@ fn meeting(lines: [&Line; 3]) -> Option<Point3<f64>> {
     let right: Vector3<f64> = lines.iter().map(|line| off(line) * (line.point - origin)).sum();
     (normal.determinant() > IDEAL).then(|| normal.cholesky().map(|factor| origin + factor.solve(&right)))?
 }
+
+#[cfg(test)]
+mod tests;

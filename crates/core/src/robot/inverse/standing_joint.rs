@@ -122,3 +122,6 @@ impl StandingJoint {
         Some(std::array::from_fn(|i| theta[i + usize::from(i >= self.joint)]))
     }
 }
+
+#[cfg(test)]
+mod tests;

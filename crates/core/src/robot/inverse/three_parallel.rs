@@ -16,13 +16,14 @@
 //! Lengths m, angles rad. Source: subproblems after Paden 1986 and Kahan; the split for three parallel axes as in
 //! Elias & Wen 2022 (IK-Geo), here in the case of two meeting axes; `docs/theory/inverse.md`.
 
-use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 
+use super::super::branch::{Branch, Shoulder, Wrist};
 use super::super::chain::Chain;
-use super::super::posture::{Branch, Shoulder, Singularity, Unreachable, Wrist};
-use super::lines::{IDEAL, Line, Turn, across, lines_at_zero, sense_of, up_to_noise};
-use super::ortho_parallel::{NEAR_SINGULAR, WRIST_SINGULAR};
-use super::two_links::TwoLinks;
+use super::super::posture::Singularity;
+use super::super::unreachable::Unreachable;
+use super::lines::{IDEAL, Line, Turn, across, base_from_arm, lines_at_zero, sense_of};
+use super::two_links::{TwoLinks, WRIST_SINGULAR};
 use crate::frame::Isometry;
 
 /// The geometry of an arm with three parallel axes, read off its chain.
@@ -82,17 +83,9 @@ impl ThreeParallel {
 
     fn of_lines(chain: &Chain, lines: &[Line; 6], wrist: Point3<f64>) -> Option<ThreeParallel> {
         let [z1, z2, z3, z4, z5, z6] = lines.map(|line| line.axis);
-        let up = z1 * sense_of(z1.z);
-        let centre = lines[0].point + up * (lines[1].point - lines[0].point).dot(&up);
-        // The front is where base x points; if it points along axis 2, where the wrist is.
-        let forwards = z2.cross(&up);
-        let front = up_to_noise(forwards.x).or_else(|| up_to_noise((wrist - centre).dot(&forwards)));
-        let y = z2 * sense_of(front.unwrap_or(1.0));
-        let axes = Matrix3::from_columns(&[y.cross(&up), y, up]);
-        let base_from_arm = Isometry::from_parts(
-            centre.into(),
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes)),
-        );
+        let arm = base_from_arm(lines, wrist);
+        let [y, up] = [1, 2].map(|i| arm.rotation.matrix().column(i).into_owned());
+        let base_from_arm = Isometry::from_parts(arm.translation, arm.rotation.into());
         let arm_from_base = base_from_arm.inverse();
         let [shoulder, elbow, hand] = [1, 2, 3].map(|i| arm_from_base * lines[i].point);
         let w = arm_from_base * wrist;
@@ -192,7 +185,7 @@ impl ThreeParallel {
         for (phi, sense) in positions.iter_mut().zip(self.sense) {
             *phi *= sense;
         }
-        Ok((positions, self.singularity(bend.sin, chi.less(psi).sin, r)))
+        Ok((positions, self.links.singularity(bend.sin, chi.less(psi).sin, r)))
     }
 
     /// Branch of the chain positions `theta`, and the singularity they stand near, if any.
@@ -211,19 +204,7 @@ impl ThreeParallel {
             elbow: TwoLinks::elbow(eps, u),
             wrist: Wrist::bent(bend.sin()),
         };
-        (branch, self.singularity(bend.sin(), eps.sin(), r))
-    }
-
-    fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
-        if sin_bend.abs() < NEAR_SINGULAR {
-            Some(Singularity::Wrist)
-        } else if sin_elbow.abs() < NEAR_SINGULAR {
-            Some(Singularity::Elbow)
-        } else if r.abs() < NEAR_SINGULAR * (self.links.l2 + self.links.l3) {
-            Some(Singularity::Shoulder)
-        } else {
-            None
-        }
+        (branch, self.links.singularity(bend.sin(), eps.sin(), r))
     }
 }
 

@@ -10,8 +10,15 @@
 
 use nalgebra::Point3;
 
-use super::super::posture::{Elbow, Shoulder, Unreachable};
+use super::super::branch::{Elbow, Shoulder};
+use super::super::posture::Singularity;
+use super::super::unreachable::Unreachable;
 use super::lines::Turn;
+
+/// A posture nearer than this (sine of 1 deg) to a singularity is flagged.
+pub(crate) const NEAR_SINGULAR: f64 = 0.017_452_406;
+/// Below this sine of the wrist bend joints 4 and 6 cannot be told apart.
+pub(crate) const WRIST_SINGULAR: f64 = 1e-9;
 
 /// Lengths of upper arm and forearm, m.
 #[derive(Clone, Copy, Debug)]
@@ -85,6 +92,20 @@ impl TwoLinks {
         Ok((psi, chi))
     }
 
+    /// The singularity near which an arm stands with these sines of wrist bend and elbow bend, and its wrist centre at the
+    /// signed distance `r` (m) from axis 1.
+    pub(super) fn singularity(&self, sin_bend: f64, sin_elbow: f64, r: f64) -> Option<Singularity> {
+        if sin_bend.abs() < NEAR_SINGULAR {
+            Some(Singularity::Wrist)
+        } else if sin_elbow.abs() < NEAR_SINGULAR {
+            Some(Singularity::Elbow)
+        } else if r.abs() < NEAR_SINGULAR * (self.l2 + self.l3) {
+            Some(Singularity::Shoulder)
+        } else {
+            None
+        }
+    }
+
     /// Up or down, from the bend (rad) and the place `u` of the end before the shoulder.
     pub fn elbow(bend: f64, u: f64) -> Elbow {
         if (bend.sin() >= 0.0) == (u >= 0.0) {
@@ -130,5 +151,77 @@ mod tests {
         };
         assert!(bend(Elbow::Up) > 0.01 && bend(Elbow::Down) < -0.01);
         assert!(slack.solve(1.13, 0.0, Elbow::Up).is_err());
+    }
+
+    #[test]
+    fn what_is_missing_is_told_in_metres() {
+        for (u, v) in [(0.03, 0.04), (0.0, -0.05), (-0.05, 0.0)] {
+            // The folded arm keeps 0.6 - 0.5 m away.
+            let miss = ARM.solve(u, v, Elbow::Down).unwrap_err();
+            assert!(
+                matches!(miss, Unreachable::TooNear { by } if (by - 0.05).abs() < 1e-15),
+                "{miss}"
+            );
+        }
+        let beside = Point3::new(0.03, -0.04, 1.0);
+        for (b, missing) in [(0.08, 0.03), (-0.08, 0.03)] {
+            let miss = ARM.reach(&beside, b, Shoulder::Front).unwrap_err();
+            assert!(matches!(miss, Unreachable::InsideLateralOffset { by } if (by - missing).abs() < 1e-15));
+        }
+        assert!(ARM.reach(&beside, 0.0499, Shoulder::Back).is_ok());
+    }
+
+    #[test]
+    fn the_plane_of_the_arm_is_turned_until_the_point_lies_in_it() {
+        for b in [0.0, 0.05, -0.2] {
+            for i in 0..12 {
+                let at = 0.5 * f64::from(i);
+                let p = Point3::new(0.7 * at.cos(), 0.7 * at.sin(), 0.3);
+                for (shoulder, side) in [(Shoulder::Front, 1.0), (Shoulder::Back, -1.0)] {
+                    let (r, phi) = ARM.reach(&p, b, shoulder).unwrap();
+                    let turned = phi.back_about_z(p.coords);
+                    assert!((turned - nalgebra::Vector3::new(r, b, 0.3)).norm() < 1e-15);
+                    assert!(r * side > 0.0);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn singularities_are_flagged_within_a_degree_the_wrist_first() {
+        let near = NEAR_SINGULAR;
+        assert!((near - 1_f64.to_radians().sin()).abs() < 1e-9);
+        let (in_line, clear) = (0.9 * near, 1.1 * near);
+        for side in [1.0, -1.0] {
+            assert_eq!(
+                ARM.singularity(side * in_line, 1.0, 1.0),
+                Some(Singularity::Wrist)
+            );
+            assert_eq!(
+                ARM.singularity(clear, side * in_line, 1.0),
+                Some(Singularity::Elbow)
+            );
+            // The shoulder counts by the length of the arm: 1.1 m.
+            assert_eq!(
+                ARM.singularity(clear, clear, side * 1.1 * in_line),
+                Some(Singularity::Shoulder)
+            );
+            assert_eq!(ARM.singularity(clear, clear, side * 1.1 * clear), None);
+        }
+        assert_eq!(ARM.singularity(0.0, 0.0, 0.0), Some(Singularity::Wrist));
+        assert_eq!(ARM.singularity(1.0, 0.0, 0.0), Some(Singularity::Elbow));
+    }
+
+    #[test]
+    fn straight_and_folded_arms_are_reached_exactly() {
+        for (d, bend) in [(1.1, 0.0), (0.1, std::f64::consts::PI)] {
+            for elbow in [Elbow::Up, Elbow::Down] {
+                let (psi, chi) = ARM.solve(0.6 * d, 0.8 * d, elbow).unwrap();
+                // The bend at the end of a branch is known to the root of rounding.
+                assert!((chi.less(psi).angle().abs() - bend).abs() < 1e-7);
+                let end = [0.6 * psi.sin + 0.5 * chi.sin, 0.6 * psi.cos + 0.5 * chi.cos];
+                assert!((end[0] - 0.6 * d).hypot(end[1] - 0.8 * d) < 1e-8);
+            }
+        }
     }
 }

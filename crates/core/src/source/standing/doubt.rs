@@ -11,9 +11,9 @@ use crate::robot::forward::Frames;
 use crate::source::Unstable;
 use crate::spatial::Wrench;
 
-/// How an arm stands and is loaded.
+/// Where an arm stands, and what it is loaded with there.
 #[derive(Clone, Copy, Debug)]
-pub struct Loaded<'a> {
+pub struct AsItStands<'a> {
     /// Joint positions, rad (m).
     pub joints: &'a [f64],
     /// Its frames there.
@@ -28,25 +28,21 @@ pub struct Loaded<'a> {
 
 impl Standing<'_> {
     /// Variance (m^2) of the elastic displacement along the unit vector `along` that `doubt` makes. The arm stands as
-    /// `loaded` says, before and after; its last load is another one afterwards.
+    /// `standing` says, before and after; its last load is another one afterwards.
     ///
     /// # Errors
     /// [`Unstable`] where the arm finds no rest under a load that is off.
     pub fn variance_of_doubt(
         &mut self,
         doubt: &Doubt,
-        loaded: &Loaded<'_>,
+        standing: &AsItStands<'_>,
         along: &Vector3<f64>,
     ) -> Result<f64, Unstable> {
-        let Wrench { force, moment } = *loaded.wrench;
-        let told = self.elastic(loaded.wrench)?.linear.dot(along);
+        let Wrench { force, moment } = *standing.wrench;
+        let told = self.elastic(standing.wrench)?.linear.dot(along);
         let mut variance = 0.0;
         if doubt.relative > 0.0 {
-            let scale = 1.0 + doubt.relative;
-            let off = Wrench {
-                force: force * scale,
-                moment: moment * scale,
-            };
+            let off = *standing.wrench * (1.0 + doubt.relative);
             variance += (self.elastic(&off)?.linear.dot(along) - told).powi(2);
         }
         for u in doubt.forces.iter().filter(|u| **u != Vector3::zeros()) {
@@ -57,10 +53,10 @@ impl Standing<'_> {
             variance += (self.elastic(&off)?.linear.dot(along) - told).powi(2);
         }
         if doubt.tool_length > 0.0 {
-            let off = loaded.tcp + loaded.tool_axis * doubt.tool_length;
-            self.stand_in(loaded.joints, loaded.frames, &off);
-            let elsewhere = self.elastic(loaded.wrench);
-            self.stand_in(loaded.joints, loaded.frames, &loaded.tcp);
+            let off = standing.tcp + standing.tool_axis * doubt.tool_length;
+            self.stand_in(standing.joints, standing.frames, &off);
+            let elsewhere = self.elastic(standing.wrench);
+            self.stand_in(standing.joints, standing.frames, &standing.tcp);
             variance += (elsewhere?.linear.dot(along) - told).powi(2);
         }
         Ok(variance)

@@ -12,9 +12,9 @@ use crate::spatial::Twist;
 impl Standing<'_> {
     /// Part of drive or spring `k` in the displacement under the last load, gravity included.
     pub fn part(&self, k: usize) -> Twist {
-        let elastic = self.screws[k].scaled(self.turns[k]);
+        let elastic = self.screws[k] * self.turns[k];
         match self.sagged(k) {
-            Some((sag, (there, _))) => elastic + self.screws[k].scaled(sag) + there.scaled(-1.0),
+            Some((sag, (there, _))) => elastic + self.screws[k] * sag - there,
             None => elastic,
         }
     }
@@ -39,7 +39,7 @@ impl Standing<'_> {
         sharers.iter().map(of).collect()
     }
 
-    /// Adds the part of each sharer along the unit vector `along` to `shares`, m.
+    /// Puts the part of each sharer along the unit vector `along` (m) into `shares`, one a sharer.
     pub fn share_along(&self, along: &Vector3<f64>, sharers: &[Seat], shares: &mut [f64]) {
         shares.fill(0.0);
         for (k, seat) in self.seats.iter().enumerate() {

@@ -331,7 +331,7 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
     })?;
     let load = PathLoad::Cuts(load.cuts);
     let part_from_base = track.base_from_part.rotation.inverse();
-    let mut wrenches = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+    let mut wrenches = vec![Wrench::ZERO; load.case_count()];
     let force = |index: usize| {
         track.wrenches(&load, index, &mut wrenches);
         let in_base = wrenches.first().map_or_else(Vector3::zeros, |mean| mean.force);

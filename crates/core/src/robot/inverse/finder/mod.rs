@@ -10,19 +10,18 @@ mod unnamed;
 
 use std::f64::consts::TAU;
 
+use super::super::branch::{Branch, BranchPattern};
 use super::super::chain::{Amount, Chain, Motion};
 use super::super::forward::{Frames, forward_into};
 use super::super::model::Robot;
-use super::super::posture::{Branch, BranchPattern, PostureName, Sides, Singularity, Unreachable};
+use super::super::posture::{PostureName, Sides, Singularity};
+use super::super::unreachable::Unreachable;
 use super::closed_form::ClosedForm;
 use super::descent::{Descent, Goal};
 use super::holds;
 use super::kind::Inverse;
 use crate::frame::Isometry;
 use search::{MOST, SAME, THOROUGH};
-
-/// Descents reached the pose, but all in other branches than those asked for.
-const OTHER_BRANCHES: Unreachable = Unreachable::NotFound { by: 0.0, turned: 0.0 };
 
 /// Where the flange should be, and where the arm stood or likes to stand.
 #[derive(Clone, Copy, Debug)]
@@ -147,7 +146,7 @@ impl<'r> Finder<'r> {
             Inverse::Searched | Inverse::OnRail(_) => self.search(wanted, &arm_from_flange, most, THOROUGH),
         };
         if self.found.is_empty() {
-            return Err(missed.unwrap_or(OTHER_BRANCHES));
+            return Err(missed.unwrap_or(Unreachable::OtherBranch));
         }
         Ok(&self.found)
     }
@@ -156,7 +155,11 @@ impl<'r> Finder<'r> {
     fn settle_home(&mut self, wanted: &Wanted<'_>) {
         match wanted.home {
             Some(home) => self.home.copy_from_slice(home),
-            None => self.home = self.robot.middles(),
+            None => {
+                for (home, joint) in self.home.iter_mut().zip(self.robot.joints()) {
+                    *home = joint.limits.map_or(0.0, |limits| limits.middle());
+                }
+            }
         }
     }
 
@@ -364,9 +367,7 @@ fn sides(robot: &Robot, q: &[f64]) -> PostureName {
 
 /// The miss that is smaller.
 fn nearer(known: Option<Unreachable>, miss: Unreachable) -> Unreachable {
-    known
-        .filter(|known| known.amount() <= miss.amount())
-        .unwrap_or(miss)
+    known.filter(|known| !miss.is_nearer_than(known)).unwrap_or(miss)
 }
 
 /// `angle` plus whole turns, in (middle - pi, middle + pi].
@@ -375,3 +376,6 @@ fn nearest_turn(angle: f64, middle: f64) -> f64 {
     // A hair below -half a turn is half a turn: -180 deg and 180 deg are one posture.
     angle - TAU * (away - 0.5 - 1e-12).ceil()
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::super::super::posture::Unreachable;
+use super::super::super::unreachable::Unreachable;
 use super::super::descent::Goal;
 use super::super::lines::sense_of;
 use super::super::spherical_wrist::SphericalWrist;

@@ -1,0 +1,342 @@
+//! The steps of a batch, each on the block it holds: aim, solve, bend, judge, tell.
+//!
+//! Each hands planes of the scratch to one compiled loop; which one follows from the question.
+
+use nalgebra::Vector3;
+
+use super::aims::{self, Orientations, Places};
+use super::arrays::Poses;
+use super::backend::{Backend, Precision};
+use super::batch::{Batch, Scratch};
+use super::block::{Aims, BLOCK, Plane, Planes, planes};
+use super::compliance::Compliances;
+use super::envelope::{Largest, Rows};
+use super::limits::{CosineLimits, LimitsByCosines};
+use super::positions::{LimitsByPositions, Position};
+use super::solve::{Postures, Reach, Solve};
+use crate::robot::{Branch, Elbow, Shoulder};
+
+/// Which axis 5 an aim holds.
+#[derive(Clone, Copy)]
+pub(super) enum Second {
+    /// With joint 6 at zero: positions want it.
+    AtZero,
+    /// With joint 6 in the middle of its range: limits told by cosines want it.
+    InTheMiddle,
+}
+
+/// Signs of shoulder and elbow.
+pub(super) fn signs(branch: Branch) -> [f64; 2] {
+    [
+        if branch.shoulder == Shoulder::Front {
+            1.0
+        } else {
+            -1.0
+        },
+        if branch.elbow == Elbow::Up { 1.0 } else { -1.0 },
+    ]
+}
+
+/// Shoulder and elbow signs of the four postures that differ in more than the wrist's flip, in the order of
+/// [`Branch::ALL`].
+pub(super) const FOUR: [[f64; 2]; 4] = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
+
+impl<T: Precision> Batch<T> {
+    /// Fills the block's aims with the poses from `first` on and gives how many there are; the rest repeats the
+    /// last.
+    pub(super) fn aim(&mut self, poses: &Poses<'_, T>, first: usize, second: Second) -> usize {
+        let (Poses::Still { at, .. } | Poses::Free { at, .. }) = poses;
+        let used = BLOCK.min(at[0].len() - first);
+        let whole = at.map(|plane| plane[first..].first_chunk());
+        if let [Some(x), Some(y), Some(z)] = whole {
+            self.place([x, y, z]);
+        } else {
+            let mut places: Planes<T, 3> = planes();
+            for (plane, from) in places.iter_mut().zip(at) {
+                fill(plane, &from[first..]);
+            }
+            self.place(places.each_ref());
+        }
+        match poses {
+            Poses::Still { base_from_tool, .. } if first == 0 => {
+                let second = self.second(second);
+                aims::still(
+                    &self.prepared,
+                    base_from_tool.matrix(),
+                    &second,
+                    &mut self.scratch.aims,
+                );
+            }
+            Poses::Still { .. } => {}
+            Poses::Free { rotations, .. } => {
+                for (plane, from) in self.scratch.rotations.iter_mut().zip(rotations) {
+                    fill(plane, &from[first..first + used]);
+                }
+                self.orient(second);
+            }
+        }
+        used
+    }
+
+    fn second(&self, second: Second) -> Vector3<f64> {
+        match (second, &self.prepared.cosines) {
+            (Second::InTheMiddle, Some(cosines)) => cosines.tool_middle,
+            _ => self.prepared.arm.tool_from_axis_5,
+        }
+    }
+
+    pub(super) fn place(&mut self, at: [&Plane<T>; 3]) {
+        let (prepared, aims) = (&self.prepared, &mut self.scratch.aims);
+        if prepared.turned {
+            self.backend.run(Places::<T, true> { prepared, at, aims });
+        } else {
+            self.backend.run(Places::<T, false> { prepared, at, aims });
+        }
+    }
+
+    /// Turns the block's rotations into its aims.
+    pub(super) fn orient(&mut self, second: Second) {
+        let second = &self.second(second);
+        let Scratch { aims, rotations, .. } = &mut *self.scratch;
+        let prepared = &self.prepared;
+        self.backend.run(Orientations {
+            prepared,
+            rotations,
+            second,
+            aims,
+        });
+    }
+
+    /// Solves the aimed block with these signs everywhere.
+    pub(super) fn solve(&mut self, [shoulder, elbow]: [f64; 2], still: bool) {
+        self.sign(0, shoulder);
+        self.reach(still);
+        self.sign(1, elbow);
+        self.bend(still);
+    }
+
+    /// Solves the aimed block for one of [`FOUR`] after the other; true where the shoulder is that of the one before.
+    pub(super) fn solve_in_turn(&mut self, four: usize, still: bool) -> bool {
+        let [shoulder, elbow] = FOUR[four];
+        let same_shoulder = four > 0 && FOUR[four - 1][0] == shoulder;
+        if !same_shoulder {
+            self.sign(0, shoulder);
+            self.reach(still);
+        }
+        self.sign(1, elbow);
+        self.bend(still);
+        same_shoulder
+    }
+
+    /// Solves the aimed block with the signs that its postures have.
+    pub(super) fn solve_signed(&mut self, still: bool) {
+        self.reach(still);
+        self.bend(still);
+    }
+
+    /// Gives all postures one sign of shoulder (0) or elbow (1).
+    fn sign(&mut self, which: usize, sign: f64) {
+        let (plane, sign) = (&mut self.scratch.postures.signs[which], T::from_f64(sign));
+        // Filled from call to call, unless the signs change.
+        if plane.iter().any(|one| *one != sign) {
+            plane.fill(sign);
+        }
+    }
+
+    fn reach(&mut self, still: bool) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch { aims, postures, .. } = &mut *self.scratch;
+        if still {
+            backend.run(Reach::<T, true> {
+                prepared,
+                aims,
+                postures,
+            });
+        } else {
+            backend.run(Reach::<T, false> {
+                prepared,
+                aims,
+                postures,
+            });
+        }
+    }
+
+    fn bend(&mut self, still: bool) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch { aims, postures, .. } = &mut *self.scratch;
+        if still {
+            backend.run(Solve::<T, true> {
+                prepared,
+                aims,
+                postures,
+            });
+        } else {
+            backend.run(Solve::<T, false> {
+                prepared,
+                aims,
+                postures,
+            });
+        }
+    }
+
+    /// Envelope of the solved block; without a place to go it stays in the scratch.
+    pub(super) fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch {
+            aims,
+            postures,
+            in_plane,
+            case,
+            state,
+            out,
+            positions,
+            ..
+        } = &mut *self.scratch;
+        match &prepared.cosines {
+            Some(limits) if still => limit::<T, true>(backend, limits, aims, postures),
+            Some(limits) => limit::<T, false>(backend, limits, aims, postures),
+            None => {
+                backend.run(Position {
+                    prepared,
+                    aims,
+                    postures,
+                    same_shoulder: false,
+                    positions,
+                });
+                backend.run(LimitsByPositions { positions, postures });
+            }
+        }
+        let Some(rows) = out.first_chunk_mut() else { return };
+        match (still, prepared.moments) {
+            (true, false) => backend.run(Rows::<T, true, false> {
+                prepared,
+                aims,
+                postures,
+                rows,
+            }),
+            (true, true) => backend.run(Rows::<T, true, true> {
+                prepared,
+                aims,
+                postures,
+                rows,
+            }),
+            (false, false) => backend.run(Rows::<T, false, false> {
+                prepared,
+                aims,
+                postures,
+                rows,
+            }),
+            (false, true) => backend.run(Rows::<T, false, true> {
+                prepared,
+                aims,
+                postures,
+                rows,
+            }),
+        }
+        let [in_plane, state] = to.unwrap_or([in_plane, state]);
+        if prepared.moments {
+            backend.run(Largest::<T, true> {
+                prepared,
+                rows,
+                postures,
+                in_plane,
+                case,
+                state,
+            });
+        } else {
+            backend.run(Largest::<T, false> {
+                prepared,
+                rows,
+                postures,
+                in_plane,
+                case,
+                state,
+            });
+        }
+    }
+
+    pub(super) fn compliance(&mut self) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch {
+            aims, postures, out, ..
+        } = &mut *self.scratch;
+        let Some(out) = out.first_chunk_mut() else { return };
+        if prepared.turned {
+            backend.run(Compliances::<T, true> {
+                prepared,
+                aims,
+                postures,
+                out,
+            });
+        } else {
+            backend.run(Compliances::<T, false> {
+                prepared,
+                aims,
+                postures,
+                out,
+            });
+        }
+    }
+
+    /// Joint positions of the solved block; joint 1 stands as it did for the same shoulder.
+    pub(super) fn position(&mut self, same_shoulder: bool) {
+        let Scratch {
+            aims,
+            postures,
+            positions,
+            ..
+        } = &mut *self.scratch;
+        let prepared = &self.prepared;
+        self.backend.run(Position {
+            prepared,
+            aims,
+            postures,
+            same_shoulder,
+            positions,
+        });
+    }
+}
+
+/// Flags the joint limits, told by cosines.
+fn limit<T: Precision, const STILL: bool>(
+    backend: Backend,
+    limits: &CosineLimits,
+    aims: &Aims<T>,
+    postures: &mut Postures<T>,
+) {
+    match (limits.swivels, limits.askew) {
+        (true, true) => backend.run(LimitsByCosines::<T, STILL, true, true> {
+            limits,
+            aims,
+            postures,
+        }),
+        (true, false) => backend.run(LimitsByCosines::<T, STILL, true, false> {
+            limits,
+            aims,
+            postures,
+        }),
+        (false, true) => backend.run(LimitsByCosines::<T, STILL, false, true> {
+            limits,
+            aims,
+            postures,
+        }),
+        (false, false) => backend.run(LimitsByCosines::<T, STILL, false, false> {
+            limits,
+            aims,
+            postures,
+        }),
+    }
+}
+
+pub(super) fn is_still<T>(poses: &Poses<'_, T>) -> bool {
+    matches!(poses, Poses::Still { .. })
+}
+
+/// Copies the first values into a plane; where there are fewer the rest repeats the last.
+pub(super) fn fill<T: Copy>(plane: &mut Plane<T>, from: &[T]) {
+    let used = from.len().min(BLOCK);
+    plane[..used].copy_from_slice(&from[..used]);
+    if let Some(last) = from.last() {
+        plane[used..].fill(*last);
+    }
+}

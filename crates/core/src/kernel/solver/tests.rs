@@ -1,0 +1,99 @@
+//! What lanes answer and what comes of the same points one after the other.
+
+use super::super::tests::{NOMINAL, ask, poses};
+use super::*;
+use crate::arms;
+use crate::kernel::Answers;
+use crate::source::StiffnessModel;
+
+/// The answers at these poses, through lanes or without them.
+fn answered(question: &Question<'_>, poses: &[Isometry], lanes: bool) -> Answers {
+    let mut answers = Answers::new(question, poses.len(), Told::Shares);
+    let mut solver = Solver::new(question, Order::Any, Told::Shares);
+    assert!(solver.lanes.is_some());
+    if !lanes {
+        solver.lanes = None;
+    }
+    for (block, slots) in answers.blocks(BLOCK).into_iter().enumerate() {
+        solver
+            .answer(|i| poses[block * BLOCK + i], slots, Watch::NONE)
+            .unwrap();
+    }
+    answers
+}
+
+#[test]
+fn lanes_and_single_points_say_the_same_of_every_arm() {
+    for robot in arms::all() {
+        let poses = poses(&robot, 190, 11);
+        for choice in [NOMINAL, BranchChoice::Best] {
+            ask(&robot, StiffnessModel::DRIVES, choice, |question| {
+                let (lanes, single) = (
+                    answered(question, &poses, true),
+                    answered(question, &poses, false),
+                );
+                let mut compared = 0;
+                for i in 0..poses.len() {
+                    let (Ok(a), Ok(b)) = (lanes.points[i], single.points[i]) else {
+                        assert_eq!(lanes.points[i], single.points[i]);
+                        continue;
+                    };
+                    // Beside a singularity a posture is known to the root of rounding; of two that are as good as each
+                    // other either may stand.
+                    if a.singularity.is_some() || a.name != b.name {
+                        assert!(
+                            (a.in_plane / b.in_plane - 1.0).abs() < 1e-5,
+                            "{}: {a:?} {b:?}",
+                            robot.name()
+                        );
+                        continue;
+                    }
+                    compared += 1;
+                    let size = b.full;
+                    for (a, b) in [
+                        (a.in_plane, b.in_plane),
+                        (a.full, b.full),
+                        (a.normal.abs(), b.normal.abs()),
+                        (a.in_plane_uncertainty, b.in_plane_uncertainty),
+                    ] {
+                        assert!((a - b).abs() < 1e-11 * size, "{}: {a} {b}", robot.name());
+                    }
+                    assert!((a.limit_margin - b.limit_margin).abs() < 1e-9);
+                    assert_eq!((a.limit_joint, a.deciding_case), (b.limit_joint, b.deciding_case));
+                    for (a, b) in lanes.joints_at(i).iter().zip(single.joints_at(i)) {
+                        assert!((a - b).abs() < 1e-9);
+                    }
+                    for (a, b) in lanes.deviations_at(i).iter().zip(single.deviations_at(i)) {
+                        assert!((a - b).norm() < 1e-11 * size);
+                    }
+                    for (a, b) in lanes.shares_at(i).iter().zip(single.shares_at(i)) {
+                        assert!((a - b).abs() < 1e-11 * size);
+                    }
+                }
+                assert!(compared > 40, "{}: {compared}", robot.name());
+            });
+        }
+    }
+}
+
+#[test]
+fn only_drives_without_doubt_go_through_lanes() {
+    let springy = super::super::tests::springy();
+    ask(&arms::ALL[0], &springy, NOMINAL, |question| {
+        assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
+    });
+    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+        let doubted = Question {
+            doubt: crate::load::Doubt {
+                relative: 0.1,
+                ..question.doubt
+            },
+            ..*question
+        };
+        assert!(Solver::new(&doubted, Order::Any, Told::Shares).lanes.is_none());
+    });
+    let railed = arms::other::on_rail(&arms::ALL[0]);
+    ask(&railed, StiffnessModel::DRIVES, NOMINAL, |question| {
+        assert!(Solver::new(question, Order::Any, Told::Shares).lanes.is_none());
+    });
+}

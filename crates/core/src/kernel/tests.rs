@@ -1,0 +1,288 @@
+//! Points through lanes, one after the other, under loads of their own and at known joints: the same physics.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+use nalgebra::{Unit, Vector3};
+
+use super::*;
+use crate::arms::{self, Stream};
+use crate::load::Doubt;
+use crate::robot::inverse::{ToolAt, postures};
+use crate::robot::{
+    BranchPattern, JointCompliance, PostureName, Robot, Seat, Spring, Structure, Unreachable,
+};
+use crate::source::{Arm, StiffnessModel};
+use crate::spatial::Wrench;
+
+pub(super) fn cases() -> Vec<Wrench> {
+    vec![
+        Wrench::from_force(Vector3::new(3.0, -5.0, 5.0)),
+        Wrench {
+            force: Vector3::new(-20.0, 4.0, 1.0),
+            moment: Vector3::new(0.4, -1.5, 2.0),
+        },
+        Wrench::from_force(Vector3::new(1.0, 8.0, -30.0)),
+    ]
+}
+
+/// A question to `robot` with a bent tool and an oblique plane.
+pub(super) fn ask<T>(
+    robot: &Robot,
+    model: &StiffnessModel,
+    choice: BranchChoice,
+    then: impl FnOnce(&Question<'_>) -> T,
+) -> T {
+    let (tool, cases) = (arms::bent_tool(), cases());
+    then(&Question {
+        arm: Arm {
+            robot,
+            compliance: robot.compliance().unwrap(),
+            model,
+            flange_from_tool: &tool,
+        },
+        home: None,
+        cases: &cases,
+        doubt: Doubt::NONE,
+        normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
+        choice,
+    })
+}
+
+pub(super) const NOMINAL: BranchChoice = BranchChoice::Of(BranchPattern::FRONT_ELBOW_UP);
+
+/// Tool poses of joint positions inside the limits.
+pub(super) fn poses(robot: &Robot, count: usize, seed: u64) -> Vec<Isometry> {
+    let mut stream = Stream(seed);
+    let pose = |_| {
+        let q = stream.joints(robot);
+        crate::robot::inverse::posture_at(robot, &q, &arms::bent_tool()).base_from_tool
+    };
+    (0..count).map(pose).collect()
+}
+
+/// A spring at the base: beyond drives alone, and affine.
+pub(super) fn springy() -> StiffnessModel {
+    let compliance = JointCompliance {
+        value: 4e-8,
+        standard_uncertainty: 1e-9,
+    };
+    StiffnessModel {
+        structure: Structure {
+            springs: vec![Spring::about(Seat::Base, Vector3::y(), compliance)],
+            ..Structure::EMPTY
+        },
+        ..StiffnessModel::DRIVES.clone()
+    }
+}
+
+/// A watch that cancels once so many points are finished, and how many were.
+pub(super) fn cancelled_after<T>(count: usize, work: impl FnOnce(Watch<'_>) -> T) -> (T, usize) {
+    let (done, cancel) = (AtomicUsize::new(0), AtomicBool::new(count == 0));
+    let finished = |points: usize| {
+        let before = done.fetch_add(points, Ordering::Relaxed);
+        if before + points >= count {
+            cancel.store(true, Ordering::Relaxed);
+        }
+    };
+    let out = work(Watch {
+        finished: &finished,
+        cancel: &cancel,
+    });
+    (out, done.load(Ordering::Relaxed))
+}
+
+#[test]
+fn work_ends_at_the_block_in_which_it_is_cancelled() {
+    let robot = &arms::ALL[0];
+    let poses = poses(robot, 300, 1);
+    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+        let (stopped, done) =
+            cancelled_after(100, |watch| evaluate_in_order(question, 300, |i| poses[i], watch));
+        assert_eq!((stopped.unwrap_err(), done), (Cancelled, 160));
+        let (stopped, done) = cancelled_after(0, |watch| evaluate(question, 300, |i| poses[i], watch));
+        assert_eq!((stopped.unwrap_err(), done), (Cancelled, 0));
+        // All threads stop: fewer points than there are.
+        let (whole, done) = cancelled_after(1000, |watch| evaluate(question, 300, |i| poses[i], watch));
+        assert!(whole.is_ok() && done == 300);
+    });
+}
+
+#[test]
+fn points_in_order_and_in_any_order_are_the_same_where_no_wrist_is_straight() {
+    let robot = &arms::ALL[4];
+    let poses = poses(robot, 200, 2);
+    ask(robot, StiffnessModel::DRIVES, NOMINAL, |question| {
+        let any = evaluate(question, 200, |i| poses[i], Watch::NONE).unwrap();
+        let ordered = evaluate_in_order(question, 200, |i| poses[i], Watch::NONE).unwrap();
+        assert_eq!(any.points, ordered.points);
+        assert_eq!(
+            (any.joints, any.deviations, any.shares),
+            (ordered.joints, ordered.deviations, ordered.shares)
+        );
+    });
+}
+
+#[test]
+#[should_panic(expected = "a question has a load case at least")]
+fn a_question_without_load_is_refused() {
+    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+        let without = Question {
+            cases: &[],
+            ..*question
+        };
+        evaluate(&without, 1, |_| Isometry::identity(), Watch::NONE).map(drop)
+    })
+    .unwrap();
+}
+
+#[test]
+fn no_points_have_no_answers() {
+    ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {
+        let none = evaluate(question, 0, |_| Isometry::identity(), Watch::NONE).unwrap();
+        assert!(none.points.is_empty() && none.worst().is_none() && none.best().is_none());
+    });
+}
+
+#[test]
+fn the_roomier_flip_stands_unless_one_is_named() {
+    let mut stream = Stream(3);
+    for robot in arms::all() {
+        let tool = arms::bent_tool();
+        for _ in 0..20 {
+            let q = stream.joints(&robot);
+            let made = crate::robot::inverse::posture_at(&robot, &q, &tool);
+            let Some(branch) = made.name.branch().filter(|_| made.singularity.is_none()) else {
+                continue;
+            };
+            let pattern = BranchPattern {
+                wrist: None,
+                ..branch.into()
+            };
+            let at = ToolAt::on(&tool);
+            let all = postures(&robot, &made.base_from_tool, at).unwrap();
+            let room = |name: PostureName| {
+                let found = all.iter().find(|posture| posture.name == name).unwrap();
+                robot.limit_margin(&found.joints).unwrap().1
+            };
+            ask(
+                &robot,
+                StiffnessModel::DRIVES,
+                BranchChoice::Of(pattern),
+                |question| {
+                    let answers = evaluate(question, 1, |_| made.base_from_tool, Watch::NONE).unwrap();
+                    let held = answers.points[0].unwrap();
+                    let own = room(held.name);
+                    assert!((own - held.limit_margin).abs() < 1e-9);
+                    for posture in &all {
+                        let flips = posture
+                            .name
+                            .branch()
+                            .is_some_and(|branch| pattern.matches(branch));
+                        assert!(!flips || room(posture.name) <= own + 1e-9, "{}", robot.name());
+                    }
+                },
+            );
+            // Named, it stands whatever its room.
+            ask(
+                &robot,
+                StiffnessModel::DRIVES,
+                BranchChoice::Of(branch.into()),
+                |question| {
+                    let answers = evaluate(question, 1, |_| made.base_from_tool, Watch::NONE).unwrap();
+                    assert_eq!(answers.points[0].unwrap().name, made.name);
+                },
+            );
+        }
+    }
+}
+
+#[test]
+fn the_load_case_that_no_arm_stands_is_named() {
+    let robot = &arms::ALL[0];
+    let poses = poses(robot, 20, 4);
+    let model = StiffnessModel {
+        load_dependent: true,
+        ..StiffnessModel::DRIVES.clone()
+    };
+    ask(robot, &model, NOMINAL, |question| {
+        for unstable in 0..3 {
+            let mut cases = cases();
+            // A hundred tonnes.
+            cases[unstable] = Wrench::from_force(Vector3::new(7e5, -4e5, 6e5));
+            let asked = Question {
+                cases: &cases,
+                ..*question
+            };
+            let answers = evaluate(&asked, 20, |i| poses[i], Watch::NONE).unwrap();
+            let mut told = 0;
+            for point in &answers.points {
+                if let Err(Unreachable::Unstable { case }) = point {
+                    assert_eq!(*case, unstable);
+                    told += 1;
+                }
+            }
+            assert!(told > 0);
+        }
+    });
+}
+
+#[test]
+fn best_tells_how_far_the_least_bad_posture_leaves_the_limits() {
+    // Joint 2 may stand in a range that no posture of these poses has.
+    let mut joints = arms::mh12().joints().to_vec();
+    joints[1].limits = Some(crate::robot::Limits {
+        lower: 1e-3,
+        upper: 2e-3,
+    });
+    let robot = Robot::new("narrow", arms::mh12().chain().motions().to_vec(), joints)
+        .unwrap()
+        .with_compliance(arms::mh12().compliance().unwrap().to_vec())
+        .unwrap();
+    let poses = poses(&arms::ALL[0], 30, 5);
+    let tool = arms::bent_tool();
+    ask(&robot, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
+        let answers = evaluate(question, 30, |i| poses[i], Watch::NONE).unwrap();
+        for (point, pose) in answers.points.iter().zip(&poses) {
+            let Err(Unreachable::OutsideLimits { joint, by }) = point else {
+                panic!("{point:?}");
+            };
+            let at = ToolAt::on(&tool);
+            let margins = postures(&robot, pose, at).unwrap();
+            let least = margins
+                .iter()
+                .map(|posture| robot.limit_margin(&posture.joints).unwrap())
+                .max_by(|a, b| a.1.total_cmp(&b.1))
+                .unwrap();
+            let crate::robot::Overrun::Turned(by) = by else {
+                panic!("a turning joint");
+            };
+            // Of two flips with the same margin either may be told.
+            assert!((by + least.1).abs() < 1e-9, "{by} {least:?}");
+            assert!(*joint < 6);
+        }
+    });
+}
+
+#[test]
+fn a_rail_outside_its_range_is_told_in_metres() {
+    let railed = arms::other::on_rail(&arms::ALL[0]);
+    let mut home = vec![0.0; 7];
+    home[0] = 6.5;
+    let tool = arms::bent_tool();
+    let pose = crate::robot::inverse::posture_at(&railed, &[6.5, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6], &tool)
+        .base_from_tool;
+    ask(&railed, StiffnessModel::DRIVES, BranchChoice::Best, |question| {
+        let asked = Question {
+            home: Some(&home),
+            ..*question
+        };
+        let answers = evaluate(&asked, 1, |_| pose, Watch::NONE).unwrap();
+        let miss = answers.points[0].unwrap_err();
+        // The rail ends at 5 m.
+        assert!(
+            miss.to_string().ends_with("joint number 1 by 1500.0 mm"),
+            "{miss}"
+        );
+        assert!((miss.amount().unwrap() - 1.5).abs() < 1e-12);
+    });
+}

@@ -1,0 +1,265 @@
+//! What a finder gives, in which order, and what it keeps from one pose to the next.
+
+use std::f64::consts::PI;
+
+use super::*;
+use crate::arms::{self, Stream, other};
+
+fn wanted<'a>(robot: &Robot, q: &[f64], near: Option<&'a [f64]>) -> Wanted<'a> {
+    let flange = crate::robot::forward::forward(robot, q).base_from_flange;
+    Wanted {
+        base_from_flange: Isometry::from_parts(flange.translation, flange.rotation.into()),
+        near,
+        home: None,
+    }
+}
+
+fn patterns() -> Vec<BranchPattern> {
+    let words = [
+        "front",
+        "back elbow-up",
+        "elbow-down flip",
+        "no-flip",
+        "front elbow-up no-flip",
+    ];
+    words.iter().map(|words| words.parse().unwrap()).collect()
+}
+
+#[test]
+fn the_postures_that_match_are_those_of_all_that_match() {
+    let mut stream = Stream(41);
+    for robot in [arms::hung(), other::ur10e(), other::on_rail(&arms::kr120())] {
+        let mut finder = Finder::new(&robot);
+        for _ in 0..50 {
+            let q = stream.joints(&robot);
+            let wanted = wanted(&robot, &q, None);
+            let Ok(all) = finder.all(&wanted) else { continue };
+            let all = all.to_vec();
+            for pattern in patterns() {
+                let of_all: Vec<&Found> = all
+                    .iter()
+                    .filter(|found| found.name.branch().is_some_and(|branch| pattern.matches(branch)))
+                    .collect();
+                match finder.matching(&wanted, pattern) {
+                    Ok(matching) => {
+                        assert_eq!(matching.len(), of_all.len());
+                        for (a, b) in matching.iter().zip(of_all) {
+                            assert_eq!(
+                                (a.name, &a.joints, a.singularity),
+                                (b.name, &b.joints, b.singularity)
+                            );
+                        }
+                    }
+                    Err(_) => assert!(of_all.is_empty()),
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn postures_of_one_pose_are_distinct_and_hold_it() {
+    let mut stream = Stream(42);
+    let arms = [
+        other::calibrated(&arms::mh12(), 5e-4),
+        other::free("skewed", &other::SKEWED),
+        other::iiwa14(),
+        other::oblique(),
+    ];
+    for robot in arms {
+        let mut finder = Finder::new(&robot);
+        for _ in 0..5 {
+            let q = stream.joints(&robot);
+            let wanted = wanted(&robot, &q, None);
+            finder.forget();
+            let found = finder.all(&wanted).unwrap_or_default().to_vec();
+            for (i, a) in found.iter().enumerate() {
+                let frames = crate::robot::forward::forward(&robot, &a.joints);
+                assert_eq!(holds(&frames, &wanted.base_from_flange), Ok(()));
+                for b in &found[..i] {
+                    let away = a
+                        .joints
+                        .iter()
+                        .zip(&b.joints)
+                        .map(|(a, b)| (0.5 * (a - b)).sin().abs());
+                    assert!(
+                        away.fold(0.0, f64::max) > 0.4 * SAME,
+                        "{}: {a:?} {b:?}",
+                        robot.name()
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn postures_without_names_come_nearest_first() {
+    let robot = other::free("skewed", &other::SKEWED);
+    let mut finder = Finder::new(&robot);
+    let mut stream = Stream(43);
+    let mut several = 0;
+    for _ in 0..40 {
+        let q = stream.joints(&robot);
+        let near: Vec<f64> = q.iter().map(|q| q + stream.between(-0.05, 0.05)).collect();
+        let found = finder.all(&wanted(&robot, &q, Some(&near))).unwrap().to_vec();
+        let away =
+            |found: &Found| -> f64 { found.joints.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum() };
+        assert!(found.windows(2).all(|pair| away(&pair[0]) <= away(&pair[1])));
+        // The posture that made the pose is among them, unless its range ends between the two.
+        let made: f64 = q.iter().zip(&near).map(|(a, b)| (a - b).powi(2)).sum();
+        assert!(
+            away(&found[0]) <= made + 1e-9 || q.iter().any(|q| q.abs() > PI - 0.06),
+            "{made}"
+        );
+        several += usize::from(found.len() > 1);
+        let one = finder
+            .matching(&wanted(&robot, &q, Some(&near)), BranchPattern::default())
+            .unwrap();
+        assert_eq!((one.len(), &one[0].joints), (1, &found[0].joints));
+    }
+    assert!(several > 20, "{several}");
+}
+
+#[test]
+fn a_finder_that_forgets_is_a_new_one() {
+    let robot = other::oblique();
+    let mut stream = Stream(44);
+    let mut used = Finder::new(&robot);
+    for _ in 0..4 {
+        let q = stream.joints(&robot);
+        let wanted = wanted(&robot, &q, None);
+        used.forget();
+        let again: Vec<Vec<f64>> = used
+            .all(&wanted)
+            .unwrap_or_default()
+            .iter()
+            .map(|found| found.joints.clone())
+            .collect();
+        let mut new = Finder::new(&robot);
+        let anew: Vec<Vec<f64>> = new
+            .all(&wanted)
+            .unwrap_or_default()
+            .iter()
+            .map(|found| found.joints.clone())
+            .collect();
+        assert_eq!(again, anew);
+    }
+}
+
+#[test]
+fn a_finder_that_does_not_forget_follows_on_a_path() {
+    let robot = other::oblique();
+    let mut finder = Finder::new(&robot);
+    let q = [0.3, -0.4, 0.5, -0.6, 0.7, -0.8];
+    let mut before = finder.all(&wanted(&robot, &q, None)).unwrap()[0].joints.clone();
+    for step in 1..=20 {
+        let moved = q.map(|q| q + 0.01 * f64::from(step));
+        let found = finder
+            .matching(&wanted(&robot, &moved, None), BranchPattern::default())
+            .unwrap();
+        let away = found[0]
+            .joints
+            .iter()
+            .zip(&before)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        // Each joint moved by 0.01 rad, or what another posture needs for that.
+        assert!(away < 0.2, "step {step}: {away}");
+        before.clone_from(&found[0].joints);
+    }
+}
+
+#[test]
+fn turns_are_counted_near_the_joint_as_it_stood() {
+    // Joints of a UR turn by 360 deg to either side.
+    let robot = other::ur10e();
+    let mut finder = Finder::new(&robot);
+    let q = [0.3, -1.2, 1.4, 5.0, 1.2, -5.5];
+    let (called, _) = name(&robot, &q);
+    let pattern = BranchPattern::from(called.branch().unwrap());
+    let counted = |finder: &mut Finder<'_>, near: Option<&[f64]>| {
+        finder.matching(&wanted(&robot, &q, near), pattern).unwrap()[0]
+            .joints
+            .clone()
+    };
+    let near = counted(&mut finder, Some(&q));
+    let middle = counted(&mut finder, None);
+    for joint in 0..6 {
+        assert!((near[joint] - q[joint]).abs() < 1e-9);
+        assert!(middle[joint].abs() <= PI + 1e-9);
+        assert!(
+            ((middle[joint] - q[joint]) / TAU).fract().abs() < 1e-9
+                || (0.5 * (middle[joint] - q[joint])).sin().abs() < 1e-9
+        );
+    }
+    // A count that the limits do not allow is none.
+    let beyond = [0.3, -1.2, 1.4, 5.0, 1.2, -5.5 - TAU];
+    let back = counted(&mut finder, Some(&beyond));
+    assert!((back[5] - (-5.5 + TAU)).abs() < 1e-9, "{}", back[5]);
+}
+
+#[test]
+fn the_nearest_turn_lies_within_half_a_turn_and_half_a_turn_is_positive() {
+    let mut stream = Stream(45);
+    for _ in 0..500 {
+        let (angle, middle) = (stream.between(-20.0, 20.0), stream.between(-3.0, 3.0));
+        let turned = nearest_turn(angle, middle);
+        assert!((-PI - 1e-11..=PI + 1e-11).contains(&(turned - middle)));
+        assert!((0.5 * (turned - angle)).sin().abs() < 1e-14);
+    }
+    // -180 deg, 180 deg, and a hair beside them, are one posture.
+    for angle in [-PI, PI, -PI - 1e-13, PI - 1e-13, -PI + 1e-13] {
+        assert!((nearest_turn(angle, 0.0) - PI).abs() < 1e-11, "{angle}");
+    }
+    assert!(nearest_turn(-PI + 1e-9, 0.0) < 0.0);
+}
+
+#[test]
+fn out_of_reach_names_the_branch_that_misses_by_least() {
+    let robot = arms::mh12();
+    let mut finder = Finder::new(&robot);
+    let far = Wanted {
+        base_from_flange: Isometry::translation(4.0, 0.0, 0.5),
+        near: None,
+        home: None,
+    };
+    let least = finder.all(&far).unwrap_err();
+    let mut others = Vec::new();
+    for branch in Branch::ALL {
+        others.push(finder.matching(&far, branch.into()).unwrap_err());
+    }
+    assert!(
+        others.iter().all(|other| !other.is_nearer_than(&least)),
+        "{least} {others:?}"
+    );
+    assert!(others.contains(&least));
+    let searched = other::oblique();
+    let miss = Finder::new(&searched).all(&far).unwrap_err();
+    assert!(
+        matches!(miss, Unreachable::NotFound { by, .. } if by > 1.0),
+        "{miss}"
+    );
+}
+
+#[test]
+fn frames_that_miss_their_pose_hold_nothing() {
+    let robot = arms::kr120();
+    let q = Stream(46).joints(&robot);
+    let frames = crate::robot::forward::forward(&robot, &q);
+    let pose = wanted(&robot, &q, None).base_from_flange;
+    assert_eq!(holds(&frames, &pose), Ok(()));
+    for by in [2e-9, 0.1] {
+        let moved = Isometry::translation(by, 0.0, 0.0) * pose;
+        let miss = holds(&frames, &moved).unwrap_err();
+        assert!(
+            matches!(miss, Unreachable::Unverified { by: told } if (told - by).abs() < 1e-12),
+            "{miss}"
+        );
+        // Half a turn has no sine, and is none the less a turn.
+        for angle in [by, PI] {
+            let turn = Isometry::rotation(nalgebra::Vector3::x() * angle);
+            assert!(holds(&frames, &(pose * turn)).is_err(), "{angle}");
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! What no structure may hold, each by the smallest change of a sound one.
+
+use nalgebra::{Point3, Vector3};
+
+use super::*;
+use crate::arms;
+use crate::robot::JointCompliance;
+use crate::robot::torque_curve::TorqueCurve;
+
+fn spring(value: f64) -> Spring {
+    let compliance = JointCompliance {
+        value,
+        standard_uncertainty: 0.1 * value,
+    };
+    Spring::about(Seat::Flange, Vector3::x(), compliance)
+}
+
+fn compensator() -> Compensator {
+    Compensator {
+        joint: 1,
+        fixed_radius: 0.69,
+        arm_radius: 0.185,
+        angle: 0.17,
+        free_length: 0.458,
+        stiffness: 7e6,
+    }
+}
+
+fn curve() -> Option<JointCurve> {
+    let rising = TorqueCurve::new(vec![[0.0, 0.0], [100.0, 1e-4]]).unwrap();
+    Some(JointCurve {
+        rising,
+        falling: None,
+    })
+}
+
+fn mass(mass: f64) -> Mass {
+    Mass {
+        seat: Seat::Tool,
+        mass,
+        centre: Point3::new(0.0, 0.1, 0.2),
+    }
+}
+
+/// All parts, each sound.
+fn sound() -> Structure {
+    Structure {
+        springs: vec![spring(1e-7), spring(2e-7)],
+        masses: vec![mass(3.0), mass(0.0)],
+        compensator: Some(compensator()),
+        curves: vec![None, None, curve()],
+        covariance: Some(DMatrix::identity(8, 8) * 1e-14),
+    }
+}
+
+/// Why an arm of six turning joints does not take the sound structure after a change.
+fn refused(change: impl FnOnce(&mut Structure)) -> String {
+    let mut changed = sound();
+    change(&mut changed);
+    changed.check(&arms::ALL[0]).unwrap_err().to_string()
+}
+
+#[test]
+fn a_sound_structure_is_taken_and_so_is_none() {
+    assert_eq!(sound().check(&arms::ALL[0]), Ok(()));
+    assert_eq!(Structure::default(), Structure::EMPTY);
+    assert_eq!(Structure::EMPTY.check(&arms::ALL[0]), Ok(()));
+}
+
+#[test]
+fn curves_are_found_by_joint_and_a_list_may_end_early() {
+    let structure = sound();
+    let has: Vec<bool> = (0..9).map(|joint| structure.curve(joint).is_some()).collect();
+    assert_eq!(
+        has,
+        [false, false, true, false, false, false, false, false, false]
+    );
+}
+
+#[test]
+fn parts_sit_at_joints_that_exist() {
+    let at = |joint| Seat::Joint(joint);
+    assert_eq!(
+        refused(|s| s.springs[1].seat = at(6)),
+        "a spring names joint number 7, which does not exist or slides"
+    );
+    assert_eq!(
+        refused(|s| s.masses[0].seat = at(9)),
+        "a mass names joint number 10, which does not exist or slides"
+    );
+    assert_eq!(
+        refused(|s| s.curves = vec![None, None, None, None, None, None, curve()]),
+        "a torque curve names joint number 7, which does not exist or slides"
+    );
+    assert_eq!(
+        refused(|s| s.compensator = Some(Compensator {
+            joint: 6,
+            ..compensator()
+        })),
+        "the compensator names joint number 7, which does not exist or slides"
+    );
+    let mut last = sound();
+    (last.springs[0].seat, last.masses[0].seat) = (at(5), at(5));
+    assert_eq!(last.check(&arms::ALL[0]), Ok(()));
+}
+
+#[test]
+fn a_rail_carries_springs_and_masses_but_no_torque_curve_and_no_compensator() {
+    let railed = arms::other::on_rail(&arms::ALL[0]);
+    let on = |change: fn(&mut Structure)| {
+        let mut structure = Structure::EMPTY;
+        change(&mut structure);
+        structure.check(&railed)
+    };
+    assert_eq!(
+        on(|s| {
+            s.springs = vec![Spring {
+                seat: Seat::Joint(0),
+                ..spring(1e-7)
+            }];
+            s.masses = vec![Mass {
+                seat: Seat::Joint(0),
+                ..mass(400.0)
+            }];
+        }),
+        Ok(())
+    );
+    let no = |what| Err(StructureError::NoSuchJoint { what, joint: 0 });
+    assert_eq!(on(|s| s.curves = vec![curve()]), no("a torque curve"));
+    assert_eq!(
+        on(|s| s.compensator = Some(Compensator {
+            joint: 0,
+            ..compensator()
+        })),
+        no("the compensator")
+    );
+}
+
+#[test]
+fn springs_yield_from_zero_to_the_softest_in_a_finite_direction() {
+    for value in [-1e-300, SOFTEST.next_up(), f64::NAN] {
+        assert_eq!(
+            refused(|s| s.springs[1].compliance.value = value),
+            format!("spring number 2: compliance {value} is not a number from 0 to 1 rad/(N m) (m/N)")
+        );
+        assert!(
+            refused(|s| s.springs[0].compliance.standard_uncertainty = value).starts_with("spring number 1")
+        );
+    }
+    assert_eq!(
+        refused(|s| s.springs[0].direction.linear.y = f64::INFINITY),
+        "a spring holds a number that is not finite"
+    );
+    let mut ends = sound();
+    (ends.springs[0].compliance.value, ends.springs[1].compliance.value) = (0.0, SOFTEST);
+    assert_eq!(ends.check(&arms::ALL[0]), Ok(()));
+}
+
+#[test]
+fn masses_weigh_from_nothing_to_a_thousand_tonnes() {
+    for value in [-1e-9, 1e6_f64.next_up(), f64::NAN] {
+        assert_eq!(
+            refused(|s| s.masses[1].mass = value),
+            format!("mass number 2: {value} kg is not a number from 0 to 1e6")
+        );
+    }
+    assert_eq!(
+        refused(|s| s.masses[0].centre.z = f64::NAN),
+        "a centre of mass holds a number that is not finite"
+    );
+}
+
+#[test]
+fn a_compensator_has_lengths_and_a_spring_that_never_shrinks_to_nothing() {
+    let message = "the compensator needs lengths above 0, and radii that differ by a millimetre or more";
+    type Break = fn(&mut Compensator);
+    let broken: [Break; 8] = [
+        |c| c.fixed_radius = 0.0,
+        |c| c.arm_radius = -0.1,
+        |c| c.free_length = -1e-9,
+        |c| c.stiffness = -1.0,
+        |c| c.stiffness = f64::INFINITY,
+        |c| c.angle = f64::NAN,
+        |c| c.arm_radius = c.fixed_radius,
+        |c| c.arm_radius = c.fixed_radius - 0.000_999,
+    ];
+    for change in broken {
+        assert_eq!(refused(|s| s.compensator.iter_mut().for_each(change)), message);
+    }
+    let mut near = sound();
+    near.compensator = Some(Compensator {
+        arm_radius: 0.69 - 0.001_001,
+        ..compensator()
+    });
+    assert_eq!(near.check(&arms::ALL[0]), Ok(()));
+}
+
+#[test]
+fn a_covariance_is_symmetric_not_negative_and_of_compliances_that_exist() {
+    let with = |change: fn(&mut DMatrix<f64>)| {
+        refused(|s| {
+            let mut covariance = DMatrix::identity(8, 8) * 1e-14;
+            change(&mut covariance);
+            s.covariance = Some(covariance);
+        })
+    };
+    assert_eq!(with(|c| c[(1, 2)] = 1e-14), "the covariance is not symmetric");
+    assert_eq!(
+        with(|c| c[(3, 3)] = f64::NAN),
+        "the covariance holds a number that is not finite"
+    );
+    let negative = "the covariance has a negative eigenvalue, or is of 8 compliances where there are 8";
+    assert_eq!(with(|c| c[(3, 3)] = -1e-15), negative);
+    // Correlated by more than one.
+    assert_eq!(with(|c| (c[(0, 1)], c[(1, 0)]) = (1.1e-14, 1.1e-14)), negative);
+    assert!(with(|c| *c = DMatrix::identity(9, 9)).contains("is of 9 compliances where there are 8"));
+    assert!(with(|c| *c = DMatrix::zeros(2, 3)).contains("is of 2 compliances"));
+    // What printing rounds away is forgiven, and a covariance may reach fewer compliances than there are.
+    let mut printed = sound();
+    let mut covariance = DMatrix::identity(3, 3) * 1e-14;
+    covariance[(0, 1)] = 5e-21;
+    printed.covariance = Some(covariance);
+    assert_eq!(printed.check(&arms::ALL[0]), Ok(()));
+}
