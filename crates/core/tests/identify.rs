@@ -9,8 +9,8 @@ use armill_core::identify::fit::Scatter;
 use armill_core::identify::outcome::{displacement_errors, measured_over_typical};
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{
-    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Unknown,
-    identify, plan,
+    Floor, Identified, LoadTest, Loss, Measured, Method, PlanQuestion, Points, Prior, Reading, Refusal, Role,
+    Unknown, identify, plan,
 };
 use armill_core::nalgebra::{DMatrix, Vector3};
 use armill_core::robot::chain::Axis;
@@ -366,13 +366,14 @@ fn wrong_units_show_in_the_size_of_what_was_measured() {
 fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
     let robot = arms::mh12();
     let unknowns = [drives(&robot), bending(&robot)].concat();
-    let asked = Asked {
+    let asked = PlanQuestion {
         tests: 12,
         pulls: [[0.0, 0.0, -150.0], [150.0, 0.0, 0.0], [0.0, 150.0, 0.0]]
             .map(Vector3::from)
             .to_vec(),
         tool_point: Vector3::new(0.0, 0.05, 0.2),
         gauge: 1e-5,
+        floor: Some(Floor::under_base()),
     };
     let planned = plan(&robot, &unknowns, &asked);
     assert_eq!(planned.tests.len(), 12);

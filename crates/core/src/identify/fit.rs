@@ -33,6 +33,8 @@ pub struct Method {
 }
 
 /// Where force acts and displacement is measured.
+///
+/// The standard uncertainties count with [`Prior::Typical`] alone: without a prior shifts are free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Points {
     /// As the tests say.

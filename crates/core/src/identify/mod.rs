@@ -20,6 +20,6 @@ pub mod unknown;
 pub use fit::{Loss, Method, Points};
 pub use load_test::{LoadTest, Measured, Reading};
 pub use outcome::{Estimate, Identified, Refusal, TestOutcome, identify};
-pub use plan::{Asked, PlannedTest, plan};
+pub use plan::{Floor, PlanQuestion, PlannedTest, plan};
 pub use prior::Prior;
 pub use unknown::{Role, Unknown};

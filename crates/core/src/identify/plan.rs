@@ -2,10 +2,11 @@
 //!
 //! D-optimal: the determinant of `sum D_t^T D_t + P^T P` is greatest, `D_t` the derivatives of the readings of test `t`
 //! by the logarithms of the sizes over the uncertainty of the gauge, `P` the typical prior. Candidates are postures of
-//! a Halton sequence inside the joint limits, each with every pull; tests are added one by one and then exchanged until
+//! a Halton sequence inside the joint limits, with the tool clear of the floor and of the arm itself, each with every
+//! pull; tests are added one by one and then exchanged until
 //! nothing is gained (Fedorov 1972; Mitchell 1974). The same question has the same answer.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Unit, Vector3};
 
 use super::effect::{Effects, State};
 use super::load_test::{LoadTest, Measured, Reading};
@@ -14,12 +15,12 @@ use super::spread::Spread;
 use super::unknown::Unknown;
 use crate::robot::chain::Axis;
 use crate::robot::forward::forward;
-use crate::robot::{Limits, Robot};
+use crate::robot::{Joint, Limits, Robot};
 use crate::spatial::Wrench;
 
 /// What a plan is asked for.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct PlanQuestion {
     /// How many tests.
     pub tests: usize,
     /// Pulls that can be applied, N, base axes.
@@ -28,6 +29,27 @@ pub struct Asked {
     pub tool_point: Vector3<f64>,
     /// Standard uncertainty of a displacement reading, m.
     pub gauge: f64,
+    /// Below what the tool must not come; `None` where nothing is near.
+    pub floor: Option<Floor>,
+}
+
+/// A floor, a wall or a ceiling that the arm stands on or beside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    /// Away from it, base axes.
+    pub up: Unit<Vector3<f64>>,
+    /// How far along `up` it lies from the base origin, m.
+    pub height: f64,
+}
+
+impl Floor {
+    /// The one that an arm stands on: base z is up, the base origin lies in it.
+    pub fn under_base() -> Floor {
+        Floor {
+            up: Vector3::z_axis(),
+            height: 0.0,
+        }
+    }
 }
 
 /// One test to do.
@@ -54,10 +76,10 @@ pub struct Plan {
 const POSTURES: u32 = 400;
 /// Rounds of exchange; it comes to rest in two or three.
 const ROUNDS: usize = 6;
-/// The tool stays higher than this over the floor, m.
-const LOWEST: f64 = 0.2;
-/// And further than this from the first axis, m: outside the arm itself.
-const NEAREST: f64 = 0.4;
+/// The tool stays higher than this over the floor, m, and over this part of how far the flange gets.
+const LOWEST: [f64; 2] = [0.2, 0.15];
+/// And further than this from the first axis, m, and than this part: outside the arm itself.
+const NEAREST: [f64; 2] = [0.4, 0.3];
 /// A joint without known limits is turned (moved) by no more than this, rad (m).
 const FREE: f64 = 1.5;
 /// Part of its range that a joint keeps clear of at each end.
@@ -72,7 +94,7 @@ struct Candidate {
 }
 
 /// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
-pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
+pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Plan {
     let candidates = candidates(robot, unknowns, asked);
     let prior = prior_rows(unknowns);
     let mut information = prior.tr_mul(&prior);
@@ -147,17 +169,14 @@ fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &
         .0
 }
 
-fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candidate> {
+fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Vec<Candidate> {
     let state = State {
         sizes: typical_sizes(unknowns),
         force_shift: Vector3::zeros(),
         measured_shift: Vector3::zeros(),
     };
     let mut found = Vec::new();
-    for posture in 1..=POSTURES {
-        let Some(joints) = posture_with_room(robot, posture, &asked.tool_point) else {
-            continue;
-        };
+    for (posture, joints) in postures_with_room(robot, asked) {
         for pull in &asked.pulls {
             let test = test_of(&joints, *pull, asked);
             let effects = Effects::of(robot, unknowns, &test);
@@ -180,7 +199,7 @@ fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candida
     found
 }
 
-fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &Asked) -> LoadTest {
+fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &PlanQuestion) -> LoadTest {
     let reading = |axis| Reading {
         what: Measured::Displacement(axis),
         value: 0.0,
@@ -195,37 +214,50 @@ fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &Asked) -> LoadTest {
     }
 }
 
-/// Posture number `index` of the sequence, if the tool is clear of floor and arm there.
-fn posture_with_room(robot: &Robot, index: u32, tool_point: &Vector3<f64>) -> Option<Vec<f64>> {
-    let joints: Vec<f64> = robot
-        .joints()
-        .iter()
-        .enumerate()
-        .map(|(joint, described)| {
-            let free = Limits {
-                lower: -FREE,
-                upper: FREE,
-            };
-            let limits = described.limits.unwrap_or(free);
-            // A joint that turns more than once around turns the load no further.
-            let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
-            let part = halton(index, PRIMES[joint % PRIMES.len()]);
-            let position = limits.middle() + half * (2.0 * part - 1.0);
-            if robot.slides(joint) {
-                (position * 1e3).round() * 1e-3
-            } else {
-                position.to_degrees().round().to_radians()
-            }
-        })
-        .collect();
-    let frames = forward(robot, &joints);
-    let tool = frames.base_from_flange * nalgebra::Point3::from(*tool_point);
-    let flange = frames.base_from_flange.translation.vector;
-    let first = frames.origin(0);
-    let reach = |p: &Vector3<f64>| (p.xy() - first.coords.xy()).norm();
-    let clear =
-        tool.z > LOWEST && flange.z > LOWEST && reach(&tool.coords) > NEAREST && reach(&flange) > NEAREST;
-    clear.then_some(joints)
+/// Postures of the sequence in which the tool is clear of floor and arm, each with its number.
+fn postures_with_room(robot: &Robot, asked: &PlanQuestion) -> Vec<(u32, Vec<f64>)> {
+    let looked_at = (1..=POSTURES).map(|index| {
+        let joints = posture(robot, index);
+        let frames = forward(robot, &joints);
+        let tool = frames.base_from_flange * nalgebra::Point3::from(asked.tool_point);
+        let places = [frames.base_from_flange.translation.vector, tool.coords];
+        let first = frames.origin(0);
+        let away = places.map(|place| (place.xy() - first.coords.xy()).norm());
+        (index, joints, places, away)
+    });
+    let looked_at: Vec<_> = looked_at.collect();
+    let farthest = looked_at.iter().map(|(.., away)| away[0]).fold(0.0, f64::max);
+    let clearance = |[most, part]: [f64; 2]| f64::min(most, part * farthest);
+    let (lowest, nearest) = (clearance(LOWEST), clearance(NEAREST));
+    let above = |place: &Vector3<f64>| {
+        let floor = asked.floor.as_ref();
+        floor.is_none_or(|floor| place.dot(&floor.up) - floor.height > lowest)
+    };
+    let has_room = looked_at
+        .into_iter()
+        .filter(|(_, _, places, away)| places.iter().all(above) && away.iter().all(|away| *away > nearest));
+    has_room.map(|(index, joints, ..)| (index, joints)).collect()
+}
+
+/// Posture number `index` of the sequence.
+fn posture(robot: &Robot, index: u32) -> Vec<f64> {
+    let position = |(joint, described): (usize, &Joint)| {
+        let free = Limits {
+            lower: -FREE,
+            upper: FREE,
+        };
+        let limits = described.limits.unwrap_or(free);
+        // A joint that turns more than once around turns the load no further.
+        let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
+        let part = halton(index, PRIMES[joint % PRIMES.len()]);
+        let position = limits.middle() + half * (2.0 * part - 1.0);
+        if robot.slides(joint) {
+            (position * 1e3).round() * 1e-3
+        } else {
+            position.to_degrees().round().to_radians()
+        }
+    };
+    robot.joints().iter().enumerate().map(position).collect()
 }
 
 /// Element `index` of the Halton sequence of this prime, 0 to 1.

@@ -112,11 +112,21 @@ pub enum RecordError {
     /// No lag can be told: no force crosses the threshold, or one of both does not change.
     #[error("no lag can be told: {0}")]
     NoLag(&'static str),
-    /// Too much work.
+    /// More instants than are kept.
+    #[error(
+        "a record of {count:.1e} instants is longer than the {most:.0e} that are kept: take longer steps"
+    )]
+    TooManySamples {
+        /// As asked for.
+        count: f64,
+        /// What is kept.
+        most: f64,
+    },
+    /// A search that takes too long.
     #[error(
         "{products:.1e} products are more than {most:.0e}: shorten the records, or look for a smaller lag"
     )]
-    TooLong {
+    TooMuchWork {
         /// Products that the search needs.
         products: f64,
         /// How many it may take.

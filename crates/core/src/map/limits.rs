@@ -229,6 +229,8 @@ fn forces(tip: &TipYield, limit: f64) -> [f64; 4] {
 struct Varied {
     straying: Straying,
     cutter_radius: f64,
+    /// Radius of the widest circle that is engaged, m.
+    widest: f64,
     cut: Cut,
     here: CutHere,
     with_greatest: bool,
@@ -239,11 +241,12 @@ struct Varied {
 impl Varied {
     fn of(cuts: &CutsAlong, index: usize, tip: TipYield, limit: f64) -> Option<Varied> {
         let here = cuts.points[index];
-        let cutter = cuts.cutters[here.cutter];
+        let (cutter, cut) = (cuts.cutters[here.cutter], here.cut?);
         Some(Varied {
             straying: Straying::new(cutter, cuts.law),
             cutter_radius: cutter.radius(),
-            cut: here.cut?,
+            widest: cutter.at_height(cut.depth).radius,
+            cut,
             here,
             with_greatest: cuts.with_greatest,
             tip,
@@ -253,13 +256,13 @@ impl Varied {
 
     fn limits(&mut self) -> CutLimits {
         let (cut, radius) = (self.cut, self.cutter_radius);
-        let diameter = 2.0 * radius;
+        let (diameter, widest) = (2.0 * radius, self.widest);
         let feed = cut.feed.hypot(cut.rise);
         CutLimits {
             depth: self.permitted(MOST_DEPTH * diameter, |depth| Some(Cut { depth, ..cut })),
             width: (cut.engagement.width() < diameter).then(|| {
-                self.permitted(diameter, |width| {
-                    let engagement = cut.engagement.of_width(width, radius)?;
+                self.permitted(2.0 * widest, |width| {
+                    let engagement = cut.engagement.of_width(width, [widest, radius])?;
                     Some(Cut { engagement, ..cut })
                 })
             }),

@@ -112,12 +112,19 @@ impl Track {
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If `load` does not [cover](PathLoad::covers) the points of the track.
 pub fn along_program(
     question: &Question<'_>,
     track: &Track,
     load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<ProgramAnswer, Cancelled> {
+    assert!(
+        load.covers(track.points.len()),
+        "a load for each point of the track"
+    );
     let cases = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
     let asked = Question {
         cases: &cases,

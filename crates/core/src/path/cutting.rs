@@ -71,7 +71,7 @@ pub struct ForcesTold {
     pub greatest: f64,
     /// Standard uncertainty of the largest mean force over its size, from the law.
     pub relative_uncertainty: f64,
-    /// Points without a force: plunges, dives too steep, withdrawals.
+    /// Points without a force though something is cut: plunges, dives too steep, withdrawals, edges that pass beside it.
     pub without_force: usize,
     /// What the stock said; `None` where the engagement is the same everywhere.
     pub met: Option<Met>,
@@ -219,6 +219,7 @@ impl Cutting {
             };
             let mean = milling.mean();
             let size = mean.force.norm();
+            told.without_force += usize::from(size == 0.0);
             let mut greatest = Vector3::zeros();
             if self.greatest == Greatest::SecondCase {
                 let alike = if is_of_stock {
@@ -284,11 +285,12 @@ impl Cutting {
             (Some(depths), Immersion::Down(_)) => Immersion::Down(depths.radial),
             (Some(depths), Immersion::Centred(_) | Immersion::Slot) => Immersion::Centred(depths.radial),
         };
-        let engagement = Engagement::of(immersion, cutter.diameter());
+        let depth = depths.map_or(self.depth, |depths| depths.axial);
+        let engagement = Engagement::at_depth(immersion, &cutter, depth);
         Ok(Process {
             cutter,
             law: self.law,
-            depth: depths.map_or(self.depth, |depths| depths.axial),
+            depth,
             engagement: engagement.map_err(|error| NoForces::Cut { line, error })?,
             feed: feed_at(point, self.feed)?,
             spindle: spindle_of(operation, self.spindle, point)?,

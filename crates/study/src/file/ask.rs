@@ -232,8 +232,14 @@ impl Resolver<'_> {
             ..Doubt::NONE
         };
         let u_n = load.and_then(|load| load.u_n).unwrap_or_default();
-        let doubt = doubt.of_components(u_n, cases.frame, &plane.base_from_part);
-        let cases = cases.in_base(&plane.base_from_part);
+        // What turns with the feed the program turns; here it is told as if the feed went along part x.
+        let frame = match cases.frame {
+            LoadFrame::Feed => LoadFrame::Part,
+            told => told,
+        };
+        let cases = LoadCases { frame, ..cases };
+        let doubt = doubt.of_components(u_n, frame, &plane.base_from_part)?;
+        let cases = cases.in_base(&plane.base_from_part)?;
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
         let limit = limit_um * 1e-6;

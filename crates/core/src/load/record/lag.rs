@@ -101,7 +101,7 @@ pub fn within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -> Re
     let (low, high) = ((ahead + from / step).ceil(), (ahead + to / step).floor());
     let products = (high - low + 1.0) * shorter;
     if products.is_nan() || products > MOST_PRODUCTS {
-        return Err(RecordError::TooLong {
+        return Err(RecordError::TooMuchWork {
             products,
             most: MOST_PRODUCTS,
         });
@@ -285,7 +285,7 @@ mod tests {
         for most in [1e9, f64::INFINITY, f64::NAN] {
             let found = by_correlation(&predicted, &predicted, most);
             assert!(
-                matches!(found, Err(RecordError::TooLong { .. })),
+                matches!(found, Err(RecordError::TooMuchWork { .. })),
                 "{most}: {found:?}"
             );
         }
