@@ -35,13 +35,23 @@ pub struct CutsAlong {
     pub cutters: Vec<Cutter>,
     /// Force of a chip.
     pub law: CuttingLaw,
-    /// Whether the greatest force of a revolution is a second load case.
-    pub with_greatest: bool,
+    /// What becomes of the greatest force.
+    pub greatest: Greatest,
     /// The cut at every point.
     pub points: Vec<CutHere>,
 }
 
-/// The cut at a point, as drawn; forces in the feed frame.
+/// What becomes of the greatest force of a revolution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Greatest {
+    /// The mean alone is a load case.
+    LeftOut,
+    /// It is the second load case.
+    SecondCase,
+}
+
+/// The cut at a point as drawn; its forces, feed frame, are those of the drawing until force and tool have come to rest
+/// ([`super::straying`]), then those at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutHere {
     /// Which of the tools.
@@ -80,8 +90,10 @@ impl PathLoad {
         match self {
             PathLoad::Cases(load) => load.cases.len(),
             PathLoad::OfEach { cases, .. } => *cases,
-            PathLoad::Cuts(cuts) if cuts.with_greatest => 2,
-            PathLoad::Cuts(_) => 1,
+            PathLoad::Cuts(cuts) => match cuts.greatest {
+                Greatest::LeftOut => 1,
+                Greatest::SecondCase => 2,
+            },
         }
     }
 
@@ -150,7 +162,7 @@ mod tests {
         PathLoad::Cuts(CutsAlong {
             cutters: vec![Cutter::flat(0.01, 2).unwrap()],
             law: CuttingLaw::Mechanistic(law),
-            with_greatest: true,
+            greatest: Greatest::SecondCase,
             points,
         })
     }

@@ -35,9 +35,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::arc::Arc;
+use super::arc::EngagedArc;
 use super::cutter::Cutter;
-use super::error::{CuttingError, within};
+use super::error::{CuttingError, checked};
 
 /// How the tool meets the part, seen along the feed; the spindle turns clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +70,7 @@ impl Engagement {
         let radius = diameter / 2.0;
         let depth = |ae: f64| {
             // The least positive number: no cut at all is no engagement.
-            within("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
+            checked("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
         };
         Ok(match immersion {
             Immersion::Up(ae) => Engagement {
@@ -124,10 +124,10 @@ impl Engagement {
     /// Numbers that are not finite, a strip without width.
     pub fn strip([right, left]: [f64; 2], diameter: f64) -> Result<Engagement, CuttingError> {
         let radius = diameter / 2.0;
-        within("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
-        within("strip of material, right", right, [-f64::MAX, left], "m")?;
+        checked("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
+        checked("strip of material, right", right, [-f64::MAX, left], "m")?;
         let (right, left) = (right.max(-radius), left.min(radius));
-        within(
+        checked(
             "width of the strip",
             left - right,
             [f64::MIN_POSITIVE, diameter],
@@ -177,10 +177,10 @@ impl Engagement {
     }
 
     /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
-    pub fn arc_at(&self, radius: f64) -> Option<Arc> {
+    pub fn arc_at(&self, radius: f64) -> Option<EngagedArc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
         let beside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
-        let arc = (!beside).then(|| Arc {
+        let arc = (!beside).then(|| EngagedArc {
             entry: angle(self.left),
             exit: angle(self.right),
         })?;
@@ -198,10 +198,10 @@ impl Engagement {
 /// # Errors
 /// A spindle that stands still or turns backwards, a negative feed, no flute.
 pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, CuttingError> {
-    within("feed speed", feed, [0.0, f64::MAX], "m/s")?;
-    within("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
-    within("number of flutes", f64::from(flutes), [1.0, f64::MAX], "")?;
-    within(
+    checked("feed speed", feed, [0.0, f64::MAX], "m/s")?;
+    checked("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
+    checked("number of flutes", f64::from(flutes), [1.0, f64::MAX], "")?;
+    checked(
         "feed per tooth",
         feed * TAU / (spindle * f64::from(flutes)),
         [0.0, f64::MAX],
@@ -210,12 +210,12 @@ pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, Cutti
 }
 
 /// Mean chip thickness over the arc, at the feed per tooth `c` (m): m.
-pub fn mean_chip(arc: Arc, c: f64) -> f64 {
+pub fn mean_chip(arc: EngagedArc, c: f64) -> f64 {
     c * (arc.entry.cos() - arc.exit.cos()) / (arc.exit - arc.entry)
 }
 
 /// Greatest chip thickness in the arc, at the feed per tooth `c` (m): m.
-pub fn greatest_chip(arc: Arc, c: f64) -> f64 {
+pub fn greatest_chip(arc: EngagedArc, c: f64) -> f64 {
     let ahead = PI / 2.0;
     c * ahead.clamp(arc.entry, arc.exit).sin()
 }
@@ -270,7 +270,7 @@ mod tests {
         assert_eq!(down.arc_at(3.9 * MM), None);
         // More than half: points near the axis are in the part all the way.
         let deep = Engagement::of(Immersion::Up(7.0 * MM), 10.0 * MM).unwrap();
-        assert_eq!(deep.arc_at(MM), Some(Arc { entry: 0.0, exit: PI }));
+        assert_eq!(deep.arc_at(MM), Some(EngagedArc { entry: 0.0, exit: PI }));
     }
 
     #[test]

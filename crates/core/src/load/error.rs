@@ -65,7 +65,7 @@ fn allowed([least, most]: [f64; 2], unit: &str) -> String {
 }
 
 /// `value` if it lies between `least` and `most`.
-pub(super) fn within(
+pub(super) fn checked(
     what: &'static str,
     value: f64,
     [least, most]: [f64; 2],
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn a_range_is_told_in_millimetres_and_by_the_ends_that_mean_something() {
-        let told = |value, ends, unit| within("depth", value, ends, unit).unwrap_err().to_string();
+        let told = |value, ends, unit| checked("depth", value, ends, unit).unwrap_err().to_string();
         assert_eq!(
             told(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
             "depth is 9 mm: must be above 0 and at most 6 mm"

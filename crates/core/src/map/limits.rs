@@ -23,7 +23,7 @@ use nalgebra::{Matrix2x3, Vector3};
 
 use super::program::{ProgramAnswer, Track};
 use crate::kernel::Question;
-use crate::load::{Cut, CutHere, CutsAlong, PathLoad, Straying, TipYield};
+use crate::load::{Cut, CutHere, CutsAlong, Greatest, PathLoad, Rest, Straying, TipYield};
 use crate::source::Standing;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -233,7 +233,7 @@ struct Varied {
     widest: f64,
     cut: Cut,
     here: CutHere,
-    with_greatest: bool,
+    greatest: Greatest,
     tip: TipYield,
     limit: f64,
 }
@@ -248,7 +248,7 @@ impl Varied {
             widest: cutter.at_height(cut.depth).radius,
             cut,
             here,
-            with_greatest: cuts.with_greatest,
+            greatest: cuts.greatest,
             tip,
             limit,
         })
@@ -307,15 +307,14 @@ impl Varied {
             return f64::INFINITY;
         };
         let rest = self.straying.rest(cut, drawn, &self.tip);
-        if !rest.settled {
+        let Rest::Settled(force) = rest else {
             return f64::INFINITY;
-        }
-        let [mean, greatest] = self.here.under(rest.force);
+        };
+        let [mean, greatest] = self.here.under(force);
         let in_plane = |force| self.tip.under(force).xy().norm();
-        if self.with_greatest {
-            in_plane(mean).max(in_plane(greatest))
-        } else {
-            in_plane(mean)
+        match self.greatest {
+            Greatest::LeftOut => in_plane(mean),
+            Greatest::SecondCase => in_plane(mean).max(in_plane(greatest)),
         }
     }
 }

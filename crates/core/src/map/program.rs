@@ -10,7 +10,7 @@ use nalgebra::{Point3, Rotation3, Vector3};
 use super::turns;
 use crate::frame::Isometry;
 use crate::kernel::{Answers, BranchChoice, Question, Stop, evaluate_loaded};
-use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
+use crate::load::{CutsAlong, PathLoad, Rest, Straying, TipYield};
 use crate::path::{PathPoint, Placing};
 use crate::robot::{Branch, BranchPattern, Robot};
 use crate::spatial::Wrench;
@@ -205,11 +205,12 @@ impl Resting<'_> {
             }
             if let Some(cut) = here.cut {
                 self.straying.hold(self.cuts.cutters[here.cutter]);
-                let rest = self.straying.rest(&cut, here.mean, &tip);
-                [here.mean, here.greatest] = here.under(rest.force);
-                if !rest.settled {
-                    self.rested.unsettled += 1;
-                    self.rested.first_unsettled.get_or_insert(index);
+                match self.straying.rest(&cut, here.mean, &tip) {
+                    Rest::Settled(force) => [here.mean, here.greatest] = here.under(force),
+                    Rest::DrawnIn => {
+                        self.rested.unsettled += 1;
+                        self.rested.first_unsettled.get_or_insert(index);
+                    }
                 }
             }
         }
