@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::bounded;
-use super::effect::{Effects, State};
+use super::effect::{Effects, State, predicted};
 use super::load_test::LoadTest;
 use super::prior::{LogPrior, Prior, typical, typical_sizes};
 use super::spread::Spread;
@@ -95,9 +95,9 @@ pub(super) struct Problem<'a> {
     expected_squares: Vec<f64>,
 }
 
-/// A point at rest, and all that was known there.
+/// The most likely unknowns, and all that was known there.
 #[derive(Clone, Debug)]
-pub(super) struct Rest {
+pub(super) struct Fitted {
     pub x: DVector<f64>,
     pub scale: f64,
     pub spread: Spread,
@@ -146,11 +146,11 @@ impl<'a> Problem<'a> {
     }
 
     /// Where a search starts that knows nothing yet.
-    pub fn start(&self) -> Rest {
+    pub fn start(&self) -> Fitted {
         let sizes = typical_sizes(self.unknowns);
         let count = sizes.len() + self.method.points.count();
         let value = |size: f64| if self.in_logs() { size.ln() } else { size };
-        Rest {
+        Fitted {
             x: DVector::from_fn(count, |j, _| sizes.get(j).copied().map_or(0.0, value)),
             scale: 1.0,
             spread: Spread::default(),
@@ -179,7 +179,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The most likely `x` for the tests with these indices, searched from `start`.
-    pub fn at_rest(&self, used: &[usize], start: &Rest) -> Rest {
+    pub fn at_rest(&self, used: &[usize], start: &Fitted) -> Fitted {
         let mut rest = start.clone();
         let readings: usize = used.iter().map(|t| self.tests[*t].readings.len()).sum();
         // Readings have about nine digits that mean something; less scatter than that is rounding.
@@ -243,8 +243,7 @@ impl<'a> Problem<'a> {
             for (r, reading) in self.tests[*test].readings.iter().enumerate() {
                 let row = linear.first_row[place] + r;
                 let u = reading.standard_uncertainty;
-                let predicted: f64 = (0..count).map(|k| effect[(r, k)] * state.sizes[k]).sum();
-                linear.residual[row] = (predicted - reading.value) / u;
+                linear.residual[row] = (predicted(&effect, r, &state) - reading.value) / u;
                 for k in 0..count {
                     let by_log = if self.in_logs() { state.sizes[k] } else { 1.0 };
                     linear.jacobian[(row, k)] = effect[(r, k)] * by_log / u;
@@ -276,24 +275,33 @@ impl<'a> Problem<'a> {
         tests + (prior * x - wanted).norm_squared()
     }
 
-    /// Rows of the prior and what they should give, over their standard uncertainties.
+    /// Rows of the prior and what they should give, over their standard uncertainties; of points that they are not shifted.
     fn prior_rows(&self, count: usize) -> (DMatrix<f64>, DVector<f64>) {
-        let points = match self.method.points {
-            Points::Common(u) | Points::Separate(u) if self.in_logs() => (self.unknowns.len()..count, u),
-            _ => (0..0, 1.0),
+        let (of_sizes, wanted) = LogPrior::rows(&self.prior, count);
+        let (Points::Common(u) | Points::Separate(u)) = self.method.points else {
+            return (of_sizes, wanted);
         };
-        let rows = self.prior.len() + points.0.len();
-        let (mut matrix, mut wanted) = (DMatrix::zeros(rows, count), DVector::zeros(rows));
-        for (row, prior) in self.prior.iter().enumerate() {
-            for (k, factor) in &prior.parts {
-                matrix[(row, *k)] = factor / prior.standard_uncertainty;
-            }
-            wanted[row] = prior.mean / prior.standard_uncertainty;
+        if !self.in_logs() {
+            return (of_sizes, wanted);
         }
-        for (row, j) in points.0.enumerate() {
-            matrix[(self.prior.len() + row, j)] = 1.0 / points.1;
+        let (first, more) = (self.prior.len(), self.method.points.count());
+        let mut rows = of_sizes.resize_vertically(first + more, 0.0);
+        for k in 0..more {
+            rows[(first + k, self.unknowns.len() + k)] = 1.0 / u;
         }
-        (matrix, wanted)
+        (rows, wanted.resize_vertically(first + more, 0.0))
+    }
+
+    /// Derivatives of what `x` says (sizes, then shifts) by `x`, on a diagonal.
+    pub fn slopes(&self, x: &DVector<f64>) -> DMatrix<f64> {
+        let mut slopes = DVector::from_element(x.len(), 1.0);
+        if self.in_logs() {
+            let sizes = self.unknowns.len();
+            slopes
+                .rows_mut(0, sizes)
+                .copy_from(&x.rows(0, sizes).map(f64::exp));
+        }
+        DMatrix::from_diagonal(&slopes)
     }
 
     /// The rows of the tests, weighed, over sigma.
@@ -307,7 +315,7 @@ impl<'a> Problem<'a> {
         (jacobian, residual)
     }
 
-    fn spread(&self, linear: &Linear, rest: &Rest) -> Spread {
+    fn spread(&self, linear: &Linear, rest: &Fitted) -> Spread {
         let (tests, _) = self.weighed(linear, rest.scale);
         let (prior, _) = self.prior_rows(rest.x.len());
         let at_bound = |j: usize| !self.in_logs() && j < self.unknowns.len() && rest.x[j] <= 0.0;

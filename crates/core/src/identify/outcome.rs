@@ -10,10 +10,9 @@ use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 
 use super::effect::{Effects, State};
-use super::fit::{Method, Problem, Rest};
+use super::fit::{Fitted, Method, Problem};
 use super::load_test::{LoadTest, Measured};
-use super::prior::{Prior, typical_sizes};
-use super::unknown::{Unknown, drives};
+use super::unknown::Unknown;
 use crate::robot::Robot;
 
 /// A residual beyond so many sigma names its test an outlier.
@@ -23,7 +22,7 @@ pub const OUTLIER: f64 = 3.5;
 #[derive(Clone, Debug)]
 pub struct Identified {
     /// One an unknown.
-    pub estimates: Vec<Estimate>,
+    pub estimates: Vec<FoundSpring>,
     /// Of the sizes, in the squares and products of their units.
     pub covariance: DMatrix<f64>,
     /// Where the force acted against what the tests say, and its standard uncertainty; m, flange frame.
@@ -40,7 +39,7 @@ pub struct Identified {
 
 /// The size of one unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
+pub struct FoundSpring {
     /// rad/(N m), m/N, or rad, as its role says; 0 where nothing but rigid fits (without prior only).
     pub value: f64,
     /// Same unit.
@@ -108,24 +107,24 @@ pub fn identify(
         .collect();
     let problem = Problem::new(unknowns, tests, effects, method);
     let all: Vec<usize> = (0..tests.len()).collect();
-    let rest = problem.at_rest(&all, &problem.start());
-    let state = problem.state(&rest.x);
+    let fitted = problem.at_rest(&all, &problem.start());
+    let state = problem.state(&fitted.x);
     let outcomes = all.par_iter().map(|test| {
         let others: Vec<usize> = all.iter().copied().filter(|other| other != test).collect();
-        let without = problem.state(&problem.at_rest(&others, &rest).x);
-        test_outcome(&problem, *test, &rest, [&state, &without])
+        let without = problem.state(&problem.at_rest(&others, &fitted).x);
+        test_outcome(&problem, *test, &fitted, [&state, &without])
     });
     let tests = outcomes.collect();
-    let slopes = slopes(&state, method, rest.x.len());
-    let covariance = &slopes * &rest.spread.covariance * &slopes;
+    let slopes = problem.slopes(&fitted.x);
+    let covariance = &slopes * &fitted.spread.covariance * &slopes;
     let shifts = shifts(&state, method, &covariance);
     let of_sizes = covariance
         .view((0, 0), (unknowns.len(), unknowns.len()))
         .into_owned();
-    let estimates = state.sizes.iter().enumerate().map(|(k, value)| Estimate {
+    let estimates = state.sizes.iter().enumerate().map(|(k, value)| FoundSpring {
         value: *value,
         standard_uncertainty: of_sizes[(k, k)].max(0.0).sqrt(),
-        known: rest.spread.known[k],
+        known: fitted.spread.known[k],
     });
     let only_sizes = |set: &&Vec<usize>| set.iter().all(|k| *k < unknowns.len());
     Ok(Identified {
@@ -133,9 +132,15 @@ pub fn identify(
         covariance: of_sizes,
         force_shift: shifts.map(|shifts| shifts[0]),
         measured_shift: shifts.map(|shifts| shifts[1]),
-        scale: rest.scale,
+        scale: fitted.scale,
         tests,
-        together: rest.spread.together.iter().filter(only_sizes).cloned().collect(),
+        together: fitted
+            .spread
+            .together
+            .iter()
+            .filter(only_sizes)
+            .cloned()
+            .collect(),
     })
 }
 
@@ -165,7 +170,12 @@ fn refuse(unknowns: &[Unknown], tests: &[LoadTest], method: Method) -> Result<()
     Ok(())
 }
 
-fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]: [&State; 2]) -> TestOutcome {
+fn test_outcome(
+    problem: &Problem<'_>,
+    test: usize,
+    fitted: &Fitted,
+    [all, without]: [&State; 2],
+) -> TestOutcome {
     let readings = &problem.tests[test].readings;
     let residuals = |state: &State| -> Vec<f64> {
         let predicted = problem.effects[test].readings(problem.unknowns, state);
@@ -177,7 +187,7 @@ fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]:
     };
     let own = residuals(all);
     let squares = own.iter().zip(readings).map(|(r, reading)| {
-        let sigma = reading.standard_uncertainty * rest.scale;
+        let sigma = reading.standard_uncertainty * fitted.scale;
         (r / sigma).powi(2)
     });
     let length = squares.sum::<f64>().sqrt();
@@ -189,17 +199,6 @@ fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]:
         weight: problem.weight(length),
         outlier: standardised > OUTLIER,
     }
-}
-
-/// Derivatives of sizes and shifts by what the fit counts in, on a diagonal.
-fn slopes(state: &State, method: Method, count: usize) -> DMatrix<f64> {
-    let mut slopes = DMatrix::identity(count, count);
-    if method.prior == Prior::Typical {
-        for (k, size) in state.sizes.iter().enumerate() {
-            slopes[(k, k)] = *size;
-        }
-    }
-    slopes
 }
 
 /// Shifts of force point and measured point with their standard uncertainties.
@@ -219,84 +218,4 @@ fn shifts(state: &State, method: Method, covariance: &DMatrix<f64>) -> Option<[[
         }
     });
     Some([[state.force_shift, of_force], [state.measured_shift, of_measured]])
-}
-
-/// Errors of the displacements (m) over all tests that measured one: lengths of their residual vectors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    /// Tests that count.
-    pub tests: usize,
-    /// Mean length, m.
-    pub mean: f64,
-    /// Root mean square of the lengths, m.
-    pub rms: f64,
-    /// Greatest length, m.
-    pub largest: f64,
-    /// Mean length over the mean length of what was measured.
-    pub relative: f64,
-}
-
-/// The errors of displacements, given one list of residuals a test; `None` where no test measured a displacement.
-pub fn displacement_errors<'a>(
-    tests: &[LoadTest],
-    residuals: impl Iterator<Item = &'a Vec<f64>>,
-) -> Option<Errors> {
-    let mut errors = Errors {
-        tests: 0,
-        mean: 0.0,
-        rms: 0.0,
-        largest: 0.0,
-        relative: 0.0,
-    };
-    let mut measured = 0.0;
-    for (test, residuals) in tests.iter().zip(residuals) {
-        let mut squares = [0.0; 2];
-        let mut any = false;
-        for (reading, residual) in test.readings.iter().zip(residuals) {
-            if let Measured::Displacement(_) = reading.what {
-                squares[0] += residual * residual;
-                squares[1] += reading.value * reading.value;
-                any = true;
-            }
-        }
-        if any {
-            let length = squares[0].sqrt();
-            errors.tests += 1;
-            errors.mean += length;
-            errors.rms += squares[0];
-            errors.largest = errors.largest.max(length);
-            measured += squares[1].sqrt();
-        }
-    }
-    if errors.tests == 0 {
-        return None;
-    }
-    let count = errors.tests as f64;
-    errors.relative = errors.mean / measured;
-    errors.mean /= count;
-    errors.rms = (errors.rms / count).sqrt();
-    Some(errors)
-}
-
-/// Median over all readings other than 0 of measured over predicted with typical drives: far from 1, units are wrong.
-/// `None` where there is nothing to compare.
-pub fn measured_over_typical(robot: &Robot, tests: &[LoadTest]) -> Option<f64> {
-    let unknowns = drives(robot);
-    let state = State {
-        sizes: typical_sizes(&unknowns),
-        force_shift: Vector3::zeros(),
-        measured_shift: Vector3::zeros(),
-    };
-    let length = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
-    let mut ratios = Vec::new();
-    for test in tests {
-        let predicted = Effects::of(robot, &unknowns, test).readings(&unknowns, &state);
-        let measured = length(&mut test.readings.iter().map(|reading| reading.value));
-        let predicted = length(&mut predicted.into_iter());
-        if measured > 0.0 && predicted > 0.0 {
-            ratios.push(measured / predicted);
-        }
-    }
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
 }

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, Unit, Vector3};
 
 use super::effect::{Effects, State};
 use super::load_test::{LoadTest, Measured, Reading};
-use super::prior::{typical, typical_sizes};
+use super::prior::{LogPrior, typical};
 use super::spread::Spread;
 use super::unknown::Unknown;
 use crate::robot::chain::Axis;
@@ -96,7 +96,7 @@ struct Candidate {
 /// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
 pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Plan {
     let candidates = candidates(robot, unknowns, asked);
-    let prior = prior_rows(unknowns);
+    let (prior, _) = LogPrior::rows(&typical(unknowns), unknowns.len());
     let mut information = prior.tr_mul(&prior);
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < asked.tests.min(candidates.len()) {
@@ -131,17 +131,6 @@ pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Plan {
     }
 }
 
-fn prior_rows(unknowns: &[Unknown]) -> DMatrix<f64> {
-    let priors = typical(unknowns);
-    let mut rows = DMatrix::zeros(priors.len(), unknowns.len());
-    for (row, prior) in priors.iter().enumerate() {
-        for (k, factor) in &prior.parts {
-            rows[(row, *k)] = factor / prior.standard_uncertainty;
-        }
-    }
-    rows
-}
-
 fn add(information: &mut DMatrix<f64>, candidate: &Candidate, times: f64) {
     *information += candidate.rows.tr_mul(&candidate.rows) * times;
 }
@@ -170,11 +159,7 @@ fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &
 }
 
 fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Vec<Candidate> {
-    let state = State {
-        sizes: typical_sizes(unknowns),
-        force_shift: Vector3::zeros(),
-        measured_shift: Vector3::zeros(),
-    };
+    let state = State::typical(unknowns);
     let mut found = Vec::new();
     for (posture, joints) in postures_with_room(robot, asked) {
         for pull in &asked.pulls {

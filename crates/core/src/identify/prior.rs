@@ -12,6 +12,8 @@
 //! | tool and holder | 3e-7 m/N, factor e^1.5 | holder 1.07e-7 and tool 9.34e-7 m/N of a roboforming cell, Sci. Rep. 14:20291 |
 //! | lost motion | 3e-5 rad, factor e | a tenth of an arc minute: reducers of industrial arms |
 
+use nalgebra::{DMatrix, DVector};
+
 use super::unknown::{Role, Unknown};
 use crate::robot::Seat;
 
@@ -33,6 +35,20 @@ pub struct LogPrior {
     pub mean: f64,
     /// Of the sum.
     pub standard_uncertainty: f64,
+}
+
+impl LogPrior {
+    /// These priors as rows over `count` unknowns, and what the rows should give; both over the standard uncertainties.
+    pub(super) fn rows(priors: &[LogPrior], count: usize) -> (DMatrix<f64>, DVector<f64>) {
+        let mut rows = DMatrix::zeros(priors.len(), count);
+        for (row, prior) in priors.iter().enumerate() {
+            for (k, factor) in &prior.parts {
+                rows[(row, *k)] = factor / prior.standard_uncertainty;
+            }
+        }
+        let wanted = priors.iter().map(|prior| prior.mean / prior.standard_uncertainty);
+        (rows, DVector::from_iterator(priors.len(), wanted))
+    }
 }
 
 /// Compliance of a drive, rad/(N m).

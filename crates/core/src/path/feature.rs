@@ -289,11 +289,11 @@ mod tests {
         let bow = |s: f64| 30e-6 * s * s;
         let at = |i: i32| {
             // Out, and back to a nanometre beside the start.
-            let s = f64::from(if i <= 1000 { i - 500 } else { 1500 - i }) / 500.0;
+            let s = f64::from(if i <= 1000 { i - 500 } else { 1501 - i }) / 500.0;
             let by = Vector3::new(0.0, bow(s), 7e-6 * s * s);
             strayed(Vector3::new(0.2 * s, 0.1 + 1e-9 * f64::from(i > 1000), 0.0), by)
         };
-        let both: Vec<_> = (0..=2000).map(at).collect();
+        let both: Vec<_> = (0..=2001).map(at).collect();
         let (there_and_back, there) = (tilted(&both), tilted(&both[..=1000]));
         let [
             Some(Became::Line {

@@ -1,6 +1,6 @@
 //! What a program permits, and what its cut met and did, in the answer.
 
-use armill_core::map::{CutLimits, Permitted, PointLimits, Rested};
+use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits, Rested};
 use armill_core::path::Met;
 use serde::Serialize;
 
@@ -78,11 +78,11 @@ impl LimitsResult {
     pub(super) fn of(ask: &ProgramAsk, found: &ProgramFound) -> Option<LimitsResult> {
         let limits = found.limits.as_ref()?;
         let line = |point: &PointLimits| ask.track.points[point.index].line;
-        let force = |which: usize| {
+        let force = |of: fn(&PermittedForces) -> f64| {
             let points = limits.points.iter();
-            let least = points.min_by(|a, b| a.forces[which].total_cmp(&b.forces[which]))?;
+            let least = points.min_by(|a, b| of(&a.forces).total_cmp(&of(&b.forces)))?;
             Some(LimitResult {
-                value: tidy(least.forces[which]),
+                value: tidy(of(&least.forces)),
                 unit: "N",
                 verdict: "up to",
                 line: line(least),
@@ -98,10 +98,10 @@ impl LimitsResult {
         };
         Some(LimitsResult {
             points: limits.points.len(),
-            any_direction: force(3),
-            along: force(0),
-            cross: force(1),
-            axial: force(2),
+            any_direction: force(|forces| forces.weakest),
+            along: force(|forces| forces.along),
+            cross: force(|forces| forces.across),
+            axial: force(|forces| forces.normal),
             axial_depth: cut(|cut| Some(cut.depth)),
             radial_depth: cut(|cut| cut.width),
             feed_per_tooth: cut(|cut| Some(cut.feed_per_tooth)),
