@@ -58,3 +58,54 @@ pub fn displacement_errors<'a>(
     errors.rms = (errors.rms / count).sqrt();
     Some(errors)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::load_test::Reading;
+    use super::*;
+    use crate::robot::chain::Axis;
+    use crate::spatial::Wrench;
+    use nalgebra::Vector3;
+
+    fn test(readings: &[(Measured, f64)]) -> LoadTest {
+        let reading = |(what, value): &(Measured, f64)| Reading {
+            what: *what,
+            value: *value,
+            standard_uncertainty: 1e-5,
+        };
+        LoadTest {
+            joints: vec![0.0],
+            wrench: Wrench::from_force(Vector3::x()),
+            force_point: Vector3::zeros(),
+            measured_point: Vector3::zeros(),
+            readings: readings.iter().map(reading).collect(),
+        }
+    }
+
+    #[test]
+    fn errors_are_lengths_over_all_tests_that_measured_a_displacement() {
+        let (x, y) = (Measured::Displacement(Axis::X), Measured::Displacement(Axis::Y));
+        let turn = Measured::Turn(0);
+        let tests = [
+            test(&[(x, 3e-3), (y, 4e-3)]),
+            // A turn is no displacement, however far off.
+            test(&[(turn, 9.0), (x, 5e-3)]),
+            test(&[(turn, 1.0)]),
+        ];
+        let residuals = [vec![0.3e-3, -0.4e-3], vec![7.0, 1.2e-3], vec![4.0]];
+        let errors = displacement_errors(&tests, residuals.iter()).unwrap();
+        assert_eq!(errors.tests, 2);
+        let expected = [
+            0.85e-3,
+            (0.5 * (0.25 + 1.44_f64)).sqrt() * 1e-3,
+            1.2e-3,
+            1.7 / 10.0,
+        ];
+        let found = [errors.mean, errors.rms, errors.largest, errors.relative];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found / expected - 1.0).abs() < 1e-12, "{errors:?}");
+        }
+        assert_eq!(displacement_errors(&tests[2..], residuals[2..].iter()), None);
+        assert_eq!(displacement_errors(&[], residuals.iter()), None);
+    }
+}

@@ -399,6 +399,8 @@ fn expected_bent_square(readings: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_arm::{arm, numbers, tests};
+    use super::super::unknown::{bending, drives, lost_motion};
     use super::*;
 
     #[test]
@@ -406,5 +408,187 @@ mod tests {
         // E min(n^2, k^2) = 1 - 2 k phi(k) - 2 (1 - k^2)(1 - Phi(k)), k = 1.5: phi 0.1295176, 1 - Phi 0.0668072.
         let expected = 1.0 - 2.0 * 1.5 * 0.129_517_6 - 2.0 * (1.0 - 2.25) * 0.066_807_2;
         assert!((expected_bent_square(1) - expected).abs() < 1e-5);
+    }
+
+    fn problem<'a>(unknowns: &'a [Unknown], tests: &'a [LoadTest], method: Method) -> Problem<'a> {
+        let robot = arm(1.0);
+        let effects = tests.iter().map(|test| Effects::of(&robot, unknowns, test));
+        Problem::new(unknowns, tests, effects.collect(), method)
+    }
+
+    fn plain() -> Method {
+        Method {
+            prior: Prior::None,
+            points: Points::Known,
+            loss: Loss::Squares,
+            scatter: Scatter::Found,
+        }
+    }
+
+    /// Of the objective, from the weighed rows.
+    fn gradient(problem: &Problem<'_>, used: &[usize], x: &DVector<f64>, scale: f64) -> DVector<f64> {
+        let (tests, residual) = problem.weighed(&problem.linear(used, x), scale);
+        let (prior, wanted) = problem.prior_rows(x.len());
+        (tests.tr_mul(&residual) + prior.tr_mul(&(&prior * x - wanted))) * 2.0
+    }
+
+    #[test]
+    fn the_gradient_of_the_objective_matches_differences_whatever_the_method() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot), lost_motion(&robot, &[20.0; 3])].concat();
+        let tests = tests(&unknowns, &State::typical(&unknowns), 9, 2e-4);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let mut next = numbers(5);
+        for prior in [Prior::Typical, Prior::None] {
+            for points in [Points::Known, Points::Common(0.1), Points::Separate(0.1)] {
+                for loss in [Loss::Squares, Loss::Huber] {
+                    let method = Method {
+                        prior,
+                        points,
+                        loss,
+                        ..plain()
+                    };
+                    let problem = problem(&unknowns, &tests, method);
+                    let sizes = unknowns.len();
+                    // Some way off the middle, points shifted by centimetres.
+                    let x = problem.start().x.map_with_location(|j, _, value| match prior {
+                        _ if j >= sizes => 0.03 * next(),
+                        Prior::Typical => value + 0.5 * next(),
+                        Prior::None => value * (1.0 + 0.5 * next()),
+                    });
+                    let value = |x: &DVector<f64>| problem.objective(&problem.linear(&used, x), x, 2.0);
+                    let (here, exact) = (value(&x), gradient(&problem, &used, &x, 2.0));
+                    for j in 0..x.len() {
+                        let step = 1e-5 * if j < sizes { x[j].abs().min(1.0) } else { 1.0 };
+                        let (mut more, mut less) = (x.clone(), x.clone());
+                        more[j] += step;
+                        less[j] -= step;
+                        let difference = (value(&more) - value(&less)) / (2.0 * step);
+                        // The square of the step, and what rounding of the objective makes of it.
+                        let tolerance = 1e-5 * exact[j].abs() + 1e-13 * here / step;
+                        assert!(
+                            (difference - exact[j]).abs() < tolerance,
+                            "{method:?} {j}: {difference} {}",
+                            exact[j]
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_prior_no_size_at_rest_can_be_changed_for_the_better() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        // Half of the springs are rigid: noise makes some of them negative, if they may be.
+        let sizes = (0..unknowns.len()).map(|k| if k % 2 == 0 { 2e-6 } else { 0.0 });
+        let tests = tests(&unknowns, &State::of_sizes(sizes.collect()), 12, 5e-5);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let problem = problem(&unknowns, &tests, plain());
+        let rest = problem.at_rest(&used, &problem.start());
+        let slope = gradient(&problem, &used, &rest.x, rest.scale);
+        let least = problem.objective(&problem.linear(&used, &rest.x), &rest.x, rest.scale);
+        let mut at_bound = 0;
+        for (size, slope) in rest.x.iter().zip(slope.iter()) {
+            // A typical spring more or less would change the objective by this.
+            let by = slope * 2e-6;
+            if *size == 0.0 {
+                at_bound += 1;
+                assert!(by > -1e-6 * least, "{by} of {least}");
+            } else {
+                assert!(*size > 0.0 && by.abs() < 1e-6 * least, "{by} of {least}");
+            }
+        }
+        assert!(at_bound > 0 && at_bound < unknowns.len(), "{}", rest.x);
+    }
+
+    #[test]
+    fn readings_that_tell_nothing_leave_the_middle_of_the_prior() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let mut tests = tests(&unknowns, &State::typical(&unknowns), 12, 1e-3);
+        for reading in tests.iter_mut().flat_map(|test| &mut test.readings) {
+            reading.standard_uncertainty = 1e3;
+        }
+        let method = Method {
+            prior: Prior::Typical,
+            points: Points::Separate(0.1),
+            scatter: Scatter::Stated,
+            ..plain()
+        };
+        let problem = problem(&unknowns, &tests, method);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let mut start = problem.start();
+        start.x.add_scalar_mut(0.7);
+        let found = problem.state(&problem.at_rest(&used, &start).x);
+        let typical = State::typical(&unknowns);
+        for (found, typical) in found.sizes.iter().zip(&typical.sizes) {
+            assert!((found / typical - 1.0).abs() < 1e-6, "{found} {typical}");
+        }
+        assert!(found.force_shift.norm() < 1e-7 && found.measured_shift.norm() < 1e-7);
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_sizes_by_what_the_fit_counts_in() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::typical(&unknowns), 4, 0.0);
+        for prior in [Prior::Typical, Prior::None] {
+            let method = Method {
+                prior,
+                points: Points::Common(0.1),
+                ..plain()
+            };
+            let problem = problem(&unknowns, &tests, method);
+            let x = problem.start().x;
+            let slopes = problem.slopes(&x);
+            for j in 0..x.len() {
+                let step = 1e-6 * x[j].abs().max(1e-3);
+                let mut more = x.clone();
+                more[j] += step;
+                let (here, there) = (problem.state(&x), problem.state(&more));
+                let change = match j {
+                    0..=2 => there.sizes[j] - here.sizes[j],
+                    _ => (there.force_shift - here.force_shift)[j - 3],
+                };
+                assert!(
+                    (change / step / slopes[(j, j)] - 1.0).abs() < 1e-4,
+                    "{prior:?} {j}"
+                );
+            }
+            assert_eq!(slopes.nrows(), 6);
+        }
+    }
+
+    #[test]
+    fn a_test_far_off_weighs_as_much_less_as_it_is_farther_off() {
+        let unknowns = drives(&arm(1.0));
+        let tests = tests(&unknowns, &State::typical(&unknowns), 2, 0.0);
+        let huber = problem(
+            &unknowns,
+            &tests,
+            Method {
+                loss: Loss::Huber,
+                ..plain()
+            },
+        );
+        for (length, weight) in [(0.0, 1.0), (1.5, 1.0), (3.0, 0.5), (15.0, 0.1)] {
+            assert!((huber.weight(length) - weight).abs() < 1e-15, "{length}");
+            assert_eq!(problem(&unknowns, &tests, plain()).weight(length), 1.0);
+        }
+    }
+
+    #[test]
+    fn bent_squares_of_several_readings_lie_between_none_and_all_of_their_square() {
+        // E min(n^2, k^2) of chi-squared with two degrees of freedom: 2 (1 - exp(-k^2/2)).
+        let expected = 2.0 * (1.0 - f64::exp(-1.5 * 1.5 / 2.0));
+        assert!((expected_bent_square(2) - expected).abs() < 1e-5);
+        assert_eq!(expected_bent_square(0), 0.0);
+        let all: Vec<f64> = (1..=6).map(expected_bent_square).collect();
+        assert!(
+            all.windows(2).all(|pair| pair[0] < pair[1]) && all[5] < BEND * BEND,
+            "{all:?}"
+        );
     }
 }

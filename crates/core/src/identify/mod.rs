@@ -16,6 +16,8 @@ pub mod load_test;
 pub mod outcome;
 pub mod plan;
 pub mod prior;
+#[cfg(test)]
+mod small_arm;
 mod spread;
 pub mod units;
 pub mod unknown;

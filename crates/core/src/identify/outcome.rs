@@ -219,3 +219,191 @@ fn shifts(state: &State, method: Method, covariance: &DMatrix<f64>) -> Option<[[
     });
     Some([[state.force_shift, of_force], [state.measured_shift, of_measured]])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fit::{Loss, Points, Scatter};
+    use super::super::prior::Prior;
+    use super::super::small_arm::{arm, tests};
+    use super::super::unknown::{bending, drives};
+    use super::*;
+
+    fn plain() -> Method {
+        Method {
+            prior: Prior::None,
+            points: Points::Known,
+            loss: Loss::Squares,
+            scatter: Scatter::Found,
+        }
+    }
+
+    fn usual() -> Method {
+        Method {
+            prior: Prior::Typical,
+            loss: Loss::Huber,
+            ..plain()
+        }
+    }
+
+    /// Rows of all tests by the sizes of the drives.
+    fn rows(tests: &[LoadTest]) -> DMatrix<f64> {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let mut rows = DMatrix::zeros(3 * tests.len(), unknowns.len());
+        for (t, test) in tests.iter().enumerate() {
+            let effect = Effects::of(&robot, &unknowns, test).jacobian(&unknowns, &State::typical(&unknowns));
+            rows.rows_mut(3 * t, 3)
+                .copy_from(&effect.columns(0, unknowns.len()));
+        }
+        rows
+    }
+
+    #[test]
+    fn left_out_residuals_of_a_linear_fit_are_those_of_its_leverage() {
+        // Of least squares: left out = (I - H_tt)^-1 residual, H = A (A^T A)^-1 A^T; no refit is needed.
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let found = identify(&robot, &unknowns, &tests, plain()).unwrap();
+        let a = rows(&tests);
+        let hat = &a * a.tr_mul(&a).try_inverse().unwrap() * a.transpose();
+        for (t, outcome) in found.tests.iter().enumerate() {
+            let own = nalgebra::Matrix3::from_fn(|i, j| hat[(3 * t + i, 3 * t + j)]);
+            let residual = Vector3::from_column_slice(&outcome.residuals);
+            let expected = (nalgebra::Matrix3::identity() - own).try_inverse().unwrap() * residual;
+            let left_out = Vector3::from_column_slice(&outcome.left_out);
+            assert!(
+                (left_out - expected).norm() < 1e-9 * expected.norm(),
+                "{t}: {left_out} {expected}"
+            );
+            assert!(
+                left_out.norm() > residual.norm(),
+                "a test pulls the fit to itself"
+            );
+        }
+    }
+
+    #[test]
+    fn sizes_scatter_and_covariance_of_a_linear_fit_are_those_of_the_textbook() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let found = identify(&robot, &unknowns, &tests, plain()).unwrap();
+        let a = rows(&tests);
+        let values = tests
+            .iter()
+            .flat_map(|test| &test.readings)
+            .map(|reading| reading.value);
+        let b = nalgebra::DVector::from_iterator(a.nrows(), values);
+        let inverse = a.tr_mul(&a).try_inverse().unwrap();
+        let sizes = &inverse * a.tr_mul(&b);
+        let left = (&a * &sizes - &b).norm_squared();
+        let variance = left / (a.nrows() - a.ncols()) as f64;
+        // Readings state 1e-5 m. The scale is found to 1e-4 of itself.
+        assert!(
+            (found.scale / (variance.sqrt() / 1e-5) - 1.0).abs() < 2e-4,
+            "{}",
+            found.scale
+        );
+        for (k, spring) in found.estimates.iter().enumerate() {
+            assert!((spring.value / sizes[k] - 1.0).abs() < 1e-9, "{spring:?}");
+            let u = (variance * inverse[(k, k)]).sqrt();
+            assert!(
+                (spring.standard_uncertainty / u - 1.0).abs() < 2e-4,
+                "{spring:?} {u}"
+            );
+            assert!((spring.known - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_order_of_tests_and_of_unknowns_does_not_matter() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let tests = tests(&unknowns, &State::typical(&unknowns), 12, 5e-5);
+        let turned: Vec<LoadTest> = tests.iter().rev().cloned().collect();
+        let backward: Vec<Unknown> = unknowns.iter().rev().copied().collect();
+        let here = identify(&robot, &unknowns, &tests, usual()).unwrap();
+        let there = identify(&robot, &backward, &turned, usual()).unwrap();
+        for (one, other) in here.estimates.iter().zip(there.estimates.iter().rev()) {
+            // The scale comes to rest to 1e-4, and moves the sizes by a part of their uncertainty.
+            assert!(
+                (one.value - other.value).abs() < 1e-3 * one.standard_uncertainty,
+                "{one:?} {other:?}"
+            );
+        }
+        for (one, other) in here.tests.iter().zip(there.tests.iter().rev()) {
+            assert_eq!(one.outlier, other.outlier);
+            assert!((one.standardised - other.standardised).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn twice_the_displacement_is_twice_the_spring_and_twice_the_load_half_of_it() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let values = |tests: &[LoadTest]| -> Vec<f64> {
+            let found = identify(&robot, &unknowns, tests, plain()).unwrap();
+            found.estimates.iter().map(|spring| spring.value).collect()
+        };
+        let here = values(&tests);
+        let mut farther = tests.clone();
+        for reading in farther.iter_mut().flat_map(|test| &mut test.readings) {
+            reading.value *= 2.0;
+        }
+        let mut harder = tests.clone();
+        for test in &mut harder {
+            test.wrench.force *= 2.0;
+        }
+        for ((here, twice), half) in here.iter().zip(values(&farther)).zip(values(&harder)) {
+            assert!((twice / here - 2.0).abs() < 1e-9 && (half / here - 0.5).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_measured_point_is_as_unsure_as_the_sum_of_both_shifts() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::typical(&unknowns), 14, 1e-5);
+        let with = |points| identify(&robot, &unknowns, &tests, Method { points, ..usual() }).unwrap();
+        let known = with(Points::Known);
+        assert!(known.force_shift.is_none() && known.measured_shift.is_none());
+        let common = with(Points::Common(0.1));
+        assert_eq!(common.force_shift, common.measured_shift);
+        let apart = with(Points::Separate(0.1));
+        let (force, measured) = (apart.force_shift.unwrap(), apart.measured_shift.unwrap());
+        // Both are where they were said to be, to four standard uncertainties.
+        for [shift, u] in [force, measured] {
+            assert!(
+                (0..3).all(|k| u[k] > 0.0 && shift[k].abs() < 4.0 * u[k]),
+                "{shift} {u}"
+            );
+        }
+        assert_ne!(force, measured);
+    }
+
+    #[test]
+    fn what_is_refused_says_why() {
+        let told = [
+            (
+                Refusal::TooFewReadings {
+                    readings: 3,
+                    unknowns: 6,
+                },
+                "3 readings for 6 unknowns",
+            ),
+            (
+                Refusal::OnePosture { tests: 4 },
+                "all 4 tests stand in one posture",
+            ),
+            (
+                Refusal::NothingMeasured,
+                "no test has both a load and a reading other than 0",
+            ),
+        ];
+        for (refusal, text) in told {
+            assert_eq!(refusal.to_string(), text);
+        }
+    }
+}

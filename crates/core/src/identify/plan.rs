@@ -258,11 +258,147 @@ fn halton(mut index: u32, prime: u32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_arm::arm;
+    use super::super::unknown::{bending, drives};
     use super::*;
 
     #[test]
     fn the_sequence_of_two_is_that_of_van_der_corput() {
         let first: Vec<f64> = (1..=7).map(|index| halton(index, 2)).collect();
         assert_eq!(first, [0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875]);
+    }
+
+    fn question(scale: f64, floor: Option<Floor>) -> PlanQuestion {
+        PlanQuestion {
+            tests: 5,
+            pulls: vec![-Vector3::z() * 150.0, Vector3::x() * 150.0, Vector3::y() * 150.0],
+            tool_point: Vector3::new(0.0, 0.03, 0.02) * scale,
+            gauge: 1e-5,
+            floor,
+        }
+    }
+
+    /// Where the tool stands in each test, m, base.
+    fn tools(robot: &Robot, question: &PlanQuestion, plan: &Plan) -> Vec<Vector3<f64>> {
+        let tool = |test: &PlannedTest| {
+            let frames = forward(robot, &test.joints);
+            (frames.base_from_flange * nalgebra::Point3::from(question.tool_point)).coords
+        };
+        plan.tests.iter().map(tool).collect()
+    }
+
+    #[test]
+    fn no_exchange_of_a_single_test_tells_more() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let question = question(1.0, Some(Floor::under_base()));
+        let plan = plan(&robot, &unknowns, &question);
+        let all = candidates(&robot, &unknowns, &question);
+        let chosen: Vec<usize> = plan
+            .tests
+            .iter()
+            .map(|test| all.iter().position(|candidate| candidate.test == *test).unwrap())
+            .collect();
+        let (prior, _) = LogPrior::rows(&typical(&unknowns), unknowns.len());
+        let mut information = prior.tr_mul(&prior);
+        for place in &chosen {
+            add(&mut information, &all[*place], 1.0);
+        }
+        let most = information.clone().determinant();
+        for place in &chosen {
+            for other in (0..all.len()).filter(|other| !chosen.contains(other)) {
+                let mut exchanged = information.clone();
+                add(&mut exchanged, &all[*place], -1.0);
+                add(&mut exchanged, &all[other], 1.0);
+                assert!(exchanged.determinant() < most * (1.0 + 1e-9), "{place} {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_spread_to_expect_is_that_of_the_information_of_the_tests() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let question = question(1.0, None);
+        let plan = plan(&robot, &unknowns, &question);
+        let (prior, _) = LogPrior::rows(&typical(&unknowns), unknowns.len());
+        let mut information = prior.tr_mul(&prior);
+        for candidate in candidates(&robot, &unknowns, &question) {
+            if plan.tests.contains(&candidate.test) {
+                add(&mut information, &candidate, 1.0);
+            }
+        }
+        let covariance = information.try_inverse().unwrap();
+        assert!((&plan.spread.covariance - &covariance).amax() < 1e-9 * covariance.amax());
+        // More tests tell no less of any spring.
+        let more = PlanQuestion {
+            tests: 10,
+            ..question
+        };
+        let more = super::plan(&robot, &unknowns, &more);
+        for k in 0..unknowns.len() {
+            assert!(more.spread.covariance[(k, k)] < covariance[(k, k)], "{k}");
+        }
+    }
+
+    #[test]
+    fn an_arm_of_a_quarter_of_a_metre_has_a_plan_that_keeps_clear_of_floor_and_arm() {
+        for scale in [0.25, 1.0, 4.0] {
+            let robot = arm(scale);
+            let question = question(scale, Some(Floor::under_base()));
+            let plan = plan(&robot, &drives(&robot), &question);
+            assert_eq!(plan.tests.len(), 5, "{scale}");
+            let (lowest, nearest) = (f64::min(0.2, 0.14 * scale), f64::min(0.4, 0.28 * scale));
+            for tool in tools(&robot, &question, &plan) {
+                assert!(tool.z > lowest && tool.xy().norm() > nearest, "{scale}: {tool}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_arm_on_a_wall_or_a_ceiling_keeps_clear_of_that() {
+        let robot = arm(1.0);
+        let wall = Floor {
+            up: -Vector3::x_axis(),
+            height: -0.3,
+        };
+        let ceiling = Floor {
+            up: -Vector3::z_axis(),
+            height: -0.9,
+        };
+        for floor in [wall, ceiling] {
+            let question = question(1.0, Some(floor));
+            let plan = plan(&robot, &drives(&robot), &question);
+            assert_eq!(plan.tests.len(), 5, "{floor:?}");
+            for tool in tools(&robot, &question, &plan) {
+                assert!(tool.dot(&floor.up) - floor.height > 0.14, "{floor:?}: {tool}");
+            }
+        }
+        // Under a floor that nothing comes above there is no room; without one there is the most.
+        let deep = Floor {
+            height: 10.0,
+            ..Floor::under_base()
+        };
+        assert!(
+            plan(&robot, &drives(&robot), &question(1.0, Some(deep)))
+                .tests
+                .is_empty()
+        );
+        let postures = |floor| postures_with_room(&robot, &question(1.0, floor)).len();
+        assert!(postures(None) > postures(Some(wall)) && postures(None) > postures(Some(ceiling)));
+    }
+
+    #[test]
+    fn numbers_of_the_sequence_fill_the_stretch_evenly() {
+        for prime in PRIMES {
+            let all: Vec<f64> = (1..=400).map(|index| halton(index, prime)).collect();
+            assert!(all.iter().all(|value| (0.0..1.0).contains(value)));
+            for tenth in 0..10 {
+                let (from, to) = (f64::from(tenth) / 10.0, f64::from(tenth + 1) / 10.0);
+                let inside = all.iter().filter(|value| (from..to).contains(*value)).count();
+                // A sequence without pattern would miss by 6; this one by two digits of its prime at most.
+                assert!(inside.abs_diff(40) <= 20, "{prime}: {inside} from {from} to {to}");
+            }
+        }
     }
 }

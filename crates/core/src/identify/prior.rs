@@ -156,4 +156,28 @@ mod tests {
             assert!((sum - row.mean).abs() < 1e-12, "{row:?}");
         }
     }
+
+    #[test]
+    fn the_middle_lies_at_no_distance_from_the_rows_and_a_factor_at_its_standard_uncertainty() {
+        let unknowns = [
+            Unknown::about(Seat::Joint(0), Axis::Z, Role::Drive),
+            Unknown::about(Seat::Joint(0), Axis::X, Role::Bending),
+            Unknown::along(Seat::Flange, Axis::X, Role::Tool),
+        ];
+        let priors = typical(&unknowns);
+        let (rows, wanted) = LogPrior::rows(&priors, 5);
+        assert_eq!((rows.shape(), wanted.len()), ((3, 5), 3));
+        let sizes = typical_sizes(&unknowns);
+        let logs = DVector::from_fn(5, |k, _| sizes.get(k).map_or(0.0, |size| size.ln()));
+        assert!((&rows * &logs - &wanted).norm() < 1e-12);
+        for (k, prior) in priors.iter().enumerate() {
+            let mut off = logs.clone();
+            off[k] += prior.standard_uncertainty;
+            // Of its own row by one; a drive moves the bending that is told by it, too.
+            let away = &rows * &off - &wanted;
+            assert!((away[k] - 1.0).abs() < 1e-12, "{k}: {away}");
+        }
+        let (none, nothing) = LogPrior::rows(&[], 4);
+        assert_eq!((none.shape(), nothing.len()), ((0, 4), 0));
+    }
 }

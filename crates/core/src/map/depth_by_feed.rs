@@ -89,3 +89,167 @@ impl DepthByFeed {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::{
+        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, Greatest, Immersion, Mechanistic, Milling,
+        TipYield,
+    };
+    use crate::map::limits::PermittedForces;
+    use nalgebra::{Matrix3, Vector3};
+    use std::sync::atomic::AtomicBool;
+
+    const MM: f64 = 1e-3;
+    const LIMIT: f64 = 10e-6;
+
+    fn law() -> CuttingLaw {
+        let shear = Vector3::new(800e6, 300e6, 100e6);
+        CuttingLaw::Mechanistic(Mechanistic::new(shear, Vector3::zeros()).unwrap())
+    }
+
+    /// A flat cutter of 10 mm, and one of 4 mm.
+    fn cutters() -> Vec<Cutter> {
+        vec![
+            Cutter::flat(10.0 * MM, 2).unwrap(),
+            Cutter::flat(4.0 * MM, 2).unwrap(),
+        ]
+    }
+
+    fn slot(cutter: usize, depth: f64) -> Cut {
+        Cut {
+            depth,
+            engagement: Engagement::of(Immersion::Slot, cutters()[cutter].diameter()).unwrap(),
+            feed: 0.05 * MM,
+            rise: 0.0,
+        }
+    }
+
+    fn force(cutter: usize, cut: Cut) -> Vector3<f64> {
+        Milling::new(cutters()[cutter], law(), cut).unwrap().mean_force()
+    }
+
+    /// Points whose tips yield along the feed by these (m/N), each with its cutter and depth.
+    fn asked(of: &[(f64, usize, f64)]) -> (Vec<PointLimits>, Vec<Option<Varied>>) {
+        let mut varied: Vec<Option<Varied>> = of
+            .iter()
+            .map(|(a, cutter, depth)| {
+                let cut = slot(*cutter, *depth);
+                let here = CutHere {
+                    cutter: *cutter,
+                    cut: Some(cut),
+                    mean: force(*cutter, cut),
+                    greatest: Vector3::zeros(),
+                };
+                let cuts = CutsAlong {
+                    cutters: cutters(),
+                    law: law(),
+                    greatest: Greatest::LeftOut,
+                    points: vec![here],
+                };
+                let tip = TipYield {
+                    by_force: Matrix3::from_diagonal(&Vector3::new(*a, 0.0, 0.0)),
+                    unloaded: Vector3::zeros(),
+                };
+                Varied::of(&cuts, 0, tip, LIMIT)
+            })
+            .collect();
+        let forces = PermittedForces {
+            along: 1.0,
+            across: 1.0,
+            normal: 1.0,
+            weakest: 1.0,
+        };
+        let points = varied.iter_mut().enumerate().map(|(index, varied)| PointLimits {
+            index,
+            forces,
+            cut: varied.as_mut().map(Varied::limits),
+        });
+        (points.collect(), varied)
+    }
+
+    fn of(points: &[(f64, usize, f64)]) -> DepthByFeed {
+        let (points, mut varied) = asked(points);
+        let found = DepthByFeed::of(&points, |index| varied[index].take(), Watch::NONE);
+        found.unwrap().unwrap()
+    }
+
+    #[test]
+    fn deviation_goes_with_depth_times_feed_where_the_force_does() {
+        let a = 2e-7;
+        let sheet = of(&[(a, 0, MM)]);
+        let unit = a * force(0, slot(0, MM)).x.abs() / (MM * 0.05 * MM);
+        for (row, depth) in sheet.depths.iter().enumerate() {
+            for (column, feed) in sheet.feeds_per_tooth.iter().enumerate() {
+                let found = sheet.deviations[row * sheet.feeds_per_tooth.len() + column];
+                let expected = unit * depth * feed;
+                assert!((found / expected - 1.0).abs() < 1e-12, "{depth} {feed}: {found}");
+            }
+        }
+        assert_eq!(
+            sheet.deviations.len(),
+            sheet.depths.len() * sheet.feeds_per_tooth.len()
+        );
+    }
+
+    #[test]
+    fn the_sheet_begins_near_nothing_and_reaches_beyond_what_is_drawn_and_permitted() {
+        for a in [5e-8, 2e-6] {
+            let (points, _) = asked(&[(a, 0, MM)]);
+            let cut = points[0].cut.unwrap();
+            let sheet = of(&[(a, 0, MM)]);
+            let reaches = |all: &[f64], drawn: f64, permitted: Permitted, most: f64| {
+                let expected = (BEYOND * drawn.max(permitted.value())).min(most);
+                let last = all[all.len() - 1];
+                let even = all
+                    .windows(2)
+                    .all(|pair| (pair[1] - pair[0] - all[0]).abs() < 1e-9 * last);
+                assert!(even && (last / expected - 1.0).abs() < 1e-9, "{last} {expected}");
+            };
+            reaches(&sheet.depths, MM, cut.depth, 30.0 * MM);
+            reaches(&sheet.feeds_per_tooth, 0.05 * MM, cut.feed_per_tooth, 0.5 * MM);
+        }
+    }
+
+    #[test]
+    fn of_points_with_tools_of_two_sizes_the_worst_decides_at_each_depth_and_feed() {
+        let (wide, thin) = ((2e-7, 0, MM), (3e-7, 1, 0.5 * MM));
+        let (both, of_thin) = (of(&[wide, thin]), of(&[thin]));
+        let unit = |(a, cutter, depth): (f64, usize, f64)| {
+            a * force(cutter, slot(cutter, depth)).x.abs() / (depth * 0.05 * MM)
+        };
+        let worst = unit(wide).max(unit(thin));
+        for (row, depth) in both.depths.iter().enumerate() {
+            let found = both.deviations[row * both.feeds_per_tooth.len()];
+            let expected = worst * depth * both.feeds_per_tooth[0];
+            // Deeper than a hundred diameters no tool cuts; here none is that deep.
+            assert!(
+                (found / expected - 1.0).abs() < 1e-12,
+                "{depth}: {found} {expected}"
+            );
+        }
+        assert!(of_thin.depths.last() <= both.depths.last());
+    }
+
+    #[test]
+    fn a_point_that_permits_more_than_all_that_decide_changes_nothing() {
+        // Six that permit the least depth decide, and as many for the feed: here the same ones.
+        let soft: Vec<_> = (0..DECIDING).map(|k| (2e-7 + 1e-9 * k as f64, 0, MM)).collect();
+        let with_stiff = [&soft[..], &[(1e-8, 0, MM)]].concat();
+        assert_eq!(of(&with_stiff), of(&soft));
+    }
+
+    #[test]
+    fn without_a_cut_there_is_no_sheet_and_long_work_can_be_stopped() {
+        assert_eq!(DepthByFeed::of(&[], |_| None, Watch::NONE), Ok(None));
+        let (points, mut varied) = asked(&[(2e-7, 0, MM)]);
+        let cancel = AtomicBool::new(true);
+        let watch = Watch {
+            cancel: &cancel,
+            ..Watch::NONE
+        };
+        let stopped = DepthByFeed::of(&points, |index| varied[index].take(), watch);
+        assert_eq!(stopped, Err(Cancelled));
+    }
+}

@@ -64,7 +64,7 @@ pub struct ProgramLimits {
 }
 
 /// Points asked at most, beside the worst.
-const SPREAD: usize = 300;
+const POINTS_ASKED: usize = 300;
 
 /// What `found`, the answer along `track` to `question`, permits for `limit` (m); `None` where the load changes the arm.
 ///
@@ -146,7 +146,7 @@ fn asked(found: &ProgramAnswer, cuts: Option<&CutsAlong>) -> Vec<usize> {
         .map(|(i, _)| i)
         .filter(|i| cuts_there(*i))
         .collect();
-    let stride = open.len().div_ceil(SPREAD).max(1);
+    let stride = open.len().div_ceil(POINTS_ASKED).max(1);
     let mut asked: Vec<usize> = open.iter().step_by(stride).copied().collect();
     asked.extend(
         found
@@ -192,4 +192,81 @@ fn forces(tip: &TipYield, limit: f64) -> [f64; 4] {
     // The square of the largest singular value.
     let softest = (across * across.transpose()).symmetric_eigenvalues().max();
     [along(0), along(1), along(2), limit / softest.max(0.0).sqrt()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::varied::Permitted::{AtLeast, Nothing, UpTo};
+    use nalgebra::{Matrix3, Rotation3};
+
+    #[test]
+    fn the_weakest_direction_is_that_of_the_largest_singular_value_across_the_tool() {
+        let a = Matrix3::new(4.0, 1.0, -0.5, 0.3, 2.0, 1.5, 9.0, -7.0, 8.0) * 1e-7;
+        let tip = TipYield {
+            by_force: a,
+            unloaded: Vector3::new(1.0, 2.0, 3.0),
+        };
+        let limit = 20e-6;
+        let [along, across, normal, weakest] = forces(&tip, limit);
+        let deviates = |force: Vector3<f64>| (a * force).xy().norm();
+        for (axis, permitted) in [along, across, normal].into_iter().enumerate() {
+            let deviation = deviates(Vector3::ith(axis, permitted));
+            assert!((deviation / limit - 1.0).abs() < 1e-14, "{axis}: {deviation}");
+        }
+        // Directions half a degree apart about a ball: the softest is met to the square of that.
+        let mut softest = 0.0_f64;
+        for turn in 0..360 {
+            for rise in 0..=180 {
+                let (turn, rise) = (f64::from(turn).to_radians(), f64::from(rise).to_radians());
+                let direction = Rotation3::from_euler_angles(0.0, rise, turn) * Vector3::z();
+                softest = softest.max(deviates(direction));
+            }
+        }
+        assert!(weakest * softest <= limit * (1.0 + 1e-12));
+        assert!(weakest * softest > limit * (1.0 - 1e-3));
+    }
+
+    #[test]
+    fn a_tip_that_yields_only_along_the_tool_permits_any_force() {
+        let tip = TipYield {
+            by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1e-6)),
+            unloaded: Vector3::zeros(),
+        };
+        assert_eq!(forces(&tip, 1e-5), [f64::INFINITY; 4]);
+    }
+
+    #[test]
+    fn the_least_of_a_program_is_the_least_of_its_points_and_nothing_is_less_than_all() {
+        let forces = PermittedForces {
+            along: 1.0,
+            across: 1.0,
+            normal: 1.0,
+            weakest: 1.0,
+        };
+        let point = |(index, depth): (usize, Option<Permitted>)| PointLimits {
+            index,
+            forces,
+            cut: depth.map(|depth| CutLimits {
+                depth,
+                width: None,
+                feed_per_tooth: AtLeast(1.0),
+            }),
+        };
+        let of = |depths: &[Option<Permitted>]| ProgramLimits {
+            points: depths.iter().copied().enumerate().map(point).collect(),
+            depth_by_feed: None,
+        };
+        let least = |limits: &ProgramLimits| {
+            let found = limits.least(|cut| Some(cut.depth));
+            found.map(|(point, permitted)| (point.index, permitted))
+        };
+        let some = of(&[Some(AtLeast(3.0)), None, Some(UpTo(0.5)), Some(UpTo(0.4))]);
+        assert_eq!(least(&some), Some((3, UpTo(0.4))));
+        // No slot has a width to be least.
+        assert!(some.least(|cut| cut.width).is_none());
+        let with_none = of(&[Some(UpTo(0.4)), Some(Nothing)]);
+        assert_eq!(least(&with_none), Some((1, Nothing)));
+        assert_eq!(least(&of(&[None, None])), None);
+    }
 }

@@ -153,3 +153,6 @@ pub(super) fn fed(cut: &Cut, times: f64) -> Cut {
         ..*cut
     }
 }
+
+#[cfg(test)]
+mod tests;
