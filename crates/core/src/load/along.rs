@@ -1,4 +1,12 @@
 //! The load along a path: it may turn with the feed, change from point to point, and give way with the tool.
+//!
+//! `w = (R f, R m)`, and of a cut at rest `f_greatest = f_greatest,drawn |f| / |f_drawn|`.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `w` | wrench on the tool at the TCP, base axes | N, N m |
+//! | `f`, `m` | force and moment as they are told | N, N m |
+//! | `R` | the axes that they are told in, in base ([`LoadFrame`]) | - |
 
 use nalgebra::{Rotation3, Vector3};
 

@@ -238,7 +238,8 @@ impl Cutter {
 
     /// The point of the corner at the axial immersion angle `kappa` (rad), 0 at its lowest.
     pub fn in_corner(&self, kappa: f64) -> EdgePoint {
-        let (sin_kappa, cos_kappa) = kappa.clamp(0.0, FRAC_PI_2).sin_cos();
+        let kappa = kappa.clamp(0.0, FRAC_PI_2);
+        let (sin_kappa, cos_kappa) = kappa.sin_cos();
         let r = self.corner_radius();
         EdgePoint {
             // 1 - cos, told so that it keeps its digits near the tip.
@@ -343,5 +344,73 @@ mod tests {
         };
         let error = flat.with_runout(far).unwrap_err().to_string();
         assert_eq!(error, "runout is 20 mm: must be between 0 mm and 5 mm");
+    }
+
+    #[test]
+    fn the_edge_lies_on_the_body_and_its_normal_is_that_of_the_body() {
+        for cutter in [
+            Cutter::flat(16.0 * MM, 4),
+            Cutter::ball(10.0 * MM, 2),
+            Cutter::bull_nose(12.0 * MM, 2.5 * MM, 3),
+        ]
+        .map(Result::unwrap)
+        {
+            let body = cutter.body();
+            assert_eq!(
+                [body.diameter(), body.radius()],
+                [cutter.diameter(), cutter.radius()]
+            );
+            for k in 0..=40 {
+                let height = 0.2 * MM * f64::from(k);
+                let point = cutter.at_height(height);
+                // The root at the tip doubles the digits that are lost.
+                assert!((point.radius - body.radius_at(height)).abs() < 1e-9, "{height}");
+                let below = height > 0.1 * MM && height < cutter.corner_radius();
+                if below {
+                    // The profile climbs by tan(kappa) as it goes out.
+                    let step = 1e-8;
+                    let out = cutter.at_height(height + step).radius - cutter.at_height(height - step).radius;
+                    let slope = point.sin_kappa / point.cos_kappa;
+                    assert!((2.0 * step / out / slope - 1.0).abs() < 1e-4, "{height}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_depth_ends_in_the_corner_where_the_edge_has_that_height() {
+        let nose = Cutter::bull_nose(16.0 * MM, 2.0 * MM, 4).unwrap();
+        for depth in [0.001, 0.3, 1.0, 1.999].map(|depth| depth * MM) {
+            let end = nose.in_corner(nose.corner_end(depth));
+            assert!((end.height - depth).abs() < 1e-15, "{depth}");
+        }
+        assert_eq!(nose.in_corner(-1.0), nose.in_corner(0.0));
+        assert_eq!(nose.at_height(-MM), nose.at_height(0.0));
+        assert!((nose.in_corner(FRAC_PI_2).height - 2.0 * MM).abs() < 1e-17);
+    }
+
+    #[test]
+    fn the_same_tool_in_another_size_keeps_its_edges() {
+        let runout = Runout {
+            offset: 20e-6,
+            angle: 0.4,
+        };
+        let cutter = Cutter::ball(10.0 * MM, 3).unwrap();
+        let cutter = cutter
+            .with_helix(0.5, Hand::Left)
+            .unwrap()
+            .with_rake(0.1)
+            .unwrap();
+        let cutter = cutter.with_runout(runout).unwrap();
+        let sized = cutter.of_size(6.0 * MM, 1.0 * MM).unwrap();
+        assert_eq!((sized.diameter(), sized.corner_radius()), (6.0 * MM, 1.0 * MM));
+        assert_eq!(
+            (sized.flutes(), sized.helix(), sized.hand()),
+            (3, 0.5, Hand::Left)
+        );
+        assert_eq!((sized.runout(), sized.rake()), (runout, 0.1));
+        assert_eq!(sized.of_size(10.0 * MM, 5.0 * MM).unwrap(), cutter);
+        assert!(cutter.of_size(6.0 * MM, 3.1 * MM).is_err() && cutter.of_size(0.0, 0.0).is_err());
+        assert!((cutter.pitch() - TAU / 3.0).abs() < 1e-15);
     }
 }

@@ -121,4 +121,32 @@ mod tests {
             assert!(refused.is_err(), "{diameter} {corner_radius}");
         }
     }
+
+    #[test]
+    fn height_and_radius_undo_each_other_and_only_rise() {
+        for (diameter, corner) in [
+            (0.01, 0.005),
+            (0.01, 0.001),
+            (0.016, 0.0),
+            (1e-5, 5e-6),
+            (1.0, 0.5),
+        ] {
+            let body = EndMillBody::new(diameter, corner).unwrap();
+            assert_eq!(body.diameter(), diameter);
+            let mut before = 0.0;
+            for k in 0..=50 {
+                let rho = body.radius() * f64::from(k) / 50.0;
+                let height = body.height(rho);
+                assert!(height >= before && height <= corner, "{diameter} {rho}");
+                if rho > body.flat_radius() * (1.0 + 1e-9) {
+                    let off = body.radius_at(height) - rho;
+                    // The root is steep near the tip.
+                    assert!(off.abs() < 2e-7 * diameter, "{diameter} {rho}: {off}");
+                }
+                before = height;
+            }
+            assert_eq!(body.radius_at(10.0 * diameter), body.radius());
+            assert_eq!(body.radius_at(-1.0), body.flat_radius());
+        }
+    }
 }

@@ -319,3 +319,77 @@ fn take_after_neighbours(sights: &mut [Sight]) {
         known = Some(index);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Unit, Vector3};
+
+    fn pass(direction: [f64; 3]) -> Pass {
+        Pass {
+            from: Point3::new(1.0, 2.0, 3.0),
+            to: Point3::new(1.3, 2.4, 3.0),
+            direction: Unit::new_normalize(Vector3::from(direction)),
+            axis: Vector3::z_axis(),
+        }
+    }
+
+    #[test]
+    fn a_tool_dives_that_goes_down_steeper_than_along() {
+        for (direction, dives) in [
+            ([1.0, 0.0, 0.0], false),
+            ([0.0, 1.0, -0.99], false),
+            ([0.6, 0.8, -1.01], true),
+            ([0.0, 0.0, -1.0], true),
+            ([0.0, 0.0, 1.0], false),
+        ] {
+            let heading = Heading::of(&pass(direction));
+            assert_eq!(heading.dives(), dives, "{direction:?}");
+            assert!((heading.step - 0.5).abs() < 1e-15);
+        }
+        assert!(Heading::of(&pass([0.0, 0.0, 1.0])).feed.is_none());
+        assert!((Heading::of(&pass([3.0, 4.0, -2.5])).slope + 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn strips_without_a_cell_take_after_the_nearest_that_has_one() {
+        let (a, b) = (1.0, 2.0);
+        for (mut sights, expected) in [
+            (vec![UNSEEN, a, UNSEEN, UNSEEN, b, UNSEEN], vec![a, a, a, b, b, b]),
+            (vec![a, UNSEEN, UNSEEN, UNSEEN, AIR], vec![a, a, a, AIR, AIR]),
+            (vec![UNSEEN, UNSEEN, b], vec![b; 3]),
+            (vec![UNSEEN; 3], vec![UNSEEN; 3]),
+            (vec![a, AIR, b], vec![a, AIR, b]),
+            (vec![], vec![]),
+        ] {
+            take_after_neighbours(&mut sights);
+            assert_eq!(sights, expected);
+        }
+    }
+
+    #[test]
+    fn of_several_runs_the_one_over_the_longest_arc_is_told_with_its_own_depth() {
+        let corners = [Point3::new(0.0, 0.0, -0.02), Point3::new(0.01, 0.01, 0.0)];
+        let stock = Stock::new(corners, 1e-3).unwrap();
+        let strip = |top: f64| {
+            Some(Strip {
+                top,
+                begins: -0.004,
+                outer_radius: 5e-3,
+            })
+        };
+        // Ten strips of a millimetre from the right: two at the rim there, three in the middle.
+        let mut strips = vec![None; 10];
+        (strips[0], strips[1]) = (strip(-0.003), strip(-0.002));
+        (strips[4], strips[5], strips[6]) = (strip(0.0), strip(-0.001), strip(-0.001));
+        let front = longest_arc(&stock, &strips, [5e-3, 1e-3]).unwrap();
+        // At the rim two strips are passed over acos(0.6) = 53 deg, three in the middle over 35 deg.
+        let [right, left] = front.strip.edges();
+        assert!(right == -5e-3 && (left + 3e-3).abs() < 1e-12, "{right} {left}");
+        assert!((front.depth - 0.002).abs() < 1e-12 && (front.width - 2e-3).abs() < 1e-12);
+        assert!(!front.is_slot);
+        let all = longest_arc(&stock, &[strip(0.0); 10], [5e-3, 1e-3]).unwrap();
+        assert!(all.is_slot && all.strip.edges() == [-5e-3, 5e-3]);
+        assert!(longest_arc(&stock, &[None; 10], [5e-3, 1e-3]).is_none());
+    }
+}

@@ -102,3 +102,56 @@ fn a_process_that_cannot_be_is_refused() {
         assert!(mean(wrong, Advance::Level).is_err(), "{wrong:?}");
     }
 }
+
+#[test]
+fn cuts_that_are_rounded_move_by_half_a_step_at_most_and_are_alike_then() {
+    let part = 0.02;
+    let step = part * 16.0 * MM;
+    for k in 0..60 {
+        let (depth, width) = (
+            MM * (0.31 + 0.17 * f64::from(k)),
+            MM * (0.5 + 0.23 * f64::from(k)),
+        );
+        let engagement = Engagement::of(Immersion::Up(width), 16.0 * MM).unwrap();
+        let drawn = Process {
+            depth,
+            engagement,
+            ..process()
+        };
+        let rounded = drawn.rounded(part);
+        assert!((rounded.depth - depth).abs() <= 0.5 * step + 1e-15, "{depth}");
+        let moved = rounded.engagement.edges().into_iter().zip(engagement.edges());
+        assert!(
+            moved
+                .clone()
+                .all(|(one, other)| (one - other).abs() <= 0.5 * step + 1e-15)
+        );
+        assert_eq!(rounded.engagement.edges()[1], 8.0 * MM, "a wall stays at the rim");
+        assert_eq!(rounded.rounded(part), rounded);
+    }
+    // Less than a step deep is one deep, and a strip that would vanish stays as it is.
+    let thin = Process {
+        depth: 1e-6,
+        engagement: Engagement::strip([1.01 * MM, 1.02 * MM], 16.0 * MM).unwrap(),
+        ..process()
+    };
+    let rounded = thin.rounded(part);
+    assert_eq!((rounded.depth, rounded.engagement), (step, thin.engagement));
+}
+
+#[test]
+fn turning_the_tool_faster_or_with_more_teeth_thins_the_chip() {
+    let size = |process: Process| mean(process, Advance::Level).unwrap().force.norm();
+    let here = size(process());
+    let faster = Process {
+        spindle: 2.0 * process().spindle,
+        ..process()
+    };
+    // No edge terms: the force goes with the feed per tooth; teeth share the same feed.
+    assert!((size(faster) / here - 0.5).abs() < 1e-12);
+    let toothed = Process {
+        cutter: Cutter::flat(16.0 * MM, 8).unwrap(),
+        ..process()
+    };
+    assert!((size(toothed) / here - 1.0).abs() < 1e-12);
+}

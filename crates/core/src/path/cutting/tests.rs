@@ -334,3 +334,70 @@ fn a_tool_whose_edges_pass_beside_the_material_has_no_force_and_is_counted() {
     assert_eq!((found.told.without_force, found.told.largest_mean), (1, 0.0));
     assert_eq!(found.cuts.points[0].greatest, Vector3::zeros());
 }
+
+#[test]
+fn what_was_met_in_a_stock_adds_up_to_what_is_gone() {
+    let corners = [
+        Point3::new(-40e-3, -40e-3, -10e-3),
+        Point3::new(40e-3, 40e-3, 0.0),
+    ];
+    let mut stock = Stock::new(corners, 0.5e-3).unwrap();
+    let (full, points) = (stock.volume(), pocket());
+    let met = along(&cutting(), &points, &[], Some(&mut stock))
+        .unwrap()
+        .told
+        .met
+        .unwrap();
+    assert!((full - stock.volume() - met.removed).abs() < 1e-7 * full);
+    // Once more there is nothing left.
+    let again = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
+    let met = again.told.met.unwrap();
+    assert_eq!(met.removed, 0.0);
+    // Short steps see the wall ahead of a corner two pitches early, which is two points of this path.
+    assert!(met.in_air + 2 >= points.len(), "{met:?}");
+    let of_air = again.cuts.points.iter().filter(|here| **here == CutHere::NOTHING);
+    assert_eq!(of_air.count(), met.in_air);
+}
+
+#[test]
+fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() {
+    let points = [
+        point([1.0, 0.0, 0.0], Pace::Feed(20e-3)),
+        point([1.0, 0.0, 0.0], Pace::Feed(40e-3)),
+        point([1.0, 0.0, 0.0], Pace::Feed(30e-3)),
+    ];
+    let both = along(&cutting(), &points, &[], None).unwrap();
+    let alone = Cutting {
+        greatest: Greatest::LeftOut,
+        ..cutting()
+    };
+    let mean = along(&alone, &points, &[], None).unwrap();
+    assert_eq!(mean.told.largest_mean, both.told.largest_mean);
+    assert!((mean.told.greatest / both.told.greatest - 1.0).abs() < 1e-12);
+    assert_eq!(mean.told.largest_mean, mean.cuts.points[1].mean.norm());
+    assert!(
+        mean.cuts
+            .points
+            .iter()
+            .all(|here| here.greatest == Vector3::zeros())
+    );
+}
+
+#[test]
+fn a_tool_that_comes_back_is_held_once() {
+    let feed = Pace::Feed(40e-3);
+    let points = [point([1.0, 0.0, 0.0], feed); 4];
+    let of = |diameter| Operation {
+        diameter,
+        ..Operation::default()
+    };
+    let operations = [
+        (0, of(Some(20e-3))),
+        (1, of(None)),
+        (2, of(Some(20e-3))),
+        (3, of(Some(-1.0))),
+    ];
+    let found = along(&cutting(), &points, &operations, None).unwrap();
+    let held: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
+    assert_eq!((found.cuts.cutters.len(), held), (2, vec![1, 0, 1, 0]));
+}

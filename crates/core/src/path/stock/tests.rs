@@ -264,3 +264,119 @@ fn places_and_cutters_at_the_ends_of_what_is_allowed_cut_without_fault() {
         }
     }
 }
+
+#[test]
+fn what_bites_take_is_what_the_stock_loses_on_any_way_of_any_cutter() {
+    for (diameter, corner) in [(10.0, 0.0), (8.0, 4.0), (12.0, 2.0)] {
+        let cutter = cutter_mm(diameter, corner);
+        let mut stock = stock_mm([0.0, 0.0, -12.0], [40.0, 30.0, 0.0], 0.3);
+        let full = stock.volume();
+        let mut before = [-8.0, 15.0, 1.0];
+        let (mut sum, mut left) = (0.0, full);
+        for k in 0..60 {
+            let turn = 0.7 * f64::from(k);
+            let at = [
+                20.0 + 17.0 * turn.cos(),
+                15.0 + 12.0 * (1.3 * turn).sin(),
+                -3.0 + 4.0 * (0.37 * turn).cos(),
+            ];
+            let bite = step(&mut stock, before, at, &cutter);
+            let lost = left - stock.volume();
+            // 13 000 cells, each rounded in single precision to 6e-8 of 12 mm.
+            assert!(
+                (bite.volume - lost).abs() < 1e-7 * full,
+                "{k}: {} {lost}",
+                bite.volume
+            );
+            // It takes no more than the cutter sweeps: its widest section along its way, and itself.
+            let length = (Point3::from(at) - Point3::from(before)).norm() * MM;
+            let swept = 2.0 * cutter.radius() * 13.0 * MM * length + PI * cutter.radius().powi(2) * 13.0 * MM;
+            assert!(bite.volume <= swept && bite.depth <= 12.0 * MM * (1.0 + 1e-6));
+            (sum, left, before) = (sum + bite.volume, stock.volume(), at);
+        }
+        assert!(
+            (full - stock.volume() - sum).abs() < 1e-6 * full && sum > 0.1 * full,
+            "{sum}"
+        );
+    }
+}
+
+#[test]
+fn a_way_in_many_steps_leaves_what_one_step_leaves() {
+    let cutter = cutter_mm(10.0, 5.0);
+    let cut_in = |pieces: u32| {
+        let mut stock = stock_mm([0.0, 0.0, -10.0], [40.0, 30.0, 0.0], 0.25);
+        let (from, to) = (Point3::new(-6.0, 7.0, -1.0), Point3::new(43.0, 21.0, -4.0));
+        let at = |k: u32| {
+            (from + (to - from) * (f64::from(k) / f64::from(pieces)))
+                .coords
+                .into()
+        };
+        let volume: f64 = (0..pieces)
+            .map(|k| step(&mut stock, at(k), at(k + 1), &cutter).volume)
+            .sum();
+        (stock.heights, volume)
+    };
+    let (whole, volume) = cut_in(1);
+    for pieces in [2, 7, 40] {
+        let (heights, sum) = cut_in(pieces);
+        let off = whole.iter().zip(&heights).map(|(one, other)| (one - other).abs());
+        // Single precision of 10 mm, twice.
+        assert!(off.fold(0.0, f32::max) < 2e-9, "{pieces}");
+        assert!((sum / volume - 1.0).abs() < 1e-6, "{pieces}: {sum} {volume}");
+    }
+}
+
+#[test]
+fn the_highest_material_about_a_place_is_that_of_its_cells() {
+    let mut stock = stock_mm([0.0, 0.0, -10.0], [20.0, 20.0, 0.0], 0.5);
+    step(
+        &mut stock,
+        [-6.0, 10.0, -4.0],
+        [26.0, 10.0, -4.0],
+        &cutter_mm(10.0, 0.0),
+    );
+    let at = |y: f64| Point2::new(10.0, y) * MM;
+    // Inside the groove the floor, near its wall the top, beside the box its bottom.
+    for (y, out, z) in [
+        (10.0, 3.0, -4.0),
+        (10.0, 6.0, 0.0),
+        (14.0, 2.0, 0.0),
+        (-9.0, 3.0, -10.0),
+    ] {
+        let found = stock.highest_about(at(y), out * MM);
+        assert!((found - z * MM).abs() < 1e-8, "{y} {out}: {found}");
+    }
+}
+
+#[test]
+fn every_refusal_tells_what_cannot_be_cut() {
+    let told = [
+        (
+            StockError::Box {
+                axis: 'y',
+                low: 0.5,
+                high: 0.25,
+            },
+            "the stock reaches from 0.5 to 0.25 m along y: the second must be greater",
+        ),
+        (
+            StockError::Tilted { angle_deg: 12.345 },
+            "the tool leans 12.35 deg from the z axis of the path: the stock is cut by upright tools alone",
+        ),
+        (
+            StockError::NotFinite("a direction of the path"),
+            "a direction of the path is not a finite number",
+        ),
+        (
+            StockError::TooManyCells {
+                cells: 4e8,
+                most: 1e8,
+            },
+            "the stock has 4.000e8 cells: at most 1e8 are kept; take a coarser pitch",
+        ),
+    ];
+    for (error, text) in told {
+        assert_eq!(error.to_string(), text);
+    }
+}
