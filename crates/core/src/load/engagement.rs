@@ -365,7 +365,7 @@ mod tests {
             assert_eq!(
                 wider
                     .edges()
-                    .map(|y| y.abs())
+                    .map(f64::abs)
                     .iter()
                     .fold(0.0, |a: f64, b| a.max(*b)),
                 radius
