@@ -46,8 +46,8 @@ fn process(immersion: Immersion) -> Process {
 }
 
 fn mean(immersion: Immersion) -> Vector3<f64> {
-    let mean = process(immersion).mean(Advance::Level);
-    mean.expect("a published cut can be made").force
+    let milling = process(immersion).milling(Advance::Level);
+    milling.expect("a published cut can be made").mean().force
 }
 
 /// Mean forces of a cut against the published ones.

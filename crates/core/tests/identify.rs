@@ -6,11 +6,10 @@ mod arms;
 
 use armill_core::identify::effect::{Effects, State};
 use armill_core::identify::fit::Scatter;
-use armill_core::identify::outcome::{displacement_errors, measured_over_typical};
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};
 use armill_core::identify::{
-    Asked, Identified, LoadTest, Loss, Measured, Method, Points, Prior, Reading, Refusal, Role, Unknown,
-    identify, plan,
+    Floor, Identified, LoadTest, Loss, Measured, Method, PlanQuestion, Points, Prior, Reading, Refusal, Role,
+    Unknown, displacement_errors, identify, measured_over_typical, plan,
 };
 use armill_core::nalgebra::{DMatrix, Vector3};
 use armill_core::robot::chain::Axis;
@@ -97,14 +96,6 @@ fn measure(
     }
 }
 
-fn sizes(sizes: Vec<f64>) -> State {
-    State {
-        sizes,
-        force_shift: Vector3::zeros(),
-        measured_shift: Vector3::zeros(),
-    }
-}
-
 /// Some sizes about the middle of the prior, different for each unknown.
 fn some_sizes(unknowns: &[Unknown], random: &mut Random) -> Vec<f64> {
     armill_core::identify::prior::typical_sizes(unknowns)
@@ -119,7 +110,13 @@ fn drives_are_found_exactly_where_nothing_scatters() {
     let unknowns = drives(&robot);
     let truth = vec![2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];
     let mut tests = loads(&robot, 10, &mut random);
-    measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || 0.0);
+    measure(
+        &robot,
+        &unknowns,
+        &State::of_sizes(truth.clone()),
+        &mut tests,
+        || 0.0,
+    );
     for method in [plain(), usual()] {
         let found = identify(&robot, &unknowns, &tests, method).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
@@ -184,9 +181,13 @@ fn stated_uncertainties_cover_the_truth_as_often_as_they_say() {
         let mut random = Random(1000 + seed);
         let mut tests = loads(&robot, 12, &mut random);
         let mut noise = Random(5000 + seed);
-        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
-            2e-5 * noise.normal()
-        });
+        measure(
+            &robot,
+            &unknowns,
+            &State::of_sizes(truth.clone()),
+            &mut tests,
+            || 2e-5 * noise.normal(),
+        );
         let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
             all += 1;
@@ -210,9 +211,13 @@ fn uncertainties_of_all_springs_cover_the_truth() {
         let truth = some_sizes(&unknowns, &mut random);
         let mut tests = loads(&robot, 40, &mut random);
         let mut noise = Random(30_000 + seed);
-        measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
-            2e-5 * noise.normal()
-        });
+        measure(
+            &robot,
+            &unknowns,
+            &State::of_sizes(truth.clone()),
+            &mut tests,
+            || 2e-5 * noise.normal(),
+        );
         let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
         for (estimate, truth) in found.estimates.iter().zip(&truth) {
             // Of logarithms, since a prior of factors is one of logarithms.
@@ -233,9 +238,13 @@ fn one_wild_test_is_named_and_moves_little() {
     let truth = vec![6e-7, 5e-7, 9e-7, 2e-6, 3e-6, 5e-6];
     let mut tests = loads(&robot, 25, &mut random);
     let mut noise = Random(4);
-    measure(&robot, &unknowns, &sizes(truth.clone()), &mut tests, || {
-        1e-5 * noise.normal()
-    });
+    measure(
+        &robot,
+        &unknowns,
+        &State::of_sizes(truth.clone()),
+        &mut tests,
+        || 1e-5 * noise.normal(),
+    );
     tests[7].readings[1].value += 2e-3;
     let robust = identify(&robot, &unknowns, &tests, usual()).unwrap();
     let named: Vec<usize> = (0..25).filter(|test| robust.tests[*test].outlier).collect();
@@ -297,7 +306,7 @@ fn springs_that_act_alike_are_named_together() {
     unknowns.push(twin);
     let mut tests = loads(&robot, 12, &mut random);
     let truth = vec![2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 3.0e-5, 8.0e-5, 3.0e-5];
-    measure(&robot, &unknowns, &sizes(truth), &mut tests, || 0.0);
+    measure(&robot, &unknowns, &State::of_sizes(truth), &mut tests, || 0.0);
     let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
     assert_eq!(found.together, [vec![4, 6]]);
     // Their sum is known nonetheless.
@@ -316,7 +325,7 @@ fn a_joint_that_no_test_loads_is_named_and_keeps_its_prior() {
         test.measured_point = test.force_point;
     }
     let truth = vec![2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5];
-    measure(&robot, &unknowns, &sizes(truth), &mut tests, || 0.0);
+    measure(&robot, &unknowns, &State::of_sizes(truth), &mut tests, || 0.0);
     let found = identify(&robot, &unknowns, &tests, usual()).unwrap();
     assert!(found.estimates[5].known < 0.01, "{:?}", found.estimates[5]);
     assert!(found.estimates[..5].iter().all(|e| e.known > 0.99));
@@ -331,7 +340,13 @@ fn tests_that_cannot_tell_are_refused() {
     let mut tests = loads(&robot, 10, &mut Random(8));
     let nothing = identify(&robot, &unknowns, &tests, usual()).unwrap_err();
     assert_eq!(nothing, Refusal::NothingMeasured);
-    measure(&robot, &unknowns, &sizes(vec![1e-6; 6]), &mut tests, || 0.0);
+    measure(
+        &robot,
+        &unknowns,
+        &State::of_sizes(vec![1e-6; 6]),
+        &mut tests,
+        || 0.0,
+    );
     let few = identify(&robot, &unknowns, &tests[..1], usual()).unwrap_err();
     assert_eq!(
         few,
@@ -357,7 +372,13 @@ fn wrong_units_show_in_the_size_of_what_was_measured() {
     let robot = arms::kr120();
     let unknowns = drives(&robot);
     let mut tests = loads(&robot, 10, &mut Random(9));
-    measure(&robot, &unknowns, &sizes(vec![1e-6; 6]), &mut tests, || 0.0);
+    measure(
+        &robot,
+        &unknowns,
+        &State::of_sizes(vec![1e-6; 6]),
+        &mut tests,
+        || 0.0,
+    );
     let ratio = measured_over_typical(&robot, &tests).unwrap();
     assert!((ratio - 0.5).abs() < 1e-9, "{ratio}");
 }
@@ -366,13 +387,14 @@ fn wrong_units_show_in_the_size_of_what_was_measured() {
 fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
     let robot = arms::mh12();
     let unknowns = [drives(&robot), bending(&robot)].concat();
-    let asked = Asked {
+    let asked = PlanQuestion {
         tests: 12,
         pulls: [[0.0, 0.0, -150.0], [150.0, 0.0, 0.0], [0.0, 150.0, 0.0]]
             .map(Vector3::from)
             .to_vec(),
         tool_point: Vector3::new(0.0, 0.05, 0.2),
         gauge: 1e-5,
+        floor: Some(Floor::under_base()),
     };
     let planned = plan(&robot, &unknowns, &asked);
     assert_eq!(planned.tests.len(), 12);
@@ -388,7 +410,7 @@ fn a_plan_knows_more_than_chance_and_stays_inside_the_limits() {
     }
     let volume = |tests: &[LoadTest]| {
         let mut information = DMatrix::<f64>::identity(unknowns.len(), unknowns.len());
-        let state = sizes(armill_core::identify::prior::typical_sizes(&unknowns));
+        let state = State::typical(&unknowns);
         for test in tests {
             let mut rows = Effects::of(&robot, &unknowns, test)
                 .jacobian(&unknowns, &state)

@@ -130,7 +130,7 @@ fn doubt_about_load_and_tool_adds_what_a_wrong_load_and_a_wrong_tool_would_do() 
     let tool = Isometry::translation(0.0, 0.0, 0.1);
     let one = &cases()[..1];
     let (part, u) = (plane.base_from_part, [0.4, 0.3, 0.2]);
-    let components = Doubt::NONE.of_components(u, LoadFrame::Part, &part);
+    let components = Doubt::NONE.of_components(u, LoadFrame::Part, &part).unwrap();
     let doubts = [
         Doubt {
             relative: 0.1,

@@ -408,7 +408,7 @@ fn at_the_depth_width_or_feed_that_is_permitted_the_tool_deviates_by_the_limit()
         },
     );
     // Where depth and feed as drawn meet, the sheet has the largest deviation of the path.
-    let sheet = found.sheet.unwrap();
+    let sheet = found.depth_by_feed.unwrap();
     let nearest = |all: &[f64], value: f64| {
         let off = |i: &usize| (all[*i] - value).abs();
         (0..all.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap()
@@ -440,13 +440,15 @@ fn a_force_that_is_permitted_deviates_by_the_limit() {
     let limit = 50e-6;
     let found = program_limits(&question, &track(), &under_x, limit, Watch::NONE);
     let found = found.unwrap().unwrap();
-    assert!(found.sheet.is_none() && found.points.len() > 100);
+    assert!(found.depth_by_feed.is_none() && found.points.len() > 100);
     for (axis, direction) in [Vector3::x(), Vector3::y(), Vector3::z()].into_iter().enumerate() {
         let under = along(direction);
         for point in &found.points {
             let deviation = under.answers.points[point.index].as_ref().unwrap().in_plane;
-            assert!((point.forces[axis] * deviation / limit - 1.0).abs() < 1e-9);
-            assert!(point.forces[3] <= point.forces[axis] * (1.0 + 1e-12));
+            let forces = point.forces;
+            let permitted = [forces.along, forces.across, forces.normal][axis];
+            assert!((permitted * deviation / limit - 1.0).abs() < 1e-9);
+            assert!(forces.weakest <= permitted * (1.0 + 1e-12));
             assert_eq!(point.cut, None);
         }
     }

@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 const DEPENDENT: f64 = 1e-9;
 
 /// The solution; `None` where free unknowns depend on each other.
-pub fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounded: &[bool]) -> Option<DVector<f64>> {
+pub(super) fn solve(a: &DMatrix<f64>, b: &DVector<f64>, bounded: &[bool]) -> Option<DVector<f64>> {
     let count = a.ncols();
     let lengths: Vec<f64> = (0..count)
         .map(|j| a.column(j).norm())

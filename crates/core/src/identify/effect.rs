@@ -14,6 +14,7 @@
 use nalgebra::{DMatrix, Matrix3, Vector3};
 
 use super::load_test::{LoadTest, Measured};
+use super::prior::typical_sizes;
 use super::unknown::Unknown;
 use crate::robot::forward::{forward, joint_axis};
 use crate::robot::{Robot, Seat};
@@ -39,6 +40,22 @@ pub struct State {
     pub force_shift: Vector3<f64>,
     /// Shift of the measured point, m, flange frame.
     pub measured_shift: Vector3<f64>,
+}
+
+impl State {
+    /// Sizes, and both points where they were said to be.
+    pub fn of_sizes(sizes: Vec<f64>) -> State {
+        State {
+            sizes,
+            force_shift: Vector3::zeros(),
+            measured_shift: Vector3::zeros(),
+        }
+    }
+
+    /// The middle of the typical prior.
+    pub fn typical(unknowns: &[Unknown]) -> State {
+        State::of_sizes(typical_sizes(unknowns))
+    }
 }
 
 impl Effects {
@@ -69,11 +86,7 @@ impl Effects {
     pub fn readings(&self, unknowns: &[Unknown], state: &State) -> Vec<f64> {
         let jacobian = self.jacobian(unknowns, state);
         (0..self.measured.len())
-            .map(|row| {
-                (0..unknowns.len())
-                    .map(|k| jacobian[(row, k)] * state.sizes[k])
-                    .sum()
-            })
+            .map(|row| predicted(&jacobian, row, state))
             .collect()
     }
 
@@ -113,6 +126,12 @@ impl Effects {
         }
         jacobian
     }
+}
+
+/// The reading in `row` of a jacobian, m or rad: linear in the sizes.
+pub(super) fn predicted(jacobian: &DMatrix<f64>, row: usize, state: &State) -> f64 {
+    let parts = state.sizes.iter().enumerate();
+    parts.map(|(k, size)| jacobian[(row, k)] * size).sum()
 }
 
 #[cfg(test)]
@@ -177,11 +196,7 @@ mod tests {
             .collect();
         let expected = elastic::displacement(&screws, &joints, &test.wrench);
         let unknowns = drives(&robot);
-        let state = State {
-            sizes: sizes.clone(),
-            force_shift: Vector3::zeros(),
-            measured_shift: Vector3::zeros(),
-        };
+        let state = State::of_sizes(sizes.clone());
         let found = Effects::of(&robot, &unknowns, &test).readings(&unknowns, &state);
         for axis in 0..3 {
             assert!((found[axis] - expected[axis]).abs() < 1e-15, "{found:?}");

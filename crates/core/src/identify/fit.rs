@@ -13,7 +13,7 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::bounded;
-use super::effect::{Effects, State};
+use super::effect::{Effects, State, predicted};
 use super::load_test::LoadTest;
 use super::prior::{LogPrior, Prior, typical, typical_sizes};
 use super::spread::Spread;
@@ -33,6 +33,8 @@ pub struct Method {
 }
 
 /// Where force acts and displacement is measured.
+///
+/// The standard uncertainties count with [`Prior::Typical`] alone: without a prior shifts are free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Points {
     /// As the tests say.
@@ -93,9 +95,9 @@ pub(super) struct Problem<'a> {
     expected_squares: Vec<f64>,
 }
 
-/// A point at rest, and all that was known there.
+/// The most likely unknowns, and all that was known there.
 #[derive(Clone, Debug)]
-pub(super) struct Rest {
+pub(super) struct Fitted {
     pub x: DVector<f64>,
     pub scale: f64,
     pub spread: Spread,
@@ -144,11 +146,11 @@ impl<'a> Problem<'a> {
     }
 
     /// Where a search starts that knows nothing yet.
-    pub fn start(&self) -> Rest {
+    pub fn start(&self) -> Fitted {
         let sizes = typical_sizes(self.unknowns);
         let count = sizes.len() + self.method.points.count();
         let value = |size: f64| if self.in_logs() { size.ln() } else { size };
-        Rest {
+        Fitted {
             x: DVector::from_fn(count, |j, _| sizes.get(j).copied().map_or(0.0, value)),
             scale: 1.0,
             spread: Spread::default(),
@@ -177,7 +179,7 @@ impl<'a> Problem<'a> {
     }
 
     /// The most likely `x` for the tests with these indices, searched from `start`.
-    pub fn at_rest(&self, used: &[usize], start: &Rest) -> Rest {
+    pub fn at_rest(&self, used: &[usize], start: &Fitted) -> Fitted {
         let mut rest = start.clone();
         let readings: usize = used.iter().map(|t| self.tests[*t].readings.len()).sum();
         // Readings have about nine digits that mean something; less scatter than that is rounding.
@@ -241,8 +243,7 @@ impl<'a> Problem<'a> {
             for (r, reading) in self.tests[*test].readings.iter().enumerate() {
                 let row = linear.first_row[place] + r;
                 let u = reading.standard_uncertainty;
-                let predicted: f64 = (0..count).map(|k| effect[(r, k)] * state.sizes[k]).sum();
-                linear.residual[row] = (predicted - reading.value) / u;
+                linear.residual[row] = (predicted(&effect, r, &state) - reading.value) / u;
                 for k in 0..count {
                     let by_log = if self.in_logs() { state.sizes[k] } else { 1.0 };
                     linear.jacobian[(row, k)] = effect[(r, k)] * by_log / u;
@@ -274,24 +275,33 @@ impl<'a> Problem<'a> {
         tests + (prior * x - wanted).norm_squared()
     }
 
-    /// Rows of the prior and what they should give, over their standard uncertainties.
+    /// Rows of the prior and what they should give, over their standard uncertainties; of points that they are not shifted.
     fn prior_rows(&self, count: usize) -> (DMatrix<f64>, DVector<f64>) {
-        let points = match self.method.points {
-            Points::Common(u) | Points::Separate(u) if self.in_logs() => (self.unknowns.len()..count, u),
-            _ => (0..0, 1.0),
+        let (of_sizes, wanted) = LogPrior::rows(&self.prior, count);
+        let (Points::Common(u) | Points::Separate(u)) = self.method.points else {
+            return (of_sizes, wanted);
         };
-        let rows = self.prior.len() + points.0.len();
-        let (mut matrix, mut wanted) = (DMatrix::zeros(rows, count), DVector::zeros(rows));
-        for (row, prior) in self.prior.iter().enumerate() {
-            for (k, factor) in &prior.parts {
-                matrix[(row, *k)] = factor / prior.standard_uncertainty;
-            }
-            wanted[row] = prior.mean / prior.standard_uncertainty;
+        if !self.in_logs() {
+            return (of_sizes, wanted);
         }
-        for (row, j) in points.0.enumerate() {
-            matrix[(self.prior.len() + row, j)] = 1.0 / points.1;
+        let (first, more) = (self.prior.len(), self.method.points.count());
+        let mut rows = of_sizes.resize_vertically(first + more, 0.0);
+        for k in 0..more {
+            rows[(first + k, self.unknowns.len() + k)] = 1.0 / u;
         }
-        (matrix, wanted)
+        (rows, wanted.resize_vertically(first + more, 0.0))
+    }
+
+    /// Derivatives of what `x` says (sizes, then shifts) by `x`, on a diagonal.
+    pub fn slopes(&self, x: &DVector<f64>) -> DMatrix<f64> {
+        let mut slopes = DVector::from_element(x.len(), 1.0);
+        if self.in_logs() {
+            let sizes = self.unknowns.len();
+            slopes
+                .rows_mut(0, sizes)
+                .copy_from(&x.rows(0, sizes).map(f64::exp));
+        }
+        DMatrix::from_diagonal(&slopes)
     }
 
     /// The rows of the tests, weighed, over sigma.
@@ -305,7 +315,7 @@ impl<'a> Problem<'a> {
         (jacobian, residual)
     }
 
-    fn spread(&self, linear: &Linear, rest: &Rest) -> Spread {
+    fn spread(&self, linear: &Linear, rest: &Fitted) -> Spread {
         let (tests, _) = self.weighed(linear, rest.scale);
         let (prior, _) = self.prior_rows(rest.x.len());
         let at_bound = |j: usize| !self.in_logs() && j < self.unknowns.len() && rest.x[j] <= 0.0;
@@ -389,6 +399,8 @@ fn expected_bent_square(readings: usize) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_arm::{arm, numbers, tests};
+    use super::super::unknown::{bending, drives, lost_motion};
     use super::*;
 
     #[test]
@@ -396,5 +408,187 @@ mod tests {
         // E min(n^2, k^2) = 1 - 2 k phi(k) - 2 (1 - k^2)(1 - Phi(k)), k = 1.5: phi 0.1295176, 1 - Phi 0.0668072.
         let expected = 1.0 - 2.0 * 1.5 * 0.129_517_6 - 2.0 * (1.0 - 2.25) * 0.066_807_2;
         assert!((expected_bent_square(1) - expected).abs() < 1e-5);
+    }
+
+    fn problem<'a>(unknowns: &'a [Unknown], tests: &'a [LoadTest], method: Method) -> Problem<'a> {
+        let robot = arm(1.0);
+        let effects = tests.iter().map(|test| Effects::of(&robot, unknowns, test));
+        Problem::new(unknowns, tests, effects.collect(), method)
+    }
+
+    fn plain() -> Method {
+        Method {
+            prior: Prior::None,
+            points: Points::Known,
+            loss: Loss::Squares,
+            scatter: Scatter::Found,
+        }
+    }
+
+    /// Of the objective, from the weighed rows.
+    fn gradient(problem: &Problem<'_>, used: &[usize], x: &DVector<f64>, scale: f64) -> DVector<f64> {
+        let (tests, residual) = problem.weighed(&problem.linear(used, x), scale);
+        let (prior, wanted) = problem.prior_rows(x.len());
+        (tests.tr_mul(&residual) + prior.tr_mul(&(&prior * x - wanted))) * 2.0
+    }
+
+    #[test]
+    fn the_gradient_of_the_objective_matches_differences_whatever_the_method() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot), lost_motion(&robot, &[20.0; 3])].concat();
+        let tests = tests(&unknowns, &State::typical(&unknowns), 9, 2e-4);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let mut next = numbers(5);
+        for prior in [Prior::Typical, Prior::None] {
+            for points in [Points::Known, Points::Common(0.1), Points::Separate(0.1)] {
+                for loss in [Loss::Squares, Loss::Huber] {
+                    let method = Method {
+                        prior,
+                        points,
+                        loss,
+                        ..plain()
+                    };
+                    let problem = problem(&unknowns, &tests, method);
+                    let sizes = unknowns.len();
+                    // Some way off the middle, points shifted by centimetres.
+                    let x = problem.start().x.map_with_location(|j, _, value| match prior {
+                        _ if j >= sizes => 0.03 * next(),
+                        Prior::Typical => value + 0.5 * next(),
+                        Prior::None => value * (1.0 + 0.5 * next()),
+                    });
+                    let value = |x: &DVector<f64>| problem.objective(&problem.linear(&used, x), x, 2.0);
+                    let (here, exact) = (value(&x), gradient(&problem, &used, &x, 2.0));
+                    for j in 0..x.len() {
+                        let step = 1e-5 * if j < sizes { x[j].abs().min(1.0) } else { 1.0 };
+                        let (mut more, mut less) = (x.clone(), x.clone());
+                        more[j] += step;
+                        less[j] -= step;
+                        let difference = (value(&more) - value(&less)) / (2.0 * step);
+                        // The square of the step, and what rounding of the objective makes of it.
+                        let tolerance = 1e-5 * exact[j].abs() + 1e-13 * here / step;
+                        assert!(
+                            (difference - exact[j]).abs() < tolerance,
+                            "{method:?} {j}: {difference} {}",
+                            exact[j]
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn without_a_prior_no_size_at_rest_can_be_changed_for_the_better() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        // Half of the springs are rigid: noise makes some of them negative, if they may be.
+        let sizes = (0..unknowns.len()).map(|k| if k % 2 == 0 { 2e-6 } else { 0.0 });
+        let tests = tests(&unknowns, &State::of_sizes(sizes.collect()), 12, 5e-5);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let problem = problem(&unknowns, &tests, plain());
+        let rest = problem.at_rest(&used, &problem.start());
+        let slope = gradient(&problem, &used, &rest.x, rest.scale);
+        let least = problem.objective(&problem.linear(&used, &rest.x), &rest.x, rest.scale);
+        let mut at_bound = 0;
+        for (size, slope) in rest.x.iter().zip(slope.iter()) {
+            // A typical spring more or less would change the objective by this.
+            let by = slope * 2e-6;
+            if *size == 0.0 {
+                at_bound += 1;
+                assert!(by > -1e-6 * least, "{by} of {least}");
+            } else {
+                assert!(*size > 0.0 && by.abs() < 1e-6 * least, "{by} of {least}");
+            }
+        }
+        assert!(at_bound > 0 && at_bound < unknowns.len(), "{}", rest.x);
+    }
+
+    #[test]
+    fn readings_that_tell_nothing_leave_the_middle_of_the_prior() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let mut tests = tests(&unknowns, &State::typical(&unknowns), 12, 1e-3);
+        for reading in tests.iter_mut().flat_map(|test| &mut test.readings) {
+            reading.standard_uncertainty = 1e3;
+        }
+        let method = Method {
+            prior: Prior::Typical,
+            points: Points::Separate(0.1),
+            scatter: Scatter::Stated,
+            ..plain()
+        };
+        let problem = problem(&unknowns, &tests, method);
+        let used: Vec<usize> = (0..tests.len()).collect();
+        let mut start = problem.start();
+        start.x.add_scalar_mut(0.7);
+        let found = problem.state(&problem.at_rest(&used, &start).x);
+        let typical = State::typical(&unknowns);
+        for (found, typical) in found.sizes.iter().zip(&typical.sizes) {
+            assert!((found / typical - 1.0).abs() < 1e-6, "{found} {typical}");
+        }
+        assert!(found.force_shift.norm() < 1e-7 && found.measured_shift.norm() < 1e-7);
+    }
+
+    #[test]
+    fn slopes_are_those_of_the_sizes_by_what_the_fit_counts_in() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::typical(&unknowns), 4, 0.0);
+        for prior in [Prior::Typical, Prior::None] {
+            let method = Method {
+                prior,
+                points: Points::Common(0.1),
+                ..plain()
+            };
+            let problem = problem(&unknowns, &tests, method);
+            let x = problem.start().x;
+            let slopes = problem.slopes(&x);
+            for j in 0..x.len() {
+                let step = 1e-6 * x[j].abs().max(1e-3);
+                let mut more = x.clone();
+                more[j] += step;
+                let (here, there) = (problem.state(&x), problem.state(&more));
+                let change = match j {
+                    0..=2 => there.sizes[j] - here.sizes[j],
+                    _ => (there.force_shift - here.force_shift)[j - 3],
+                };
+                assert!(
+                    (change / step / slopes[(j, j)] - 1.0).abs() < 1e-4,
+                    "{prior:?} {j}"
+                );
+            }
+            assert_eq!(slopes.nrows(), 6);
+        }
+    }
+
+    #[test]
+    fn a_test_far_off_weighs_as_much_less_as_it_is_farther_off() {
+        let unknowns = drives(&arm(1.0));
+        let tests = tests(&unknowns, &State::typical(&unknowns), 2, 0.0);
+        let huber = problem(
+            &unknowns,
+            &tests,
+            Method {
+                loss: Loss::Huber,
+                ..plain()
+            },
+        );
+        for (length, weight) in [(0.0, 1.0), (1.5, 1.0), (3.0, 0.5), (15.0, 0.1)] {
+            assert!((huber.weight(length) - weight).abs() < 1e-15, "{length}");
+            assert_eq!(problem(&unknowns, &tests, plain()).weight(length), 1.0);
+        }
+    }
+
+    #[test]
+    fn bent_squares_of_several_readings_lie_between_none_and_all_of_their_square() {
+        // E min(n^2, k^2) of chi-squared with two degrees of freedom: 2 (1 - exp(-k^2/2)).
+        let expected = 2.0 * (1.0 - f64::exp(-1.5 * 1.5 / 2.0));
+        assert!((expected_bent_square(2) - expected).abs() < 1e-5);
+        assert_eq!(expected_bent_square(0), 0.0);
+        let all: Vec<f64> = (1..=6).map(expected_bent_square).collect();
+        assert!(
+            all.windows(2).all(|pair| pair[0] < pair[1]) && all[5] < BEND * BEND,
+            "{all:?}"
+        );
     }
 }

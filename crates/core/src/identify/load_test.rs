@@ -1,4 +1,11 @@
 //! A load test: a posture, a wrench on the tool, and what moved.
+//!
+//! | symbol | meaning | unit, frame |
+//! |---|---|---|
+//! | `q` | posture | rad (m), the controller's counting |
+//! | `w` | load less what was there before, about the force point | N, N m, base axes |
+//! | `p`, `m` | where the force acts, where displacement is measured | m, flange |
+//! | `r`, `u` | a reading loaded less unloaded, and its standard uncertainty | m or rad |
 
 use nalgebra::Vector3;
 

@@ -10,10 +10,9 @@ use nalgebra::{DMatrix, Vector3};
 use rayon::prelude::*;
 
 use super::effect::{Effects, State};
-use super::fit::{Method, Problem, Rest};
+use super::fit::{Fitted, Method, Problem};
 use super::load_test::{LoadTest, Measured};
-use super::prior::{Prior, typical_sizes};
-use super::unknown::{Unknown, drives};
+use super::unknown::Unknown;
 use crate::robot::Robot;
 
 /// A residual beyond so many sigma names its test an outlier.
@@ -23,7 +22,7 @@ pub const OUTLIER: f64 = 3.5;
 #[derive(Clone, Debug)]
 pub struct Identified {
     /// One an unknown.
-    pub estimates: Vec<Estimate>,
+    pub estimates: Vec<FoundSpring>,
     /// Of the sizes, in the squares and products of their units.
     pub covariance: DMatrix<f64>,
     /// Where the force acted against what the tests say, and its standard uncertainty; m, flange frame.
@@ -40,7 +39,7 @@ pub struct Identified {
 
 /// The size of one unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Estimate {
+pub struct FoundSpring {
     /// rad/(N m), m/N, or rad, as its role says; 0 where nothing but rigid fits (without prior only).
     pub value: f64,
     /// Same unit.
@@ -108,24 +107,24 @@ pub fn identify(
         .collect();
     let problem = Problem::new(unknowns, tests, effects, method);
     let all: Vec<usize> = (0..tests.len()).collect();
-    let rest = problem.at_rest(&all, &problem.start());
-    let state = problem.state(&rest.x);
+    let fitted = problem.at_rest(&all, &problem.start());
+    let state = problem.state(&fitted.x);
     let outcomes = all.par_iter().map(|test| {
         let others: Vec<usize> = all.iter().copied().filter(|other| other != test).collect();
-        let without = problem.state(&problem.at_rest(&others, &rest).x);
-        test_outcome(&problem, *test, &rest, [&state, &without])
+        let without = problem.state(&problem.at_rest(&others, &fitted).x);
+        test_outcome(&problem, *test, &fitted, [&state, &without])
     });
     let tests = outcomes.collect();
-    let slopes = slopes(&state, method, rest.x.len());
-    let covariance = &slopes * &rest.spread.covariance * &slopes;
+    let slopes = problem.slopes(&fitted.x);
+    let covariance = &slopes * &fitted.spread.covariance * &slopes;
     let shifts = shifts(&state, method, &covariance);
     let of_sizes = covariance
         .view((0, 0), (unknowns.len(), unknowns.len()))
         .into_owned();
-    let estimates = state.sizes.iter().enumerate().map(|(k, value)| Estimate {
+    let estimates = state.sizes.iter().enumerate().map(|(k, value)| FoundSpring {
         value: *value,
         standard_uncertainty: of_sizes[(k, k)].max(0.0).sqrt(),
-        known: rest.spread.known[k],
+        known: fitted.spread.known[k],
     });
     let only_sizes = |set: &&Vec<usize>| set.iter().all(|k| *k < unknowns.len());
     Ok(Identified {
@@ -133,9 +132,15 @@ pub fn identify(
         covariance: of_sizes,
         force_shift: shifts.map(|shifts| shifts[0]),
         measured_shift: shifts.map(|shifts| shifts[1]),
-        scale: rest.scale,
+        scale: fitted.scale,
         tests,
-        together: rest.spread.together.iter().filter(only_sizes).cloned().collect(),
+        together: fitted
+            .spread
+            .together
+            .iter()
+            .filter(only_sizes)
+            .cloned()
+            .collect(),
     })
 }
 
@@ -165,7 +170,12 @@ fn refuse(unknowns: &[Unknown], tests: &[LoadTest], method: Method) -> Result<()
     Ok(())
 }
 
-fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]: [&State; 2]) -> TestOutcome {
+fn test_outcome(
+    problem: &Problem<'_>,
+    test: usize,
+    fitted: &Fitted,
+    [all, without]: [&State; 2],
+) -> TestOutcome {
     let readings = &problem.tests[test].readings;
     let residuals = |state: &State| -> Vec<f64> {
         let predicted = problem.effects[test].readings(problem.unknowns, state);
@@ -177,7 +187,7 @@ fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]:
     };
     let own = residuals(all);
     let squares = own.iter().zip(readings).map(|(r, reading)| {
-        let sigma = reading.standard_uncertainty * rest.scale;
+        let sigma = reading.standard_uncertainty * fitted.scale;
         (r / sigma).powi(2)
     });
     let length = squares.sum::<f64>().sqrt();
@@ -189,17 +199,6 @@ fn test_outcome(problem: &Problem<'_>, test: usize, rest: &Rest, [all, without]:
         weight: problem.weight(length),
         outlier: standardised > OUTLIER,
     }
-}
-
-/// Derivatives of sizes and shifts by what the fit counts in, on a diagonal.
-fn slopes(state: &State, method: Method, count: usize) -> DMatrix<f64> {
-    let mut slopes = DMatrix::identity(count, count);
-    if method.prior == Prior::Typical {
-        for (k, size) in state.sizes.iter().enumerate() {
-            slopes[(k, k)] = *size;
-        }
-    }
-    slopes
 }
 
 /// Shifts of force point and measured point with their standard uncertainties.
@@ -221,82 +220,190 @@ fn shifts(state: &State, method: Method, covariance: &DMatrix<f64>) -> Option<[[
     Some([[state.force_shift, of_force], [state.measured_shift, of_measured]])
 }
 
-/// Errors of the displacements (m) over all tests that measured one: lengths of their residual vectors.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Errors {
-    /// Tests that count.
-    pub tests: usize,
-    /// Mean length, m.
-    pub mean: f64,
-    /// Root mean square of the lengths, m.
-    pub rms: f64,
-    /// Greatest length, m.
-    pub largest: f64,
-    /// Mean length over the mean length of what was measured.
-    pub relative: f64,
-}
+#[cfg(test)]
+mod tests {
+    use super::super::fit::{Loss, Points, Scatter};
+    use super::super::prior::Prior;
+    use super::super::small_arm::{arm, tests};
+    use super::super::unknown::{bending, drives};
+    use super::*;
 
-/// The errors of displacements, given one list of residuals a test; `None` where no test measured a displacement.
-pub fn displacement_errors<'a>(
-    tests: &[LoadTest],
-    residuals: impl Iterator<Item = &'a Vec<f64>>,
-) -> Option<Errors> {
-    let mut errors = Errors {
-        tests: 0,
-        mean: 0.0,
-        rms: 0.0,
-        largest: 0.0,
-        relative: 0.0,
-    };
-    let mut measured = 0.0;
-    for (test, residuals) in tests.iter().zip(residuals) {
-        let mut squares = [0.0; 2];
-        let mut any = false;
-        for (reading, residual) in test.readings.iter().zip(residuals) {
-            if let Measured::Displacement(_) = reading.what {
-                squares[0] += residual * residual;
-                squares[1] += reading.value * reading.value;
-                any = true;
-            }
-        }
-        if any {
-            let length = squares[0].sqrt();
-            errors.tests += 1;
-            errors.mean += length;
-            errors.rms += squares[0];
-            errors.largest = errors.largest.max(length);
-            measured += squares[1].sqrt();
+    fn plain() -> Method {
+        Method {
+            prior: Prior::None,
+            points: Points::Known,
+            loss: Loss::Squares,
+            scatter: Scatter::Found,
         }
     }
-    if errors.tests == 0 {
-        return None;
-    }
-    let count = errors.tests as f64;
-    errors.relative = errors.mean / measured;
-    errors.mean /= count;
-    errors.rms = (errors.rms / count).sqrt();
-    Some(errors)
-}
 
-/// Median over all readings other than 0 of measured over predicted with typical drives: far from 1, units are wrong.
-/// `None` where there is nothing to compare.
-pub fn measured_over_typical(robot: &Robot, tests: &[LoadTest]) -> Option<f64> {
-    let unknowns = drives(robot);
-    let state = State {
-        sizes: typical_sizes(&unknowns),
-        force_shift: Vector3::zeros(),
-        measured_shift: Vector3::zeros(),
-    };
-    let length = |values: &mut dyn Iterator<Item = f64>| values.map(|v| v * v).sum::<f64>().sqrt();
-    let mut ratios = Vec::new();
-    for test in tests {
-        let predicted = Effects::of(robot, &unknowns, test).readings(&unknowns, &state);
-        let measured = length(&mut test.readings.iter().map(|reading| reading.value));
-        let predicted = length(&mut predicted.into_iter());
-        if measured > 0.0 && predicted > 0.0 {
-            ratios.push(measured / predicted);
+    fn usual() -> Method {
+        Method {
+            prior: Prior::Typical,
+            loss: Loss::Huber,
+            ..plain()
         }
     }
-    ratios.sort_by(f64::total_cmp);
-    ratios.get(ratios.len() / 2).copied()
+
+    /// Rows of all tests by the sizes of the drives.
+    fn rows(tests: &[LoadTest]) -> DMatrix<f64> {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let mut rows = DMatrix::zeros(3 * tests.len(), unknowns.len());
+        for (t, test) in tests.iter().enumerate() {
+            let effect = Effects::of(&robot, &unknowns, test).jacobian(&unknowns, &State::typical(&unknowns));
+            rows.rows_mut(3 * t, 3)
+                .copy_from(&effect.columns(0, unknowns.len()));
+        }
+        rows
+    }
+
+    #[test]
+    fn left_out_residuals_of_a_linear_fit_are_those_of_its_leverage() {
+        // Of least squares: left out = (I - H_tt)^-1 residual, H = A (A^T A)^-1 A^T; no refit is needed.
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let found = identify(&robot, &unknowns, &tests, plain()).unwrap();
+        let a = rows(&tests);
+        let hat = &a * a.tr_mul(&a).try_inverse().unwrap() * a.transpose();
+        for (t, outcome) in found.tests.iter().enumerate() {
+            let own = nalgebra::Matrix3::from_fn(|i, j| hat[(3 * t + i, 3 * t + j)]);
+            let residual = Vector3::from_column_slice(&outcome.residuals);
+            let expected = (nalgebra::Matrix3::identity() - own).try_inverse().unwrap() * residual;
+            let left_out = Vector3::from_column_slice(&outcome.left_out);
+            assert!(
+                (left_out - expected).norm() < 1e-9 * expected.norm(),
+                "{t}: {left_out} {expected}"
+            );
+            assert!(
+                left_out.norm() > residual.norm(),
+                "a test pulls the fit to itself"
+            );
+        }
+    }
+
+    #[test]
+    fn sizes_scatter_and_covariance_of_a_linear_fit_are_those_of_the_textbook() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let found = identify(&robot, &unknowns, &tests, plain()).unwrap();
+        let a = rows(&tests);
+        let values = tests
+            .iter()
+            .flat_map(|test| &test.readings)
+            .map(|reading| reading.value);
+        let b = nalgebra::DVector::from_iterator(a.nrows(), values);
+        let inverse = a.tr_mul(&a).try_inverse().unwrap();
+        let sizes = &inverse * a.tr_mul(&b);
+        let left = (&a * &sizes - &b).norm_squared();
+        let variance = left / (a.nrows() - a.ncols()) as f64;
+        // Readings state 1e-5 m. The scale is found to 1e-4 of itself.
+        assert!(
+            (found.scale / (variance.sqrt() / 1e-5) - 1.0).abs() < 2e-4,
+            "{}",
+            found.scale
+        );
+        for (k, spring) in found.estimates.iter().enumerate() {
+            assert!((spring.value / sizes[k] - 1.0).abs() < 1e-9, "{spring:?}");
+            let u = (variance * inverse[(k, k)]).sqrt();
+            assert!(
+                (spring.standard_uncertainty / u - 1.0).abs() < 2e-4,
+                "{spring:?} {u}"
+            );
+            assert!((spring.known - 1.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_order_of_tests_and_of_unknowns_does_not_matter() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let tests = tests(&unknowns, &State::typical(&unknowns), 12, 5e-5);
+        let turned: Vec<LoadTest> = tests.iter().rev().cloned().collect();
+        let backward: Vec<Unknown> = unknowns.iter().rev().copied().collect();
+        let here = identify(&robot, &unknowns, &tests, usual()).unwrap();
+        let there = identify(&robot, &backward, &turned, usual()).unwrap();
+        for (one, other) in here.estimates.iter().zip(there.estimates.iter().rev()) {
+            // The scale comes to rest to 1e-4, and moves the sizes by a part of their uncertainty.
+            assert!(
+                (one.value - other.value).abs() < 1e-3 * one.standard_uncertainty,
+                "{one:?} {other:?}"
+            );
+        }
+        for (one, other) in here.tests.iter().zip(there.tests.iter().rev()) {
+            assert_eq!(one.outlier, other.outlier);
+            assert!((one.standardised - other.standardised).abs() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn twice_the_displacement_is_twice_the_spring_and_twice_the_load_half_of_it() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::of_sizes(vec![2e-6, 3e-6, 5e-6]), 8, 5e-5);
+        let values = |tests: &[LoadTest]| -> Vec<f64> {
+            let found = identify(&robot, &unknowns, tests, plain()).unwrap();
+            found.estimates.iter().map(|spring| spring.value).collect()
+        };
+        let here = values(&tests);
+        let mut farther = tests.clone();
+        for reading in farther.iter_mut().flat_map(|test| &mut test.readings) {
+            reading.value *= 2.0;
+        }
+        let mut harder = tests.clone();
+        for test in &mut harder {
+            test.wrench.force *= 2.0;
+        }
+        for ((here, twice), half) in here.iter().zip(values(&farther)).zip(values(&harder)) {
+            assert!((twice / here - 2.0).abs() < 1e-9 && (half / here - 0.5).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn the_measured_point_is_as_unsure_as_the_sum_of_both_shifts() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let tests = tests(&unknowns, &State::typical(&unknowns), 14, 1e-5);
+        let with = |points| identify(&robot, &unknowns, &tests, Method { points, ..usual() }).unwrap();
+        let known = with(Points::Known);
+        assert!(known.force_shift.is_none() && known.measured_shift.is_none());
+        let common = with(Points::Common(0.1));
+        assert_eq!(common.force_shift, common.measured_shift);
+        let apart = with(Points::Separate(0.1));
+        let (force, measured) = (apart.force_shift.unwrap(), apart.measured_shift.unwrap());
+        // Both are where they were said to be, to four standard uncertainties.
+        for [shift, u] in [force, measured] {
+            assert!(
+                (0..3).all(|k| u[k] > 0.0 && shift[k].abs() < 4.0 * u[k]),
+                "{shift} {u}"
+            );
+        }
+        assert_ne!(force, measured);
+    }
+
+    #[test]
+    fn what_is_refused_says_why() {
+        let told = [
+            (
+                Refusal::TooFewReadings {
+                    readings: 3,
+                    unknowns: 6,
+                },
+                "3 readings for 6 unknowns",
+            ),
+            (
+                Refusal::OnePosture { tests: 4 },
+                "all 4 tests stand in one posture",
+            ),
+            (
+                Refusal::NothingMeasured,
+                "no test has both a load and a reading other than 0",
+            ),
+        ];
+        for (refusal, text) in told {
+            assert_eq!(refusal.to_string(), text);
+        }
+    }
 }

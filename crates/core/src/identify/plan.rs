@@ -2,24 +2,25 @@
 //!
 //! D-optimal: the determinant of `sum D_t^T D_t + P^T P` is greatest, `D_t` the derivatives of the readings of test `t`
 //! by the logarithms of the sizes over the uncertainty of the gauge, `P` the typical prior. Candidates are postures of
-//! a Halton sequence inside the joint limits, each with every pull; tests are added one by one and then exchanged until
+//! a Halton sequence inside the joint limits, with the tool clear of the floor and of the arm itself, each with every
+//! pull; tests are added one by one and then exchanged until
 //! nothing is gained (Fedorov 1972; Mitchell 1974). The same question has the same answer.
 
-use nalgebra::{DMatrix, Vector3};
+use nalgebra::{DMatrix, Unit, Vector3};
 
 use super::effect::{Effects, State};
 use super::load_test::{LoadTest, Measured, Reading};
-use super::prior::{typical, typical_sizes};
+use super::prior::{LogPrior, typical};
 use super::spread::Spread;
 use super::unknown::Unknown;
 use crate::robot::chain::Axis;
 use crate::robot::forward::forward;
-use crate::robot::{Limits, Robot};
+use crate::robot::{Joint, Limits, Robot};
 use crate::spatial::Wrench;
 
 /// What a plan is asked for.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct PlanQuestion {
     /// How many tests.
     pub tests: usize,
     /// Pulls that can be applied, N, base axes.
@@ -28,6 +29,27 @@ pub struct Asked {
     pub tool_point: Vector3<f64>,
     /// Standard uncertainty of a displacement reading, m.
     pub gauge: f64,
+    /// Below what the tool must not come; `None` where nothing is near.
+    pub floor: Option<Floor>,
+}
+
+/// A floor, a wall or a ceiling that the arm stands on or beside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Floor {
+    /// Away from it, base axes.
+    pub up: Unit<Vector3<f64>>,
+    /// How far along `up` it lies from the base origin, m.
+    pub height: f64,
+}
+
+impl Floor {
+    /// The one that an arm stands on: base z is up, the base origin lies in it.
+    pub fn under_base() -> Floor {
+        Floor {
+            up: Vector3::z_axis(),
+            height: 0.0,
+        }
+    }
 }
 
 /// One test to do.
@@ -54,10 +76,10 @@ pub struct Plan {
 const POSTURES: u32 = 400;
 /// Rounds of exchange; it comes to rest in two or three.
 const ROUNDS: usize = 6;
-/// The tool stays higher than this over the floor, m.
-const LOWEST: f64 = 0.2;
-/// And further than this from the first axis, m: outside the arm itself.
-const NEAREST: f64 = 0.4;
+/// The tool stays higher than this over the floor, m, and over this part of how far the flange gets.
+const LOWEST: [f64; 2] = [0.2, 0.15];
+/// And further than this from the first axis, m, and than this part: outside the arm itself.
+const NEAREST: [f64; 2] = [0.4, 0.3];
 /// A joint without known limits is turned (moved) by no more than this, rad (m).
 const FREE: f64 = 1.5;
 /// Part of its range that a joint keeps clear of at each end.
@@ -72,9 +94,9 @@ struct Candidate {
 }
 
 /// The tests that make `unknowns` known best; fewer than asked only where no posture has room.
-pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
+pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Plan {
     let candidates = candidates(robot, unknowns, asked);
-    let prior = prior_rows(unknowns);
+    let (prior, _) = LogPrior::rows(&typical(unknowns), unknowns.len());
     let mut information = prior.tr_mul(&prior);
     let mut chosen: Vec<usize> = Vec::new();
     while chosen.len() < asked.tests.min(candidates.len()) {
@@ -109,17 +131,6 @@ pub fn plan(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Plan {
     }
 }
 
-fn prior_rows(unknowns: &[Unknown]) -> DMatrix<f64> {
-    let priors = typical(unknowns);
-    let mut rows = DMatrix::zeros(priors.len(), unknowns.len());
-    for (row, prior) in priors.iter().enumerate() {
-        for (k, factor) in &prior.parts {
-            rows[(row, *k)] = factor / prior.standard_uncertainty;
-        }
-    }
-    rows
-}
-
 fn add(information: &mut DMatrix<f64>, candidate: &Candidate, times: f64) {
     *information += candidate.rows.tr_mul(&candidate.rows) * times;
 }
@@ -147,17 +158,10 @@ fn best_addition(information: &DMatrix<f64>, candidates: &[Candidate], chosen: &
         .0
 }
 
-fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candidate> {
-    let state = State {
-        sizes: typical_sizes(unknowns),
-        force_shift: Vector3::zeros(),
-        measured_shift: Vector3::zeros(),
-    };
+fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &PlanQuestion) -> Vec<Candidate> {
+    let state = State::typical(unknowns);
     let mut found = Vec::new();
-    for posture in 1..=POSTURES {
-        let Some(joints) = posture_with_room(robot, posture, &asked.tool_point) else {
-            continue;
-        };
+    for (posture, joints) in postures_with_room(robot, asked) {
         for pull in &asked.pulls {
             let test = test_of(&joints, *pull, asked);
             let effects = Effects::of(robot, unknowns, &test);
@@ -180,7 +184,7 @@ fn candidates(robot: &Robot, unknowns: &[Unknown], asked: &Asked) -> Vec<Candida
     found
 }
 
-fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &Asked) -> LoadTest {
+fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &PlanQuestion) -> LoadTest {
     let reading = |axis| Reading {
         what: Measured::Displacement(axis),
         value: 0.0,
@@ -195,37 +199,50 @@ fn test_of(joints: &[f64], pull: Vector3<f64>, asked: &Asked) -> LoadTest {
     }
 }
 
-/// Posture number `index` of the sequence, if the tool is clear of floor and arm there.
-fn posture_with_room(robot: &Robot, index: u32, tool_point: &Vector3<f64>) -> Option<Vec<f64>> {
-    let joints: Vec<f64> = robot
-        .joints()
-        .iter()
-        .enumerate()
-        .map(|(joint, described)| {
-            let free = Limits {
-                lower: -FREE,
-                upper: FREE,
-            };
-            let limits = described.limits.unwrap_or(free);
-            // A joint that turns more than once around turns the load no further.
-            let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
-            let part = halton(index, PRIMES[joint % PRIMES.len()]);
-            let position = limits.middle() + half * (2.0 * part - 1.0);
-            if robot.slides(joint) {
-                (position * 1e3).round() * 1e-3
-            } else {
-                position.to_degrees().round().to_radians()
-            }
-        })
-        .collect();
-    let frames = forward(robot, &joints);
-    let tool = frames.base_from_flange * nalgebra::Point3::from(*tool_point);
-    let flange = frames.base_from_flange.translation.vector;
-    let first = frames.origin(0);
-    let reach = |p: &Vector3<f64>| (p.xy() - first.coords.xy()).norm();
-    let clear =
-        tool.z > LOWEST && flange.z > LOWEST && reach(&tool.coords) > NEAREST && reach(&flange) > NEAREST;
-    clear.then_some(joints)
+/// Postures of the sequence in which the tool is clear of floor and arm, each with its number.
+fn postures_with_room(robot: &Robot, asked: &PlanQuestion) -> Vec<(u32, Vec<f64>)> {
+    let looked_at = (1..=POSTURES).map(|index| {
+        let joints = posture(robot, index);
+        let frames = forward(robot, &joints);
+        let tool = frames.base_from_flange * nalgebra::Point3::from(asked.tool_point);
+        let places = [frames.base_from_flange.translation.vector, tool.coords];
+        let first = frames.origin(0);
+        let away = places.map(|place| (place.xy() - first.coords.xy()).norm());
+        (index, joints, places, away)
+    });
+    let looked_at: Vec<_> = looked_at.collect();
+    let farthest = looked_at.iter().map(|(.., away)| away[0]).fold(0.0, f64::max);
+    let clearance = |[most, part]: [f64; 2]| f64::min(most, part * farthest);
+    let (lowest, nearest) = (clearance(LOWEST), clearance(NEAREST));
+    let above = |place: &Vector3<f64>| {
+        let floor = asked.floor.as_ref();
+        floor.is_none_or(|floor| place.dot(&floor.up) - floor.height > lowest)
+    };
+    let has_room = looked_at
+        .into_iter()
+        .filter(|(_, _, places, away)| places.iter().all(above) && away.iter().all(|away| *away > nearest));
+    has_room.map(|(index, joints, ..)| (index, joints)).collect()
+}
+
+/// Posture number `index` of the sequence.
+fn posture(robot: &Robot, index: u32) -> Vec<f64> {
+    let position = |(joint, described): (usize, &Joint)| {
+        let free = Limits {
+            lower: -FREE,
+            upper: FREE,
+        };
+        let limits = described.limits.unwrap_or(free);
+        // A joint that turns more than once around turns the load no further.
+        let half = (0.5 * (limits.upper - limits.lower) * (1.0 - 2.0 * MARGIN)).min(std::f64::consts::PI);
+        let part = halton(index, PRIMES[joint % PRIMES.len()]);
+        let position = limits.middle() + half * (2.0 * part - 1.0);
+        if robot.slides(joint) {
+            (position * 1e3).round() * 1e-3
+        } else {
+            position.to_degrees().round().to_radians()
+        }
+    };
+    robot.joints().iter().enumerate().map(position).collect()
 }
 
 /// Element `index` of the Halton sequence of this prime, 0 to 1.
@@ -241,11 +258,147 @@ fn halton(mut index: u32, prime: u32) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::small_arm::arm;
+    use super::super::unknown::{bending, drives};
     use super::*;
 
     #[test]
     fn the_sequence_of_two_is_that_of_van_der_corput() {
         let first: Vec<f64> = (1..=7).map(|index| halton(index, 2)).collect();
         assert_eq!(first, [0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875]);
+    }
+
+    fn question(scale: f64, floor: Option<Floor>) -> PlanQuestion {
+        PlanQuestion {
+            tests: 5,
+            pulls: vec![-Vector3::z() * 150.0, Vector3::x() * 150.0, Vector3::y() * 150.0],
+            tool_point: Vector3::new(0.0, 0.03, 0.02) * scale,
+            gauge: 1e-5,
+            floor,
+        }
+    }
+
+    /// Where the tool stands in each test, m, base.
+    fn tools(robot: &Robot, question: &PlanQuestion, plan: &Plan) -> Vec<Vector3<f64>> {
+        let tool = |test: &PlannedTest| {
+            let frames = forward(robot, &test.joints);
+            (frames.base_from_flange * nalgebra::Point3::from(question.tool_point)).coords
+        };
+        plan.tests.iter().map(tool).collect()
+    }
+
+    #[test]
+    fn no_exchange_of_a_single_test_tells_more() {
+        let robot = arm(1.0);
+        let unknowns = [drives(&robot), bending(&robot)].concat();
+        let question = question(1.0, Some(Floor::under_base()));
+        let plan = plan(&robot, &unknowns, &question);
+        let all = candidates(&robot, &unknowns, &question);
+        let chosen: Vec<usize> = plan
+            .tests
+            .iter()
+            .map(|test| all.iter().position(|candidate| candidate.test == *test).unwrap())
+            .collect();
+        let (prior, _) = LogPrior::rows(&typical(&unknowns), unknowns.len());
+        let mut information = prior.tr_mul(&prior);
+        for place in &chosen {
+            add(&mut information, &all[*place], 1.0);
+        }
+        let most = information.clone().determinant();
+        for place in &chosen {
+            for other in (0..all.len()).filter(|other| !chosen.contains(other)) {
+                let mut exchanged = information.clone();
+                add(&mut exchanged, &all[*place], -1.0);
+                add(&mut exchanged, &all[other], 1.0);
+                assert!(exchanged.determinant() < most * (1.0 + 1e-9), "{place} {other}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_spread_to_expect_is_that_of_the_information_of_the_tests() {
+        let robot = arm(1.0);
+        let unknowns = drives(&robot);
+        let question = question(1.0, None);
+        let plan = plan(&robot, &unknowns, &question);
+        let (prior, _) = LogPrior::rows(&typical(&unknowns), unknowns.len());
+        let mut information = prior.tr_mul(&prior);
+        for candidate in candidates(&robot, &unknowns, &question) {
+            if plan.tests.contains(&candidate.test) {
+                add(&mut information, &candidate, 1.0);
+            }
+        }
+        let covariance = information.try_inverse().unwrap();
+        assert!((&plan.spread.covariance - &covariance).amax() < 1e-9 * covariance.amax());
+        // More tests tell no less of any spring.
+        let more = PlanQuestion {
+            tests: 10,
+            ..question
+        };
+        let more = super::plan(&robot, &unknowns, &more);
+        for k in 0..unknowns.len() {
+            assert!(more.spread.covariance[(k, k)] < covariance[(k, k)], "{k}");
+        }
+    }
+
+    #[test]
+    fn an_arm_of_a_quarter_of_a_metre_has_a_plan_that_keeps_clear_of_floor_and_arm() {
+        for scale in [0.25, 1.0, 4.0] {
+            let robot = arm(scale);
+            let question = question(scale, Some(Floor::under_base()));
+            let plan = plan(&robot, &drives(&robot), &question);
+            assert_eq!(plan.tests.len(), 5, "{scale}");
+            let (lowest, nearest) = (f64::min(0.2, 0.14 * scale), f64::min(0.4, 0.28 * scale));
+            for tool in tools(&robot, &question, &plan) {
+                assert!(tool.z > lowest && tool.xy().norm() > nearest, "{scale}: {tool}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_arm_on_a_wall_or_a_ceiling_keeps_clear_of_that() {
+        let robot = arm(1.0);
+        let wall = Floor {
+            up: -Vector3::x_axis(),
+            height: -0.3,
+        };
+        let ceiling = Floor {
+            up: -Vector3::z_axis(),
+            height: -0.9,
+        };
+        for floor in [wall, ceiling] {
+            let question = question(1.0, Some(floor));
+            let plan = plan(&robot, &drives(&robot), &question);
+            assert_eq!(plan.tests.len(), 5, "{floor:?}");
+            for tool in tools(&robot, &question, &plan) {
+                assert!(tool.dot(&floor.up) - floor.height > 0.14, "{floor:?}: {tool}");
+            }
+        }
+        // Under a floor that nothing comes above there is no room; without one there is the most.
+        let deep = Floor {
+            height: 10.0,
+            ..Floor::under_base()
+        };
+        assert!(
+            plan(&robot, &drives(&robot), &question(1.0, Some(deep)))
+                .tests
+                .is_empty()
+        );
+        let postures = |floor| postures_with_room(&robot, &question(1.0, floor)).len();
+        assert!(postures(None) > postures(Some(wall)) && postures(None) > postures(Some(ceiling)));
+    }
+
+    #[test]
+    fn numbers_of_the_sequence_fill_the_stretch_evenly() {
+        for prime in PRIMES {
+            let all: Vec<f64> = (1..=400).map(|index| halton(index, prime)).collect();
+            assert!(all.iter().all(|value| (0.0..1.0).contains(value)));
+            for tenth in 0..10 {
+                let (from, to) = (f64::from(tenth) / 10.0, f64::from(tenth + 1) / 10.0);
+                let inside = all.iter().filter(|value| (from..to).contains(*value)).count();
+                // A sequence without pattern would miss by 6; this one by two digits of its prime at most.
+                assert!(inside.abs_diff(40) <= 20, "{prime}: {inside} from {from} to {to}");
+            }
+        }
     }
 }

@@ -12,6 +12,8 @@
 //! | tool and holder | 3e-7 m/N, factor e^1.5 | holder 1.07e-7 and tool 9.34e-7 m/N of a roboforming cell, Sci. Rep. 14:20291 |
 //! | lost motion | 3e-5 rad, factor e | a tenth of an arc minute: reducers of industrial arms |
 
+use nalgebra::{DMatrix, DVector};
+
 use super::unknown::{Role, Unknown};
 use crate::robot::Seat;
 
@@ -33,6 +35,20 @@ pub struct LogPrior {
     pub mean: f64,
     /// Of the sum.
     pub standard_uncertainty: f64,
+}
+
+impl LogPrior {
+    /// These priors as rows over `count` unknowns, and what the rows should give; both over the standard uncertainties.
+    pub(super) fn rows(priors: &[LogPrior], count: usize) -> (DMatrix<f64>, DVector<f64>) {
+        let mut rows = DMatrix::zeros(priors.len(), count);
+        for (row, prior) in priors.iter().enumerate() {
+            for (k, factor) in &prior.parts {
+                rows[(row, *k)] = factor / prior.standard_uncertainty;
+            }
+        }
+        let wanted = priors.iter().map(|prior| prior.mean / prior.standard_uncertainty);
+        (rows, DVector::from_iterator(priors.len(), wanted))
+    }
 }
 
 /// Compliance of a drive, rad/(N m).
@@ -139,5 +155,29 @@ mod tests {
             let sum: f64 = row.parts.iter().map(|(k, factor)| factor * sizes[*k].ln()).sum();
             assert!((sum - row.mean).abs() < 1e-12, "{row:?}");
         }
+    }
+
+    #[test]
+    fn the_middle_lies_at_no_distance_from_the_rows_and_a_factor_at_its_standard_uncertainty() {
+        let unknowns = [
+            Unknown::about(Seat::Joint(0), Axis::Z, Role::Drive),
+            Unknown::about(Seat::Joint(0), Axis::X, Role::Bending),
+            Unknown::along(Seat::Flange, Axis::X, Role::Tool),
+        ];
+        let priors = typical(&unknowns);
+        let (rows, wanted) = LogPrior::rows(&priors, 5);
+        assert_eq!((rows.shape(), wanted.len()), ((3, 5), 3));
+        let sizes = typical_sizes(&unknowns);
+        let logs = DVector::from_fn(5, |k, _| sizes.get(k).map_or(0.0, |size| size.ln()));
+        assert!((&rows * &logs - &wanted).norm() < 1e-12);
+        for (k, prior) in priors.iter().enumerate() {
+            let mut off = logs.clone();
+            off[k] += prior.standard_uncertainty;
+            // Of its own row by one; a drive moves the bending that is told by it, too.
+            let away = &rows * &off - &wanted;
+            assert!((away[k] - 1.0).abs() < 1e-12, "{k}: {away}");
+        }
+        let (none, nothing) = LogPrior::rows(&[], 4);
+        assert_eq!((none.shape(), nothing.len()), ((0, 4), 0));
     }
 }

@@ -144,4 +144,49 @@ mod tests {
         assert!(spread.known.iter().all(|k| (k - 1.0).abs() < 1e-12));
         assert!(spread.together.is_empty());
     }
+
+    #[test]
+    fn other_units_of_an_unknown_change_its_own_rows_alone() {
+        let tests = DMatrix::from_row_slice(
+            4,
+            3,
+            &[1.0, 2.0, 0.5, 0.5, 1.0, -1.0, 3.0, -1.0, 2.0, 0.1, 0.4, 7.0],
+        );
+        let prior = DMatrix::identity(3, 3) * 0.3;
+        let here = Spread::of(&tests, &prior, &[true; 3]);
+        let units = DMatrix::from_diagonal(&DVector::from_vec(vec![1e-6, 1.0, 1e3]));
+        let there = Spread::of(&(&tests * &units), &(&prior * &units), &[true; 3]);
+        for i in 0..3 {
+            assert!((here.known[i] - there.known[i]).abs() < 1e-12);
+            for j in 0..3 {
+                let back = there.covariance[(i, j)] * units[(i, i)] * units[(j, j)];
+                assert!((back - here.covariance[(i, j)]).abs() < 1e-12, "{i} {j}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_unknown_at_its_bound_is_sure_and_makes_the_others_surer() {
+        let tests = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 1.0, 1.0, 1.0, 2.0]);
+        let none = DMatrix::zeros(0, 2);
+        let both = Spread::of(&tests, &none, &[true; 2]);
+        let one = Spread::of(&tests, &none, &[true, false]);
+        assert_eq!((one.covariance[(1, 1)], one.known[1]), (0.0, 0.0));
+        // The mean of three readings.
+        assert!((one.covariance[(0, 0)] - 1.0 / 3.0).abs() < 1e-12);
+        assert!(one.covariance[(0, 0)] < both.covariance[(0, 0)]);
+    }
+
+    #[test]
+    fn shares_known_from_tests_rise_with_the_tests_from_none_to_all() {
+        let tests = DMatrix::from_row_slice(3, 2, &[1.0, 0.0, 1.0, 1.0, 1.0, 2.0]);
+        let prior = DMatrix::identity(2, 2);
+        let mut before = [0.0; 2];
+        for size in [1e-4, 1e-2, 1.0, 1e2, 1e4] {
+            let known = Spread::of(&(&tests * size), &prior, &[true; 2]).known;
+            assert!(known[0] > before[0] && known[1] > before[1], "{size}: {known:?}");
+            before = [known[0], known[1]];
+        }
+        assert!(before.iter().all(|known| *known > 1.0 - 1e-6));
+    }
 }

@@ -1,8 +1,16 @@
 //! The load along a path: it may turn with the feed, change from point to point, and give way with the tool.
+//!
+//! `w = (R f, R m)`, and of a cut at rest `f_greatest = f_greatest,drawn |f| / |f_drawn|`.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `w` | wrench on the tool at the TCP, base axes | N, N m |
+//! | `f`, `m` | force and moment as they are told | N, N m |
+//! | `R` | the axes that they are told in, in base ([`LoadFrame`]) | - |
 
 use nalgebra::{Rotation3, Vector3};
 
-use super::cases::{LoadCases, LoadFrame};
+use super::cases::{LoadCases, LoadFrame, turned};
 use super::cutter::Cutter;
 use super::law::CuttingLaw;
 use super::milling::Cut;
@@ -35,13 +43,23 @@ pub struct CutsAlong {
     pub cutters: Vec<Cutter>,
     /// Force of a chip.
     pub law: CuttingLaw,
-    /// Whether the greatest force of a revolution is a second load case.
-    pub with_greatest: bool,
+    /// What becomes of the greatest force.
+    pub greatest: Greatest,
     /// The cut at every point.
     pub points: Vec<CutHere>,
 }
 
-/// The cut at a point, as drawn; forces in the feed frame.
+/// What becomes of the greatest force of a revolution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Greatest {
+    /// The mean alone is a load case.
+    LeftOut,
+    /// It is the second load case.
+    SecondCase,
+}
+
+/// The cut at a point as drawn; its forces, feed frame, are those of the drawing until force and tool have come to rest
+/// ([`super::straying`]), then those at rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutHere {
     /// Which of the tools.
@@ -63,10 +81,14 @@ impl CutHere {
         greatest: Vector3::new(0.0, 0.0, 0.0),
     };
 
-    /// Its forces where the mean one has become `mean` (N): the greatest goes with it.
+    /// Its forces where the mean one has become `mean` (N): the greatest goes with it, and is no less where the drawing
+    /// has none to go with.
     pub fn under(&self, mean: Vector3<f64>) -> [Vector3<f64>; 2] {
-        let share = mean.norm() / self.mean.norm().max(f64::MIN_POSITIVE);
-        [mean, self.greatest * share]
+        let drawn = self.mean.norm();
+        if drawn == 0.0 {
+            return [mean, mean];
+        }
+        [mean, self.greatest * (mean.norm() / drawn)]
     }
 }
 
@@ -76,8 +98,10 @@ impl PathLoad {
         match self {
             PathLoad::Cases(load) => load.cases.len(),
             PathLoad::OfEach { cases, .. } => *cases,
-            PathLoad::Cuts(cuts) if cuts.with_greatest => 2,
-            PathLoad::Cuts(_) => 1,
+            PathLoad::Cuts(cuts) => match cuts.greatest {
+                Greatest::LeftOut => 1,
+                Greatest::SecondCase => 2,
+            },
         }
     }
 
@@ -86,7 +110,24 @@ impl PathLoad {
         matches!(self, PathLoad::Cases(load) if load.frame != LoadFrame::Feed)
     }
 
-    /// Fills in the wrenches at point `index` in base axes; of cuts those of the path as drawn.
+    /// Whether it tells what pushes at each of so many points, and of cuts with which of its tools.
+    pub fn covers(&self, points: usize) -> bool {
+        match self {
+            PathLoad::Cases(_) => true,
+            PathLoad::OfEach { cases, wrenches, .. } => points
+                .checked_mul(*cases)
+                .is_some_and(|all| wrenches.len() >= all),
+            PathLoad::Cuts(cuts) => {
+                let known = |here: &CutHere| here.cutter < cuts.cutters.len();
+                cuts.points.len() >= points && !cuts.cutters.is_empty() && cuts.points.iter().all(known)
+            }
+        }
+    }
+
+    /// Fills in the wrenches at point `index` in base axes; of cuts those that the points hold now.
+    ///
+    /// # Panics
+    /// If it [covers](PathLoad::covers) fewer points.
     pub fn in_base(
         &self,
         index: usize,
@@ -95,7 +136,7 @@ impl PathLoad {
         out: &mut [Wrench],
     ) {
         let of_cut;
-        let (told, axes) = match self {
+        let (told, frame) = match self {
             PathLoad::Cases(load) => (&load.cases[..], load.frame),
             PathLoad::OfEach {
                 cases,
@@ -108,16 +149,135 @@ impl PathLoad {
                 (&of_cut[..], LoadFrame::Feed)
             }
         };
-        let turned = match axes {
-            LoadFrame::Base => Rotation3::identity(),
-            LoadFrame::Part => base_from_part.rotation.to_rotation_matrix(),
-            LoadFrame::Feed => *base_from_feed,
-        };
+        let axes = frame.axes(base_from_part, Some(base_from_feed));
+        let axes = axes.unwrap_or(*base_from_feed);
         for (out, told) in out.iter_mut().zip(told) {
-            *out = Wrench {
-                force: turned * told.force,
-                moment: turned * told.moment,
-            };
+            *out = turned(told, &axes);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::from_xyz_and_fixed_angles;
+    use crate::load::{Engagement, Mechanistic};
+
+    fn wrench(k: f64) -> Wrench {
+        Wrench {
+            force: Vector3::new(k, -2.0, 0.5),
+            moment: Vector3::new(0.1, k, 3.0),
+        }
+    }
+
+    fn cuts(points: Vec<CutHere>) -> PathLoad {
+        let law = Mechanistic::new(Vector3::new(8e8, 2e8, 2e8), Vector3::zeros()).unwrap();
+        PathLoad::Cuts(CutsAlong {
+            cutters: vec![Cutter::flat(0.01, 2).unwrap()],
+            law: CuttingLaw::Mechanistic(law),
+            greatest: Greatest::SecondCase,
+            points,
+        })
+    }
+
+    fn in_base(load: &PathLoad, index: usize, part: &Isometry, feed: &Rotation3<f64>) -> Vec<Wrench> {
+        let mut out = vec![Wrench::from_force(Vector3::zeros()); load.case_count()];
+        load.in_base(index, part, feed, &mut out);
+        out
+    }
+
+    #[test]
+    fn each_point_has_its_own_wrenches_turned_by_the_axes_that_they_are_told_in() {
+        let part = from_xyz_and_fixed_angles(Vector3::new(1.0, 2.0, 3.0), Vector3::new(0.3, -0.8, 2.0));
+        let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
+        let wrenches: Vec<Wrench> = (0..6).map(|k| wrench(f64::from(k))).collect();
+        for (frame, axes) in [
+            (LoadFrame::Base, Rotation3::identity()),
+            (LoadFrame::Part, part.rotation.to_rotation_matrix()),
+            (LoadFrame::Feed, feed),
+        ] {
+            let each = PathLoad::OfEach {
+                cases: 2,
+                frame,
+                wrenches: wrenches.clone(),
+            };
+            let found = in_base(&each, 2, &part, &feed);
+            assert_eq!(found[1].force, axes * wrench(5.0).force, "{frame:?}");
+            // A place has no part in it: a wrench at the TCP is a free pair of vectors.
+            assert_eq!(found[0].moment, axes * wrench(4.0).moment, "{frame:?}");
+            let same = PathLoad::Cases(LoadCases {
+                frame,
+                cases: vec![wrench(4.0), wrench(5.0)],
+            });
+            assert_eq!(in_base(&same, 77, &part, &feed), found, "{frame:?}");
+        }
+    }
+
+    #[test]
+    fn forces_of_a_cut_turn_with_the_feed_whatever_the_part() {
+        let here = CutHere {
+            mean: Vector3::new(-100.0, 30.0, -9.0),
+            greatest: Vector3::new(-180.0, 60.0, -20.0),
+            ..CutHere::NOTHING
+        };
+        let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
+        let load = cuts(vec![CutHere::NOTHING, here]);
+        for part in [
+            Isometry::identity(),
+            from_xyz_and_fixed_angles(Vector3::x(), Vector3::y()),
+        ] {
+            let found = in_base(&load, 1, &part, &feed);
+            assert_eq!(
+                [found[0].force, found[1].force],
+                [feed * here.mean, feed * here.greatest]
+            );
+            assert_eq!(found[0].moment, Vector3::zeros());
+        }
+    }
+
+    #[test]
+    fn the_greatest_force_goes_with_the_mean_and_is_no_less_where_nothing_is_drawn() {
+        let here = CutHere {
+            mean: Vector3::new(3.0, 4.0, 0.0),
+            greatest: Vector3::new(0.0, 12.0, 5.0),
+            ..CutHere::NOTHING
+        };
+        let mean = Vector3::new(0.0, 0.0, 10.0);
+        assert_eq!(here.under(mean), [mean, here.greatest * 2.0]);
+        // The drawn path passes beside the part, the tool that strays does not.
+        let beside = CutHere {
+            cut: Some(Cut {
+                depth: 1e-3,
+                engagement: Engagement::strip([4.9e-3, 5e-3], 0.01).unwrap(),
+                feed: 1e-4,
+                rise: 0.0,
+            }),
+            ..CutHere::NOTHING
+        };
+        for met in [Vector3::zeros(), Vector3::new(-800.0, 90.0, 1.0)] {
+            assert_eq!(beside.under(met), [met, met]);
+        }
+    }
+
+    #[test]
+    fn a_load_covers_the_points_that_it_tells_of() {
+        let each = PathLoad::OfEach {
+            cases: 2,
+            frame: LoadFrame::Base,
+            wrenches: vec![wrench(0.0); 7],
+        };
+        assert!(each.covers(0) && each.covers(3) && !each.covers(4) && !each.covers(usize::MAX));
+        let cut = cuts(vec![CutHere::NOTHING; 3]);
+        assert!(cut.covers(3) && !cut.covers(4));
+        let other_tool = CutHere {
+            cutter: 1,
+            ..CutHere::NOTHING
+        };
+        assert!(!cuts(vec![other_tool]).covers(1));
+        let same = PathLoad::Cases(LoadCases {
+            frame: LoadFrame::Feed,
+            cases: vec![wrench(1.0)],
+        });
+        assert!(same.covers(usize::MAX));
     }
 }

@@ -13,7 +13,7 @@ use super::cutter::{EdgePoint, Hand};
 
 /// From `entry` to `exit`, rad; see [`super::engagement`] for the angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Arc {
+pub struct EngagedArc {
     /// Where a tooth enters, rad.
     pub entry: f64,
     /// Where it leaves, rad; beyond `entry`.
@@ -42,7 +42,7 @@ impl Chip {
     }
 
     /// The part of the arc, inside 0 to 180 deg, in which the chip is not negative.
-    pub(super) fn cut_part(self, arc: Arc) -> Option<Arc> {
+    pub(super) fn cut_part(self, arc: EngagedArc) -> Option<EngagedArc> {
         if self.along >= 0.0 {
             return Some(arc);
         }
@@ -51,17 +51,17 @@ impl Chip {
             return None;
         }
         let begin = least_sine.asin();
-        arc.common_with(Arc {
+        arc.common_with(EngagedArc {
             entry: begin,
             exit: std::f64::consts::PI - begin,
         })
     }
 }
 
-impl Arc {
+impl EngagedArc {
     /// What lies in both.
-    pub(super) fn common_with(self, other: Arc) -> Option<Arc> {
-        let common = Arc {
+    pub(super) fn common_with(self, other: EngagedArc) -> Option<EngagedArc> {
+        let common = EngagedArc {
             entry: self.entry.max(other.entry),
             exit: self.exit.min(other.exit),
         };
@@ -125,7 +125,7 @@ mod tests {
     use std::f64::consts::PI;
 
     /// Simpson's rule with so many pieces that its error (step^4/180) is below rounding.
-    fn simpson(arc: Arc, f: impl Fn(f64) -> f64) -> f64 {
+    fn simpson(arc: EngagedArc, f: impl Fn(f64) -> f64) -> f64 {
         let pieces = 4000;
         let step = (arc.exit - arc.entry) / f64::from(pieces);
         let term = |i: i32| {
@@ -147,12 +147,12 @@ mod tests {
             along: 0.03,
         };
         for arc in [
-            Arc { entry: 0.0, exit: PI },
-            Arc {
+            EngagedArc { entry: 0.0, exit: PI },
+            EngagedArc {
                 entry: 0.3,
                 exit: 1.1,
             },
-            Arc {
+            EngagedArc {
                 entry: 1.9,
                 exit: 1.900_01,
             },
@@ -175,7 +175,7 @@ mod tests {
 
     #[test]
     fn where_the_edge_lifts_off_there_is_no_chip() {
-        let half = Arc { entry: 0.0, exit: PI };
+        let half = EngagedArc { entry: 0.0, exit: PI };
         let lifting = Chip {
             across: 1.0,
             along: -0.5,

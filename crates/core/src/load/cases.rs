@@ -2,6 +2,8 @@
 //!
 //! A wrench acts *on the tool* at the TCP; a dynamometer under the part reads the opposite sign. N, N m.
 
+use nalgebra::Rotation3;
+
 use crate::frame::Isometry;
 use crate::spatial::Wrench;
 
@@ -25,17 +27,35 @@ pub struct LoadCases {
     pub cases: Vec<Wrench>,
 }
 
+impl LoadFrame {
+    /// These axes in base, for a part that lies at `base_from_part` and a feed frame that stands so in base; `None` for
+    /// the feed where no path tells it.
+    pub fn axes(
+        self,
+        base_from_part: &Isometry,
+        base_from_feed: Option<&Rotation3<f64>>,
+    ) -> Option<Rotation3<f64>> {
+        match self {
+            LoadFrame::Base => Some(Rotation3::identity()),
+            LoadFrame::Part => Some(base_from_part.rotation.to_rotation_matrix()),
+            LoadFrame::Feed => base_from_feed.copied(),
+        }
+    }
+}
+
 impl LoadCases {
-    /// The cases told in base, for a part that lies at `base_from_part`. No path tells where the feed goes: along part x.
-    pub fn in_base(&self, base_from_part: &Isometry) -> Vec<Wrench> {
-        let turned = |wrench: &Wrench| match self.frame {
-            LoadFrame::Base => *wrench,
-            LoadFrame::Part | LoadFrame::Feed => Wrench {
-                force: base_from_part * wrench.force,
-                moment: base_from_part * wrench.moment,
-            },
-        };
-        self.cases.iter().map(turned).collect()
+    /// The cases told in base, for a part that lies at `base_from_part`; `None` where they turn with a feed.
+    pub fn in_base(&self, base_from_part: &Isometry) -> Option<Vec<Wrench>> {
+        let axes = self.frame.axes(base_from_part, None)?;
+        Some(self.cases.iter().map(|told| turned(told, &axes)).collect())
+    }
+}
+
+/// A wrench told in `axes`, in the axes that these are told in.
+pub(super) fn turned(told: &Wrench, axes: &Rotation3<f64>) -> Wrench {
+    Wrench {
+        force: axes * told.force,
+        moment: axes * told.moment,
     }
 }
 
@@ -53,8 +73,25 @@ mod tests {
             frame: LoadFrame::Part,
             cases: vec![push],
         };
-        let in_base = load.in_base(&plane.base_from_part)[0];
+        let in_base = load.in_base(&plane.base_from_part).unwrap()[0];
         // A push into the part is along the tool axis.
         assert!((in_base.force - plane.tool_axis().into_inner() * 7.0).norm() < 1e-14);
+    }
+
+    #[test]
+    fn what_turns_with_the_feed_has_no_axes_without_one() {
+        let part = crate::frame::from_xyz_and_fixed_angles(Vector3::x(), Vector3::new(0.3, -0.8, 2.0));
+        let feed = Rotation3::new(Vector3::new(-0.4, 1.1, 0.2));
+        let load = |frame| LoadCases {
+            frame,
+            cases: vec![Wrench::from_force(Vector3::x())],
+        };
+        assert_eq!(load(LoadFrame::Feed).in_base(&part), None);
+        assert_eq!(LoadFrame::Feed.axes(&part, Some(&feed)), Some(feed));
+        for frame in [LoadFrame::Base, LoadFrame::Part] {
+            assert_eq!(frame.axes(&part, Some(&feed)), frame.axes(&part, None));
+            let told = load(frame).in_base(&part).unwrap()[0];
+            assert_eq!(told.force, frame.axes(&part, None).unwrap() * Vector3::x());
+        }
     }
 }

@@ -24,7 +24,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use super::error::{CuttingError, within};
+use super::end_mill_body::EndMillBody;
+use super::error::{CuttingError, checked};
 
 /// Which way the flutes wind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -58,8 +59,7 @@ pub struct Runout {
 /// An end mill.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutter {
-    diameter: f64,
-    corner_radius: f64,
+    body: EndMillBody,
     flutes: u32,
     helix: f64,
     hand: Hand,
@@ -80,10 +80,6 @@ pub struct EdgePoint {
     pub cos_kappa: f64,
 }
 
-/// Largest cutter, m: far above any that a robot carries.
-const MOST_DIAMETER: f64 = 1.0;
-/// Smallest cutter, m: far below any that is made.
-const LEAST_DIAMETER: f64 = 1e-5;
 /// Most teeth: it bounds the sums over them.
 const MOST_FLUTES: u32 = 100;
 /// Steepest helix, rad: beyond 80 deg an edge is nearly a ring.
@@ -113,22 +109,15 @@ impl Cutter {
     /// # Errors
     /// As [`Cutter::flat`]; a corner radius beyond half the diameter.
     pub fn bull_nose(diameter: f64, corner_radius: f64, flutes: u32) -> Result<Cutter, CuttingError> {
-        within(
-            "diameter of the cutter",
-            diameter,
-            [LEAST_DIAMETER, MOST_DIAMETER],
-            "m",
-        )?;
-        within("corner radius", corner_radius, [0.0, diameter / 2.0], "m")?;
-        within(
+        let body = EndMillBody::new(diameter, corner_radius)?;
+        checked(
             "number of flutes",
             f64::from(flutes),
             [1.0, f64::from(MOST_FLUTES)],
             "",
         )?;
         Ok(Cutter {
-            diameter,
-            corner_radius,
+            body,
             flutes,
             helix: 0.0,
             hand: Hand::Right,
@@ -142,12 +131,8 @@ impl Cutter {
     /// # Errors
     /// As [`Cutter::bull_nose`].
     pub fn of_size(&self, diameter: f64, corner_radius: f64) -> Result<Cutter, CuttingError> {
-        let sized = Cutter::bull_nose(diameter, corner_radius, self.flutes)?;
-        Ok(Cutter {
-            diameter: sized.diameter,
-            corner_radius: sized.corner_radius,
-            ..*self
-        })
+        let body = EndMillBody::new(diameter, corner_radius)?;
+        Ok(Cutter { body, ..*self })
     }
 
     /// The same with flutes that wind by `helix` (rad, not negative).
@@ -155,7 +140,7 @@ impl Cutter {
     /// # Errors
     /// A helix beyond 80 deg.
     pub fn with_helix(mut self, helix: f64, hand: Hand) -> Result<Cutter, CuttingError> {
-        self.helix = within("helix angle", helix, [0.0, MOST_HELIX], "rad")?;
+        self.helix = checked("helix angle", helix, [0.0, MOST_HELIX], "rad")?;
         self.hand = hand;
         Ok(self)
     }
@@ -165,8 +150,8 @@ impl Cutter {
     /// # Errors
     /// An offset that is negative or beyond half the diameter; numbers that are not finite.
     pub fn with_runout(mut self, runout: Runout) -> Result<Cutter, CuttingError> {
-        within("runout", runout.offset, [0.0, self.diameter / 2.0], "m")?;
-        within("angle of the runout", runout.angle, [-TAU, TAU], "rad")?;
+        checked("runout", runout.offset, [0.0, self.radius()], "m")?;
+        checked("angle of the runout", runout.angle, [-TAU, TAU], "rad")?;
         self.runout = runout;
         Ok(self)
     }
@@ -176,23 +161,28 @@ impl Cutter {
     /// # Errors
     /// A rake beyond 45 deg either way.
     pub fn with_rake(mut self, rake: f64) -> Result<Cutter, CuttingError> {
-        self.rake = within("rake", rake, [-MOST_RAKE, MOST_RAKE], "rad")?;
+        self.rake = checked("rake", rake, [-MOST_RAKE, MOST_RAKE], "rad")?;
         Ok(self)
+    }
+
+    /// What it fills as it turns.
+    pub fn body(&self) -> &EndMillBody {
+        &self.body
     }
 
     /// m
     pub fn diameter(&self) -> f64 {
-        self.diameter
+        self.body.diameter()
     }
 
     /// Radius of the cylinder, m.
     pub fn radius(&self) -> f64 {
-        self.diameter / 2.0
+        self.body.radius()
     }
 
     /// m; zero of a flat end mill, half the diameter of a ball.
     pub fn corner_radius(&self) -> f64 {
-        self.corner_radius
+        self.body.corner_radius()
     }
 
     /// Number of teeth.
@@ -233,7 +223,7 @@ impl Cutter {
     /// The point of the edge at `height` (m) above the tip.
     pub fn at_height(&self, height: f64) -> EdgePoint {
         let z = height.max(0.0);
-        let r = self.corner_radius;
+        let r = self.corner_radius();
         if z < r {
             self.in_corner((1.0 - z / r).acos())
         } else {
@@ -248,8 +238,9 @@ impl Cutter {
 
     /// The point of the corner at the axial immersion angle `kappa` (rad), 0 at its lowest.
     pub fn in_corner(&self, kappa: f64) -> EdgePoint {
-        let (sin_kappa, cos_kappa) = kappa.clamp(0.0, FRAC_PI_2).sin_cos();
-        let r = self.corner_radius;
+        let kappa = kappa.clamp(0.0, FRAC_PI_2);
+        let (sin_kappa, cos_kappa) = kappa.sin_cos();
+        let r = self.corner_radius();
         EdgePoint {
             // 1 - cos, told so that it keeps its digits near the tip.
             height: 2.0 * r * (kappa / 2.0).sin().powi(2),
@@ -261,10 +252,10 @@ impl Cutter {
 
     /// Axial immersion angle where a cut of this `depth` (m) ends inside the corner; 90 deg beyond it.
     pub fn corner_end(&self, depth: f64) -> f64 {
-        if depth >= self.corner_radius {
+        if depth >= self.corner_radius() {
             FRAC_PI_2
         } else {
-            (1.0 - depth / self.corner_radius).acos()
+            (1.0 - depth / self.corner_radius()).acos()
         }
     }
 
@@ -353,5 +344,73 @@ mod tests {
         };
         let error = flat.with_runout(far).unwrap_err().to_string();
         assert_eq!(error, "runout is 20 mm: must be between 0 mm and 5 mm");
+    }
+
+    #[test]
+    fn the_edge_lies_on_the_body_and_its_normal_is_that_of_the_body() {
+        for cutter in [
+            Cutter::flat(16.0 * MM, 4),
+            Cutter::ball(10.0 * MM, 2),
+            Cutter::bull_nose(12.0 * MM, 2.5 * MM, 3),
+        ]
+        .map(Result::unwrap)
+        {
+            let body = cutter.body();
+            assert_eq!(
+                [body.diameter(), body.radius()],
+                [cutter.diameter(), cutter.radius()]
+            );
+            for k in 0..=40 {
+                let height = 0.2 * MM * f64::from(k);
+                let point = cutter.at_height(height);
+                // The root at the tip doubles the digits that are lost.
+                assert!((point.radius - body.radius_at(height)).abs() < 1e-9, "{height}");
+                let below = height > 0.1 * MM && height < cutter.corner_radius();
+                if below {
+                    // The profile climbs by tan(kappa) as it goes out.
+                    let step = 1e-8;
+                    let out = cutter.at_height(height + step).radius - cutter.at_height(height - step).radius;
+                    let slope = point.sin_kappa / point.cos_kappa;
+                    assert!((2.0 * step / out / slope - 1.0).abs() < 1e-4, "{height}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_depth_ends_in_the_corner_where_the_edge_has_that_height() {
+        let nose = Cutter::bull_nose(16.0 * MM, 2.0 * MM, 4).unwrap();
+        for depth in [0.001, 0.3, 1.0, 1.999].map(|depth| depth * MM) {
+            let end = nose.in_corner(nose.corner_end(depth));
+            assert!((end.height - depth).abs() < 1e-15, "{depth}");
+        }
+        assert_eq!(nose.in_corner(-1.0), nose.in_corner(0.0));
+        assert_eq!(nose.at_height(-MM), nose.at_height(0.0));
+        assert!((nose.in_corner(FRAC_PI_2).height - 2.0 * MM).abs() < 1e-17);
+    }
+
+    #[test]
+    fn the_same_tool_in_another_size_keeps_its_edges() {
+        let runout = Runout {
+            offset: 20e-6,
+            angle: 0.4,
+        };
+        let cutter = Cutter::ball(10.0 * MM, 3).unwrap();
+        let cutter = cutter
+            .with_helix(0.5, Hand::Left)
+            .unwrap()
+            .with_rake(0.1)
+            .unwrap();
+        let cutter = cutter.with_runout(runout).unwrap();
+        let sized = cutter.of_size(6.0 * MM, 1.0 * MM).unwrap();
+        assert_eq!((sized.diameter(), sized.corner_radius()), (6.0 * MM, 1.0 * MM));
+        assert_eq!(
+            (sized.flutes(), sized.helix(), sized.hand()),
+            (3, 0.5, Hand::Left)
+        );
+        assert_eq!((sized.runout(), sized.rake()), (runout, 0.1));
+        assert_eq!(sized.of_size(10.0 * MM, 5.0 * MM).unwrap(), cutter);
+        assert!(cutter.of_size(6.0 * MM, 3.1 * MM).is_err() && cutter.of_size(0.0, 0.0).is_err());
+        assert!((cutter.pitch() - TAU / 3.0).abs() < 1e-15);
     }
 }

@@ -20,7 +20,7 @@
 
 use nalgebra::{Matrix2, Matrix2x4, Vector2, Vector3};
 
-use super::error::{CuttingError, within};
+use super::error::{CuttingError, checked};
 use super::kienzle::Kienzle;
 use crate::spatial::Wrench;
 
@@ -59,9 +59,9 @@ impl Drilling {
     /// # Errors
     /// A diameter, feed or point angle outside what is made.
     pub fn force(&self) -> Result<DrillingForce, CuttingError> {
-        let d = within("diameter of the drill", self.diameter, [1e-5, 1.0], "m")?;
-        let sigma = within("point angle", self.point_angle, POINT_ANGLES, "rad")?;
-        let f = within("feed per revolution", self.feed, [0.0, d], "m")?;
+        let d = checked("diameter of the drill", self.diameter, [1e-5, 1.0], "m")?;
+        let sigma = checked("point angle", self.point_angle, POINT_ANGLES, "rad")?;
+        let f = checked("feed per revolution", self.feed, [0.0, d], "m")?;
         let half_sine = (sigma / 2.0).sin();
         let (b, h) = (d / (2.0 * half_sine), f / LIPS * half_sine);
 

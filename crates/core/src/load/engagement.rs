@@ -35,8 +35,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::arc::Arc;
-use super::error::{CuttingError, within};
+use super::arc::EngagedArc;
+use super::cutter::Cutter;
+use super::error::{CuttingError, checked};
 
 /// How the tool meets the part, seen along the feed; the spindle turns clockwise.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,7 +70,7 @@ impl Engagement {
         let radius = diameter / 2.0;
         let depth = |ae: f64| {
             // The least positive number: no cut at all is no engagement.
-            within("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
+            checked("radial depth of cut", ae, [f64::MIN_POSITIVE, diameter], "m")
         };
         Ok(match immersion {
             Immersion::Up(ae) => Engagement {
@@ -91,6 +92,31 @@ impl Engagement {
         })
     }
 
+    /// The engagement of `cutter` in a cut of this axial `depth` (m).
+    ///
+    /// A tool that cuts with its rounded corner alone is no wider than there: the radial depth counts from the widest
+    /// circle that is engaged, and a part that reaches beyond it goes on to the rim of the tool.
+    ///
+    /// # Errors
+    /// As [`Engagement::of`].
+    pub fn at_depth(immersion: Immersion, cutter: &Cutter, depth: f64) -> Result<Engagement, CuttingError> {
+        let told = Engagement::of(immersion, cutter.diameter())?;
+        let (radius, widest) = (cutter.radius(), cutter.at_height(depth).radius);
+        let narrower = radius - widest;
+        let reaches = |y: f64| if y >= widest { radius } else { y };
+        Ok(match immersion {
+            Immersion::Up(_) => Engagement {
+                right: -reaches(-(told.right - narrower)),
+                left: radius,
+            },
+            Immersion::Down(_) => Engagement {
+                right: -radius,
+                left: reaches(told.left + narrower),
+            },
+            Immersion::Centred(_) | Immersion::Slot => told,
+        })
+    }
+
     /// The strip from `right` to `left` (m, to the left of the tool axis) before a tool of this `diameter` (m); what lies
     /// beyond the tool is not looked at.
     ///
@@ -98,10 +124,10 @@ impl Engagement {
     /// Numbers that are not finite, a strip without width.
     pub fn strip([right, left]: [f64; 2], diameter: f64) -> Result<Engagement, CuttingError> {
         let radius = diameter / 2.0;
-        within("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
-        within("strip of material, right", right, [-f64::MAX, left], "m")?;
+        checked("strip of material, left", left, [-f64::MAX, f64::MAX], "m")?;
+        checked("strip of material, right", right, [-f64::MAX, left], "m")?;
         let (right, left) = (right.max(-radius), left.min(radius));
-        within(
+        checked(
             "width of the strip",
             left - right,
             [f64::MIN_POSITIVE, diameter],
@@ -126,13 +152,13 @@ impl Engagement {
         (right < left).then_some(Engagement { right, left })
     }
 
-    /// The strip made `width` (m) wide before a tool of this `radius` (m): at the rim, if it reaches one, else about its
-    /// middle, as far as the tool goes. `None` if nothing is left.
-    pub fn of_width(&self, width: f64, radius: f64) -> Option<Engagement> {
+    /// The strip made `width` (m) wide before a tool of this radius that is `widest` (m) where it cuts: from there inwards, if
+    /// it reaches a rim, else about its middle, as far as the tool goes. `None` if nothing is left.
+    pub fn of_width(&self, width: f64, [widest, radius]: [f64; 2]) -> Option<Engagement> {
         let [right, left] = if self.left >= radius {
-            [radius - width, radius]
+            [widest - width, radius]
         } else if self.right <= -radius {
-            [-radius, width - radius]
+            [-radius, width - widest]
         } else {
             let middle = 0.5 * (self.left + self.right);
             [middle - 0.5 * width, middle + 0.5 * width]
@@ -151,10 +177,10 @@ impl Engagement {
     }
 
     /// Where a point of the edge at `radius` (m) cuts; `None` if it passes beside the strip.
-    pub fn arc_at(&self, radius: f64) -> Option<Arc> {
+    pub fn arc_at(&self, radius: f64) -> Option<EngagedArc> {
         let angle = |y: f64| (y / radius).clamp(-1.0, 1.0).acos();
         let beside = radius <= 0.0 || self.right >= radius || self.left <= -radius;
-        let arc = (!beside).then(|| Arc {
+        let arc = (!beside).then(|| EngagedArc {
             entry: angle(self.left),
             exit: angle(self.right),
         })?;
@@ -172,10 +198,10 @@ impl Engagement {
 /// # Errors
 /// A spindle that stands still or turns backwards, a negative feed, no flute.
 pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, CuttingError> {
-    within("feed speed", feed, [0.0, f64::MAX], "m/s")?;
-    within("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
-    within("number of flutes", f64::from(flutes), [1.0, f64::MAX], "")?;
-    within(
+    checked("feed speed", feed, [0.0, f64::MAX], "m/s")?;
+    checked("spindle speed", spindle, [f64::MIN_POSITIVE, f64::MAX], "rad/s")?;
+    checked("number of flutes", f64::from(flutes), [1.0, f64::MAX], "")?;
+    checked(
         "feed per tooth",
         feed * TAU / (spindle * f64::from(flutes)),
         [0.0, f64::MAX],
@@ -184,12 +210,12 @@ pub fn feed_per_tooth(feed: f64, spindle: f64, flutes: u32) -> Result<f64, Cutti
 }
 
 /// Mean chip thickness over the arc, at the feed per tooth `c` (m): m.
-pub fn mean_chip(arc: Arc, c: f64) -> f64 {
+pub fn mean_chip(arc: EngagedArc, c: f64) -> f64 {
     c * (arc.entry.cos() - arc.exit.cos()) / (arc.exit - arc.entry)
 }
 
 /// Greatest chip thickness in the arc, at the feed per tooth `c` (m): m.
-pub fn greatest_chip(arc: Arc, c: f64) -> f64 {
+pub fn greatest_chip(arc: EngagedArc, c: f64) -> f64 {
     let ahead = PI / 2.0;
     c * ahead.clamp(arc.entry, arc.exit).sin()
 }
@@ -244,7 +270,7 @@ mod tests {
         assert_eq!(down.arc_at(3.9 * MM), None);
         // More than half: points near the axis are in the part all the way.
         let deep = Engagement::of(Immersion::Up(7.0 * MM), 10.0 * MM).unwrap();
-        assert_eq!(deep.arc_at(MM), Some(Arc { entry: 0.0, exit: PI }));
+        assert_eq!(deep.arc_at(MM), Some(EngagedArc { entry: 0.0, exit: PI }));
     }
 
     #[test]
@@ -290,6 +316,74 @@ mod tests {
         assert!((width(rib).unwrap() - 2.0).abs() < 1e-12);
         let beside = rib.strayed(-5.0 * MM, radius).unwrap();
         assert!((beside.width() - MM).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_shallow_ball_meets_the_radial_depth_within_the_circle_that_it_cuts_with() {
+        let ball = Cutter::ball(10.0 * MM, 2).unwrap();
+        // At 0.2 mm the circle of a ball of 5 mm has a radius of sqrt(2 5 0.2 - 0.2^2) mm = 1.4 mm.
+        let at = |immersion| Engagement::at_depth(immersion, &ball, 0.2 * MM).unwrap();
+        let met = |immersion| at(immersion).arc_at(1.4 * MM).map(|arc| [arc.entry, arc.exit]);
+        let immersion = (1.0 - 0.5 / 1.4_f64).acos();
+        let [entry, exit] = met(Immersion::Up(0.5 * MM)).unwrap();
+        assert!(entry == 0.0 && (exit - immersion).abs() < 1e-12);
+        let [entry, exit] = met(Immersion::Down(0.5 * MM)).unwrap();
+        assert!((entry - (PI - immersion)).abs() < 1e-12 && exit == PI);
+        // Wider than the circle is all of it: a groove of its own.
+        for all in [
+            Immersion::Up(5.0 * MM),
+            Immersion::Down(2.9 * MM),
+            Immersion::Slot,
+        ] {
+            assert_eq!(at(all).edges(), [-5.0 * MM, 5.0 * MM], "{all:?}");
+        }
+        let rib = at(Immersion::Centred(MM));
+        assert_eq!(rib, Engagement::of(Immersion::Centred(MM), 10.0 * MM).unwrap());
+        assert!(Engagement::at_depth(Immersion::Up(10.1 * MM), &ball, MM).is_err());
+    }
+
+    #[test]
+    fn above_the_corner_and_on_a_flat_end_mill_the_depth_changes_nothing() {
+        let nose = Cutter::bull_nose(10.0 * MM, 2.0 * MM, 2).unwrap();
+        let flat = Cutter::flat(10.0 * MM, 2).unwrap();
+        for ae in [0.1, 3.0, 5.0, 10.0].map(|ae| ae * MM) {
+            for immersion in [Immersion::Up(ae), Immersion::Down(ae), Immersion::Centred(ae)] {
+                let plain = Engagement::of(immersion, 10.0 * MM);
+                assert_eq!(Engagement::at_depth(immersion, &nose, 2.0 * MM), plain);
+                assert_eq!(Engagement::at_depth(immersion, &flat, 0.01 * MM), plain);
+            }
+        }
+    }
+
+    #[test]
+    fn a_strip_keeps_its_side_when_it_becomes_wider_and_is_counted_from_the_circle_that_cuts() {
+        let (radius, diameter) = (5.0 * MM, 10.0 * MM);
+        for (immersion, mirrored) in [(Immersion::Up(2.0 * MM), 1.0), (Immersion::Down(2.0 * MM), -1.0)] {
+            let strip = Engagement::of(immersion, diameter).unwrap();
+            let wider = strip.of_width(3.0 * MM, [radius, radius]).unwrap();
+            assert!((wider.width() - 3.0 * MM).abs() < 1e-15);
+            assert_eq!(
+                wider
+                    .edges()
+                    .map(f64::abs)
+                    .iter()
+                    .fold(0.0, |a: f64, b| a.max(*b)),
+                radius
+            );
+            let shallow = strip.of_width(MM, [1.4 * MM, radius]).unwrap();
+            let arc = shallow.arc_at(1.4 * MM).unwrap();
+            let middle = 0.5 * (arc.entry + arc.exit);
+            assert!(
+                mirrored * middle.cos() > 0.0
+                    && ((arc.exit - arc.entry) - (1.0 - 1.0 / 1.4_f64).acos()).abs() < 1e-12
+            );
+        }
+        let rib = Engagement::of(Immersion::Centred(MM), diameter).unwrap();
+        assert_eq!(
+            rib.of_width(4.0 * MM, [radius, radius]).unwrap().edges(),
+            [-2.0 * MM, 2.0 * MM]
+        );
+        assert_eq!(rib.of_width(0.0, [radius, radius]), None);
     }
 
     #[test]

@@ -65,7 +65,7 @@ fn allowed([least, most]: [f64; 2], unit: &str) -> String {
 }
 
 /// `value` if it lies between `least` and `most`.
-pub(super) fn within(
+pub(super) fn checked(
     what: &'static str,
     value: f64,
     [least, most]: [f64; 2],
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn a_range_is_told_in_millimetres_and_by_the_ends_that_mean_something() {
-        let told = |value, ends, unit| within("depth", value, ends, unit).unwrap_err().to_string();
+        let told = |value, ends, unit| checked("depth", value, ends, unit).unwrap_err().to_string();
         assert_eq!(
             told(9e-3, [f64::MIN_POSITIVE, 6e-3], "m"),
             "depth is 9 mm: must be above 0 and at most 6 mm"
@@ -104,6 +104,82 @@ mod tests {
         assert_eq!(
             told(20e-3, [0.0, 5e-3], "m"),
             "depth is 20 mm: must be between 0 mm and 5 mm"
+        );
+    }
+
+    #[test]
+    fn every_refusal_names_the_thing_its_value_and_its_limit() {
+        let told = [
+            (
+                CuttingError::OutOfRange {
+                    what: "number of flutes",
+                    value: 0.0,
+                    least: 1.0,
+                    most: 100.0,
+                    unit: "",
+                },
+                "number of flutes is 0: must be between 1 and 100",
+            ),
+            (
+                CuttingError::OutOfRange {
+                    what: "feed speed",
+                    value: -0.02,
+                    least: 0.0,
+                    most: f64::MAX,
+                    unit: "m/s",
+                },
+                "feed speed is -0.02 m/s: must be at least 0 m/s",
+            ),
+            (CuttingError::NotFinite("kc1"), "kc1 is not a finite number"),
+            (
+                CuttingError::NoCovariance("the covariance of the cutting coefficients"),
+                "the covariance of the cutting coefficients is no covariance: it must be symmetric, with variances that \
+                 are not negative",
+            ),
+            (
+                CuttingError::Plunge {
+                    angle_deg: 41.25,
+                    most_deg: 30.0,
+                },
+                "the tool dives 41.2 deg below the plane across its axis: milling forces hold to 30 deg",
+            ),
+            (
+                CuttingError::Withdrawal,
+                "the tool leaves the part along its axis: nothing is cut",
+            ),
+        ];
+        for (error, text) in told {
+            assert_eq!(error.to_string(), text);
+        }
+    }
+
+    #[test]
+    fn a_value_is_checked_at_both_ends_and_the_ends_themselves_may_be() {
+        let ends = [-1.0, 2.0];
+        for value in [-1.0, 0.0, 2.0] {
+            assert_eq!(checked("depth", value, ends, "m"), Ok(value));
+        }
+        for value in [-1.0 - 1e-15, 2.0 + 1e-15] {
+            let refused = checked("depth", value, ends, "m");
+            assert!(matches!(refused, Err(CuttingError::OutOfRange { .. })), "{value}");
+        }
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(
+                checked("depth", value, ends, "m"),
+                Err(CuttingError::NotFinite("depth"))
+            );
+        }
+        // What rounding leaves behind the ninth decimal is not told, what is smaller than all of it is.
+        let told = |value| checked("depth", value, [0.0, 1e-20], "").unwrap_err().to_string();
+        assert!(
+            told(0.1 + 0.2).starts_with("depth is 0.3:"),
+            "{}",
+            told(0.1 + 0.2)
+        );
+        assert!(
+            told(1e-12).starts_with("depth is 0.000000000001:"),
+            "{}",
+            told(1e-12)
         );
     }
 }

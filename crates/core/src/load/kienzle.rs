@@ -20,7 +20,7 @@
 
 use nalgebra::{Matrix3x4, Matrix6, SMatrix, Vector3, Vector4};
 
-use super::error::{CuttingError, within};
+use super::error::{CuttingError, checked};
 use super::mechanistic::Mechanistic;
 
 /// A value and its standard uncertainty, in the same unit.
@@ -76,13 +76,13 @@ impl Kienzle {
             radial_ratio,
             axial_ratio,
         } = values;
-        within("kc1", specific_force.value, [0.0, MOST_SPECIFIC_FORCE], "Pa")?;
-        within("mc", exponent.value, [0.0, MOST_EXPONENT], "")?;
-        within("radial ratio", radial_ratio.value, [-MOST_RATIO, MOST_RATIO], "")?;
-        within("axial ratio", axial_ratio.value, [-MOST_RATIO, MOST_RATIO], "")?;
+        checked("kc1", specific_force.value, [0.0, MOST_SPECIFIC_FORCE], "Pa")?;
+        checked("mc", exponent.value, [0.0, MOST_EXPONENT], "")?;
+        checked("radial ratio", radial_ratio.value, [-MOST_RATIO, MOST_RATIO], "")?;
+        checked("axial ratio", axial_ratio.value, [-MOST_RATIO, MOST_RATIO], "")?;
         for estimate in [specific_force, exponent, radial_ratio, axial_ratio] {
             let most = MOST_SPECIFIC_FORCE;
-            within(
+            checked(
                 "standard uncertainty",
                 estimate.standard_uncertainty,
                 [0.0, most],
@@ -159,7 +159,7 @@ impl Kienzle {
     /// # Errors
     /// A mean chip that is not above zero.
     pub fn at_mean_chip(&self, mean: f64) -> Result<Mechanistic, CuttingError> {
-        within("mean chip thickness", mean, [f64::MIN_POSITIVE, 1.0], "m")?;
+        checked("mean chip thickness", mean, [f64::MIN_POSITIVE, 1.0], "m")?;
         let shear = self.ratios() * self.specific_force(mean);
         let by = self.by_values(mean) / mean;
         let shear_covariance = by * SMatrix::from_diagonal(&self.variances()) * by.transpose();

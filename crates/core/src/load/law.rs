@@ -1,4 +1,10 @@
-//! How much force a chip of some thickness takes, by whichever law.
+//! How much force a chip of some thickness takes, by whichever law: `dF = f(h; k) db`, `cov f = (df/dk) S (df/dk)^T`.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `f` | tangential, radial and axial force of an edge per width of its chip | N/m |
+//! | `h`, `db` | thickness and width of the chip | m |
+//! | `k`, `S` | parameters of the law, at most six, and their covariance | as the law has them |
 
 use nalgebra::{Matrix6, SMatrix, Vector3};
 
@@ -50,5 +56,75 @@ impl CuttingLaw {
             CuttingLaw::Mechanistic(law) => *law.covariance(),
             CuttingLaw::Kienzle(law) => law.covariance(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::{Estimate, KienzleValues};
+
+    fn both() -> [CuttingLaw; 2] {
+        let shear = Vector3::new(631e6, 99e6, 273e6);
+        let edge = Vector3::new(13e3, 10e3, 2.8e3);
+        let linear = Mechanistic::new(shear, edge).unwrap();
+        let sure = |value| Estimate {
+            value,
+            standard_uncertainty: 0.1 * value,
+        };
+        let power = Kienzle::new(KienzleValues {
+            specific_force: sure(800e6),
+            exponent: sure(0.25),
+            radial_ratio: sure(0.4),
+            axial_ratio: sure(0.1),
+        });
+        [
+            CuttingLaw::Mechanistic(linear.with_relative_uncertainty(0.2).unwrap()),
+            CuttingLaw::Kienzle(power.unwrap()),
+        ]
+    }
+
+    #[test]
+    fn a_thicker_chip_takes_more_force_in_the_same_proportions_where_no_edge_ploughs() {
+        for law in both() {
+            let sizes = [1e-6, 1e-5, 1e-4, 1e-3].map(|h| law.force(h).norm());
+            assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
+        }
+        let [_, power] = both();
+        let ratios = |h: f64| power.force(h) / power.force(h).x;
+        assert!((ratios(1e-5) - ratios(1e-3)).norm() < 1e-14);
+        assert_eq!(ratios(1e-4), Vector3::new(1.0, 0.4, 0.1));
+    }
+
+    #[test]
+    fn derivatives_by_the_parameters_are_those_of_the_law_inside_and_their_number_is_that_of_the_covariance()
+    {
+        let h = 7e-5;
+        let [linear, power] = both();
+        // Linear in its coefficients: by them times themselves is the force again.
+        let CuttingLaw::Mechanistic(law) = linear else {
+            unreachable!()
+        };
+        assert!((linear.derivatives(h) * law.coefficients() - linear.force(h)).norm() < 1e-9);
+        // Of a power law by kc1 it is the force over kc1; two columns stay empty.
+        let by = power.derivatives(h);
+        assert!((by.column(0) * 800e6 - power.force(h)).norm() < 1e-9);
+        assert_eq!(by.columns(4, 2).amax(), 0.0);
+        for law in both() {
+            let of_force = law.derivatives(h) * law.covariance() * law.derivatives(h).transpose();
+            assert!(of_force.symmetric_eigenvalues().min() >= -1e-9 * of_force.trace());
+            assert!(of_force[(0, 0)].sqrt() > 0.05 * law.force(h).x);
+        }
+    }
+
+    #[test]
+    fn rake_takes_force_from_the_power_law_alone_and_counts_once() {
+        let [linear, power] = both();
+        let rake = 12_f64.to_radians();
+        assert_eq!(linear.with_rake(rake), linear);
+        let keen = power.with_rake(rake);
+        assert!((keen.force(1e-4) / power.force(1e-4).x - Vector3::new(0.88, 0.352, 0.088)).norm() < 1e-12);
+        assert_eq!(keen.with_rake(rake), keen);
+        assert_eq!(keen.with_rake(0.0), power);
     }
 }

@@ -19,7 +19,7 @@
 
 use nalgebra::{Matrix6, SMatrix, Vector3, Vector6};
 
-use super::error::{CuttingError, within};
+use super::error::{CuttingError, checked};
 
 /// Largest coefficient that is taken, Pa or N/m: a hundred times that of the hardest alloys.
 const MOST_COEFFICIENT: f64 = 1e12;
@@ -42,7 +42,7 @@ impl Mechanistic {
     pub fn new(shear: Vector3<f64>, edge: Vector3<f64>) -> Result<Mechanistic, CuttingError> {
         for value in shear.iter().chain(edge.iter()) {
             let most = MOST_COEFFICIENT;
-            within("cutting coefficient", *value, [-most, most], "Pa or N/m")?;
+            checked("cutting coefficient", *value, [-most, most], "Pa or N/m")?;
         }
         Ok(Mechanistic {
             coefficients: Vector6::new(shear.x, shear.y, shear.z, edge.x, edge.y, edge.z),
@@ -75,7 +75,7 @@ impl Mechanistic {
     /// # Errors
     /// A fraction that is negative or beyond ten.
     pub fn with_relative_uncertainty(self, fraction: f64) -> Result<Mechanistic, CuttingError> {
-        within("relative uncertainty", fraction, [0.0, 10.0], "")?;
+        checked("relative uncertainty", fraction, [0.0, 10.0], "")?;
         let deviation = self.coefficients * fraction;
         self.with_covariance(Matrix6::from_diagonal(&deviation.component_mul(&deviation)))
     }

@@ -42,10 +42,10 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 
-use super::arc::{Arc, Chip, Moments};
+use super::arc::{Chip, EngagedArc, Moments};
 use super::cutter::{Cutter, EdgePoint};
 use super::engagement::Engagement;
-use super::error::{CuttingError, within};
+use super::error::{CuttingError, checked};
 use super::law::CuttingLaw;
 use super::mechanistic::Mechanistic;
 
@@ -70,15 +70,6 @@ pub struct Milling {
     pub(super) cut: Cut,
 }
 
-/// The greatest force of a revolution.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Peak {
-    /// The force of greatest length, N, feed frame.
-    pub force: Vector3<f64>,
-    /// Of each component its value of greatest size, N; they need not act together.
-    pub components: Vector3<f64>,
-}
-
 /// Deepest cut in diameters: it bounds how often a helix winds round.
 const MOST_DEPTH_IN_DIAMETERS: f64 = 100.0;
 /// Largest feed per tooth in diameters: beyond it the circles of the teeth no longer overlap.
@@ -97,15 +88,15 @@ impl Milling {
     /// A depth of cut that is not above zero, feeds beyond the diameter, numbers that are not finite.
     pub fn new(cutter: Cutter, law: CuttingLaw, cut: Cut) -> Result<Milling, CuttingError> {
         let most_depth = MOST_DEPTH_IN_DIAMETERS * cutter.diameter();
-        within(
+        checked(
             "axial depth of cut",
             cut.depth,
             [f64::MIN_POSITIVE, most_depth],
             "m",
         )?;
         let most_feed = MOST_FEED_IN_DIAMETERS * cutter.diameter();
-        within("feed per tooth", cut.feed, [0.0, most_feed], "m")?;
-        within("rise per tooth", cut.rise, [-most_feed, most_feed], "m")?;
+        checked("feed per tooth", cut.feed, [0.0, most_feed], "m")?;
+        checked("rise per tooth", cut.rise, [-most_feed, most_feed], "m")?;
         Ok(Milling {
             law: law.with_rake(cutter.rake()),
             cutter,
@@ -146,20 +137,18 @@ impl Milling {
         self.history(TAU, steps)
     }
 
-    /// The greatest force, sought at `steps` even steps of one period.
-    pub fn peak(&self, steps: u32) -> Peak {
-        let mut peak = Peak {
-            force: Vector3::zeros(),
-            components: Vector3::zeros(),
-        };
-        for force in self.history(self.period(), steps) {
-            if force.norm_squared() > peak.force.norm_squared() {
-                peak.force = force;
+    /// The force of greatest length (N, feed frame), sought at `steps` even steps of one period.
+    pub fn peak(&self, steps: u32) -> Vector3<f64> {
+        let longer = |longest: Vector3<f64>, force: Vector3<f64>| {
+            if force.norm_squared() > longest.norm_squared() {
+                force
+            } else {
+                longest
             }
-            let greater = |was: f64, is: f64| if is.abs() > was.abs() { is } else { was };
-            peak.components = peak.components.zip_map(&force, greater);
-        }
-        peak
+        };
+        self.history(self.period(), steps)
+            .into_iter()
+            .fold(Vector3::zeros(), longer)
     }
 
     fn history(&self, turn: f64, steps: u32) -> Vec<Vector3<f64>> {
@@ -210,7 +199,7 @@ impl Milling {
     }
 
     /// Where the cylinder cuts; `None` if the strip lies beside it.
-    fn arc_of_cylinder(&self) -> Option<Arc> {
+    fn arc_of_cylinder(&self) -> Option<EngagedArc> {
         self.cut.engagement.arc_at(self.cutter.radius())
     }
 
@@ -246,7 +235,7 @@ impl Milling {
     }
 
     /// The integral along a flat end mill: with `dz = depth/lag dphi` it runs over the angles that the edge covers.
-    fn closed_force(&self, law: &Mechanistic, arc: Arc, angle: f64) -> Vector3<f64> {
+    fn closed_force(&self, law: &Mechanistic, arc: EngagedArc, angle: f64) -> Vector3<f64> {
         let depth = self.cut.depth;
         let point = self.cutter.at_height(0.0);
         let lag = self.cutter.lag(depth);
@@ -264,7 +253,7 @@ impl Milling {
             let (low, high) = (tip.min(tip - lag), tip.max(tip - lag));
             let mut turn = TAU * ((low - arc.exit) / TAU).ceil();
             while arc.entry + turn < high {
-                let covered = Arc {
+                let covered = EngagedArc {
                     entry: low - turn,
                     exit: high - turn,
                 };

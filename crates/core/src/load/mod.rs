@@ -3,8 +3,9 @@
 //! [`cases`]: a set of given wrenches, the same at every point. [`along`]: wrenches that turn with the feed, or change
 //! from point to point. [`doubt`]: how sure they are.
 //!
-//! What a cut pushes with: [`cutter`] (the edge), [`engagement`] and [`arc`] (where and how thick it cuts),
-//! [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one material), [`milling`] (force at an angle of the spindle
+//! What a cut pushes with: [`end_mill_body`] and [`cutter`] (the edge on it), [`engagement`] and [`arc`] (where and how
+//! thick it cuts), [`mechanistic`] and [`kienzle`] (force of a chip; [`law`] is either, [`sets`] several of one material),
+//! [`milling`] (force at an angle of the spindle
 //! and over a revolution), [`mean`] (its mean, and how sure it is), [`drilling`], [`process`] (all of it for a tool on
 //! its way), [`straying`] (the force on a tool that it pushes off its path).
 //!
@@ -18,6 +19,7 @@ pub mod cases;
 pub mod cutter;
 pub mod doubt;
 pub mod drilling;
+pub mod end_mill_body;
 pub mod engagement;
 pub mod error;
 pub mod kienzle;
@@ -32,17 +34,18 @@ pub mod straying;
 
 mod quadrature;
 
-pub use along::{CutHere, CutsAlong, PathLoad};
+pub use along::{CutHere, CutsAlong, Greatest, PathLoad};
 pub use cases::{LoadCases, LoadFrame};
 pub use cutter::{Cutter, Hand, Runout};
 pub use doubt::Doubt;
+pub use end_mill_body::EndMillBody;
 pub use engagement::{Engagement, Immersion};
 pub use error::CuttingError;
 pub use kienzle::{Estimate, Kienzle, KienzleValues};
 pub use law::CuttingLaw;
 pub use mean::MeanForce;
 pub use mechanistic::Mechanistic;
-pub use milling::{Cut, Milling, Peak};
+pub use milling::{Cut, Milling};
 pub use process::{Advance, CuttingForce, Process};
 pub use record::{ActsOn, Record, RecordError};
 pub use sets::Together;

@@ -14,14 +14,14 @@
 //! not modelled; a straight plunge of a drill is [`super::drilling`]. The force acts at the TCP; the moment that the
 //! spindle's torque makes, and the lever of the depth of cut, are left out.
 
-use nalgebra::{Matrix3, Unit, Vector3};
+use nalgebra::{Unit, Vector3};
 
 use super::cutter::Cutter;
 use super::engagement::{Engagement, feed_per_tooth};
 use super::error::CuttingError;
 use super::law::CuttingLaw;
 use super::mean::MeanForce;
-use super::milling::{Cut, Milling, Peak};
+use super::milling::{Cut, Milling};
 
 /// What mills, and how. Not checked before it is asked for a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,12 +56,10 @@ pub enum Advance {
 /// Force on the tool, feed frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CuttingForce {
-    /// Mean over a revolution, N.
-    pub mean: Vector3<f64>,
-    /// Greatest of a revolution.
-    pub peak: Peak,
-    /// Covariance of the mean, N².
-    pub covariance: Matrix3<f64>,
+    /// Mean over a revolution.
+    pub mean: MeanForce,
+    /// Greatest of a revolution, N.
+    pub peak: Vector3<f64>,
 }
 
 /// Steepest dive, rad.
@@ -113,25 +111,15 @@ impl Process {
         }
     }
 
-    /// The mean force alone: closed, for every point of a path.
-    ///
-    /// # Errors
-    /// As [`Process::milling`].
-    pub fn mean(&self, advance: Advance) -> Result<MeanForce, CuttingError> {
-        Ok(self.milling(advance)?.mean())
-    }
-
     /// Mean and peak.
     ///
     /// # Errors
     /// As [`Process::milling`].
     pub fn force(&self, advance: Advance) -> Result<CuttingForce, CuttingError> {
         let milling = self.milling(advance)?;
-        let mean = milling.mean();
         Ok(CuttingForce {
-            mean: mean.force,
+            mean: milling.mean(),
             peak: milling.peak(PEAK_STEPS),
-            covariance: mean.covariance,
         })
     }
 }

@@ -19,7 +19,7 @@
 //! `s` is sought by Broyden's method, from where the tool rested a point before: on a path one or two forces a point are
 //! enough. Where the tool rests is told to 1e-5 of the deviation. It does not rest where straying into the part
 //! pushes it farther in than it strayed: `s` then lies opposite to where the force of the drawn path pushes, no cut
-//! begins so, and [`Rest::settled`] says no.
+//! begins so: [`Rest::DrawnIn`].
 //!
 //! Source: quasi-static equilibrium of tool and cut; Broyden, A class of methods for solving nonlinear simultaneous
 //! equations, Mathematics of Computation 19, 1965 \[recalled\]; `docs/theory/cutting.md`.
@@ -55,13 +55,13 @@ impl TipYield {
     }
 }
 
-/// Where tool and cut rest.
+/// Whether tool and cut rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rest {
-    /// Mean force on the tool, N, feed frame.
-    pub force: Vector3<f64>,
-    /// Whether they rest; if not, the force is that of the path as drawn.
-    pub settled: bool,
+pub enum Rest {
+    /// They do, under this mean force on the tool; N, feed frame.
+    Settled(Vector3<f64>),
+    /// They do not: the cut draws the tool in.
+    DrawnIn,
 }
 
 /// Finds where tool and cut rest, point after point.
@@ -123,14 +123,11 @@ impl Straying {
             if let Some(force) = self.search(cut, tip)
                 && self.strayed.dot(&stiff) >= 0.0
             {
-                return Rest { force, settled: true };
+                return Rest::Settled(force);
             }
         }
         (self.strayed, self.slope) = (Vector2::zeros(), Matrix2::identity());
-        Rest {
-            force: drawn,
-            settled: false,
-        }
+        Rest::DrawnIn
     }
 
     /// The mean force (N, feed frame) of `cut` on a tool that does not stray; `None` where there is no such cut.

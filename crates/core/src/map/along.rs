@@ -8,7 +8,7 @@
 
 use super::turns;
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
-use crate::load::{CutsAlong, PathLoad, Straying, TipYield};
+use crate::load::{CutsAlong, PathLoad, Rest, Straying, TipYield};
 use crate::path::Track;
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
@@ -51,12 +51,16 @@ pub struct Rested {
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If `load` does not [cover](PathLoad::covers) the points of the track.
 pub fn along_path(
     question: &Question<'_>,
     track: &Track,
     load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<AlongPath, Cancelled> {
+    assert!(load.covers(track.len()), "a load for each point of the track");
     let mut cases = vec![Wrench::ZERO; load.case_count()];
     let asked = Question {
         cases: &cases,
@@ -133,11 +137,12 @@ impl Resting<'_> {
             }
             if let Some(cut) = here.cut {
                 self.straying.hold(self.cuts.cutters[here.cutter]);
-                let rest = self.straying.rest(&cut, here.mean, &tip);
-                [here.mean, here.greatest] = here.under(rest.force);
-                if !rest.settled {
-                    self.rested.unsettled += 1;
-                    self.rested.first_unsettled.get_or_insert(index);
+                match self.straying.rest(&cut, here.mean, &tip) {
+                    Rest::Settled(force) => [here.mean, here.greatest] = here.under(force),
+                    Rest::DrawnIn => {
+                        self.rested.unsettled += 1;
+                        self.rested.first_unsettled.get_or_insert(index);
+                    }
                 }
             }
         }

@@ -12,9 +12,8 @@
 //! | `P` | takes away what lies along the tool | - |
 //! | `F` | force of the cut at rest ([`crate::load::straying`]) | N |
 //!
-//! The smallest value at which the deviation first exceeds `e` counts, found by a scan from thin to thick and halving
-//! between: with a weight that pulls one way, or a wide cut that pushes back, deviation need not grow all the way.
-//! Where the greatest force is a load case it counts too, as many times the mean as in the cut drawn.
+//! A force is asked for by itself: `g` does not count. A cut is asked for on the arm as it stands, with `g`
+//! (`varied`).
 //!
 //! Asked at points spread over the path, and where the deviation is largest; a limit of the whole path is the least of
 //! theirs. Under a model in which the load changes the arm there are no limits here.
@@ -22,55 +21,38 @@
 use nalgebra::Vector3;
 
 use super::along::AlongPath;
+use super::depth_by_feed::DepthByFeed;
+use super::varied::Varied;
+pub use super::varied::{CutLimits, Permitted};
 use crate::compliance::{permissible_force, permissible_force_in_worst_direction};
 use crate::kernel::Question;
-use crate::load::{Cut, CutHere, CutsAlong, PathLoad, Straying, TipYield};
+use crate::load::{CutsAlong, PathLoad, TipYield};
 use crate::path::Track;
 use crate::source::Standing;
 use crate::watch::{Cancelled, Watch};
-
-/// What a point permits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Permitted {
-    /// This much.
-    UpTo(f64),
-    /// All that was asked for, up to this.
-    AtLeast(f64),
-    /// Nothing: the deviation is too large however little is asked for.
-    Nothing,
-}
 
 /// What a point of a program permits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointLimits {
     /// Which point.
     pub index: usize,
-    /// Force along the feed, to its left, along the tool, and in the direction that permits least; N.
-    pub forces: [f64; 4],
+    /// Force beside all else that pushes.
+    pub forces: PermittedForces,
     /// What the cut may be; `None` where nothing is cut, or no cut is known.
     pub cut: Option<CutLimits>,
 }
 
-/// What the cut at a point may be, each with all else as drawn.
+/// Force (N) that a point permits: under it alone, the weight of the arm left out, the tip deviates by the limit in plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CutLimits {
-    /// Axial depth, m.
-    pub depth: Permitted,
-    /// Radial depth, m; `None` of a slot, whose width is the tool's.
-    pub width: Option<Permitted>,
-    /// Feed per tooth, m.
-    pub feed_per_tooth: Permitted,
-}
-
-/// Largest deviation of a path over depth and feed.
-#[derive(Clone, Debug, PartialEq)]
-pub struct DepthByFeed {
-    /// Axial depths, m.
-    pub depths: Vec<f64>,
-    /// Feeds per tooth, m.
-    pub feeds_per_tooth: Vec<f64>,
-    /// Largest in-plane deviation of the points that decide, m; one row a depth. Infinite where a tool is drawn in.
-    pub deviations: Vec<f64>,
+pub struct PermittedForces {
+    /// Along the feed.
+    pub along: f64,
+    /// To its left.
+    pub across: f64,
+    /// Along the tool.
+    pub normal: f64,
+    /// In the direction that permits least.
+    pub weakest: f64,
 }
 
 /// What a program permits.
@@ -79,26 +61,11 @@ pub struct ProgramLimits {
     /// At each point asked, in their order along the path.
     pub points: Vec<PointLimits>,
     /// Depth by feed, all else as drawn; `None` without a cut.
-    pub sheet: Option<DepthByFeed>,
+    pub depth_by_feed: Option<DepthByFeed>,
 }
 
 /// Points asked at most, beside the worst.
-const SPREAD: usize = 300;
-/// Deepest cut that is looked at, in diameters: end mills have flutes of some three.
-const MOST_DEPTH: f64 = 3.0;
-/// Thickest feed per tooth that is looked at, in diameters: no end mill takes more.
-const MOST_FEED: f64 = 0.05;
-/// Depths, widths or feeds of a scan, each this many times the one before.
-const SCAN: usize = 14;
-const SCAN_RATIO: f64 = 1.7;
-/// Times that the stretch found is halved: to a thousandth of itself.
-const HALVINGS: usize = 10;
-/// Depths and feeds of the sheet.
-const SHEET: usize = 24;
-/// Points that decide on the sheet: as many that permit the least depth, and as many that permit the least feed.
-const DECIDING: usize = 6;
-/// The sheet reaches to this many times what is drawn or permitted, whichever is more.
-const BEYOND: f64 = 1.6;
+const POINTS_ASKED: usize = 300;
 
 /// What `found`, the answer along `track` to `question`, permits for `limit` (m); `None` where the load changes the arm.
 ///
@@ -129,18 +96,30 @@ pub fn program_limits(
             return Err(Cancelled);
         }
         let Some(tip) = tips.at(index) else { continue };
+        let [along, across, normal, weakest] = forces(&tip, limit);
         let here = cuts.map(|cuts| Varied::of(cuts, index, tip, limit));
         points.push(PointLimits {
             index,
-            forces: forces(&tip, limit),
+            forces: PermittedForces {
+                along,
+                across,
+                normal,
+                weakest,
+            },
             cut: here.flatten().map(|mut here| here.limits()),
         });
     }
-    let sheet = match cuts {
-        Some(cuts) => sheet(cuts, &mut tips, &points, limit, watch)?,
+    let depth_by_feed = match cuts {
+        Some(cuts) => {
+            let cut_at = |index| Varied::of(cuts, index, tips.at(index)?, limit);
+            DepthByFeed::of(&points, cut_at, watch)?
+        }
         None => None,
     };
-    Ok(Some(ProgramLimits { points, sheet }))
+    Ok(Some(ProgramLimits {
+        points,
+        depth_by_feed,
+    }))
 }
 
 impl ProgramLimits {
@@ -159,16 +138,6 @@ impl ProgramLimits {
     }
 }
 
-impl Permitted {
-    /// As a number: what is permitted at least.
-    pub fn value(self) -> f64 {
-        match self {
-            Permitted::UpTo(value) | Permitted::AtLeast(value) => value,
-            Permitted::Nothing => 0.0,
-        }
-    }
-}
-
 /// Points spread over those that are reached and cut something, with the worst of all.
 fn asked(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
     let cuts_there = |i: usize| cuts.is_none_or(|cuts| cuts.points[i].cut.is_some());
@@ -178,7 +147,7 @@ fn asked(found: &AlongPath, cuts: Option<&CutsAlong>) -> Vec<usize> {
         .map(|(i, _)| i)
         .filter(|i| cuts_there(*i))
         .collect();
-    let stride = open.len().div_ceil(SPREAD).max(1);
+    let stride = open.len().div_ceil(POINTS_ASKED).max(1);
     let mut asked: Vec<usize> = open.iter().step_by(stride).copied().collect();
     asked.extend(
         found
@@ -217,170 +186,79 @@ fn forces(tip: &TipYield, limit: f64) -> [f64; 4] {
     [forwards, left, along, any]
 }
 
-/// The cut at a point, to be made deeper, wider or faster.
-struct Varied {
-    straying: Straying,
-    cutter_radius: f64,
-    cut: Cut,
-    here: CutHere,
-    with_greatest: bool,
-    tip: TipYield,
-    limit: f64,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::varied::Permitted::{AtLeast, Nothing, UpTo};
+    use nalgebra::{Matrix3, Rotation3};
 
-impl Varied {
-    fn of(cuts: &CutsAlong, index: usize, tip: TipYield, limit: f64) -> Option<Varied> {
-        let here = cuts.points[index];
-        let cutter = cuts.cutters[here.cutter];
-        Some(Varied {
-            straying: Straying::new(cutter, cuts.law),
-            cutter_radius: cutter.radius(),
-            cut: here.cut?,
-            here,
-            with_greatest: cuts.with_greatest,
-            tip,
-            limit,
-        })
+    #[test]
+    fn the_weakest_direction_is_that_of_the_largest_singular_value_across_the_tool() {
+        let a = Matrix3::new(4.0, 1.0, -0.5, 0.3, 2.0, 1.5, 9.0, -7.0, 8.0) * 1e-7;
+        let tip = TipYield {
+            by_force: a,
+            unloaded: Vector3::new(1.0, 2.0, 3.0),
+        };
+        let limit = 20e-6;
+        let [along, across, normal, weakest] = forces(&tip, limit);
+        let deviates = |force: Vector3<f64>| (a * force).xy().norm();
+        for (axis, permitted) in [along, across, normal].into_iter().enumerate() {
+            let deviation = deviates(Vector3::ith(axis, permitted));
+            assert!((deviation / limit - 1.0).abs() < 1e-14, "{axis}: {deviation}");
+        }
+        // Directions half a degree apart about a ball: the softest is met to the square of that.
+        let mut softest = 0.0_f64;
+        for turn in 0..360 {
+            for rise in 0..=180 {
+                let (turn, rise) = (f64::from(turn).to_radians(), f64::from(rise).to_radians());
+                let direction = Rotation3::from_euler_angles(0.0, rise, turn) * Vector3::z();
+                softest = softest.max(deviates(direction));
+            }
+        }
+        assert!(weakest * softest <= limit * (1.0 + 1e-12));
+        assert!(weakest * softest > limit * (1.0 - 1e-3));
     }
 
-    fn limits(&mut self) -> CutLimits {
-        let (cut, radius) = (self.cut, self.cutter_radius);
-        let diameter = 2.0 * radius;
-        let feed = cut.feed.hypot(cut.rise);
-        CutLimits {
-            depth: self.permitted(MOST_DEPTH * diameter, |depth| Some(Cut { depth, ..cut })),
-            width: (cut.engagement.width() < diameter).then(|| {
-                self.permitted(diameter, |width| {
-                    let engagement = cut.engagement.of_width(width, radius)?;
-                    Some(Cut { engagement, ..cut })
-                })
+    #[test]
+    fn a_tip_that_yields_only_along_the_tool_permits_any_force() {
+        let tip = TipYield {
+            by_force: Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, 1e-6)),
+            unloaded: Vector3::zeros(),
+        };
+        assert_eq!(forces(&tip, 1e-5), [f64::INFINITY; 4]);
+    }
+
+    #[test]
+    fn the_least_of_a_program_is_the_least_of_its_points_and_nothing_is_less_than_all() {
+        let forces = PermittedForces {
+            along: 1.0,
+            across: 1.0,
+            normal: 1.0,
+            weakest: 1.0,
+        };
+        let point = |(index, depth): (usize, Option<Permitted>)| PointLimits {
+            index,
+            forces,
+            cut: depth.map(|depth| CutLimits {
+                depth,
+                width: None,
+                feed_per_tooth: AtLeast(1.0),
             }),
-            feed_per_tooth: self.permitted(MOST_FEED * diameter, |thick| Some(fed(&cut, thick / feed))),
-        }
-    }
-
-    /// The value up to `most` at which the deviation first exceeds the limit.
-    fn permitted(&mut self, most: f64, cut: impl Fn(f64) -> Option<Cut>) -> Permitted {
-        let mut holds = |value: f64| {
-            let cut = cut(value);
-            cut.is_none_or(|cut| self.deviation(&cut) <= self.limit)
         };
-        let (mut low, mut high) = (0.0, most * SCAN_RATIO.powi(1 - SCAN as i32));
-        loop {
-            if !holds(high) {
-                break;
-            }
-            if high >= most {
-                return Permitted::AtLeast(most);
-            }
-            (low, high) = (high, (high * SCAN_RATIO).min(most));
-        }
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (low + high);
-            if holds(middle) {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        if low > 0.0 {
-            Permitted::UpTo(low)
-        } else {
-            Permitted::Nothing
-        }
-    }
-
-    /// In-plane deviation under `cut` (m); infinite where the tool is drawn in or there is no such cut.
-    fn deviation(&mut self, cut: &Cut) -> f64 {
-        let Some(drawn) = self.straying.drawn(cut) else {
-            return f64::INFINITY;
+        let of = |depths: &[Option<Permitted>]| ProgramLimits {
+            points: depths.iter().copied().enumerate().map(point).collect(),
+            depth_by_feed: None,
         };
-        let rest = self.straying.rest(cut, drawn, &self.tip);
-        if !rest.settled {
-            return f64::INFINITY;
-        }
-        let [mean, greatest] = self.here.under(rest.force);
-        let in_plane = |force| self.tip.under(force).xy().norm();
-        if self.with_greatest {
-            in_plane(mean).max(in_plane(greatest))
-        } else {
-            in_plane(mean)
-        }
+        let least = |limits: &ProgramLimits| {
+            let found = limits.least(|cut| Some(cut.depth));
+            found.map(|(point, permitted)| (point.index, permitted))
+        };
+        let some = of(&[Some(AtLeast(3.0)), None, Some(UpTo(0.5)), Some(UpTo(0.4))]);
+        assert_eq!(least(&some), Some((3, UpTo(0.4))));
+        // No slot has a width to be least.
+        assert!(some.least(|cut| cut.width).is_none());
+        let with_none = of(&[Some(UpTo(0.4)), Some(Nothing)]);
+        assert_eq!(least(&with_none), Some((1, Nothing)));
+        assert_eq!(least(&of(&[None, None])), None);
     }
-}
-
-/// The same cut at `times` its feed.
-fn fed(cut: &Cut, times: f64) -> Cut {
-    Cut {
-        feed: cut.feed * times,
-        rise: cut.rise * times,
-        ..*cut
-    }
-}
-
-/// Deviation over depth and feed at the points that permit least.
-fn sheet(
-    cuts: &CutsAlong,
-    tips: &mut Tips<'_>,
-    points: &[PointLimits],
-    limit: f64,
-    watch: Watch<'_>,
-) -> Result<Option<DepthByFeed>, Cancelled> {
-    let by = |part: fn(&CutLimits) -> Permitted| {
-        let mut found: Vec<(f64, usize)> = points
-            .iter()
-            .filter_map(|point| point.cut.map(|cut| (part(&cut).value(), point.index)))
-            .collect();
-        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        found.truncate(DECIDING);
-        found
-    };
-    let (by_depth, by_feed) = (by(|cut| cut.depth), by(|cut| cut.feed_per_tooth));
-    let (Some((least_depth, _)), Some((least_feed, _))) = (by_depth.first(), by_feed.first()) else {
-        return Ok(None);
-    };
-    let mut indices: Vec<usize> = by_depth.iter().chain(&by_feed).map(|(_, index)| *index).collect();
-    indices.sort_unstable();
-    indices.dedup();
-    let mut deciding = Vec::new();
-    for index in indices {
-        deciding.extend(tips.at(index).and_then(|tip| Varied::of(cuts, index, tip, limit)));
-    }
-    let drawn = |of: fn(&Cut) -> f64| deciding.iter().map(|here| of(&here.cut)).fold(0.0, f64::max);
-    let diameter = 2.0 * deciding.iter().map(|here| here.cutter_radius).fold(0.0, f64::max);
-    let reach = |drawn: f64, least: f64, most: f64| (BEYOND * drawn.max(least)).min(most);
-    let steps = |most: f64| {
-        (1..=SHEET)
-            .map(|k| most * k as f64 / SHEET as f64)
-            .collect::<Vec<f64>>()
-    };
-    let depths = steps(reach(drawn(|cut| cut.depth), *least_depth, MOST_DEPTH * diameter));
-    let most_feed = reach(
-        drawn(|cut| cut.feed.hypot(cut.rise)),
-        *least_feed,
-        MOST_FEED * diameter,
-    );
-    let feeds_per_tooth = steps(most_feed);
-    let mut deviations = Vec::with_capacity(depths.len() * feeds_per_tooth.len());
-    for depth in &depths {
-        if watch.is_cancelled() {
-            return Err(Cancelled);
-        }
-        for feed in &feeds_per_tooth {
-            let of = |here: &mut Varied| {
-                let cut = Cut {
-                    depth: *depth,
-                    ..here.cut
-                };
-                let drawn = cut.feed.hypot(cut.rise);
-                here.deviation(&fed(&cut, feed / drawn))
-            };
-            deviations.push(deciding.iter_mut().map(of).fold(0.0, f64::max));
-        }
-    }
-    Ok(Some(DepthByFeed {
-        depths,
-        feeds_per_tooth,
-        deviations,
-    }))
 }

@@ -1,13 +1,15 @@
 //! Where does the tolerance hold?
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle;
-//! `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which cut a path permits; [`region`]: the
-//! part within a limit, its area, boundary and what fits; [`certainty`]: how sure that is.
+//! `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
+//! (`varied`: one cut, varied), [`depth_by_feed`]: over both; [`region`]: the part within a limit, its area, boundary and
+//! what fits; [`certainty`]: how sure that is.
 //!
 //! `marching_squares`, `inscribed`: boundaries, and shapes inside them; `turns`: whole turns of joints along a path.
 
 pub mod along;
 pub mod certainty;
+pub mod depth_by_feed;
 mod inscribed;
 mod jumps;
 pub mod limits;
@@ -16,13 +18,15 @@ pub mod plane;
 pub mod radial;
 pub mod region;
 mod turns;
+mod varied;
 pub mod volume;
 mod worst;
 
 pub use along::{AlongPath, Rested, along_path};
 pub use certainty::{COVERAGE, Certainty, probability_within};
+pub use depth_by_feed::DepthByFeed;
 pub use jumps::{Jump, jumps};
-pub use limits::{CutLimits, DepthByFeed, Permitted, PointLimits, ProgramLimits, program_limits};
+pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use radial::{RadialDeviation, radial_deviations};
 pub use region::{Region, region_within};

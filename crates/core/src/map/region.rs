@@ -34,3 +34,56 @@ pub fn region_within(grid: &Grid, values: &[Option<f64>], limit: f64) -> Region 
         disc: largest_disc(grid, &within),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn what_fits_lies_within_the_region_and_is_never_larger() {
+        let grid = Grid::within([0.5, 0.4], 0.01);
+        let field = |p: Point2<f64>| (p.x * 1.1 - 0.1).hypot(p.y) + 0.1 * (7.0 * p.x).sin();
+        let values: Vec<_> = (0..grid.len()).map(|i| Some(field(grid.point(i)))).collect();
+        let region = region_within(&grid, &values, 0.3);
+        let (rectangle, disc) = (region.rectangle.unwrap(), region.disc.unwrap());
+        assert!(rectangle.area() < region.area && PI * disc.radius.powi(2) < region.area);
+        assert!(rectangle.area() > 0.5 * region.area);
+        for k in 0..100 {
+            let (sin, cos) = (f64::from(k) * PI / 50.0).sin_cos();
+            let rim = disc.centre + nalgebra::Vector2::new(cos, sin) * disc.radius;
+            assert!(field(rim) <= 0.3, "{rim}");
+            let part = f64::from(k) / 99.0;
+            for corner in [
+                Point2::new(rectangle.lower.x, rectangle.lower.y),
+                Point2::new(rectangle.upper.x, rectangle.lower.y),
+                Point2::new(rectangle.lower.x, rectangle.upper.y),
+                Point2::new(rectangle.upper.x, rectangle.upper.y),
+            ] {
+                let at = disc.centre + (corner - disc.centre) * part;
+                assert!(field(corner) <= 0.3, "{at}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_higher_limit_never_makes_a_smaller_region_and_an_unreached_point_never_a_larger_one() {
+        let grid = Grid::within([0.3, 0.3], 0.05);
+        let values: Vec<_> = (0..grid.len()).map(|i| Some(((i * 7919) % 101) as f64)).collect();
+        let mut before = region_within(&grid, &values, -1.0);
+        assert_eq!((before.area, before.rectangle, before.disc), (0.0, None, None));
+        for limit in [10.0, 40.0, 70.0, 90.0, 101.0] {
+            let region = region_within(&grid, &values, limit);
+            let size = |region: &Region| region.rectangle.map_or(0.0, |found| found.area());
+            assert!(
+                region.area >= before.area && size(&region) >= size(&before),
+                "{limit}"
+            );
+            let mut holed = values.clone();
+            holed[40] = None;
+            assert!(region_within(&grid, &holed, limit).area <= region.area);
+            before = region;
+        }
+        assert!((before.area - 0.36).abs() < 1e-12);
+    }
+}

@@ -119,4 +119,20 @@ mod tests {
         }
         assert_eq!(grid.corner(), grid.point(0));
     }
+
+    #[test]
+    fn every_point_of_a_box_lies_in_it_and_none_twice() {
+        let (centre, half, step) = (Point3::new(0.9, -0.2, 0.4), [0.21, 0.1, 0.34], 0.1);
+        let grid = BoxGrid::within(&Isometry::translation(centre.x, centre.y, centre.z), half, step);
+        assert_eq!((grid.len(), grid.is_empty()), (5 * 3 * 7, false));
+        let points: Vec<_> = (0..grid.len()).map(|i| grid.point(i)).collect();
+        for (index, point) in points.iter().enumerate() {
+            let off = point - centre;
+            assert!((0..3).all(|k| off[k].abs() <= half[k] + 1e-12), "{point}");
+            let nearest = points[..index].iter().map(|other| (other - point).norm());
+            assert!(nearest.fold(f64::INFINITY, f64::min) > 0.99 * step);
+        }
+        let middle: Vector3<f64> = points.iter().map(|point| point.coords).sum::<Vector3<f64>>();
+        assert!((middle / points.len() as f64 - centre.coords).norm() < 1e-14);
+    }
 }

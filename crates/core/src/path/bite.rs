@@ -1,68 +1,41 @@
 //! What the cutter bites into: where round it the teeth meet material, how deep, how wide.
 //!
-//! Seen from the spindle, x along the feed and y to its left, the immersion angle `phi` counts clockwise from +y: 0 on
-//! the left, 90 deg straight ahead, 180 deg on the right. Teeth of a spindle that turns clockwise pass it in this order,
-//! and their chip is `c sin(phi)` thick. At the radius `rho` a place `y` to the left is passed at
+//! The strip of material ahead is told as [`Engagement`] has it; its page has the angles.
 //!
-//! ```text
-//! cos(phi) = y / rho,    entry = acos(left / rho),    exit = acos(right / rho),    ae = left - right
-//! ```
-//!
-//! | symbol | meaning | unit |
-//! |---|---|---|
-//! | `phi` | immersion angle | rad |
-//! | `left`, `right` | edges of the strip of material ahead, to the left of the tool axis | m |
-//! | `rho` | radius of the cutter where its highest engaged point is; `R` of a flat one | m |
-//! | `ae`, `ap` | radial and axial depth | m |
-//! | `c` | feed per tooth | m |
-//!
-//! How the strip is found. The cutter is a stack of discs: one of a flat end mill, a few up to the height of the
-//! material of any other. The front of a disc at its last two pitches of the step passes over new cells between two
-//! arcs; each of them says whether material stands there above the disc, at its own distance `y` from the axis. A strip
-//! without a cell takes after its neighbours; the outermost reach to the edge of the disc. So a pass along a wall that
-//! is cut already finds nothing, and a slot is full from 0 to 180 deg.
-//!
-//! Edges of the strip are right to half a pitch and the width of a strip, a quarter of a pitch; straight ahead that is an
-//! angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two pitches sees
-//! material up to two pitches early. Of a longer one the bite is that of its end; what it met on the way is in its
-//! volume alone. A radial depth below a pitch may pass unseen, and on a ramp down what two pitches of it fall by. The
-//! feed is the chord of a step of two pitches or more, else the direction of the point: round a bend of radius `r` short
-//! steps see up to `2 pitch^2/r` of a wall that is cut already.
-//!
-//! Not modelled: the bottom of the cutter on a dive (but in the volume), teeth behind the axis, runout, trochoids. For
-//! a spindle that turns counterclockwise `phi` becomes `180 deg - phi`: up-milling is down-milling.
-//!
-//! Source: immersion angles as in Altintas, Manufacturing Automation, chapter 2 \[recalled\]; the strip from new cells
-//! is ours \[derived\].
+//! Not modelled: the bottom of the cutter on a dive (but in the volume), teeth behind the axis, runout, trochoids. What a
+//! step longer than two pitches met on its way is in its volume alone. For a spindle that turns counterclockwise left is
+//! right: up-milling is down-milling.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use nalgebra::{Point3, Unit, Vector3};
 
-use nalgebra::{Point2, Point3, Vector2};
+use super::front::{Front, Heading, LEAST_HEIGHT, front};
+use super::stock::{Stock, StockError, checked_place};
+use crate::load::{EndMillBody, Engagement};
 
-use super::cutter_profile::CutterProfile;
-use super::sampler::PathPoint;
-use super::stock::Stock;
+/// A straight step of a cut: a rapid would cut as well.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pass {
+    /// Where the tip was before, m, frame of the path; `to` itself where a cut begins.
+    pub from: Point3<f64>,
+    /// Where it goes, m.
+    pub to: Point3<f64>,
+    /// Where it is going when it arrives.
+    pub direction: Unit<Vector3<f64>>,
+    /// The tool, from the tip towards the spindle.
+    pub axis: Unit<Vector3<f64>>,
+}
 
-/// How the cutter meets the material, for a spindle that turns clockwise.
+/// How the cutter meets the material.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BiteKind {
     /// Nothing ahead.
     Air,
     /// Material on one side, or a strip narrower than the cutter.
-    Side(Milling),
+    Strip,
     /// Material over the whole width of the cutter, to a pitch.
     Slot,
     /// Down, steeper than along: the bottom cuts all round.
     Plunge,
-}
-
-/// On which side the middle of the material is, and so how chips begin.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Milling {
-    /// Left of the feed, or evenly on both sides: chips begin thin.
-    Up,
-    /// Right of the feed: chips end thin.
-    Down,
 }
 
 /// What the cutter bites into at a point.
@@ -70,373 +43,62 @@ pub enum Milling {
 pub struct Bite {
     /// How it meets the material.
     pub kind: BiteKind,
-    /// Immersion angle where teeth enter, rad; 0 in the air and of a plunge.
-    pub entry: f64,
-    /// Immersion angle where they leave, rad; 0 in the air, a full turn of a plunge.
-    pub exit: f64,
-    /// Separate arcs of engagement: entry and exit are those of the longest, the depths too.
-    pub arcs: usize,
-    /// Depth along the tool axis where it is largest, m; of a plunge what the step takes off where it takes most.
-    pub axial_depth: f64,
-    /// Left edge of the strip of material, m to the left of the tool axis; 0 in the air.
-    pub left: f64,
-    /// Right edge of the strip, m to the left of the tool axis, so negative on the right; 0 in the air.
+    /// The strip of material ahead, of several the one that is met over the longest arc; `None` in the air and of a plunge.
     ///
-    /// A part of the cutter of another radius `rho` than the widest, which `entry` and `exit` belong to, meets the strip
-    /// from `acos(left/rho)` to `acos(right/rho)`, the quotients clipped to -1 and 1.
-    pub right: f64,
-    /// Width of the strip of material across the feed, m: `left - right`.
-    pub radial_depth: f64,
+    /// What reaches the rim of the cutter at the height of the material goes on beyond it.
+    pub strip: Option<Engagement>,
+    /// Its width across the feed at the height of the material, m; of a plunge the diameter.
+    pub width: f64,
+    /// Depth along the tool axis where it is largest, m; of a plunge what the step takes off where it takes most.
+    pub depth: f64,
     /// Taken away by the step, m^3.
     pub volume: f64,
 }
 
-/// What a step has taken away.
-pub(super) struct Removal {
-    /// m^3
-    pub(super) volume: f64,
-    /// Most that a cell was lowered, m.
-    pub(super) depth: f64,
-}
-
-/// Where the tool arrives and how it goes there.
-pub(super) struct Heading {
-    at: Point3<f64>,
-    /// Of length one, seen from above; none where the tool goes straight down or up.
-    feed: Option<Vector2<f64>>,
-    /// From the point before, seen from above, m.
-    chord: Vector2<f64>,
-    /// Its length, m.
-    step: f64,
-    /// Rise per distance seen from above, negative where the tool goes down.
-    slope: f64,
-    dives: bool,
-}
-
-/// The strip of material in front of the cutter.
-pub(super) struct Front {
-    left: f64,
-    right: f64,
-    radius: f64,
-    depth: f64,
-    arcs: usize,
-    pitch: f64,
-}
-
-/// Pitches between the two arcs: less, and cells straight ahead could be missed; more, and corners are seen early.
-const WINDOW_PITCHES: f64 = 2.0;
-
-/// Strips a pitch.
-const STRIPS_A_PITCH: f64 = 4.0;
-
-/// Most strips: a cutter that has more of them than this gets wider ones.
-const MOST_STRIPS: f64 = 4096.0;
-
-/// Discs of a cutter with a rounded bottom, up to the height of the material: the widest is then within a twelfth of the
-/// radius that is engaged.
-const DISCS: usize = 6;
-
-/// Least height that counts as material, m: a micrometre, far below any chip, far above the rounding of heights.
-const LEAST_HEIGHT: f64 = 1e-6;
-
-/// Part of a radius that keeps rounding away from cells on the rim itself.
-const RIM: f64 = 1e-9;
-
-/// Below this part of its length the feed has no direction seen from above.
-const NO_FEED: f64 = 1e-6;
-
-impl Heading {
-    pub(super) fn of(before: Point3<f64>, point: &PathPoint) -> Heading {
-        let across = point.direction.xy();
-        let chord = (point.at - before).xy();
-        Heading {
-            at: point.at,
-            feed: across.try_normalize(NO_FEED),
-            chord,
-            step: chord.norm(),
-            slope: point.direction.z / across.norm().max(NO_FEED),
-            dives: -point.direction.z > across.norm(),
-        }
-    }
-
-    /// Whether the front of the cutter is what meets the material.
-    pub(super) fn looks_ahead(&self) -> bool {
-        self.feed.is_some() && !self.dives
-    }
-}
-
-/// The bite of a step from what was ahead and what it took away.
-pub(super) fn bite(
-    heading: &Heading,
-    front: Option<Front>,
-    removal: Removal,
-    cutter: &CutterProfile,
-) -> Bite {
-    let volume = removal.volume;
-    if heading.dives && removal.depth > LEAST_HEIGHT {
-        return Bite {
-            kind: BiteKind::Plunge,
-            entry: 0.0,
-            exit: TAU,
-            arcs: 1,
-            axial_depth: removal.depth,
-            left: cutter.radius(),
-            right: -cutter.radius(),
-            radial_depth: 2.0 * cutter.radius(),
-            volume,
-        };
-    }
-    let Some(front) = front else {
-        return Bite {
-            kind: BiteKind::Air,
-            entry: 0.0,
-            exit: 0.0,
-            arcs: 0,
-            axial_depth: 0.0,
-            left: 0.0,
-            right: 0.0,
-            radial_depth: 0.0,
-            volume,
-        };
-    };
-    let full = front.radius - front.pitch;
-    let kind = if front.left >= full && front.right <= -full {
-        BiteKind::Slot
-    } else if front.left + front.right >= 0.0 {
-        BiteKind::Side(Milling::Up)
-    } else {
-        BiteKind::Side(Milling::Down)
-    };
-    Bite {
-        kind,
-        entry: (front.left / front.radius).clamp(-1.0, 1.0).acos(),
-        exit: (front.right / front.radius).clamp(-1.0, 1.0).acos(),
-        arcs: front.arcs,
-        axial_depth: front.depth,
-        left: front.left,
-        right: front.right,
-        radial_depth: front.left - front.right,
-        volume,
-    }
-}
-
-/// One disc of the cutter.
-#[derive(Clone, Copy)]
-struct Disc {
-    radius: f64,
-    /// Of the part of the cutter that it stands for, m.
-    outer_radius: f64,
-    /// Path z of its bottom, m.
-    bottom: f64,
-    /// Path z where the part of the cutter that it stands for begins, m.
-    begins: f64,
-}
-
-/// What stands before a strip of the front: path z of the top of the material, m, or one of two values below any. So
-/// the greatest of what is seen in a strip is what counts.
-type Sight = f64;
-
-/// No material stands there.
-const AIR: Sight = f64::MIN;
-
-/// No cell of the strip is passed over anew.
-const UNSEEN: Sight = f64::NEG_INFINITY;
-
-/// A strip that is engaged.
-#[derive(Clone, Copy)]
-struct Strip {
-    top: f64,
-    begins: f64,
-    outer_radius: f64,
-}
+/// How far a tool may lean and pass for upright, rad: it lifts the rim of a cutter of 10 mm by 5 um.
+const UPRIGHT: f64 = 1e-3;
 
 impl Stock {
-    /// The widest strip of material ahead; `None` if there is none.
-    pub(super) fn front(&self, heading: &Heading, cutter: &CutterProfile) -> Option<Front> {
-        let (radius, pitch) = (cutter.radius(), self.pitch());
-        let told = heading.feed?;
-        // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
-        let follows = heading.step >= WINDOW_PITCHES * pitch;
-        let feed = if follows {
-            heading.chord / heading.step
-        } else {
-            told
+    /// What the cutter bites into on `pass`, which takes it away.
+    ///
+    /// # Errors
+    /// A tool that leans from the path's z, a number that is not finite; nothing is taken away then.
+    pub fn cut(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<Bite, StockError> {
+        checked_place("a point of the path", &pass.from)?;
+        checked_place("a point of the path", &pass.to)?;
+        if !pass.direction.iter().all(|value| value.is_finite()) {
+            return Err(StockError::NotFinite("a direction of the path"));
+        }
+        let lean = pass.axis.xy().norm().atan2(pass.axis.z);
+        if lean.is_nan() || lean > UPRIGHT {
+            let angle_deg = lean.to_degrees();
+            return Err(StockError::Tilted { angle_deg });
+        }
+        let heading = Heading::of(pass);
+        let ahead = front(self, &heading, cutter);
+        let removal = self.remove(pass.from, pass.to, cutter);
+        let (kind, strip, [width, depth]) = match ahead {
+            _ if heading.dives() && removal.depth > LEAST_HEIGHT => {
+                (BiteKind::Plunge, None, [cutter.diameter(), removal.depth])
+            }
+            None => (BiteKind::Air, None, [0.0; 2]),
+            Some(Front {
+                strip,
+                width,
+                depth,
+                is_slot,
+            }) => {
+                let kind = if is_slot { BiteKind::Slot } else { BiteKind::Strip };
+                (kind, Some(strip), [width, depth])
+            }
         };
-        let count = (2.0 * radius * STRIPS_A_PITCH / pitch)
-            .ceil()
-            .clamp(8.0, MOST_STRIPS);
-        let width = 2.0 * radius / count;
-        let mut strips: Vec<Option<Strip>> = vec![None; count as usize];
-        let mut sights = vec![UNSEEN; strips.len()];
-        for disc in self.discs(heading, cutter) {
-            // Beyond the disc its strips say nothing.
-            let beyond = ((radius - disc.outer_radius) / width).round() as usize;
-            let within = beyond..strips.len().saturating_sub(beyond);
-            let Some(strips) = strips.get_mut(within.clone()) else {
-                continue;
-            };
-            sights.fill(UNSEEN);
-            self.look(heading, feed, &disc, |y, sight| {
-                let index = ((y + radius) / width) as u32;
-                if let Some(seen) = sights.get_mut(index as usize) {
-                    *seen = if sight > *seen { sight } else { *seen };
-                }
-            });
-            let sights = &mut sights[within];
-            take_after_neighbours(sights);
-            for (strip, &mut top) in strips.iter_mut().zip(sights) {
-                if top > AIR {
-                    let lower = strip.get_or_insert(Strip {
-                        top,
-                        begins: disc.begins,
-                        outer_radius: disc.outer_radius,
-                    });
-                    lower.top = lower.top.max(top);
-                    lower.outer_radius = disc.outer_radius;
-                }
-            }
-        }
-        self.longest_arc(&strips, radius, width)
-    }
-
-    /// The discs that stand for a cutter among material as high as it is here, from the tip upwards.
-    fn discs(&self, heading: &Heading, cutter: &CutterProfile) -> Vec<Disc> {
-        // Of a climb, what is seen early is met by a tip that has risen until then. Of a ramp down, what the first arc
-        // has left beside the second is no material.
-        let window = WINDOW_PITCHES * self.pitch();
-        let early = (window - heading.step).max(0.0);
-        let tip = heading.at.z + heading.slope.max(0.0) * early;
-        let left = (-heading.slope).max(0.0) * heading.step.min(window);
-        let (radius, flat) = (cutter.radius(), cutter.flat_radius());
-        if flat == radius {
-            return vec![Disc {
-                radius,
-                outer_radius: radius,
-                bottom: tip + left,
-                begins: tip,
-            }];
-        }
-        let up = self.highest_about(heading.at.xy(), radius + window) - tip;
-        if up <= left + LEAST_HEIGHT {
-            return Vec::new();
-        }
-        let widest = cutter.radius_at(up);
-        let part = (widest - flat) / DISCS as f64;
-        let mut discs: Vec<Disc> = (0..DISCS)
-            .map(|k| {
-                let inner = flat + part * k as f64;
-                Disc {
-                    radius: inner + 0.5 * part,
-                    outer_radius: inner + part,
-                    bottom: tip + left + cutter.height(inner + 0.5 * part),
-                    begins: tip + cutter.height(inner),
-                }
-            })
-            .collect();
-        if up > cutter.corner_radius() {
-            let begins = tip + cutter.corner_radius();
-            discs.push(Disc {
-                radius,
-                outer_radius: radius,
-                bottom: begins + left,
-                begins,
-            });
-        }
-        discs
-    }
-
-    /// Tells `out` of the cells that the front of a disc passes over anew: how far left of the axis (m), and what
-    /// stands there above the disc.
-    fn look(&self, heading: &Heading, feed: Vector2<f64>, disc: &Disc, mut out: impl FnMut(f64, Sight)) {
-        let left = Vector2::new(-feed.y, feed.x);
-        let (pitch, radius) = (self.pitch(), disc.radius);
-        let window = WINDOW_PITCHES * pitch;
-        let first: Point2<f64> = heading.at.xy() - feed * heading.step.min(window);
-        let inside_squared = (radius * (1.0 - RIM)).powi(2);
-        // Two places a pitch along the arc, on two arcs between the first and the last.
-        let count = (2.0 * PI * radius / pitch).ceil().clamp(8.0, MOST_STRIPS);
-        let (turn_sin, turn_cos) = (PI / count).sin_cos();
-        let (mut sin, mut cos) = (FRAC_PI_2 / count).sin_cos();
-        for _ in 0..count as usize {
-            for part in [0.25, 0.75] {
-                let at = first + feed * (radius * sin + part * window) + left * (radius * cos);
-                // Beside the box the place itself tells of air.
-                let (centre, height) = self.cell_at(at).unwrap_or((at, 0.0));
-                let off = centre - first;
-                let (x, y) = (off.dot(&feed), off.dot(&left));
-                let ahead = if x > window { x - window } else { 0.0 };
-                // All of it at once: what a place comes to is hard to guess, and a wrong guess takes longer.
-                let passed_before = (x <= 0.0) | (x * x + y * y <= radius * radius);
-                if passed_before | (ahead * ahead + y * y >= inside_squared) {
-                    continue;
-                }
-                let height = f64::from(height);
-                let top = self.bottom() + height;
-                let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
-                out(y, if stands { top } else { AIR });
-            }
-            (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
-        }
-    }
-
-    /// The run of engaged strips that is longest round the cutter.
-    fn longest_arc(&self, strips: &[Option<Strip>], radius: f64, width: f64) -> Option<Front> {
-        let mut longest: Option<(f64, Front)> = None;
-        let mut arcs = 0;
-        let mut first = 0;
-        for run in strips.chunk_by(|one, next| one.is_some() == next.is_some()) {
-            let (begin, end) = (first, first + run.len());
-            first = end;
-            let engaged = || run.iter().flatten();
-            let rho = engaged().fold(0.0, |most: f64, strip| most.max(strip.outer_radius));
-            if rho <= 0.0 {
-                continue;
-            }
-            arcs += 1;
-            // The outermost strip of a disc reaches to its edge.
-            let edge = |strip: usize| {
-                let y = strip as f64 * width - radius;
-                if rho - y.abs() < width { rho.copysign(y) } else { y }
-            };
-            let (right, left) = (edge(begin), edge(end));
-            let arc = (right / rho).acos() - (left / rho).acos();
-            let depth = engaged().map(|strip| strip.top - strip.begins.max(self.bottom()));
-            let front = Front {
-                left,
-                right,
-                radius: rho,
-                depth: depth.fold(0.0, f64::max),
-                arcs: 0,
-                pitch: self.pitch(),
-            };
-            if longest.as_ref().is_none_or(|(most, _)| arc > *most) {
-                longest = Some((arc, front));
-            }
-        }
-        longest.map(|(_, front)| Front { arcs, ..front })
-    }
-}
-
-/// Strips without a cell see what the nearest strip sees that has one; the left one of two as near.
-fn take_after_neighbours(sights: &mut [Sight]) {
-    let mut known: Option<usize> = None;
-    for index in 0..=sights.len() {
-        let next = sights.get(index).copied();
-        if next == Some(UNSEEN) {
-            continue;
-        }
-        let before = known.map(|known| sights[known]);
-        let first = known.map_or(0, |known| known + 1);
-        let gap = index - first;
-        for (k, sight) in sights[first..index].iter_mut().enumerate() {
-            let nearer = if 2 * k < gap {
-                before.or(next)
-            } else {
-                next.or(before)
-            };
-            *sight = nearer.unwrap_or(UNSEEN);
-        }
-        known = Some(index);
+        Ok(Bite {
+            kind,
+            strip,
+            width,
+            depth,
+            volume: removal.volume,
+        })
     }
 }
 

@@ -99,7 +99,7 @@ impl Clock {
     /// nothing; no force in rapids.
     ///
     /// # Errors
-    /// Fewer than two samples; a force that is not finite.
+    /// Fewer than two samples, or more than are kept; a force that is not finite.
     pub fn record(
         &self,
         force: impl Fn(usize) -> Vector3<f64>,
@@ -109,7 +109,11 @@ impl Clock {
         let lead = (margin / step).ceil();
         // Counted as a number first: far too many must not overflow.
         let count = (self.duration() / step).ceil() + 2.0 * lead + 1.0;
-        if !(2.0..=MOST_SAMPLES).contains(&count) {
+        if count > MOST_SAMPLES {
+            let most = MOST_SAMPLES;
+            return Err(RecordError::TooManySamples { count, most });
+        }
+        if count.is_nan() || count < 2.0 {
             return Err(RecordError::TooShort(count.clamp(0.0, 1.0) as usize));
         }
         let instants: Vec<f64> = (0..count as usize).map(|k| (k as f64 - lead) * step).collect();
@@ -226,6 +230,30 @@ mod tests {
             let expected = if cutting { 1.0 + t } else { 0.0 };
             assert!((force.x - expected).abs() < 1e-9, "{t}: {force}");
         }
-        assert!(clock.record(|_| Vector3::x(), 1e-12, 0.0).is_err());
+    }
+
+    #[test]
+    fn a_record_of_too_many_or_too_few_samples_is_told_as_such() {
+        let clock = Clock::of(&path(), SPEEDS).unwrap();
+        let of_step = |step: f64| clock.record(|_| Vector3::x(), step, 0.0).unwrap_err();
+        for step in [1e-12, 1e-300] {
+            let error = of_step(step);
+            assert!(
+                matches!(error, RecordError::TooManySamples { .. }),
+                "{step}: {error}"
+            );
+        }
+        let told = of_step(1e-12).to_string();
+        assert_eq!(
+            told,
+            "a record of 4.1e12 instants is longer than the 5e7 that are kept: take longer steps"
+        );
+        assert_eq!(of_step(f64::INFINITY), RecordError::TooShort(1));
+        for step in [-1.0, 0.0, f64::NAN] {
+            assert_eq!(of_step(step), RecordError::TooShort(0), "{step}");
+        }
+        let endless = clock.record(|_| Vector3::x() * f64::INFINITY, 0.1, 0.5);
+        // Half a second of nothing first.
+        assert_eq!(endless, Err(RecordError::NotFinite(5)));
     }
 }

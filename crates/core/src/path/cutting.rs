@@ -14,14 +14,14 @@ use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::bite::{Bite, BiteKind};
-use super::cutter_profile::CutterProfile;
+use super::bite::{BiteKind, Pass};
 use super::placing::Placing;
 use super::program::{Operation, Pace};
 use super::sampler::PathPoint;
 use super::stock::{Stock, StockError};
 use crate::load::{
-    Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, Engagement, Immersion, Peak, Process,
+    Advance, CutHere, CutsAlong, Cutter, CuttingError, CuttingLaw, EndMillBody, Engagement, Greatest,
+    Immersion, Process,
 };
 use crate::watch::{Cancelled, Watch};
 
@@ -44,15 +44,6 @@ pub struct Cutting {
     pub greatest: Greatest,
 }
 
-/// What becomes of the greatest force of a revolution.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Greatest {
-    /// The mean alone is a load case.
-    LeftOut,
-    /// It is the second load case.
-    SecondCase,
-}
-
 /// Forces along a path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CuttingForces {
@@ -71,7 +62,7 @@ pub struct ForcesTold {
     pub greatest: f64,
     /// Standard uncertainty of the largest mean force over its size, from the law.
     pub relative_uncertainty: f64,
-    /// Points without a force: plunges, dives too steep, withdrawals.
+    /// Points without a force though something is cut: plunges, dives too steep, withdrawals, edges that pass beside it.
     pub without_force: usize,
     /// What the stock said; `None` where the engagement is the same everywhere.
     pub met: Option<Met>,
@@ -155,18 +146,9 @@ impl Cutting {
         stock: Option<&mut Stock>,
         watch: Watch<'_>,
     ) -> Result<CuttingForces, NoForces> {
+        let mut walk = Walk::new(self, placing, stock);
+        let mut operations = operations.iter().peekable();
         let mut cuts = Vec::with_capacity(points.len());
-        let mut told = ForcesTold {
-            met: stock.as_ref().map(|_| Met::default()),
-            ..ForcesTold::default()
-        };
-        let mut largest: Option<Process> = None;
-        let mut peaks = Peaks::default();
-        let mut stock = stock.map(|stock| InStock::of(stock, &self.cutter)).transpose()?;
-        let mut cutters = vec![self.cutter];
-        let mut cutter = 0;
-        let mut operation = operations.iter().peekable();
-        let mut of_operation = None;
         for (index, point) in points.iter().enumerate() {
             if index % POINTS_A_LOOK == 0 {
                 if watch.is_cancelled() {
@@ -174,82 +156,18 @@ impl Cutting {
                 }
                 (watch.finished)(POINTS_A_LOOK.min(points.len() - index));
             }
-            while let Some((_, next)) = operation.next_if(|(first, _)| *first <= index) {
-                of_operation = Some(next);
-                let held = self.held_in(next)?;
-                cutter = cutters
-                    .iter()
-                    .position(|known| *known == held)
-                    .unwrap_or(cutters.len());
-                if cutter == cutters.len() {
-                    cutters.push(held);
-                }
-                if let Some(stock) = &mut stock {
-                    stock.profile = profile_of(&held, next.line)?;
-                }
+            while let Some((_, next)) = operations.next_if(|(first, _)| *first <= index) {
+                walk.begin(next)?;
             }
-            let no_cut = |error| NoForces::Cut {
-                line: point.line,
-                error,
-            };
-            let mut process = self.process(cutters[cutter], of_operation, point)?;
-            let mut is_of_stock = false;
-            if let (Some(stock), Some(met)) = (&mut stock, &mut told.met) {
-                let before = index.checked_sub(1).map(|before| &points[before]);
-                match stock.meets(before, point, placing, met)? {
-                    Meets::AsTold => {}
-                    Meets::Nothing => {
-                        cuts.push(CutHere::NOTHING);
-                        continue;
-                    }
-                    Meets::Strip(engagement, depth) => {
-                        (process.engagement, process.depth) = (engagement, depth);
-                        is_of_stock = true;
-                    }
-                }
-            }
-            let milling = match process.milling(placing.advance(point)) {
-                Ok(milling) => milling,
-                Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
-                    told.without_force += 1;
-                    cuts.push(CutHere::NOTHING);
-                    continue;
-                }
-                Err(error) => return Err(no_cut(error)),
-            };
-            let mean = milling.mean();
-            let size = mean.force.norm();
-            let mut greatest = Vector3::zeros();
-            if self.greatest == Greatest::SecondCase {
-                let alike = if is_of_stock {
-                    process.rounded(ALIKE)
-                } else {
-                    process
-                };
-                greatest = peaks.over_mean(&alike).map_err(no_cut)? * size;
-                told.greatest = told.greatest.max(greatest.norm());
-            }
-            if size > told.largest_mean {
-                (told.largest_mean, largest) = (size, Some(process));
-                told.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
-            }
-            cuts.push(CutHere {
-                cutter,
-                cut: Some(*milling.cut()),
-                mean: mean.force,
-                greatest,
-            });
+            let before = index.checked_sub(1).map(|before| &points[before]);
+            cuts.push(walk.cut_at(before, point)?);
         }
-        if let (Greatest::LeftOut, Some(process)) = (self.greatest, largest) {
-            // A cut whose mean was found has a peak.
-            let over_mean = peaks.over_mean(&process).unwrap_or_default();
-            told.greatest = over_mean.norm() * told.largest_mean;
-        }
+        let (cutters, told) = walk.ended();
         Ok(CuttingForces {
             cuts: CutsAlong {
                 cutters,
                 law: self.law,
-                with_greatest: self.greatest == Greatest::SecondCase,
+                greatest: self.greatest,
                 points: cuts,
             },
             told,
@@ -284,11 +202,12 @@ impl Cutting {
             (Some(depths), Immersion::Down(_)) => Immersion::Down(depths.radial),
             (Some(depths), Immersion::Centred(_) | Immersion::Slot) => Immersion::Centred(depths.radial),
         };
-        let engagement = Engagement::of(immersion, cutter.diameter());
+        let depth = depths.map_or(self.depth, |depths| depths.axial);
+        let engagement = Engagement::at_depth(immersion, &cutter, depth);
         Ok(Process {
             cutter,
             law: self.law,
-            depth: depths.map_or(self.depth, |depths| depths.axial),
+            depth,
             engagement: engagement.map_err(|error| NoForces::Cut { line, error })?,
             feed: feed_at(point, self.feed)?,
             spindle: spindle_of(operation, self.spindle, point)?,
@@ -318,9 +237,122 @@ pub(super) fn spindle_of(
     speed.ok_or(NoForces::NoSpindle { line })
 }
 
-fn profile_of(cutter: &Cutter, line: u32) -> Result<CutterProfile, NoForces> {
-    CutterProfile::new(cutter.diameter(), cutter.corner_radius())
-        .map_err(|error| NoForces::Stock { line, error })
+/// A tool on its way along a path.
+struct Walk<'a> {
+    cutting: &'a Cutting,
+    placing: &'a Placing,
+    stock: Option<InStock<'a>>,
+    /// All that were held.
+    cutters: Vec<Cutter>,
+    /// Which of them is held.
+    held: usize,
+    operation: Option<&'a Operation>,
+    peaks: Peaks,
+    /// What has the largest mean force.
+    largest: Option<Process>,
+    told: ForcesTold,
+}
+
+impl<'a> Walk<'a> {
+    fn new(cutting: &'a Cutting, placing: &'a Placing, stock: Option<&'a mut Stock>) -> Walk<'a> {
+        Walk {
+            cutting,
+            placing,
+            stock: stock.map(|stock| InStock {
+                stock,
+                met: Met::default(),
+            }),
+            cutters: vec![cutting.cutter],
+            held: 0,
+            operation: None,
+            peaks: Peaks::default(),
+            largest: None,
+            told: ForcesTold::default(),
+        }
+    }
+
+    /// The tool of `operation` is taken.
+    fn begin(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
+        self.operation = Some(operation);
+        let cutter = self.cutting.held_in(operation)?;
+        let known = self.cutters.iter().position(|known| *known == cutter);
+        self.held = known.unwrap_or(self.cutters.len());
+        if known.is_none() {
+            self.cutters.push(cutter);
+        }
+        Ok(())
+    }
+
+    /// The cut on the way to `point` from the point `before`, where it cut before.
+    fn cut_at(&mut self, before: Option<&PathPoint>, point: &PathPoint) -> Result<CutHere, NoForces> {
+        let cutter = self.cutters[self.held];
+        let mut process = self.cutting.process(cutter, self.operation, point)?;
+        let mut alike = process;
+        let line = point.line;
+        if let Some(stock) = &mut self.stock {
+            let pass = Pass {
+                from: before
+                    .filter(|before| before.along < point.along)
+                    .unwrap_or(point)
+                    .at,
+                to: point.at,
+                direction: point.direction,
+                axis: self.placing.path_spindle(point),
+            };
+            let meets = stock.meets(&pass, cutter.body());
+            match meets.map_err(|error| NoForces::Stock { line, error })? {
+                Meets::AsTold => {}
+                Meets::Nothing => return Ok(CutHere::NOTHING),
+                Meets::Strip(engagement, depth) => {
+                    (process.engagement, process.depth) = (engagement, depth);
+                    alike = process.rounded(ALIKE);
+                }
+            }
+        }
+        let forces = self.forces([&process, &alike], self.placing.advance(point));
+        forces.map_err(|error| NoForces::Cut { line, error })
+    }
+
+    /// What `process` pushes with, noted for what is told; its greatest force goes with its mean as in the cut `alike`.
+    fn forces(&mut self, [process, alike]: [&Process; 2], advance: Advance) -> Result<CutHere, CuttingError> {
+        let milling = match process.milling(advance) {
+            Ok(milling) => milling,
+            Err(CuttingError::Plunge { .. } | CuttingError::Withdrawal) => {
+                self.told.without_force += 1;
+                return Ok(CutHere::NOTHING);
+            }
+            Err(error) => return Err(error),
+        };
+        let mean = milling.mean();
+        let size = mean.force.norm();
+        self.told.without_force += usize::from(size == 0.0);
+        let mut greatest = Vector3::zeros();
+        if self.cutting.greatest == Greatest::SecondCase {
+            greatest = self.peaks.over_mean(alike)? * size;
+            self.told.greatest = self.told.greatest.max(greatest.norm());
+        }
+        if size > self.told.largest_mean {
+            (self.told.largest_mean, self.largest) = (size, Some(*process));
+            self.told.relative_uncertainty = along(&mean.covariance, &mean.force) / size;
+        }
+        Ok(CutHere {
+            cutter: self.held,
+            cut: Some(*milling.cut()),
+            mean: mean.force,
+            greatest,
+        })
+    }
+
+    /// All tools that were held, and what is told.
+    fn ended(mut self) -> (Vec<Cutter>, ForcesTold) {
+        if let (Greatest::LeftOut, Some(process)) = (self.cutting.greatest, self.largest) {
+            // A cut whose mean was found has a peak.
+            let over_mean = self.peaks.over_mean(&process).unwrap_or_default();
+            self.told.greatest = over_mean.norm() * self.told.largest_mean;
+        }
+        self.told.met = self.stock.map(|stock| stock.met);
+        (self.cutters, self.told)
+    }
 }
 
 /// What the tool meets at a point.
@@ -333,74 +365,36 @@ enum Meets {
     Strip(Engagement, f64),
 }
 
-/// A cutter on its way through a stock.
+/// A stock on the way, and what was met in it.
 struct InStock<'a> {
     stock: &'a mut Stock,
-    profile: CutterProfile,
+    met: Met,
 }
 
-impl<'a> InStock<'a> {
-    fn of(stock: &'a mut Stock, cutter: &Cutter) -> Result<InStock<'a>, NoForces> {
-        let profile = profile_of(cutter, 1)?;
-        Ok(InStock { stock, profile })
-    }
-
-    /// What the tool meets on its way to `point` from the point `before`, where it cut before.
-    fn meets(
-        &mut self,
-        before: Option<&PathPoint>,
-        point: &PathPoint,
-        placing: &Placing,
-        met: &mut Met,
-    ) -> Result<Meets, NoForces> {
-        let goes_on = before.filter(|before| before.along < point.along);
-        let upright = PathPoint {
-            axis: Some(placing.path_spindle(point)),
-            ..*point
-        };
-        let bite = match self
-            .stock
-            .cut(goes_on.unwrap_or(point).at, &upright, &self.profile)
-        {
+impl InStock<'_> {
+    /// What the tool meets on `pass`.
+    fn meets(&mut self, pass: &Pass, cutter: &EndMillBody) -> Result<Meets, StockError> {
+        let bite = match self.stock.cut(pass, cutter) {
             Ok(bite) => bite,
             Err(StockError::Tilted { .. }) => {
-                met.leaning += 1;
+                self.met.leaning += 1;
                 return Ok(Meets::AsTold);
             }
-            Err(error) => {
-                let line = point.line;
-                return Err(NoForces::Stock { line, error });
-            }
+            Err(error) => return Err(error),
         };
-        met.removed += bite.volume;
+        self.met.removed += bite.volume;
         // The force of a dive is not known, whatever it bites into.
         if bite.kind == BiteKind::Plunge {
             return Ok(Meets::AsTold);
         }
-        let Some(strip) = self.strip(&bite) else {
-            met.in_air += 1;
+        let Some(strip) = bite.strip else {
+            self.met.in_air += 1;
             return Ok(Meets::Nothing);
         };
-        met.slots += usize::from(bite.kind == BiteKind::Slot);
-        met.largest_depth = met.largest_depth.max(bite.axial_depth);
-        met.largest_width = met.largest_width.max(bite.radial_depth);
-        Ok(Meets::Strip(strip, bite.axial_depth))
-    }
-
-    /// What it bites into; `None` in the air, or if that has no width. A strip that reaches the rim at its own height goes
-    /// on beyond it.
-    fn strip(&self, bite: &Bite) -> Option<Engagement> {
-        if bite.kind == BiteKind::Air {
-            return None;
-        }
-        let radius = self.profile.radius();
-        let right = if bite.exit >= std::f64::consts::PI {
-            -radius
-        } else {
-            bite.right
-        };
-        let left = if bite.entry <= 0.0 { radius } else { bite.left };
-        Engagement::strip([right, left], 2.0 * radius).ok()
+        self.met.slots += usize::from(bite.kind == BiteKind::Slot);
+        self.met.largest_depth = self.met.largest_depth.max(bite.depth);
+        self.met.largest_width = self.met.largest_width.max(bite.width);
+        Ok(Meets::Strip(strip, bite.depth))
     }
 }
 
@@ -426,8 +420,7 @@ impl Peaks {
             return Ok(*known);
         }
         let force = process.force(Advance::Level)?;
-        let Peak { force: peak, .. } = force.peak;
-        let found = peak / force.mean.norm().max(f64::MIN_POSITIVE);
+        let found = force.peak / force.mean.force.norm().max(f64::MIN_POSITIVE);
         self.0.insert(key, found);
         Ok(found)
     }

@@ -108,15 +108,14 @@ fn circle(points: &[Strayed]) -> Option<Became> {
 }
 
 fn line(points: &[Strayed]) -> Option<Became> {
-    let [first, .., last] = points else {
-        return None;
-    };
-    let along = (last.at - first.at).try_normalize(0.0)?;
+    let middle = mean(points.iter().map(|p| p.at.coords))?;
+    // Not from the first point to the last: a tool that comes back ends where it began.
+    let along = greatest_direction(points.iter().map(|p| p.at.coords - middle))?;
     let normal = mean(points.iter().map(|p| p.axis.into_inner()))?;
     let normal = (normal - along * normal.dot(&along)).try_normalize(1e-9)?;
     let left = normal.cross(&along);
     let straightness = |direction: Vector3<f64>| {
-        let part = |p: &Strayed| [(p.at - first.at).dot(&along), 0.0, p.by.dot(&direction)];
+        let part = |p: &Strayed| [(p.at.coords - middle).dot(&along), 0.0, p.by.dot(&direction)];
         peak_to_valley(points.iter().map(part))
     };
     let offset = mean(points.iter().map(|p| p.by - along * p.by.dot(&along)))?;
@@ -155,6 +154,14 @@ fn hole(points: &[Strayed]) -> Option<Became> {
 fn mean(vectors: impl Iterator<Item = Vector3<f64>>) -> Option<Vector3<f64>> {
     let (sum, count) = vectors.fold((Vector3::zeros(), 0.0), |(sum, count), v| (sum + v, count + 1.0));
     (count > 0.0).then(|| sum / count)
+}
+
+/// The direction in which these vectors reach farthest, either way; `None` where all of them are shorter than a nanometre.
+fn greatest_direction(vectors: impl Iterator<Item = Vector3<f64>> + Clone) -> Option<Vector3<f64>> {
+    let longest = vectors.clone().map(|v| v.norm()).fold(0.0, f64::max);
+    let spread: Matrix3<f64> = vectors.map(|v| v * v.transpose()).sum();
+    let eigen = spread.symmetric_eigen();
+    (longest > 1e-9).then(|| eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned())
 }
 
 /// The direction in which these vectors reach least.
@@ -271,6 +278,71 @@ mod tests {
         assert!(straightness_normal < 1e-15);
         // What lies along the line does not count: 5 um and a third of the bow to the left.
         assert!((offset.norm() - 15e-6).abs() < 2e-8, "{offset}");
+    }
+
+    #[test]
+    fn a_line_that_is_passed_there_and_back_is_the_same_line() {
+        let bow = |s: f64| 30e-6 * s * s;
+        let at = |i: i32| {
+            // Out, and back to a nanometre beside the start.
+            let s = f64::from(if i <= 1000 { i - 500 } else { 1501 - i }) / 500.0;
+            let by = Vector3::new(0.0, bow(s), 7e-6 * s * s);
+            strayed(Vector3::new(0.2 * s, 0.1 + 1e-9 * f64::from(i > 1000), 0.0), by)
+        };
+        let both: Vec<_> = (0..=2001).map(at).collect();
+        let (there_and_back, there) = (tilted(&both), tilted(&both[..=1000]));
+        let [
+            Some(Became::Line {
+                straightness_across: across,
+                straightness_normal: normal,
+                offset,
+            }),
+            Some(told),
+        ] = [there_and_back, there].map(|points| became(FeatureKind::Line, &points))
+        else {
+            panic!("lines")
+        };
+        assert!(
+            (across - 30e-6).abs() < 1e-10 && (normal - 7e-6).abs() < 1e-10,
+            "{across} {normal}"
+        );
+        let Became::Line { offset: one_way, .. } = told else {
+            panic!("a line")
+        };
+        assert!((offset - one_way).norm() < 1e-7, "{offset} {one_way}");
+    }
+
+    #[test]
+    fn a_part_of_a_circle_is_told_like_the_whole() {
+        let arc = |degrees: i32| -> Vec<Strayed> {
+            let at = |i: i32| {
+                let phi = f64::from(i).to_radians();
+                let out = Vector3::new(phi.cos(), phi.sin(), 0.0);
+                strayed(out * 0.1, out * 12e-6 + Vector3::new(30e-6, -7e-6, 90e-6))
+            };
+            tilted(&(0..degrees).map(at).collect::<Vec<_>>())
+        };
+        for degrees in [360, 120, 60] {
+            let Some(Became::Circle {
+                radius,
+                radius_change,
+                centre_shift,
+                roundness,
+            }) = became(FeatureKind::Circle, &arc(degrees))
+            else {
+                panic!("a circle")
+            };
+            // A shift across a short arc looks like growth: rounding of 1e-16 m, ten thousand times at 60 deg.
+            assert!(
+                (radius - 0.1).abs() < 1e-11 && (radius_change - 12e-6).abs() < 1e-11,
+                "{degrees}"
+            );
+            assert!(
+                (centre_shift - tilt() * Vector3::new(30e-6, -7e-6, 0.0)).norm() < 1e-11,
+                "{degrees}"
+            );
+            assert!(roundness < 1e-13, "{degrees}: {roundness}");
+        }
     }
 
     #[test]

@@ -2,16 +2,16 @@
 //!
 //! [`program`]: what a tool path program tells, move after move. [`sampler`]: those moves as points. [`shape`]: circles and
 //! lines on a workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: where they lie in the cell and
-//! how the tool is turned. [`clock`]: when the tip is where. [`cutter_profile`], `sweep`, [`stock`] and [`bite`]: what the
-//! cutter meets on its way; [`cutting`], [`drilled`]: what that pushes with. [`roundness`](mod@roundness) and [`feature`]:
-//! the circle, line, plane or hole that comes out.
+//! how the tool is turned. [`clock`]: when the tip is where. [`stock`], `sweep`, `front` and [`bite`]: what the cutter meets
+//! on its way; [`cutting`], [`drilled`]: what that pushes with. [`roundness`](mod@roundness) and [`feature`]: the circle,
+//! line, plane or hole that comes out.
 
 pub mod bite;
 pub mod clock;
-pub mod cutter_profile;
 pub mod cutting;
 pub mod drilled;
 pub mod feature;
+mod front;
 pub mod placing;
 pub mod program;
 pub mod roundness;
@@ -22,10 +22,10 @@ pub mod stock;
 mod sweep;
 pub mod track;
 
-pub use bite::{Bite, BiteKind, Milling};
+pub use crate::load::Greatest;
+pub use bite::{Bite, BiteKind, Pass};
 pub use clock::{Clock, NoTime, Speeds};
-pub use cutter_profile::CutterProfile;
-pub use cutting::{Cutting, CuttingForces, ForcesTold, Greatest, Met, NoForces};
+pub use cutting::{Cutting, CuttingForces, ForcesTold, Met, NoForces};
 pub use drilled::Drill;
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};

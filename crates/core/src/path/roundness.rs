@@ -1,6 +1,24 @@
 //! What a closed path has become: the circle nearest to its points, and how far they lie off it.
+//!
+//! Least over `c` and `R`: `sum of (|p - c| - R)^2`, by Gauss-Newton steps from the circle with the least
+//! `sum of (|p - c|^2 - R^2)^2`, which has a closed form about the mean of the points:
+//!
+//! ```text
+//! c = 1/2 (sum p p^T)^-1 sum p |p|^2,    R^2 = |c|^2 + mean |p|^2
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `p` | a point, from the mean of all | m |
+//! | `c`, `R` | centre, from there, and radius | m |
+//!
+//! A part of a circle will do; the shorter it is the less its centre is known.
+//!
+//! Source: closed circle after Kasa, A circle fitting procedure and its error analysis, IEEE Transactions on
+//! Instrumentation and Measurement 25, 1976; steps as in Gander, Golub and Strebel, Least-squares fitting of circles and
+//! ellipses, BIT 34, 1994 \[recalled\].
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 
 /// The least-squares circle of a closed path, and how far its points lie off it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,48 +31,69 @@ pub struct Roundness {
     pub peak_to_valley: f64,
 }
 
-/// Roundness of `points` (m) about their least-squares circle (LSCI); `None` below three points or where they
-/// lie on a line.
+/// Points on a line spread across it by less than this part of what they spread along it, squared.
+const ON_A_LINE: f64 = 1e-18;
+/// The steps have come to rest where they move no point's distance by more than this part of the spread.
+const SETTLED: f64 = 1e-13;
+/// Most steps: each takes off all but about the roundness over the radius, so that a circle needs four or five.
+const MOST_ROUNDS: usize = 50;
+
+/// Roundness of `points` (m) about their least-squares circle (LSCI); `None` below three points, where they lie on a line,
+/// and where no circle is nearest.
 pub fn roundness(points: &[Point2<f64>]) -> Option<Roundness> {
     if points.len() < 3 {
         return None;
     }
-    let n = points.len() as f64;
-    let mut centre = points.iter().fold(Vector2::zeros(), |sum, p| sum + p.coords) / n;
-    let mut radius = points.iter().map(|p| (p.coords - centre).norm()).sum::<f64>() / n;
-    // Gauss-Newton on radial distances; quadratic convergence from the centroid of a closed path.
-    for _ in 0..50 {
-        let mut normal = nalgebra::Matrix3::zeros();
-        let mut right = nalgebra::Vector3::zeros();
-        for p in points {
-            let away = p.coords - centre;
+    let count = points.len() as f64;
+    let mean = points.iter().fold(Vector2::zeros(), |sum, p| sum + p.coords) / count;
+    let off: Vec<Vector2<f64>> = points.iter().map(|p| p.coords - mean).collect();
+    let (mut centre, mut radius) = closed(&off)?;
+    let least_step = SETTLED * SETTLED * off.iter().map(Vector2::norm_squared).sum::<f64>();
+    for _ in 0..MOST_ROUNDS {
+        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
+        for p in &off {
+            let away = p - centre;
             let distance = away.norm();
-            let row = nalgebra::Vector3::new(away.x / distance, away.y / distance, 1.0);
+            let row = (away / distance).push(1.0);
             normal += row * row.transpose();
             right += row * (distance - radius);
         }
-        let step = normal
-            .lu()
-            .solve(&right)
-            .filter(|s| s.iter().all(|v| v.is_finite()))?;
+        let step = normal.lu().solve(&right)?;
         centre += step.xy();
         radius += step.z;
-        if step.norm() <= 1e-15 * radius.abs() {
-            break;
+        if (normal * step).dot(&step) <= least_step {
+            let distances = off.iter().map(|p| (p - centre).norm());
+            let (low, high) =
+                distances.fold((f64::MAX, f64::MIN), |(low, high), d| (low.min(d), high.max(d)));
+            return (radius > 0.0).then_some(Roundness {
+                centre: (centre + mean).into(),
+                radius,
+                peak_to_valley: high - low,
+            });
         }
     }
-    let distances = points.iter().map(|p| (p.coords - centre).norm());
-    let (low, high) = distances.fold((f64::MAX, f64::MIN), |(low, high), d| (low.min(d), high.max(d)));
-    (radius.is_finite() && radius > 0.0).then_some(Roundness {
-        centre: centre.into(),
-        radius,
-        peak_to_valley: high - low,
-    })
+    None
+}
+
+/// The circle in closed form through points about their mean; `None` where they lie on a line.
+fn closed(off: &[Vector2<f64>]) -> Option<(Vector2<f64>, f64)> {
+    let spread: Matrix2<f64> = off.iter().map(|p| p * p.transpose()).sum();
+    let along = spread.symmetric_eigenvalues();
+    if along.min() <= ON_A_LINE * along.max() {
+        return None;
+    }
+    let weighed: Vector2<f64> = off.iter().map(|p| p * p.norm_squared()).sum();
+    let centre = spread.try_inverse()? * weighed * 0.5;
+    Some((
+        centre,
+        (centre.norm_squared() + spread.trace() / off.len() as f64).sqrt(),
+    ))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::PI;
 
     #[test]
     fn roundness_of_an_ellipse_like_shift_is_twice_its_amplitude() {
@@ -71,11 +110,99 @@ mod tests {
         assert!((round.peak_to_valley - 40e-6).abs() < 1e-9, "{round:?}");
     }
 
+    /// Points of a circle about (0.3, -0.1) m over an arc from `from` on (deg), off it by `by(phi)`.
+    fn arc([from, sweep]: [f64; 2], radius: f64, by: impl Fn(f64) -> f64) -> Vec<Point2<f64>> {
+        let at = |k: i32| {
+            let phi = (from + sweep * f64::from(k) / 400.0).to_radians();
+            let r = radius + by(phi);
+            Point2::new(0.3 + r * phi.cos(), -0.1 + r * phi.sin())
+        };
+        (0..=400).map(at).collect()
+    }
+
     #[test]
-    fn roundness_needs_three_points_off_a_line() {
-        let line: Vec<_> = (0..5).map(|i| Point2::new(f64::from(i), 0.0)).collect();
-        assert!(roundness(&line[..2]).is_none());
-        let fitted = roundness(&line);
-        assert!(fitted.is_none_or(|r| r.radius.is_finite()), "{fitted:?}");
+    fn lobes_of_any_number_are_told_by_twice_their_height_and_one_lobe_is_a_shift() {
+        for lobes in 2..9 {
+            // A sum over even steps leaves no cosine behind.
+            let whole: Vec<_> = arc([0.0, 360.0], 0.1, |phi| 8e-6 * (f64::from(lobes) * phi).cos());
+            let round = roundness(&whole[..400]).unwrap();
+            // 400 points miss the crests by at most (lobes/2 step)^2/2 of the height; the centre goes with height squared.
+            let missed = 8e-6 * (f64::from(lobes) * PI / 400.0).powi(2) + 2e-9;
+            assert!(
+                (round.peak_to_valley - 16e-6).abs() < missed,
+                "{lobes}: {round:?}"
+            );
+            assert!((round.radius - 0.1).abs() < 1e-9, "{lobes}: {round:?}");
+        }
+        let shifted = arc([0.0, 360.0], 0.1, |phi| 8e-6 * phi.cos());
+        let round = roundness(&shifted[..400]).unwrap();
+        // What is left is the square of the shift over the radius.
+        assert!(round.peak_to_valley < 8e-6 * 8e-6 / 0.1 && (round.centre.x - 0.300_008).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_part_of_a_circle_has_the_centre_and_radius_of_the_whole() {
+        for sweep in [360.0, 200.0, 120.0, 60.0, 20.0] {
+            for from in [0.0, 77.0, 230.0] {
+                let round = roundness(&arc([from, sweep], 0.1, |_| 0.0)).unwrap();
+                // Rounding of 1e-17 m, times 1/(1 - cos(sweep/2)) squared or so.
+                let told = (round.centre - Point2::new(0.3, -0.1)).norm();
+                assert!(
+                    told < 1e-11 && (round.radius - 0.1).abs() < 1e-11,
+                    "{sweep} {from}: {told}"
+                );
+                assert!(round.peak_to_valley < 1e-14, "{sweep} {from}: {round:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_circle_near_the_one_that_is_told_is_nearer_to_the_points() {
+        for sweep in [360.0, 120.0, 60.0] {
+            let wavy = arc([10.0, sweep], 0.1, |phi| {
+                6e-6 * (5.0 * phi).cos() + 3e-6 * (11.0 * phi).sin()
+            });
+            let round = roundness(&wavy).unwrap();
+            let squares = |centre: Point2<f64>, radius: f64| -> f64 {
+                wavy.iter().map(|p| ((p - centre).norm() - radius).powi(2)).sum()
+            };
+            let least = squares(round.centre, round.radius);
+            for k in 0..24 {
+                let turn = f64::from(k) * PI / 12.0;
+                for (size, change) in [(1e-6, 0.0), (0.0, 1e-6), (1e-6, -1e-6), (1e-6, 1e-6)] {
+                    let centre = round.centre + Vector2::new(turn.cos(), turn.sin()) * size;
+                    assert!(squares(centre, round.radius + change) > least, "{sweep} {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_same_points_elsewhere_turned_and_larger_have_the_same_roundness() {
+        let wave = |phi: f64| 20e-6 * (3.0 * phi).cos();
+        let here = roundness(&arc([0.0, 150.0], 0.1, wave)).unwrap();
+        let turned: Vec<_> = arc([0.0, 150.0], 0.1, wave)
+            .iter()
+            .map(|p| Point2::new(5.0 - 2.0 * p.y, 2.0 * p.x - 7.0))
+            .collect();
+        let there = roundness(&turned).unwrap();
+        // Places of 7 m are rounded to 1e-15 m.
+        assert!((there.peak_to_valley - 2.0 * here.peak_to_valley).abs() < 1e-13);
+        assert!((there.radius - 2.0 * here.radius).abs() < 1e-11);
+    }
+
+    #[test]
+    fn three_points_lie_on_their_circle_and_points_on_a_line_on_none() {
+        let three = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Point2::from);
+        let round = roundness(&three).unwrap();
+        assert!((round.centre - Point2::new(0.5, 0.5)).norm() < 1e-14 && round.peak_to_valley < 1e-14);
+        for turn in [0.0, 0.7] {
+            let on_line =
+                |i: i32| Point2::new(3.0, -2.0) + Vector2::new(f64::cos(turn), turn.sin()) * f64::from(i);
+            let line: Vec<_> = (0..5).map(on_line).collect();
+            assert_eq!(roundness(&line), None);
+            assert_eq!(roundness(&line[..2]), None);
+        }
+        assert_eq!(roundness(&[Point2::new(0.1, 0.2); 9]), None);
     }
 }

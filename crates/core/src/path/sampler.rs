@@ -235,6 +235,7 @@ impl Bend {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn cut(end: [f64; 3], course: Course) -> Move {
         Move {
@@ -410,5 +411,74 @@ mod tests {
         }
         let silent = [start([0.0; 3]), cut([4e-3, 0.0, 0.0], Course::Line)];
         assert!(points(sampling, &silent).iter().all(|point| point.spin.is_none()));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(300))]
+
+        #[test]
+        fn points_are_as_many_as_counted_no_farther_apart_than_the_step_and_ever_farther_along(
+            ends in proptest::collection::vec((-0.02..0.02, -0.02..0.02, -0.01..0.01, 0_u8..3), 1..8),
+            step in 2e-4..5e-3,
+        ) {
+            let sampling = Sampling { chord_error: 1e-5, step };
+            let mut sampler = Sampler::new(sampling);
+            let (mut along, mut at) = (0.0, None::<Point3<f64>>);
+            for (x, y, z, kind) in ends {
+                let end = [x, y, z];
+                let next = match kind {
+                    0 => start(end),
+                    1 => cut(end, Course::Line),
+                    // Whatever the ends are, the rest is spread along the arc.
+                    _ => cut(end, Course::Arc(Arc {
+                        centre: Point3::new(0.03, -0.04, 0.0),
+                        axis: Vector3::z_axis(),
+                        sweep: 0.8,
+                    })),
+                };
+                let counted = sampler.count(&next);
+                let mut points = Vec::new();
+                sampler.points(&next, |point| points.push(point));
+                prop_assert_eq!(points.len(), counted);
+                for point in &points {
+                    let by = point.along - along;
+                    prop_assert!(by >= 0.0 && by <= step * (1.0 + 1e-6), "{}", by);
+                    // A line begins where the way before has ended, and its points are as far apart as they are along it.
+                    if let Some(before) = at.filter(|_| kind == 1) {
+                        prop_assert!(((point.at - before).norm() - by).abs() < 1e-12);
+                    }
+                    (along, at) = (point.along, Some(point.at));
+                }
+                if let Some(last) = points.last() {
+                    prop_assert_eq!(last.at, next.end);
+                    prop_assert!((last.direction.norm() - 1.0).abs() < 1e-12);
+                }
+                at = Some(next.end);
+            }
+        }
+    }
+
+    #[test]
+    fn a_tool_that_turns_about_goes_half_of_the_way_in_the_middle_and_an_opposite_one_waits() {
+        let with = |axis: Vector3<f64>, at: Move| Move {
+            axis: Some(Unit::new_normalize(axis)),
+            ..at
+        };
+        let (a, b) = (Vector3::new(0.1, 0.2, 1.0), Vector3::new(-0.4, 0.3, 0.8));
+        let coarse = Sampling {
+            chord_error: 1e-5,
+            step: 5e-3,
+        };
+        let middle = |to: Vector3<f64>| {
+            let moves = [
+                with(a, start([0.0; 3])),
+                with(to, cut([0.01, 0.0, 0.0], Course::Line)),
+            ];
+            points(coarse, &moves)[1].axis.unwrap().into_inner()
+        };
+        let half = (a.normalize() + b.normalize()).normalize();
+        assert!((middle(b) - half).norm() < 1e-12);
+        // No plane of turning is told: it stays, and ends as it is told.
+        assert!((middle(-a) - a.normalize()).norm() < 1e-12);
     }
 }

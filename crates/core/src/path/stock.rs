@@ -30,10 +30,8 @@
 
 use nalgebra::{Point2, Point3};
 
-use super::bite::{Bite, Heading, Removal, bite};
-use super::cutter_profile::CutterProfile;
-use super::sampler::PathPoint;
 use super::sweep::{Row, Sweep};
+use crate::load::EndMillBody;
 
 /// A box of material from which a tool cuts, in the frame of the path.
 #[derive(Clone, Debug)]
@@ -46,6 +44,14 @@ pub struct Stock {
     sides: [f64; 2],
     /// Heights above the bottom, m; x runs fastest.
     heights: Vec<f32>,
+}
+
+/// What a step has taken away.
+pub(super) struct Removal {
+    /// m^3
+    pub(super) volume: f64,
+    /// Most that a cell was lowered, m.
+    pub(super) depth: f64,
 }
 
 /// Why no stock can be made, or no bite found.
@@ -90,17 +96,6 @@ pub enum StockError {
         /// What is kept.
         most: f64,
     },
-    /// A cutter that cannot be.
-    #[error(
-        "a cutter of diameter {diameter} m with corner radius {corner_radius} m: the diameter must be above zero, and \
-         the corner at most half of it"
-    )]
-    Cutter {
-        /// m
-        diameter: f64,
-        /// m
-        corner_radius: f64,
-    },
     /// The tool leans: a height map cannot tell what it cuts.
     #[error(
         "the tool leans {angle_deg:.2} deg from the z axis of the path: the stock is cut by upright tools alone"
@@ -115,13 +110,10 @@ pub enum StockError {
 const MOST_CELLS: f64 = 1e8;
 
 /// Farthest that anything may be from zero, m: a thousand kilometres, where a double is still right to 0.1 nm.
-pub(super) const FARTHEST: f64 = 1e6;
+const FARTHEST: f64 = 1e6;
 
 /// Finest pitch and thinnest box, m: a tenth of a micrometre, far below what is milled.
 const LEAST_PITCH: f64 = 1e-7;
-
-/// How far a tool may lean and pass for upright, rad: it lifts the rim of a cutter of 10 mm by 5 um.
-const UPRIGHT: f64 = 1e-3;
 
 /// Steps that go less far than this part of a pitch, seen from above, go straight down or up.
 const STANDING: f64 = 1e-3;
@@ -133,8 +125,8 @@ impl Stock {
     /// Numbers that are not finite or beyond any workpiece, corners in the wrong order, a pitch that is not above zero,
     /// too many cells.
     pub fn new([low, high]: [Point3<f64>; 2], pitch: f64) -> Result<Stock, StockError> {
-        near("a corner of the stock", &low)?;
-        near("a corner of the stock", &high)?;
+        checked_place("a corner of the stock", &low)?;
+        checked_place("a corner of the stock", &high)?;
         if !pitch.is_finite() {
             return Err(StockError::NotFinite("the pitch of the stock"));
         }
@@ -164,37 +156,6 @@ impl Stock {
             sides: [size.x / columns as f64, size.y / rows as f64],
             heights: vec![size.z as f32; columns * rows],
         })
-    }
-
-    /// What the tool bites into on its way to `point` from `before` (m), the point before it, and takes it away.
-    /// `before` is `point.at` itself where a cut begins. Only cuts belong here: a rapid would cut as well.
-    ///
-    /// A point that tells no tool axis has an upright one.
-    ///
-    /// # Errors
-    /// A tool that leans from the path's z, a number that is not finite; nothing is taken away then.
-    pub fn cut(
-        &mut self,
-        before: Point3<f64>,
-        point: &PathPoint,
-        cutter: &CutterProfile,
-    ) -> Result<Bite, StockError> {
-        near("a point of the path", &before)?;
-        near("a point of the path", &point.at)?;
-        if !point.direction.iter().all(|value| value.is_finite()) {
-            return Err(StockError::NotFinite("a direction of the path"));
-        }
-        if let Some(axis) = point.axis {
-            let lean = axis.xy().norm().atan2(axis.z);
-            if lean.is_nan() || lean > UPRIGHT {
-                let angle_deg = lean.to_degrees();
-                return Err(StockError::Tilted { angle_deg });
-            }
-        }
-        let heading = Heading::of(before, point);
-        let ahead = heading.looks_ahead().then(|| self.front(&heading, cutter));
-        let removal = self.remove(before, point.at, cutter);
-        Ok(bite(&heading, ahead.flatten(), removal, cutter))
     }
 
     /// Volume of what is left, m^3.
@@ -269,7 +230,7 @@ impl Stock {
     }
 
     /// Lowers every cell that the cutter passes over on a straight step.
-    fn remove(&mut self, from: Point3<f64>, to: Point3<f64>, cutter: &CutterProfile) -> Removal {
+    pub(super) fn remove(&mut self, from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody) -> Removal {
         let sweep = Sweep::of(from, to, cutter, STANDING * self.pitch());
         let (mut volume, mut depth) = (0.0, 0.0_f32);
         let mut bottoms = Vec::new();
@@ -304,7 +265,7 @@ impl Stock {
 }
 
 /// Checks that a place can be computed with.
-fn near(what: &'static str, at: &Point3<f64>) -> Result<(), StockError> {
+pub(super) fn checked_place(what: &'static str, at: &Point3<f64>) -> Result<(), StockError> {
     for &value in at.iter() {
         if !value.is_finite() {
             return Err(StockError::NotFinite(what));

@@ -9,7 +9,7 @@
 //! | `z0`, `m` | path z of the tip at the lower end, rise per distance along the step seen from above | m, - |
 //! | `L`, `t` | length of the step seen from above, distance along it from the lower end | m |
 //! | `a`, `b` | the place from the lower end, along the step and across it | m |
-//! | `z(rho)`, `R`, `r` | bottom of the cutter ([`CutterProfile`]), its radius, its corner radius | m |
+//! | `z(rho)`, `R`, `r` | bottom of the cutter ([`EndMillBody`]), its radius, its corner radius | m |
 //!
 //! A level step is lowest where it is nearest. A rising one is lowest where the bottom of the cutter is as steep along
 //! the step as the step, or at the end before that place:
@@ -26,7 +26,7 @@
 
 use nalgebra::{Point3, Vector2};
 
-use super::cutter_profile::CutterProfile;
+use crate::load::EndMillBody;
 
 /// A cutter on a straight step, seen from its lower end: places do not tell which end comes first.
 pub(super) struct Sweep {
@@ -64,7 +64,7 @@ const SETTLED: f64 = 1e-9;
 
 impl Sweep {
     /// Steps shorter than `standing` (m, seen from above) are taken as straight up or down.
-    pub(super) fn of(from: Point3<f64>, to: Point3<f64>, cutter: &CutterProfile, standing: f64) -> Sweep {
+    pub(super) fn of(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, standing: f64) -> Sweep {
         let (mut foot, mut head) = if from.z < to.z { (from, to) } else { (to, from) };
         let chord = (head - foot).xy();
         let mut length = chord.norm();

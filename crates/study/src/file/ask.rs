@@ -163,8 +163,17 @@ impl Resolver<'_> {
             ..Doubt::NONE
         };
         let u_n = given.and_then(|load| load.u_n).unwrap_or_default();
-        let doubt = doubt.of_components(u_n, load.frame, &plane.base_from_part);
-        let cases = load.in_base(&plane.base_from_part);
+        // What turns with the feed turns on the path; here it is as if the feed went along x of the part.
+        let frame = match load.frame {
+            LoadFrame::Feed => LoadFrame::Part,
+            told => told,
+        };
+        let as_told = LoadCases {
+            frame,
+            ..load.clone()
+        };
+        let doubt = doubt.of_components(u_n, frame, &plane.base_from_part)?;
+        let cases = as_told.in_base(&plane.base_from_part)?;
         let flange_from_tool =
             tool.map_or_else(Isometry::identity, |t| pose_mm_deg(&t.flange_from_tool_mm_deg));
         let limit = limit_um * 1e-6;

@@ -1,9 +1,9 @@
 //! Springs with uncertainties, residuals, prediction of tests left out, outliers, what stays open: one JSON value.
 
 use armill_core::identify::fit::Scatter;
-use armill_core::identify::outcome::{Errors, displacement_errors, measured_over_typical};
 use armill_core::identify::{
-    Identified, LoadTest, Loss, Measured, Method, Refusal, Role, TestOutcome, Unknown, identify,
+    Errors, Identified, LoadTest, Loss, Measured, Method, Refusal, Role, TestOutcome, Unknown,
+    displacement_errors, identify, measured_over_typical,
 };
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;

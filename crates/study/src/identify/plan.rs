@@ -1,6 +1,6 @@
 //! Tests to do: postures and pulls as a table to fill in.
 
-use armill_core::identify::{Asked, plan as core_plan};
+use armill_core::identify::{Floor, PlanQuestion, plan as core_plan};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use serde::Serialize;
@@ -67,7 +67,7 @@ pub fn plan(
         ));
     }
     let unknowns = question.unknowns(robot, &[])?;
-    let asked = Asked {
+    let asked = PlanQuestion {
         tests: count,
         pulls: [
             -Vector3::z(),
@@ -80,11 +80,12 @@ pub fn plan(
         .to_vec(),
         tool_point: question.tool_point,
         gauge,
+        floor: Some(Floor::under_base()),
     };
     let plan = core_plan(robot, &unknowns, &asked);
     if plan.tests.is_empty() {
         return Err(StudyError::value(
-            "no posture inside the joint limits keeps the tool 200 mm above base_link and 400 mm from the first axis",
+            "no posture inside the joint limits keeps the tool clear of the floor and of the arm itself",
             "is --tool-mm right, and do the limits of the robot file leave room?",
         ));
     }

@@ -1,7 +1,7 @@
 //! What keeps the tolerance along a path: a table of its points, and a picture of depth over feed.
 
 use armill_core::load::PathLoad;
-use armill_core::map::{CutLimits, Permitted, PointLimits};
+use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use armill_formats::table::{Column, ColumnData, Table};
 use armill_report::{AxisLabels, ProcessMap};
 
@@ -36,8 +36,8 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
     };
     let numbers =
         |of: &dyn Fn(&PointLimits) -> Option<f64>| ColumnData::OptionalFloat(points.iter().map(of).collect());
-    let force = |name: &str, description: &str, which: usize| {
-        let data = numbers(&|point| Some(point.forces[which]).filter(|force| force.is_finite()));
+    let force = |name: &str, description: &str, of: fn(&PermittedForces) -> f64| {
+        let data = numbers(&|point| Some(of(&point.forces)).filter(|force| force.is_finite()));
         column(name, Some("N"), description, Some(N_DECIMALS), data)
     };
     let mut columns = vec![
@@ -68,22 +68,22 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
         force(
             "permitted_along_n",
             "force along the feed that the limit permits",
-            0,
+            |forces| forces.along,
         ),
         force(
             "permitted_cross_n",
             "force across the feed that the limit permits",
-            1,
+            |forces| forces.across,
         ),
         force(
             "permitted_axial_n",
             "force along the tool that the limit permits",
-            2,
+            |forces| forces.normal,
         ),
         force(
             "permitted_any_direction_n",
             "force that the limit permits in every direction",
-            3,
+            |forces| forces.weakest,
         ),
     ];
     type Part = fn(&CutLimits) -> Option<Permitted>;
@@ -128,7 +128,7 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
 
 /// Depth over feed with the line of the tolerance; `None` without a cut.
 pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathFound) -> Option<Picture> {
-    let sheet = found.limits.as_ref()?.sheet.as_ref()?;
+    let sheet = found.limits.as_ref()?.depth_by_feed.as_ref()?;
     let mm = |values: &[f64]| values.iter().map(|value| value * 1e3).collect();
     let drawing = ProcessMap {
         title: format!("{name}: which depth and feed hold the tolerance"),

@@ -106,8 +106,7 @@ impl Drawing<'_> {
             let caption = "in-plane deviation along the path under every load case.";
             return self.picture("vectors", caption, self.vectors());
         }
-        let caption =
-            "the path seen along its z axis, coloured by the deviation across the tool.";
+        let caption = "the path seen along its z axis, coloured by the deviation across the tool.";
         self.picture("track", caption, self.track())
     }
 

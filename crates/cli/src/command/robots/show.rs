@@ -93,7 +93,10 @@ fn joint_text(found: &RobotDescription, index: usize) -> Vec<String> {
     );
     let others = found.joint_notes[index].other_limits.iter().map(|limits| {
         let ([lower, upper], source) = (limits.limits_deg, &limits.source);
-        let note = limits.note.as_ref().map_or(String::new(), |note| format!(": {note}"));
+        let note = limits
+            .note
+            .as_ref()
+            .map_or(String::new(), |note| format!(": {note}"));
         format!("       limits by {source}: {lower} to {upper} deg{note}")
     });
     [line].into_iter().chain(others).collect()

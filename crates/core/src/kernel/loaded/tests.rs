@@ -2,11 +2,11 @@
 
 use super::super::tests::{NOMINAL, ask, cancelled_after, poses, springy};
 use super::*;
-use crate::frame::Isometry;
-use nalgebra::Unit;
 use crate::arms::{self, Stream};
+use crate::frame::Isometry;
 use crate::robot::{Mass, Robot, Seat};
 use crate::source::{Gravity, StiffnessModel};
+use nalgebra::Unit;
 
 /// Wrenches of point `i`, three a point.
 fn load(i: usize, wrenches: &mut [Wrench]) {

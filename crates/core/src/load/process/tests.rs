@@ -20,6 +20,10 @@ fn process() -> Process {
     }
 }
 
+fn mean(process: Process, advance: Advance) -> Result<MeanForce, CuttingError> {
+    Ok(process.milling(advance)?.mean())
+}
+
 fn unit(x: f64, y: f64, z: f64) -> Unit<Vector3<f64>> {
     Unit::new_normalize(Vector3::new(x, y, z))
 }
@@ -28,14 +32,11 @@ fn unit(x: f64, y: f64, z: f64) -> Unit<Vector3<f64>> {
 fn the_published_cut_has_its_published_mean() {
     let force = process().force(Advance::Level).unwrap();
     // Printed to four decimals.
-    assert!((force.mean.norm() - 155.6207).abs() < 5e-5);
-    assert!(force.peak.force.norm() > force.mean.norm());
-    assert_eq!(
-        process().mean(Advance::Level).unwrap().covariance,
-        force.covariance
-    );
+    assert!((force.mean.force.norm() - 155.6207).abs() < 5e-5);
+    assert!(force.peak.norm() > force.mean.force.norm());
+    assert_eq!(mean(process(), Advance::Level), Ok(force.mean));
     assert!(
-        force.covariance.symmetric_eigenvalues().min() > 0.0,
+        force.mean.covariance.symmetric_eigenvalues().min() > 0.0,
         "three coefficients, three directions"
     );
 }
@@ -58,23 +59,28 @@ fn straight_along_the_axis_is_a_plunge_or_a_withdrawal_and_neither_mills() {
     let spindle = unit(0.1, 0.2, 1.0);
     assert_eq!(Advance::of(&-spindle, &spindle), Advance::Plunge);
     assert_eq!(Advance::of(&spindle, &spindle), Advance::Withdrawal);
-    let error = process().mean(Advance::Plunge).unwrap_err().to_string();
+    let error = mean(process(), Advance::Plunge).unwrap_err().to_string();
     assert!(
         error.contains("dives 90.0 deg") && error.contains("30 deg"),
         "{error}"
     );
-    assert_eq!(process().mean(Advance::Withdrawal), Err(CuttingError::Withdrawal));
+    assert_eq!(
+        mean(process(), Advance::Withdrawal),
+        Err(CuttingError::Withdrawal)
+    );
 }
 
 #[test]
 fn ramps_up_to_30_deg_feel_the_level_part_of_the_feed() {
-    let level = process().mean(Advance::Level).unwrap().force;
-    let ramp = process().mean(Advance::Ramp(-20_f64.to_radians())).unwrap().force;
+    let level = mean(process(), Advance::Level).unwrap().force;
+    let ramp = mean(process(), Advance::Ramp(-20_f64.to_radians()))
+        .unwrap()
+        .force;
     // No edge terms: the force goes with the chip.
     assert!((ramp - level * 20_f64.to_radians().cos()).norm() < 1e-11);
-    assert!(process().mean(Advance::Ramp(-31_f64.to_radians())).is_err());
-    assert!(process().mean(Advance::Ramp(f64::NAN)).is_err());
-    assert!(process().mean(Advance::Ramp(60_f64.to_radians())).is_ok());
+    assert!(mean(process(), Advance::Ramp(-31_f64.to_radians())).is_err());
+    assert!(mean(process(), Advance::Ramp(f64::NAN)).is_err());
+    assert!(mean(process(), Advance::Ramp(60_f64.to_radians())).is_ok());
 }
 
 #[test]
@@ -93,6 +99,59 @@ fn a_process_that_cannot_be_is_refused() {
             ..process()
         },
     ] {
-        assert!(wrong.mean(Advance::Level).is_err(), "{wrong:?}");
+        assert!(mean(wrong, Advance::Level).is_err(), "{wrong:?}");
     }
+}
+
+#[test]
+fn cuts_that_are_rounded_move_by_half_a_step_at_most_and_are_alike_then() {
+    let part = 0.02;
+    let step = part * 16.0 * MM;
+    for k in 0..60 {
+        let (depth, width) = (
+            MM * (0.31 + 0.17 * f64::from(k)),
+            MM * (0.5 + 0.23 * f64::from(k)),
+        );
+        let engagement = Engagement::of(Immersion::Up(width), 16.0 * MM).unwrap();
+        let drawn = Process {
+            depth,
+            engagement,
+            ..process()
+        };
+        let rounded = drawn.rounded(part);
+        assert!((rounded.depth - depth).abs() <= 0.5 * step + 1e-15, "{depth}");
+        let moved = rounded.engagement.edges().into_iter().zip(engagement.edges());
+        assert!(
+            moved
+                .clone()
+                .all(|(one, other)| (one - other).abs() <= 0.5 * step + 1e-15)
+        );
+        assert_eq!(rounded.engagement.edges()[1], 8.0 * MM, "a wall stays at the rim");
+        assert_eq!(rounded.rounded(part), rounded);
+    }
+    // Less than a step deep is one deep, and a strip that would vanish stays as it is.
+    let thin = Process {
+        depth: 1e-6,
+        engagement: Engagement::strip([1.01 * MM, 1.02 * MM], 16.0 * MM).unwrap(),
+        ..process()
+    };
+    let rounded = thin.rounded(part);
+    assert_eq!((rounded.depth, rounded.engagement), (step, thin.engagement));
+}
+
+#[test]
+fn turning_the_tool_faster_or_with_more_teeth_thins_the_chip() {
+    let size = |process: Process| mean(process, Advance::Level).unwrap().force.norm();
+    let here = size(process());
+    let faster = Process {
+        spindle: 2.0 * process().spindle,
+        ..process()
+    };
+    // No edge terms: the force goes with the feed per tooth; teeth share the same feed.
+    assert!((size(faster) / here - 0.5).abs() < 1e-12);
+    let toothed = Process {
+        cutter: Cutter::flat(16.0 * MM, 8).unwrap(),
+        ..process()
+    };
+    assert!((size(toothed) / here - 1.0).abs() < 1e-12);
 }

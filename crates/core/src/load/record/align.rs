@@ -7,7 +7,7 @@
 
 use nalgebra::Vector3;
 
-use super::lag::{Lag, within};
+use super::lag::{Lag, lag_within};
 use super::{Record, RecordError};
 
 /// Products of the first search: a tenth of a second.
@@ -42,8 +42,8 @@ pub fn align(measured: &Record, predicted: &Record, range: [f64; 2]) -> Result<L
 
 fn thinned(measured: &Record, predicted: &Record, many: usize, range: [f64; 2]) -> Result<Lag, RecordError> {
     match many {
-        1 => within(measured, predicted, range),
-        many => within(&means(measured, many)?, &means(predicted, many)?, range),
+        1 => lag_within(measured, predicted, range),
+        many => lag_within(&means(measured, many)?, &means(predicted, many)?, range),
     }
 }
 
@@ -104,7 +104,7 @@ mod tests {
         let range = [0.03, 0.07];
         assert_eq!(
             align(&measured, &predicted, range),
-            within(&measured, &predicted, range)
+            lag_within(&measured, &predicted, range)
         );
     }
 

@@ -48,14 +48,6 @@ const LEAST_FALL: f64 = 0.01;
 /// Steps of both records are equal within this.
 const STEP_SLACK: f64 = 1e-4;
 
-/// The lag (s) by the instants at which both forces are larger than `threshold` N for the first time.
-///
-/// # Errors
-/// A force that never crosses the threshold, or is above it from the beginning.
-pub fn by_start(measured: &Record, predicted: &Record, threshold: f64) -> Result<f64, RecordError> {
-    Ok(start(measured, threshold)? - start(predicted, threshold)?)
-}
-
 /// The instant (s) at which the force is larger than `threshold` N for the first time, on a line between samples.
 ///
 /// # Errors
@@ -74,19 +66,11 @@ pub fn start(record: &Record, threshold: f64) -> Result<f64, RecordError> {
     }
 }
 
-/// The lag by correlation, searched from `-most` to `most` seconds about equal times.
+/// The lag by correlation, searched in a range of seconds about equal times.
 ///
 /// # Errors
 /// Steps that are not equal within a record or between both; forces that do not change; too many products.
-pub fn by_correlation(measured: &Record, predicted: &Record, most: f64) -> Result<Lag, RecordError> {
-    within(measured, predicted, [-most.abs(), most.abs()])
-}
-
-/// The lag by correlation, searched in a range of seconds.
-///
-/// # Errors
-/// Those of [`by_correlation`].
-pub fn within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -> Result<Lag, RecordError> {
+pub fn lag_within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -> Result<Lag, RecordError> {
     let (step, other) = (measured.step()?, predicted.step()?);
     if (step - other).abs() > STEP_SLACK * step {
         return Err(RecordError::OtherSteps {
@@ -101,7 +85,7 @@ pub fn within(measured: &Record, predicted: &Record, [from, to]: [f64; 2]) -> Re
     let (low, high) = ((ahead + from / step).ceil(), (ahead + to / step).floor());
     let products = (high - low + 1.0) * shorter;
     if products.is_nan() || products > MOST_PRODUCTS {
-        return Err(RecordError::TooLong {
+        return Err(RecordError::TooMuchWork {
             products,
             most: MOST_PRODUCTS,
         });
@@ -203,7 +187,7 @@ mod tests {
     fn a_known_lag_is_found_to_a_small_part_of_a_sample() {
         let predicted = record(0.0, 3000, 0.0);
         for late in [0.0, 0.0123, -0.0077, 0.00333] {
-            let lag = by_correlation(&record(0.0, 3000, late), &predicted, 0.02).unwrap();
+            let lag = lag_within(&record(0.0, 3000, late), &predicted, [-0.02, 0.02]).unwrap();
             // A twentieth of the step of 0.2 ms.
             assert!((lag.seconds - late).abs() < 1e-5, "{late}: {lag:?}");
             assert!(lag.likeness > 0.98, "{lag:?}");
@@ -213,7 +197,7 @@ mod tests {
     #[test]
     fn records_that_begin_at_other_times_have_the_same_lag() {
         let predicted = record(0.0, 3000, 0.0);
-        let lag = by_correlation(&record(0.0305, 3000, 0.0123), &predicted, 0.02).unwrap();
+        let lag = lag_within(&record(0.0305, 3000, 0.0123), &predicted, [-0.02, 0.02]).unwrap();
         assert!((lag.seconds - 0.0123).abs() < 2e-5, "{lag:?}");
     }
 
@@ -223,8 +207,8 @@ mod tests {
         let measured = record(0.0, 3000, 0.0042);
         let larger = measured.clone().mapped(|force| force * 7.0);
         let (a, b) = (
-            by_correlation(&measured, &predicted, 0.02),
-            by_correlation(&larger, &predicted, 0.02),
+            lag_within(&measured, &predicted, [-0.02, 0.02]),
+            lag_within(&larger, &predicted, [-0.02, 0.02]),
         );
         assert!((a.unwrap().seconds - b.unwrap().seconds).abs() < 1e-12);
     }
@@ -239,9 +223,9 @@ mod tests {
                 .collect();
             Record::new(time, force, None, ActsOn::Tool).unwrap()
         };
-        let unsure = by_correlation(&wave(0.001), &wave(0.0), 0.04).unwrap();
+        let unsure = lag_within(&wave(0.001), &wave(0.0), [-0.04, 0.04]).unwrap();
         assert!(unsure.confidence() < 0.02, "{unsure:?}");
-        let sure = by_correlation(&wave(0.001), &wave(0.0), 0.006).unwrap();
+        let sure = lag_within(&wave(0.001), &wave(0.0), [-0.006, 0.006]).unwrap();
         assert!(
             (sure.seconds - 0.001).abs() < 1e-5 && sure.confidence() > 0.9,
             "{sure:?}"
@@ -258,16 +242,13 @@ mod tests {
                 .collect();
             Record::new(time, force, None, ActsOn::Tool).unwrap()
         };
-        let lag = by_start(&ramp(2.0), &ramp(0.0), 5.0).unwrap();
-        assert!((lag - 2.0).abs() < 1e-15);
-        assert!(matches!(
-            by_start(&ramp(2.0), &ramp(0.0), 50.0),
-            Err(RecordError::NoLag(_))
-        ));
-        assert!(matches!(
-            by_start(&ramp(-5.0), &ramp(0.0), 5.0),
-            Err(RecordError::NoLag(_))
-        ));
+        // 5 N are reached half a second after the ramp has begun.
+        for late in [0.0, 1.0, 2.0] {
+            let found = start(&ramp(late), 5.0).unwrap();
+            assert!((found - late - 0.5).abs() < 1e-15, "{late}: {found}");
+        }
+        assert!(matches!(start(&ramp(2.0), 50.0), Err(RecordError::NoLag(_))));
+        assert!(matches!(start(&ramp(-5.0), 5.0), Err(RecordError::NoLag(_))));
     }
 
     #[test]
@@ -275,23 +256,23 @@ mod tests {
         let predicted = record(0.0, 3000, 0.0);
         let slow = Record::new(vec![0.0, 1.0], vec![Vector3::x(); 2], None, ActsOn::Tool).unwrap();
         assert!(matches!(
-            by_correlation(&slow, &predicted, 0.1),
+            lag_within(&slow, &predicted, [-0.1, 0.1]),
             Err(RecordError::OtherSteps { .. })
         ));
         assert!(matches!(
-            by_correlation(&slow, &slow, 0.1),
+            lag_within(&slow, &slow, [-0.1, 0.1]),
             Err(RecordError::NoLag(_))
         ));
         for most in [1e9, f64::INFINITY, f64::NAN] {
-            let found = by_correlation(&predicted, &predicted, most);
+            let found = lag_within(&predicted, &predicted, [-most, most]);
             assert!(
-                matches!(found, Err(RecordError::TooLong { .. })),
+                matches!(found, Err(RecordError::TooMuchWork { .. })),
                 "{most}: {found:?}"
             );
         }
         let far = record(100.0, 3000, 0.0);
         assert!(matches!(
-            by_correlation(&far, &predicted, 0.1),
+            lag_within(&far, &predicted, [-0.1, 0.1]),
             Err(RecordError::NoLag(_))
         ));
     }

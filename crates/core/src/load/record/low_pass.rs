@@ -46,12 +46,6 @@ pub fn low_pass(record: &Record, cutoff_hz: f64) -> Result<Record, RecordError> 
     Ok(smooth)
 }
 
-/// What a tone of `frequency_hz` keeps of its amplitude.
-pub fn amplitude(frequency_hz: f64, cutoff_hz: f64, rate_hz: f64) -> f64 {
-    let warped = |f: f64| (PI * f / rate_hz).tan();
-    1.0 / (1.0 + (warped(frequency_hz) / warped(cutoff_hz)).powi(4))
-}
-
 /// `y[k] = b0 (x[k] + 2 x[k-1] + x[k-2]) - a1 y[k-1] - a2 y[k-2]`
 struct Butterworth {
     b0: f64,
@@ -117,6 +111,12 @@ mod tests {
         let time: Vec<f64> = (0..4000).map(|k| f64::from(k) / RATE_HZ).collect();
         let force = time.iter().map(|t| Vector3::new(of(*t), -of(*t), 0.0)).collect();
         Record::new(time, force, None, ActsOn::Tool).unwrap()
+    }
+
+    /// What a tone of `frequency_hz` keeps of its amplitude: the formula of this page.
+    fn amplitude(frequency_hz: f64, cutoff_hz: f64, rate_hz: f64) -> f64 {
+        let warped = |f: f64| (PI * f / rate_hz).tan();
+        1.0 / (1.0 + (warped(frequency_hz) / warped(cutoff_hz)).powi(4))
     }
 
     #[test]

@@ -58,7 +58,7 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
         let start = first + period * turn as f64;
         let end = (start + period).min(last);
         let mut sum = Vector3::zeros();
-        let (mut at, mut value) = (start, between(record, before, start));
+        let (mut at, mut value) = (start, record.force_at(start));
         let (mut least, mut most, mut strongest) = (value, value, value);
         let mut next = before;
         while next < time.len() && time[next] <= start {
@@ -68,7 +68,7 @@ pub fn revolutions(record: &Record, spindle: f64) -> Result<Vec<Revolution>, Rec
             let inside = next < time.len() && time[next] < end;
             let (to, here) = match inside {
                 true => (time[next], force[next]),
-                false => (end, between(record, next.saturating_sub(1), end)),
+                false => (end, record.force_at(end)),
             };
             sum += (value + here) * (0.5 * (to - at));
             (at, value) = (to, here);
@@ -109,18 +109,6 @@ pub fn mean_at(turns: &[Revolution], time: f64) -> Option<Vector3<f64>> {
 pub fn turn_at(turns: &[Revolution], time: f64) -> Option<&Revolution> {
     let after = turns.partition_point(|turn| turn.start <= time);
     turns.get(after.saturating_sub(1))
-}
-
-/// The force at an instant, from the sample at `from` or later, on a line between samples.
-fn between(record: &Record, from: usize, at: f64) -> Vector3<f64> {
-    let (time, force) = (record.time(), record.force());
-    let mut after = (from + 1).min(time.len() - 1);
-    while after + 1 < time.len() && time[after] < at {
-        after += 1;
-    }
-    let step = time[after] - time[after - 1];
-    let part = ((at - time[after - 1]) / step).clamp(0.0, 1.0);
-    force[after - 1] + (force[after] - force[after - 1]) * part
 }
 
 #[cfg(test)]

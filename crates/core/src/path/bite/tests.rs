@@ -1,6 +1,5 @@
 use super::*;
-use crate::path::Pace;
-use nalgebra::{Unit, Vector3};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const MM: f64 = 1e-3;
 const PITCH: f64 = 0.25 * MM;
@@ -20,41 +19,38 @@ fn stock(pitch: f64) -> Stock {
     .unwrap()
 }
 
-fn flat() -> CutterProfile {
-    CutterProfile::new(2.0 * RADIUS, 0.0).unwrap()
+fn flat() -> EndMillBody {
+    EndMillBody::new(2.0 * RADIUS, 0.0).unwrap()
 }
 
-fn ball() -> CutterProfile {
-    CutterProfile::new(2.0 * RADIUS, RADIUS).unwrap()
+fn ball() -> EndMillBody {
+    EndMillBody::new(2.0 * RADIUS, RADIUS).unwrap()
 }
 
-fn arriving(at: Point3<f64>, direction: Vector3<f64>) -> PathPoint {
-    PathPoint {
-        at,
-        axis: Some(Vector3::z_axis()),
-        spin: None,
+fn pass(from: Point3<f64>, to: Point3<f64>, direction: Vector3<f64>) -> Pass {
+    Pass {
+        from,
+        to,
         direction: Unit::new_normalize(direction),
-        along: 0.0,
-        pace: Pace::Feed(0.01),
-        line: 1,
+        axis: Vector3::z_axis(),
     }
 }
 
+/// Immersion angles of a bite where the cutter has the radius `rho`.
+fn arc_at(bite: &Bite, rho: f64) -> [f64; 2] {
+    let arc = bite.strip.and_then(|strip| strip.arc_at(rho)).unwrap();
+    [arc.entry, arc.exit]
+}
+
 /// Bites along a line in steps no longer than `step`, its start first.
-fn line(
-    stock: &mut Stock,
-    from: Point3<f64>,
-    to: Point3<f64>,
-    step: f64,
-    cutter: &CutterProfile,
-) -> Vec<Bite> {
+fn line(stock: &mut Stock, from: Point3<f64>, to: Point3<f64>, step: f64, cutter: &EndMillBody) -> Vec<Bite> {
     let way = to - from;
     let pieces = (way.norm() / step).ceil();
     let mut before = from;
     (0..=pieces as usize)
         .map(|k| {
             let at = from + way * (k as f64 / pieces);
-            let bite = stock.cut(before, &arriving(at, way), cutter).unwrap();
+            let bite = stock.cut(&pass(before, at, way), cutter).unwrap();
             before = at;
             bite
         })
@@ -84,14 +80,14 @@ fn a_first_pass_is_a_slot_from_0_to_180_deg_whatever_its_direction() {
         );
         for bite in line(&mut stock, from, to, 0.7 * MM, &flat()) {
             assert_eq!(bite.kind, BiteKind::Slot);
-            assert_eq!((bite.entry, bite.exit, bite.arcs), (0.0, PI, 1));
-            assert!((bite.axial_depth - DEPTH).abs() < 1e-9 && bite.radial_depth == 2.0 * RADIUS);
+            assert_eq!(arc_at(&bite, RADIUS), [0.0, PI]);
+            assert!((bite.depth - DEPTH).abs() < 1e-9 && bite.width == 2.0 * RADIUS);
         }
     }
 }
 
 #[test]
-fn a_pass_beside_another_has_the_closed_immersion_of_its_radial_depth() {
+fn a_pass_beside_another_has_the_closed_immersion_of_its_width() {
     for angle in ANGLES {
         for ae in [0.8, 2.0, 5.0, 7.3].map(|ae| ae * MM) {
             for step in [0.05, 0.3, 1.0].map(|step| step * MM) {
@@ -104,23 +100,22 @@ fn a_pass_beside_another_has_the_closed_immersion_of_its_radial_depth() {
                     line(&mut stock, end(-8.0, side * ae), beside, MM, &flat());
                     for bite in line(&mut stock, beside, end(-3.0, side * ae), step, &flat()) {
                         let immersion = (1.0 - ae / RADIUS).acos();
-                        let (milling, entry, exit) = if side > 0.0 {
-                            (Milling::Up, 0.0, immersion)
+                        let expected = if side > 0.0 {
+                            [0.0, immersion]
                         } else {
-                            (Milling::Down, PI - immersion, PI)
+                            [PI - immersion, PI]
                         };
+                        let [entry, exit] = arc_at(&bite, RADIUS);
                         let told = format!("{angle} {ae} {step} {bite:?}");
-                        assert_eq!(bite.kind, BiteKind::Side(milling), "{told}");
+                        assert_eq!(bite.kind, BiteKind::Strip, "{told}");
                         assert!(
-                            is_at(bite.entry, entry, EDGE) && is_at(bite.exit, exit, EDGE),
+                            is_at(entry, expected[0], EDGE) && is_at(exit, expected[1], EDGE),
                             "{told}"
                         );
-                        assert!((bite.radial_depth - ae).abs() <= EDGE * PITCH, "{told}");
-                        let told_by_edges = [bite.left, bite.right].map(|y| (y / RADIUS).acos());
-                        assert_eq!(told_by_edges, [bite.entry, bite.exit], "{told}");
-                        let away = if side > 0.0 { bite.entry } else { PI - bite.exit };
-                        assert!(away == 0.0 && bite.arcs == 1, "{told}");
-                        assert!((bite.axial_depth - DEPTH).abs() < 1e-9, "{told}");
+                        assert!((bite.width - ae).abs() <= EDGE * PITCH, "{told}");
+                        let away = if side > 0.0 { entry } else { PI - exit };
+                        assert!(away == 0.0 && bite.width == bite.strip.unwrap().width(), "{told}");
+                        assert!((bite.depth - DEPTH).abs() < 1e-9, "{told}");
                     }
                 }
             }
@@ -146,11 +141,7 @@ fn the_volume_of_a_step_is_its_section_times_its_length() {
 
 #[test]
 fn a_pass_where_all_is_cut_already_is_air() {
-    for cutter in [
-        flat(),
-        ball(),
-        CutterProfile::new(2.0 * RADIUS, 1.5 * MM).unwrap(),
-    ] {
+    for cutter in [flat(), ball(), EndMillBody::new(2.0 * RADIUS, 1.5 * MM).unwrap()] {
         for angle in ANGLES {
             for rise in [-2.0, 0.0, 2.0] {
                 let mut stock = stock(PITCH);
@@ -158,11 +149,8 @@ fn a_pass_where_all_is_cut_already_is_air() {
                 let to = place(angle, 17.1 * MM, 1.07 * MM, -DEPTH + rise * MM);
                 line(&mut stock, from, to, 0.6 * MM, &cutter);
                 for bite in line(&mut stock, from, to, 0.6 * MM, &cutter) {
-                    assert_eq!(
-                        (bite.kind, bite.arcs, bite.volume),
-                        (BiteKind::Air, 0, 0.0),
-                        "{angle} {rise}"
-                    );
+                    assert_eq!((bite.kind, bite.strip), (BiteKind::Air, None), "{angle} {rise}");
+                    assert_eq!([bite.width, bite.depth, bite.volume], [0.0; 3], "{angle} {rise}");
                 }
             }
         }
@@ -170,12 +158,12 @@ fn a_pass_where_all_is_cut_already_is_air() {
 }
 
 /// Bites round a circle about the origin, counterclockwise.
-fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &CutterProfile) -> Vec<Bite> {
+fn round(stock: &mut Stock, radius: f64, steps: u32, cutter: &EndMillBody) -> Vec<Bite> {
     let at = |k: u32| place(f64::from(k) / f64::from(steps) * TAU, radius, 0.0, -DEPTH);
     (1..=steps)
         .map(|k| {
             let feed = Vector3::z().cross(&at(k).coords.xy().push(0.0));
-            stock.cut(at(k - 1), &arriving(at(k), feed), cutter).unwrap()
+            stock.cut(&pass(at(k - 1), at(k), feed), cutter).unwrap()
         })
         .collect()
 }
@@ -194,10 +182,11 @@ fn the_wall_of_a_round_pocket_is_met_on_the_closed_arc() {
         let half = ((wall * wall - ring * ring - RADIUS * RADIUS) / (2.0 * ring * RADIUS)).acos();
         // Not near the start, whose disc is cut already when the ring closes.
         for bite in &bites[60..110] {
-            assert_eq!(bite.kind, BiteKind::Side(Milling::Down));
-            assert_eq!(bite.exit, PI);
+            assert_eq!(bite.kind, BiteKind::Strip);
+            let [entry, exit] = arc_at(bite, RADIUS);
+            assert_eq!(exit, PI);
             // The arc leaves its chord within the window by another part of a pitch.
-            assert!(is_at(bite.entry, PI - half, 1.2), "{} {bite:?}", PI - half);
+            assert!(is_at(entry, PI - half, 1.2), "{} {bite:?}", PI - half);
         }
         // A straight wall would be met over less: the test can tell.
         let straight = (1.0 - (ring + RADIUS - wall) / RADIUS).acos();
@@ -228,8 +217,9 @@ fn entering_and_leaving_a_face_follow_the_rim() {
             let entry = (short / RADIUS).asin();
             // The face lies across: a pitch along the feed is a pitch times tan(phi) along the rim's y.
             let off = 1.5 * entry.tan() + EDGE;
-            assert!(is_at(bite.entry, entry, off), "{k} {bite:?}");
-            assert!(is_at(bite.exit, PI - entry, off), "{k} {bite:?}");
+            let [enters, leaves] = arc_at(bite, RADIUS);
+            assert!(is_at(enters, entry, off), "{k} {bite:?}");
+            assert!(is_at(leaves, PI - entry, off), "{k} {bite:?}");
         }
         if (-115.0 * MM..0.0).contains(&short) {
             assert_eq!(bite.kind, BiteKind::Slot, "{k}");
@@ -239,7 +229,7 @@ fn entering_and_leaving_a_face_follow_the_rim() {
 
 /// Clears a rectangle with a thin cutter.
 fn clear(stock: &mut Stock, low: [f64; 2], high: [f64; 2]) {
-    let thin = CutterProfile::new(0.5 * MM, 0.0).unwrap();
+    let thin = EndMillBody::new(0.5 * MM, 0.0).unwrap();
     let mut y = low[1] + 0.25;
     while y < high[1] - 0.2 {
         let at = |x: f64| Point3::new(x * MM, y * MM, -DEPTH);
@@ -260,18 +250,16 @@ fn engagement_rises_towards_an_inner_corner() {
     for (k, bite) in bites.iter().enumerate().skip(30) {
         let away = (50.0 - 0.5 * k as f64) * MM;
         if away > RADIUS + 2.0 * PITCH {
-            assert_eq!(bite.kind, BiteKind::Side(Milling::Up));
-            assert!(is_at(bite.exit, side, EDGE), "{k} {bite:?}");
+            assert_eq!(bite.kind, BiteKind::Strip);
+            assert!(is_at(arc_at(bite, RADIUS)[1], side, EDGE), "{k} {bite:?}");
         } else if away < 0.75 * RADIUS {
             // The rim passes x = 20 mm at sin(phi) = away/R, on the side of the free part.
             let exit = PI - (away / RADIUS).asin();
             // A pitch along the feed and one of the corner that the thin cutter leaves.
             let off = 2.0 * (away / RADIUS).asin().tan() + EDGE;
-            assert!(
-                bite.entry == 0.0 && is_at(bite.exit, exit, off),
-                "{k} {exit} {bite:?}"
-            );
-            exits.push(bite.exit);
+            let [enters, leaves] = arc_at(bite, RADIUS);
+            assert!(enters == 0.0 && is_at(leaves, exit, off), "{k} {exit} {bite:?}");
+            exits.push(leaves);
         }
     }
     assert!(
@@ -282,16 +270,16 @@ fn engagement_rises_towards_an_inner_corner() {
 }
 
 #[test]
-fn a_channel_in_the_middle_leaves_two_arcs() {
+fn of_two_strips_beside_a_channel_one_is_told_and_not_both() {
     let mut stock = stock(PITCH);
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
-    let channel = CutterProfile::new(5.0 * MM, 0.0).unwrap();
+    let channel = EndMillBody::new(5.0 * MM, 0.0).unwrap();
     line(&mut stock, at(-50.0), at(50.0), 100.0 * MM, &channel);
     let bites = line(&mut stock, at(-20.0), at(0.0), MM, &flat());
     for bite in &bites {
-        assert_eq!(bite.arcs, 2);
-        let upper = bite.entry == 0.0 && is_at(bite.exit, PI / 3.0, EDGE);
-        let lower = bite.exit == PI && is_at(bite.entry, 2.0 * PI / 3.0, EDGE);
+        let [entry, exit] = arc_at(bite, RADIUS);
+        let upper = entry == 0.0 && is_at(exit, PI / 3.0, EDGE);
+        let lower = exit == PI && is_at(entry, 2.0 * PI / 3.0, EDGE);
         assert!(upper || lower, "{bite:?}");
     }
 }
@@ -303,9 +291,10 @@ fn a_rib_narrower_than_the_cutter_is_met_in_the_middle() {
     clear(&mut stock, [-60.0, 3.0], [60.0, 20.0]);
     let at = |x: f64| Point3::new(x * MM, 0.0, -DEPTH);
     for bite in line(&mut stock, at(-20.0), at(0.0), MM, &flat()) {
-        assert_eq!((bite.kind, bite.arcs), (BiteKind::Side(Milling::Up), 1));
-        assert!(is_at(bite.entry, 0.6_f64.acos(), 2.0 * EDGE), "{bite:?}");
-        assert!(is_at(bite.exit, (-0.4_f64).acos(), 2.0 * EDGE), "{bite:?}");
+        assert_eq!(bite.kind, BiteKind::Strip);
+        let [entry, exit] = arc_at(&bite, RADIUS);
+        assert!(is_at(entry, 0.6_f64.acos(), 2.0 * EDGE), "{bite:?}");
+        assert!(is_at(exit, (-0.4_f64).acos(), 2.0 * EDGE), "{bite:?}");
     }
 }
 
@@ -319,13 +308,10 @@ fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
     let bites = line(&mut stock, from, to, MM, &flat());
     let steps = (bites.len() - 1) as f64;
     for (k, bite) in bites.iter().enumerate().skip(1) {
-        assert_eq!(
-            (bite.kind, bite.entry, bite.exit),
-            (BiteKind::Slot, 0.0, PI),
-            "{k}"
-        );
+        assert_eq!(bite.kind, BiteKind::Slot, "{k}");
+        assert_eq!(arc_at(bite, RADIUS), [0.0, PI], "{k}");
         assert!(
-            (bite.axial_depth - 4.0 * MM * k as f64 / steps).abs() < 1e-8,
+            (bite.depth - 4.0 * MM * k as f64 / steps).abs() < 1e-8,
             "{k} {bite:?}"
         );
     }
@@ -337,7 +323,8 @@ fn a_ramp_bites_deeper_step_by_step_and_a_plunge_all_round() {
     let kinds: Vec<BiteKind> = plunge.iter().map(|bite| bite.kind).collect();
     let (air, dive) = (BiteKind::Air, BiteKind::Plunge);
     assert_eq!(kinds, [air, air, dive, dive]);
-    assert!((plunge[3].axial_depth - MM).abs() < 1e-8 && plunge[3].exit == TAU);
+    assert!((plunge[3].depth - MM).abs() < 1e-8);
+    assert_eq!((plunge[3].strip, plunge[3].width), (None, 2.0 * RADIUS));
     let up = line(&mut stock, down[1], down[0], MM, &flat());
     assert!(up.iter().all(|bite| bite.kind == air && bite.volume == 0.0));
 }
@@ -352,14 +339,13 @@ fn a_ball_is_engaged_up_to_the_height_of_the_material() {
         );
         let wide = ball().radius_at(depth);
         for bite in line(&mut stock, from, to, MM, &ball()) {
-            assert_eq!(
-                (bite.kind, bite.entry, bite.exit),
-                (BiteKind::Slot, 0.0, PI),
-                "{depth}"
-            );
+            assert_eq!(bite.kind, BiteKind::Slot, "{depth}");
+            assert_eq!(arc_at(&bite, wide), [0.0, PI], "{depth}");
+            // It goes on beyond the circle that cuts.
+            assert_eq!(bite.strip.unwrap().edges(), [-RADIUS, RADIUS]);
             // Heights are rounded to 1e-9 m; a ball of 5 mm is 2.8 times as wide per height at 0.3 mm, on two sides.
-            assert!((bite.radial_depth - 2.0 * wide).abs() < 1e-8, "{depth} {bite:?}");
-            assert!((bite.axial_depth - depth).abs() < 1e-8, "{depth} {bite:?}");
+            assert!((bite.width - 2.0 * wide).abs() < 1e-8, "{depth} {bite:?}");
+            assert!((bite.depth - depth).abs() < 1e-8, "{depth} {bite:?}");
         }
     }
 }
@@ -374,18 +360,14 @@ fn a_ball_beside_its_own_groove_meets_the_ridge_between() {
     // Left of the middle between both grooves the ball reaches below the first one.
     let (left, right) = (ball().radius_at(depth), -apart / 2.0);
     for bite in line(&mut stock, at(-10.0, apart), at(10.0, apart), MM, &ball()) {
-        assert_eq!(
-            (bite.kind, bite.entry, bite.arcs),
-            (BiteKind::Side(Milling::Up), 0.0, 1)
-        );
-        let off = bite.radial_depth - (left - right);
+        assert_eq!(bite.kind, BiteKind::Strip);
+        let off = bite.width - (left - right);
         // The stack has discs of a sixth of the engaged radius: the lowest that meets the ridge tells where it begins.
         assert!(off.abs() < left / 6.0 + EDGE * PITCH, "{off} {bite:?}");
-        // The strip tells the radius that its angles belong to: it reaches that far to the left.
-        assert_eq!(bite.radial_depth, bite.left - bite.right);
-        assert!((bite.left - left).abs() < 1e-8, "{bite:?}");
+        // The ridge goes on beyond where the ball is as high as it; the width is told at that height.
+        let [right, beyond] = bite.strip.unwrap().edges();
         assert!(
-            (bite.exit.cos() - bite.right / bite.left).abs() < 1e-12,
+            beyond == RADIUS && (bite.width - (left - right)).abs() < 1e-8,
             "{bite:?}"
         );
     }
@@ -401,7 +383,7 @@ fn the_immersion_converges_with_the_pitch() {
             line(&mut stock, end(-20.0, 0.0), end(20.0, 0.0), 40.0 * MM, &flat());
             line(&mut stock, end(-8.0, ae), end(-5.0, ae), 3.0 * MM, &flat());
             let bites = line(&mut stock, end(-5.0, ae), end(-4.0, ae), 0.5 * MM, &flat());
-            let errors = bites.iter().map(|bite| (bite.radial_depth - ae).abs());
+            let errors = bites.iter().map(|bite| (bite.width - ae).abs());
             errors.fold(0.0, f64::max)
         });
         errors.fold(0.0, f64::max)

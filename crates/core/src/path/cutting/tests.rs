@@ -54,7 +54,11 @@ fn along(
 fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operation)]) -> Vec<Vector3<f64>> {
     let found = along(cutting, points, operations, None).unwrap();
     let of = |here: &CutHere| [here.mean, here.greatest];
-    let cases = if found.cuts.with_greatest { 2 } else { 1 };
+    let cases = if found.cuts.greatest == Greatest::SecondCase {
+        2
+    } else {
+        1
+    };
     let all = found.cuts.points.iter();
     all.flat_map(|here| of(here).into_iter().take(cases)).collect()
 }
@@ -268,31 +272,132 @@ fn the_tool_of_the_program_cuts_in_its_own_size() {
 }
 
 #[test]
-fn a_bite_without_width_is_no_strip_and_one_that_reaches_the_rim_goes_on_beyond_it() {
-    let corners = [Point3::new(-40e-3, 8e-3, -10e-3), Point3::new(40e-3, 40e-3, 0.0)];
-    let mut stock = Stock::new(corners, 1e-3).unwrap();
-    let stock = InStock::of(&mut stock, &cutting().cutter).unwrap();
-    // A ball that meets material at 3 mm from its axis, on its left up to there.
-    let bite = |kind, right: f64| Bite {
-        kind,
-        entry: 0.0,
-        exit: (right / 3e-3).acos(),
-        arcs: 1,
-        axial_depth: 1e-3,
-        left: 3e-3,
-        right,
-        radial_depth: 3e-3 - right,
-        volume: 0.0,
+fn a_shallow_ball_cuts_with_the_force_of_the_strip_that_it_meets() {
+    // 0.2 mm deep a ball of 10 mm is 1.4 mm in radius: a strip told by the full diameter would lie beside it.
+    let ball = Cutting {
+        cutter: Cutter::ball(10e-3, 2).unwrap(),
+        depth: 0.2e-3,
+        ..cutting()
     };
-    let side = BiteKind::Side(crate::path::Milling::Up);
-    let strip = stock.strip(&bite(side, 1e-3)).unwrap();
-    assert_eq!(strip.edges(), [1e-3, 8e-3]);
-    assert_eq!(stock.strip(&bite(BiteKind::Air, 1e-3)), None);
-    let at_the_rim = Bite {
-        left: 8e-3,
-        right: 8e-3,
-        exit: 0.0,
-        ..bite(side, 1e-3)
+    let at = |immersion| {
+        let told = along(
+            &Cutting { immersion, ..ball },
+            &[point([1.0, 0.0, 0.0], Pace::Untold)],
+            &[],
+            None,
+        )
+        .unwrap();
+        assert_eq!(told.told.without_force, 0);
+        told.cuts.points[0].mean
     };
-    assert_eq!(stock.strip(&at_the_rim), None);
+    let shallow = at(Immersion::Up(0.5e-3));
+    assert!(shallow.norm() > 1.0, "{shallow}");
+    // Wider is more, up to a groove of its own.
+    let sizes = [0.1e-3, 0.5e-3, 1.4e-3, 2.7e-3].map(|ae| at(Immersion::Down(ae)).norm());
+    assert!(sizes.windows(2).all(|pair| pair[0] < pair[1]), "{sizes:?}");
+    assert_eq!(at(Immersion::Up(2.9e-3)), at(Immersion::Slot));
+    // What is met in a stock that has this strip: a groove beside one of its own.
+    let corners = [Point3::new(-0.04, -0.02, -0.01), Point3::new(0.04, 0.02, 0.0)];
+    let mut stock = Stock::new(corners, 0.05e-3).unwrap();
+    let grooves: Vec<PathPoint> = [
+        (-0.03, 0.0),
+        (0.03, 0.0),
+        (-0.03, 0.5e-3),
+        (0.0, 0.5e-3),
+        (0.3e-3, 0.5e-3),
+    ]
+    .into_iter()
+    .enumerate()
+    .map(|(k, (x, y))| PathPoint {
+        at: Point3::new(x, y, -0.2e-3),
+        // Each groove begins anew.
+        along: if k == 2 { 0.0 } else { k as f64 },
+        ..point([1.0, 0.0, 0.0], Pace::Untold)
+    })
+    .collect();
+    let found = along(&ball, &grooves, &[], Some(&mut stock)).unwrap();
+    let strip = found.cuts.points[4].cut.unwrap().engagement.edges();
+    // The ridge between both begins half a radial depth from the axis, not at the rim less the radial depth: deeper in the
+    // cut it is wider. Both go on beyond the rim on the left.
+    assert_eq!(strip[1], 5e-3);
+    assert!((strip[0] + 0.25e-3).abs() < 0.3e-3, "{strip:?}");
+}
+
+#[test]
+fn a_tool_whose_edges_pass_beside_the_material_has_no_force_and_is_counted() {
+    let soft = Mechanistic::new(Vector3::zeros(), Vector3::zeros()).unwrap();
+    let nothing = Cutting {
+        law: CuttingLaw::Mechanistic(soft),
+        ..cutting()
+    };
+    let found = along(&nothing, &[point([1.0, 0.0, 0.0], Pace::Untold)], &[], None).unwrap();
+    assert_eq!((found.told.without_force, found.told.largest_mean), (1, 0.0));
+    assert_eq!(found.cuts.points[0].greatest, Vector3::zeros());
+}
+
+#[test]
+fn what_was_met_in_a_stock_adds_up_to_what_is_gone() {
+    let corners = [
+        Point3::new(-40e-3, -40e-3, -10e-3),
+        Point3::new(40e-3, 40e-3, 0.0),
+    ];
+    let mut stock = Stock::new(corners, 0.5e-3).unwrap();
+    let (full, points) = (stock.volume(), pocket());
+    let met = along(&cutting(), &points, &[], Some(&mut stock))
+        .unwrap()
+        .told
+        .met
+        .unwrap();
+    assert!((full - stock.volume() - met.removed).abs() < 1e-7 * full);
+    // Once more there is nothing left.
+    let again = along(&cutting(), &points, &[], Some(&mut stock)).unwrap();
+    let met = again.told.met.unwrap();
+    assert_eq!(met.removed, 0.0);
+    // Short steps see the wall ahead of a corner two pitches early, which is two points of this path.
+    assert!(met.in_air + 2 >= points.len(), "{met:?}");
+    let of_air = again.cuts.points.iter().filter(|here| **here == CutHere::NOTHING);
+    assert_eq!(of_air.count(), met.in_air);
+}
+
+#[test]
+fn the_greatest_force_is_told_where_the_mean_is_largest_even_if_it_is_no_case() {
+    let points = [
+        point([1.0, 0.0, 0.0], Pace::Feed(20e-3)),
+        point([1.0, 0.0, 0.0], Pace::Feed(40e-3)),
+        point([1.0, 0.0, 0.0], Pace::Feed(30e-3)),
+    ];
+    let both = along(&cutting(), &points, &[], None).unwrap();
+    let alone = Cutting {
+        greatest: Greatest::LeftOut,
+        ..cutting()
+    };
+    let mean = along(&alone, &points, &[], None).unwrap();
+    assert_eq!(mean.told.largest_mean, both.told.largest_mean);
+    assert!((mean.told.greatest / both.told.greatest - 1.0).abs() < 1e-12);
+    assert_eq!(mean.told.largest_mean, mean.cuts.points[1].mean.norm());
+    assert!(
+        mean.cuts
+            .points
+            .iter()
+            .all(|here| here.greatest == Vector3::zeros())
+    );
+}
+
+#[test]
+fn a_tool_that_comes_back_is_held_once() {
+    let feed = Pace::Feed(40e-3);
+    let points = [point([1.0, 0.0, 0.0], feed); 4];
+    let of = |diameter| Operation {
+        diameter,
+        ..Operation::default()
+    };
+    let operations = [
+        (0, of(Some(20e-3))),
+        (1, of(None)),
+        (2, of(Some(20e-3))),
+        (3, of(Some(-1.0))),
+    ];
+    let found = along(&cutting(), &points, &operations, None).unwrap();
+    let held: Vec<usize> = found.cuts.points.iter().map(|here| here.cutter).collect();
+    assert_eq!((found.cuts.cutters.len(), held), (2, vec![1, 0, 1, 0]));
 }

@@ -7,8 +7,8 @@ const MM: f64 = 1e-3;
 /// The row of bottoms starts this far below all that is cut, m.
 const FLOOR: f64 = -20.0 * MM;
 
-fn cutter_mm(diameter: f64, corner: f64) -> CutterProfile {
-    CutterProfile::new(diameter * MM, corner * MM).unwrap()
+fn cutter_mm(diameter: f64, corner: f64) -> EndMillBody {
+    EndMillBody::new(diameter * MM, corner * MM).unwrap()
 }
 
 /// Path z of the lowest point over one place, m; none where the cutter does not pass.
@@ -63,7 +63,7 @@ fn the_lowest_point_of_a_step_is_that_of_many_stamps() {
 }
 
 /// The definition itself, by search: the height along the step is convex.
-fn searched(from: Point3<f64>, to: Point3<f64>, cutter: &CutterProfile, at: Point2<f64>) -> Option<f64> {
+fn searched(from: Point3<f64>, to: Point3<f64>, cutter: &EndMillBody, at: Point2<f64>) -> Option<f64> {
     let (off, chord) = (at - from.xy(), (to - from).xy());
     let along = chord / chord.norm();
     let (a, b) = (off.dot(&along), off.perp(&along));

@@ -1,6 +1,6 @@
 //! What a path permits, in the answer.
 
-use armill_core::map::{CutLimits, Permitted, PointLimits};
+use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use serde::Serialize;
 
 use super::super::point::tidy;
@@ -46,11 +46,11 @@ impl LimitsAnswer {
     pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<LimitsAnswer> {
         let limits = found.limits.as_ref()?;
         let line = |point: &PointLimits| ask.track.path.points[point.index].line;
-        let force = |which: usize| {
+        let force = |of: fn(&PermittedForces) -> f64| {
             let points = limits.points.iter();
-            let least = points.min_by(|a, b| a.forces[which].total_cmp(&b.forces[which]))?;
+            let least = points.min_by(|a, b| of(&a.forces).total_cmp(&of(&b.forces)))?;
             Some(LimitAnswer {
-                value: tidy(least.forces[which]),
+                value: tidy(of(&least.forces)),
                 unit: "N",
                 verdict: "up to",
                 line: line(least),
@@ -66,10 +66,10 @@ impl LimitsAnswer {
         };
         Some(LimitsAnswer {
             points: limits.points.len(),
-            any_direction: force(3),
-            along: force(0),
-            cross: force(1),
-            axial: force(2),
+            any_direction: force(|forces| forces.weakest),
+            along: force(|forces| forces.along),
+            cross: force(|forces| forces.across),
+            axial: force(|forces| forces.normal),
             axial_depth: cut(|cut| Some(cut.depth)),
             radial_depth: cut(|cut| cut.width),
             feed_per_tooth: cut(|cut| Some(cut.feed_per_tooth)),

@@ -112,11 +112,21 @@ pub enum RecordError {
     /// No lag can be told: no force crosses the threshold, or one of both does not change.
     #[error("no lag can be told: {0}")]
     NoLag(&'static str),
-    /// Too much work.
+    /// More instants than are kept.
+    #[error(
+        "a record of {count:.1e} instants is longer than the {most:.0e} that are kept: take longer steps"
+    )]
+    TooManySamples {
+        /// As asked for.
+        count: f64,
+        /// What is kept.
+        most: f64,
+    },
+    /// A search that takes too long.
     #[error(
         "{products:.1e} products are more than {most:.0e}: shorten the records, or look for a smaller lag"
     )]
-    TooLong {
+    TooMuchWork {
         /// Products that the search needs.
         products: f64,
         /// How many it may take.
@@ -329,5 +339,62 @@ mod tests {
             matches!(uneven, Err(RecordError::UnequalSteps { sample: 1, .. })),
             "{uneven:?}"
         );
+    }
+
+    #[test]
+    fn every_refusal_tells_what_is_wrong_with_the_record() {
+        let told = [
+            (
+                RecordError::TooShort(1),
+                "a record of 1 instants is shorter than the 2 it needs",
+            ),
+            (
+                RecordError::Lengths { time: 3, force: 2 },
+                "3 instants but 2 forces or moments",
+            ),
+            (
+                RecordError::NotFinite(7),
+                "sample 7 holds a number that is not finite",
+            ),
+            (RecordError::TimeStands(4), "time does not go on at sample 4"),
+            (
+                RecordError::NoLag("a force never crosses the threshold"),
+                "no lag can be told: a force never crosses the threshold",
+            ),
+            (
+                RecordError::TooMuchWork {
+                    products: 3.2e10,
+                    most: 2e9,
+                },
+                "3.2e10 products are more than 2e9: shorten the records, or look for a smaller lag",
+            ),
+            (
+                RecordError::Revolution {
+                    samples: 4.25,
+                    least: 8,
+                },
+                "4.2 samples a revolution are fewer than the 8 it needs, or the record holds no whole revolution",
+            ),
+        ];
+        for (error, text) in told {
+            assert_eq!(error.to_string(), text);
+        }
+    }
+
+    #[test]
+    fn turning_there_and_back_leaves_forces_and_moments_as_they_were() {
+        let vectors = |size: f64| vec![Vector3::new(size, -2.0, 0.3), Vector3::new(4.0, size, -1.0)];
+        let record = Record::new(vec![0.5, 1.0], vectors(3.0), Some(vectors(7.0)), ActsOn::Part).unwrap();
+        let turn = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -0.8, 2.0));
+        let there = record.clone().turned(&turn);
+        assert!((there.moment().unwrap()[1] - turn * vectors(7.0)[1]).norm() < 1e-15);
+        let back = there.turned(&turn.inverse());
+        for (one, other) in record.force().iter().zip(back.force()) {
+            assert!((one - other).norm() < 1e-14);
+        }
+        assert_eq!((back.time(), back.acts_on()), (record.time(), ActsOn::Part));
+        assert_eq!((back.begin(), back.end()), (0.5, 1.0));
+        let on_tool = record.on_tool();
+        assert_eq!(on_tool.moment().unwrap()[0], -vectors(7.0)[0]);
     }
 }

@@ -14,34 +14,38 @@
 //!
 //! Above the corner the body is a cylinder without end: no length of flute, no shank, no holder, no taper.
 
-use super::stock::{FARTHEST, StockError};
+use super::error::{CuttingError, checked};
 
 /// A flat, ball or bull nose end mill as a body of revolution.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CutterProfile {
+pub struct EndMillBody {
     radius: f64,
     corner_radius: f64,
 }
 
-impl CutterProfile {
+/// Largest cutter, m: far above any that a robot carries.
+const MOST_DIAMETER: f64 = 1.0;
+/// Smallest cutter, m: far below any that is made.
+const LEAST_DIAMETER: f64 = 1e-5;
+
+impl EndMillBody {
     /// An end mill of this `diameter` with this `corner_radius` (m).
     ///
     /// # Errors
-    /// A number that is not finite, a diameter that is not above zero or beyond any tool, a corner radius below zero or beyond half the
-    /// diameter.
-    pub fn new(diameter: f64, corner_radius: f64) -> Result<CutterProfile, StockError> {
-        let radius = diameter / 2.0;
-        let is_body = radius > 0.0 && diameter <= FARTHEST;
-        if !(is_body && (0.0..=radius).contains(&corner_radius)) {
-            return Err(StockError::Cutter {
-                diameter,
-                corner_radius,
-            });
-        }
-        Ok(CutterProfile {
+    /// Numbers that are not finite, a diameter outside what is made, a corner radius beyond half of it.
+    pub fn new(diameter: f64, corner_radius: f64) -> Result<EndMillBody, CuttingError> {
+        let made = [LEAST_DIAMETER, MOST_DIAMETER];
+        let radius = checked("diameter of the cutter", diameter, made, "m")? / 2.0;
+        let corner_radius = checked("corner radius", corner_radius, [0.0, radius], "m")?;
+        Ok(EndMillBody {
             radius,
             corner_radius,
         })
+    }
+
+    /// m
+    pub fn diameter(&self) -> f64 {
+        2.0 * self.radius
     }
 
     /// Radius of the cylinder, m.
@@ -84,7 +88,7 @@ mod tests {
 
     #[test]
     fn a_ball_is_a_sphere_and_a_bull_nose_has_a_flat_bottom_and_a_quarter_of_a_torus() {
-        let ball = CutterProfile::new(0.01, 0.005).unwrap();
+        let ball = EndMillBody::new(0.01, 0.005).unwrap();
         for rho in [0.0, 1e-6, 0.001, 0.003, 0.004999, 0.005] {
             // Pythagoras about the centre of the ball; a difference of squares of 25e-6 keeps 1e-16 / 5e-3 of a metre.
             let above = ball.height(rho) - 0.005;
@@ -92,11 +96,11 @@ mod tests {
             // The root is steep near the tip: 1e-17 of a height there is 1e-10 of a radius.
             assert!((ball.radius_at(ball.height(rho)) - rho).abs() < 1e-9, "{rho}");
         }
-        let bull = CutterProfile::new(0.01, 0.001).unwrap();
+        let bull = EndMillBody::new(0.01, 0.001).unwrap();
         assert_eq!((bull.height(0.0), bull.height(0.004)), (0.0, 0.0));
         assert!((bull.height(0.004 + 0.0006) - 0.0002).abs() < 1e-15);
         assert_eq!(bull.height(0.005), 0.001);
-        let flat = CutterProfile::new(0.01, 0.0).unwrap();
+        let flat = EndMillBody::new(0.01, 0.0).unwrap();
         assert_eq!((flat.height(0.005), flat.radius_at(0.0)), (0.0, 0.005));
     }
 
@@ -110,12 +114,39 @@ mod tests {
             (0.01, -1e-9),
             (0.01, 0.0050001),
             (0.01, f64::NAN),
+            (9e-6, 0.0),
+            (1.1, 0.0),
         ] {
-            let refused = CutterProfile::new(diameter, corner_radius);
-            assert!(
-                matches!(refused, Err(StockError::Cutter { .. })),
-                "{diameter} {corner_radius}"
-            );
+            let refused = EndMillBody::new(diameter, corner_radius);
+            assert!(refused.is_err(), "{diameter} {corner_radius}");
+        }
+    }
+
+    #[test]
+    fn height_and_radius_undo_each_other_and_only_rise() {
+        for (diameter, corner) in [
+            (0.01, 0.005),
+            (0.01, 0.001),
+            (0.016, 0.0),
+            (1e-5, 5e-6),
+            (1.0, 0.5),
+        ] {
+            let body = EndMillBody::new(diameter, corner).unwrap();
+            assert_eq!(body.diameter(), diameter);
+            let mut before = 0.0;
+            for k in 0..=50 {
+                let rho = body.radius() * f64::from(k) / 50.0;
+                let height = body.height(rho);
+                assert!(height >= before && height <= corner, "{diameter} {rho}");
+                if rho > body.flat_radius() * (1.0 + 1e-9) {
+                    let off = body.radius_at(height) - rho;
+                    // The root is steep near the tip.
+                    assert!(off.abs() < 2e-7 * diameter, "{diameter} {rho}: {off}");
+                }
+                before = height;
+            }
+            assert_eq!(body.radius_at(10.0 * diameter), body.radius());
+            assert_eq!(body.radius_at(-1.0), body.flat_radius());
         }
     }
 }

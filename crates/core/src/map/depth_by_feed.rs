@@ -1,0 +1,255 @@
+//! How far a tool deviates over depth and feed, at the points of a program that permit least.
+
+use super::limits::PointLimits;
+use super::varied::{CutLimits, MOST_DEPTH, MOST_FEED, Permitted, Varied, fed};
+use crate::load::Cut;
+use crate::watch::{Cancelled, Watch};
+
+/// Largest deviation of a path over depth and feed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DepthByFeed {
+    /// Axial depths, m.
+    pub depths: Vec<f64>,
+    /// Feeds per tooth, m.
+    pub feeds_per_tooth: Vec<f64>,
+    /// Largest in-plane deviation of the points that decide, m; one row a depth. Infinite where a tool is drawn in.
+    pub deviations: Vec<f64>,
+}
+
+/// Depths and feeds of the sheet.
+const SHEET: usize = 24;
+/// Points that decide on the sheet: as many that permit the least depth, and as many that permit the least feed.
+const DECIDING: usize = 6;
+/// The sheet reaches to this many times what is drawn or permitted, whichever is more.
+const BEYOND: f64 = 1.6;
+
+impl DepthByFeed {
+    /// Of those `points` that permit least, each with its cut; `None` without a cut.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the watch says so.
+    pub(super) fn of(
+        points: &[PointLimits],
+        cut_at: impl FnMut(usize) -> Option<Varied>,
+        watch: Watch<'_>,
+    ) -> Result<Option<DepthByFeed>, Cancelled> {
+        let by = |part: fn(&CutLimits) -> Permitted| {
+            let mut found: Vec<(f64, usize)> = points
+                .iter()
+                .filter_map(|point| point.cut.map(|cut| (part(&cut).value(), point.index)))
+                .collect();
+            found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            found.truncate(DECIDING);
+            found
+        };
+        let (by_depth, by_feed) = (by(|cut| cut.depth), by(|cut| cut.feed_per_tooth));
+        let (Some((least_depth, _)), Some((least_feed, _))) = (by_depth.first(), by_feed.first()) else {
+            return Ok(None);
+        };
+        let mut indices: Vec<usize> = by_depth.iter().chain(&by_feed).map(|(_, index)| *index).collect();
+        indices.sort_unstable();
+        indices.dedup();
+        let mut deciding: Vec<Varied> = indices.into_iter().filter_map(cut_at).collect();
+        let drawn = |of: fn(&Cut) -> f64| deciding.iter().map(|here| of(&here.cut)).fold(0.0, f64::max);
+        let diameter = 2.0 * deciding.iter().map(|here| here.cutter_radius).fold(0.0, f64::max);
+        let reach = |drawn: f64, least: f64, most: f64| (BEYOND * drawn.max(least)).min(most);
+        let steps = |most: f64| {
+            (1..=SHEET)
+                .map(|k| most * k as f64 / SHEET as f64)
+                .collect::<Vec<f64>>()
+        };
+        let depths = steps(reach(drawn(|cut| cut.depth), *least_depth, MOST_DEPTH * diameter));
+        let most_feed = reach(
+            drawn(|cut| cut.feed.hypot(cut.rise)),
+            *least_feed,
+            MOST_FEED * diameter,
+        );
+        let feeds_per_tooth = steps(most_feed);
+        let mut deviations = Vec::with_capacity(depths.len() * feeds_per_tooth.len());
+        for depth in &depths {
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
+            for feed in &feeds_per_tooth {
+                let of = |here: &mut Varied| {
+                    let cut = Cut {
+                        depth: *depth,
+                        ..here.cut
+                    };
+                    let drawn = cut.feed.hypot(cut.rise);
+                    here.deviation(&fed(&cut, feed / drawn))
+                };
+                deviations.push(deciding.iter_mut().map(of).fold(0.0, f64::max));
+            }
+        }
+        Ok(Some(DepthByFeed {
+            depths,
+            feeds_per_tooth,
+            deviations,
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load::{
+        CutHere, CutsAlong, Cutter, CuttingLaw, Engagement, Greatest, Immersion, Mechanistic, Milling,
+        TipYield,
+    };
+    use crate::map::limits::PermittedForces;
+    use nalgebra::{Matrix3, Vector3};
+    use std::sync::atomic::AtomicBool;
+
+    const MM: f64 = 1e-3;
+    const LIMIT: f64 = 10e-6;
+
+    fn law() -> CuttingLaw {
+        let shear = Vector3::new(800e6, 300e6, 100e6);
+        CuttingLaw::Mechanistic(Mechanistic::new(shear, Vector3::zeros()).unwrap())
+    }
+
+    /// A flat cutter of 10 mm, and one of 4 mm.
+    fn cutters() -> Vec<Cutter> {
+        vec![
+            Cutter::flat(10.0 * MM, 2).unwrap(),
+            Cutter::flat(4.0 * MM, 2).unwrap(),
+        ]
+    }
+
+    fn slot(cutter: usize, depth: f64) -> Cut {
+        Cut {
+            depth,
+            engagement: Engagement::of(Immersion::Slot, cutters()[cutter].diameter()).unwrap(),
+            feed: 0.05 * MM,
+            rise: 0.0,
+        }
+    }
+
+    fn force(cutter: usize, cut: Cut) -> Vector3<f64> {
+        Milling::new(cutters()[cutter], law(), cut).unwrap().mean_force()
+    }
+
+    /// Points whose tips yield along the feed by these (m/N), each with its cutter and depth.
+    fn asked(of: &[(f64, usize, f64)]) -> (Vec<PointLimits>, Vec<Option<Varied>>) {
+        let mut varied: Vec<Option<Varied>> = of
+            .iter()
+            .map(|(a, cutter, depth)| {
+                let cut = slot(*cutter, *depth);
+                let here = CutHere {
+                    cutter: *cutter,
+                    cut: Some(cut),
+                    mean: force(*cutter, cut),
+                    greatest: Vector3::zeros(),
+                };
+                let cuts = CutsAlong {
+                    cutters: cutters(),
+                    law: law(),
+                    greatest: Greatest::LeftOut,
+                    points: vec![here],
+                };
+                let tip = TipYield {
+                    by_force: Matrix3::from_diagonal(&Vector3::new(*a, 0.0, 0.0)),
+                    unloaded: Vector3::zeros(),
+                };
+                Varied::of(&cuts, 0, tip, LIMIT)
+            })
+            .collect();
+        let forces = PermittedForces {
+            along: 1.0,
+            across: 1.0,
+            normal: 1.0,
+            weakest: 1.0,
+        };
+        let points = varied.iter_mut().enumerate().map(|(index, varied)| PointLimits {
+            index,
+            forces,
+            cut: varied.as_mut().map(Varied::limits),
+        });
+        (points.collect(), varied)
+    }
+
+    fn of(points: &[(f64, usize, f64)]) -> DepthByFeed {
+        let (points, mut varied) = asked(points);
+        let found = DepthByFeed::of(&points, |index| varied[index].take(), Watch::NONE);
+        found.unwrap().unwrap()
+    }
+
+    #[test]
+    fn deviation_goes_with_depth_times_feed_where_the_force_does() {
+        let a = 2e-7;
+        let sheet = of(&[(a, 0, MM)]);
+        let unit = a * force(0, slot(0, MM)).x.abs() / (MM * 0.05 * MM);
+        for (row, depth) in sheet.depths.iter().enumerate() {
+            for (column, feed) in sheet.feeds_per_tooth.iter().enumerate() {
+                let found = sheet.deviations[row * sheet.feeds_per_tooth.len() + column];
+                let expected = unit * depth * feed;
+                assert!((found / expected - 1.0).abs() < 1e-12, "{depth} {feed}: {found}");
+            }
+        }
+        assert_eq!(
+            sheet.deviations.len(),
+            sheet.depths.len() * sheet.feeds_per_tooth.len()
+        );
+    }
+
+    #[test]
+    fn the_sheet_begins_near_nothing_and_reaches_beyond_what_is_drawn_and_permitted() {
+        for a in [5e-8, 2e-6] {
+            let (points, _) = asked(&[(a, 0, MM)]);
+            let cut = points[0].cut.unwrap();
+            let sheet = of(&[(a, 0, MM)]);
+            let reaches = |all: &[f64], drawn: f64, permitted: Permitted, most: f64| {
+                let expected = (BEYOND * drawn.max(permitted.value())).min(most);
+                let last = all[all.len() - 1];
+                let even = all
+                    .windows(2)
+                    .all(|pair| (pair[1] - pair[0] - all[0]).abs() < 1e-9 * last);
+                assert!(even && (last / expected - 1.0).abs() < 1e-9, "{last} {expected}");
+            };
+            reaches(&sheet.depths, MM, cut.depth, 30.0 * MM);
+            reaches(&sheet.feeds_per_tooth, 0.05 * MM, cut.feed_per_tooth, 0.5 * MM);
+        }
+    }
+
+    #[test]
+    fn of_points_with_tools_of_two_sizes_the_worst_decides_at_each_depth_and_feed() {
+        let (wide, thin) = ((2e-7, 0, MM), (3e-7, 1, 0.5 * MM));
+        let (both, of_thin) = (of(&[wide, thin]), of(&[thin]));
+        let unit = |(a, cutter, depth): (f64, usize, f64)| {
+            a * force(cutter, slot(cutter, depth)).x.abs() / (depth * 0.05 * MM)
+        };
+        let worst = unit(wide).max(unit(thin));
+        for (row, depth) in both.depths.iter().enumerate() {
+            let found = both.deviations[row * both.feeds_per_tooth.len()];
+            let expected = worst * depth * both.feeds_per_tooth[0];
+            // Deeper than a hundred diameters no tool cuts; here none is that deep.
+            assert!(
+                (found / expected - 1.0).abs() < 1e-12,
+                "{depth}: {found} {expected}"
+            );
+        }
+        assert!(of_thin.depths.last() <= both.depths.last());
+    }
+
+    #[test]
+    fn a_point_that_permits_more_than_all_that_decide_changes_nothing() {
+        // Six that permit the least depth decide, and as many for the feed: here the same ones.
+        let soft: Vec<_> = (0..DECIDING).map(|k| (2e-7 + 1e-9 * k as f64, 0, MM)).collect();
+        let with_stiff = [&soft[..], &[(1e-8, 0, MM)]].concat();
+        assert_eq!(of(&with_stiff), of(&soft));
+    }
+
+    #[test]
+    fn without_a_cut_there_is_no_sheet_and_long_work_can_be_stopped() {
+        assert_eq!(DepthByFeed::of(&[], |_| None, Watch::NONE), Ok(None));
+        let (points, mut varied) = asked(&[(2e-7, 0, MM)]);
+        let cancel = AtomicBool::new(true);
+        let watch = Watch {
+            cancel: &cancel,
+            ..Watch::NONE
+        };
+        let stopped = DepthByFeed::of(&points, |index| varied[index].take(), watch);
+        assert_eq!(stopped, Err(Cancelled));
+    }
+}

@@ -1,0 +1,158 @@
+//! The cut at a point, made deeper, wider or faster until the tool deviates too much.
+//!
+//! The smallest value at which the deviation first exceeds the limit counts, found by a scan from thin to thick and halving
+//! between: with a weight that pulls one way, or a wide cut that pushes back, deviation need not grow all the way. Where the
+//! greatest force is a load case it counts too, as many times the mean as in the cut drawn.
+
+use crate::load::{Cut, CutHere, CutsAlong, Greatest, Rest, Straying, TipYield};
+
+/// What a point permits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Permitted {
+    /// This much.
+    UpTo(f64),
+    /// All that was asked for, up to this.
+    AtLeast(f64),
+    /// Nothing: the deviation is too large however little is asked for.
+    Nothing,
+}
+
+/// What the cut at a point may be, each with all else as drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CutLimits {
+    /// Axial depth, m.
+    pub depth: Permitted,
+    /// Radial depth, m; `None` of a slot, whose width is the tool's.
+    pub width: Option<Permitted>,
+    /// Feed per tooth, m.
+    pub feed_per_tooth: Permitted,
+}
+
+/// Deepest cut that is looked at, in diameters: end mills have flutes of some three.
+pub(super) const MOST_DEPTH: f64 = 3.0;
+/// Thickest feed per tooth that is looked at, in diameters: no end mill takes more.
+pub(super) const MOST_FEED: f64 = 0.05;
+/// Depths, widths or feeds of a scan, each this many times the one before.
+const SCAN: usize = 14;
+const SCAN_RATIO: f64 = 1.7;
+/// Times that the stretch found is halved: to a thousandth of itself.
+const HALVINGS: usize = 10;
+
+impl Permitted {
+    /// As a number: what is permitted at least.
+    pub fn value(self) -> f64 {
+        match self {
+            Permitted::UpTo(value) | Permitted::AtLeast(value) => value,
+            Permitted::Nothing => 0.0,
+        }
+    }
+}
+
+/// The cut at a point, to be made deeper, wider or faster.
+pub(super) struct Varied {
+    straying: Straying,
+    /// m
+    pub(super) cutter_radius: f64,
+    /// Radius of the widest circle that is engaged, m.
+    widest: f64,
+    pub(super) cut: Cut,
+    here: CutHere,
+    greatest: Greatest,
+    tip: TipYield,
+    limit: f64,
+}
+
+impl Varied {
+    /// The cut at point `index`, where the tip yields so (feed frame) and may deviate by `limit` (m); `None` in the air.
+    pub(super) fn of(cuts: &CutsAlong, index: usize, tip: TipYield, limit: f64) -> Option<Varied> {
+        let here = cuts.points[index];
+        let (cutter, cut) = (cuts.cutters[here.cutter], here.cut?);
+        Some(Varied {
+            straying: Straying::new(cutter, cuts.law),
+            cutter_radius: cutter.radius(),
+            widest: cutter.at_height(cut.depth).radius,
+            cut,
+            here,
+            greatest: cuts.greatest,
+            tip,
+            limit,
+        })
+    }
+
+    /// What the limit permits of it.
+    pub(super) fn limits(&mut self) -> CutLimits {
+        let (cut, radius) = (self.cut, self.cutter_radius);
+        let (diameter, widest) = (2.0 * radius, self.widest);
+        let feed = cut.feed.hypot(cut.rise);
+        CutLimits {
+            depth: self.permitted(MOST_DEPTH * diameter, |depth| Some(Cut { depth, ..cut })),
+            width: (cut.engagement.width() < diameter).then(|| {
+                self.permitted(2.0 * widest, |width| {
+                    let engagement = cut.engagement.of_width(width, [widest, radius])?;
+                    Some(Cut { engagement, ..cut })
+                })
+            }),
+            feed_per_tooth: self.permitted(MOST_FEED * diameter, |thick| Some(fed(&cut, thick / feed))),
+        }
+    }
+
+    /// The value up to `most` at which the deviation first exceeds the limit.
+    fn permitted(&mut self, most: f64, cut: impl Fn(f64) -> Option<Cut>) -> Permitted {
+        let mut holds = |value: f64| {
+            let cut = cut(value);
+            cut.is_none_or(|cut| self.deviation(&cut) <= self.limit)
+        };
+        let (mut low, mut high) = (0.0, most * SCAN_RATIO.powi(1 - SCAN as i32));
+        loop {
+            if !holds(high) {
+                break;
+            }
+            if high >= most {
+                return Permitted::AtLeast(most);
+            }
+            (low, high) = (high, (high * SCAN_RATIO).min(most));
+        }
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if holds(middle) {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        if low > 0.0 {
+            Permitted::UpTo(low)
+        } else {
+            Permitted::Nothing
+        }
+    }
+
+    /// In-plane deviation under `cut` (m); infinite where the tool is drawn in or there is no such cut.
+    pub(super) fn deviation(&mut self, cut: &Cut) -> f64 {
+        let Some(drawn) = self.straying.drawn(cut) else {
+            return f64::INFINITY;
+        };
+        let rest = self.straying.rest(cut, drawn, &self.tip);
+        let Rest::Settled(force) = rest else {
+            return f64::INFINITY;
+        };
+        let [mean, greatest] = self.here.under(force);
+        let in_plane = |force| self.tip.under(force).xy().norm();
+        match self.greatest {
+            Greatest::LeftOut => in_plane(mean),
+            Greatest::SecondCase => in_plane(mean).max(in_plane(greatest)),
+        }
+    }
+}
+
+/// The same cut at `times` its feed.
+pub(super) fn fed(cut: &Cut, times: f64) -> Cut {
+    Cut {
+        feed: cut.feed * times,
+        rise: cut.rise * times,
+        ..*cut
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,395 @@
+//! The strip of material in front of a cutter, from the cells of a stock that it passes over anew.
+//!
+//! The cutter is a stack of discs: one of a flat end mill, a few up to the height of the material of any other. The front of
+//! a disc at its last two pitches of the step passes over new cells between two arcs; each of them says whether material
+//! stands there above the disc, at its own distance `y` from the axis. A strip without a cell takes after its neighbours;
+//! the outermost reach to the edge of the disc. So a pass along a wall that is cut already finds nothing, and a slot is
+//! full from 0 to 180 deg.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `y` | distance to the left of the tool axis | m |
+//! | `rho` | radius of the cutter where its highest engaged point is; `R` of a flat one | m |
+//!
+//! Edges of the strip are right to half a pitch and the width of a strip, a quarter of a pitch; straight ahead that is an
+//! angle of `pitch/R`, at the sides one of `sqrt(2 pitch/R)`, where chips are thin. A step shorter than two pitches sees
+//! material up to two pitches early. Of a longer one it is that of its end. A radial depth below a pitch may pass unseen,
+//! and on a ramp down what two pitches of it fall by. The feed is the chord of a step of two pitches or more, else the
+//! direction of the point: round a bend of radius `r` short steps see up to `2 pitch^2/r` of a wall that is cut already.
+//!
+//! Source: ours \[derived\].
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::{Point2, Point3, Vector2};
+
+use super::bite::Pass;
+use super::stock::Stock;
+use crate::load::{EndMillBody, Engagement};
+
+/// Where the tool arrives and how it goes there.
+pub(super) struct Heading {
+    at: Point3<f64>,
+    /// Of length one, seen from above; none where the tool goes straight down or up.
+    feed: Option<Vector2<f64>>,
+    /// From the point before, seen from above, m.
+    chord: Vector2<f64>,
+    /// Its length, m.
+    step: f64,
+    /// Rise per distance seen from above, negative where the tool goes down.
+    slope: f64,
+    dives: bool,
+}
+
+/// The widest strip of material in front of the cutter.
+pub(super) struct Front {
+    /// What reaches the rim at its own height goes on beyond it.
+    pub(super) strip: Engagement,
+    /// Across the feed, at its own height, m.
+    pub(super) width: f64,
+    /// Where it is deepest, m.
+    pub(super) depth: f64,
+    /// Whether it fills the cutter at its height, to a pitch.
+    pub(super) is_slot: bool,
+}
+
+/// Pitches between the two arcs: less, and cells straight ahead could be missed; more, and corners are seen early.
+const WINDOW_PITCHES: f64 = 2.0;
+
+/// Strips a pitch.
+const STRIPS_A_PITCH: f64 = 4.0;
+
+/// Most strips: a cutter that has more of them than this gets wider ones.
+const MOST_STRIPS: f64 = 4096.0;
+
+/// Discs of a cutter with a rounded bottom, up to the height of the material: the widest is then within a twelfth of the
+/// radius that is engaged.
+const DISCS: usize = 6;
+
+/// Least height that counts as material, m: a micrometre, far below any chip, far above the rounding of heights.
+pub(super) const LEAST_HEIGHT: f64 = 1e-6;
+
+/// Part of a radius that keeps rounding away from cells on the rim itself.
+const RIM: f64 = 1e-9;
+
+/// Below this part of its length the feed has no direction seen from above.
+const NO_FEED: f64 = 1e-6;
+
+impl Heading {
+    pub(super) fn of(pass: &Pass) -> Heading {
+        let across = pass.direction.xy();
+        let chord = (pass.to - pass.from).xy();
+        Heading {
+            at: pass.to,
+            feed: across.try_normalize(NO_FEED),
+            chord,
+            step: chord.norm(),
+            slope: pass.direction.z / across.norm().max(NO_FEED),
+            dives: -pass.direction.z > across.norm(),
+        }
+    }
+
+    /// Whether the tool goes down steeper than along.
+    pub(super) fn dives(&self) -> bool {
+        self.dives
+    }
+}
+
+/// One disc of the cutter.
+#[derive(Clone, Copy)]
+struct Disc {
+    radius: f64,
+    /// Of the part of the cutter that it stands for, m.
+    outer_radius: f64,
+    /// Path z of its bottom, m.
+    bottom: f64,
+    /// Path z where the part of the cutter that it stands for begins, m.
+    begins: f64,
+}
+
+/// What stands before a strip of the front: path z of the top of the material, m, or one of two values below any. So
+/// the greatest of what is seen in a strip is what counts.
+type Sight = f64;
+
+/// No material stands there.
+const AIR: Sight = f64::MIN;
+
+/// No cell of the strip is passed over anew.
+const UNSEEN: Sight = f64::NEG_INFINITY;
+
+/// A strip that is engaged.
+#[derive(Clone, Copy)]
+struct Strip {
+    top: f64,
+    begins: f64,
+    outer_radius: f64,
+}
+
+/// The widest strip of material ahead; `None` if there is none, or it has no width, and of a dive.
+pub(super) fn front(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Option<Front> {
+    let (radius, pitch) = (cutter.radius(), stock.pitch());
+    let told = heading.feed.filter(|_| !heading.dives)?;
+    // Where the window lies within the step it follows the chord, as the cutter that clears the way does.
+    let follows = heading.step >= WINDOW_PITCHES * pitch;
+    let feed = if follows {
+        heading.chord / heading.step
+    } else {
+        told
+    };
+    let count = (2.0 * radius * STRIPS_A_PITCH / pitch)
+        .ceil()
+        .clamp(8.0, MOST_STRIPS);
+    let width = 2.0 * radius / count;
+    let mut strips: Vec<Option<Strip>> = vec![None; count as usize];
+    let mut sights = vec![UNSEEN; strips.len()];
+    for disc in discs(stock, heading, cutter) {
+        // Beyond the disc its strips say nothing.
+        let beyond = ((radius - disc.outer_radius) / width).round() as usize;
+        let within = beyond..strips.len().saturating_sub(beyond);
+        let Some(strips) = strips.get_mut(within.clone()) else {
+            continue;
+        };
+        sights.fill(UNSEEN);
+        look(stock, (heading, feed), &disc, |y, sight| {
+            let index = ((y + radius) / width) as u32;
+            if let Some(seen) = sights.get_mut(index as usize) {
+                *seen = if sight > *seen { sight } else { *seen };
+            }
+        });
+        let sights = &mut sights[within];
+        take_after_neighbours(sights);
+        for (strip, &mut top) in strips.iter_mut().zip(sights) {
+            if top > AIR {
+                let lower = strip.get_or_insert(Strip {
+                    top,
+                    begins: disc.begins,
+                    outer_radius: disc.outer_radius,
+                });
+                lower.top = lower.top.max(top);
+                lower.outer_radius = disc.outer_radius;
+            }
+        }
+    }
+    longest_arc(stock, &strips, [radius, width])
+}
+
+/// The discs that stand for a cutter among material as high as it is here, from the tip upwards.
+fn discs(stock: &Stock, heading: &Heading, cutter: &EndMillBody) -> Vec<Disc> {
+    // Of a climb, what is seen early is met by a tip that has risen until then. Of a ramp down, what the first arc
+    // has left beside the second is no material.
+    let window = WINDOW_PITCHES * stock.pitch();
+    let early = (window - heading.step).max(0.0);
+    let tip = heading.at.z + heading.slope.max(0.0) * early;
+    let left = (-heading.slope).max(0.0) * heading.step.min(window);
+    let (radius, flat) = (cutter.radius(), cutter.flat_radius());
+    if flat == radius {
+        return vec![Disc {
+            radius,
+            outer_radius: radius,
+            bottom: tip + left,
+            begins: tip,
+        }];
+    }
+    let up = stock.highest_about(heading.at.xy(), radius + window) - tip;
+    if up <= left + LEAST_HEIGHT {
+        return Vec::new();
+    }
+    let widest = cutter.radius_at(up);
+    let part = (widest - flat) / DISCS as f64;
+    let mut discs: Vec<Disc> = (0..DISCS)
+        .map(|k| {
+            let inner = flat + part * k as f64;
+            Disc {
+                radius: inner + 0.5 * part,
+                outer_radius: inner + part,
+                bottom: tip + left + cutter.height(inner + 0.5 * part),
+                begins: tip + cutter.height(inner),
+            }
+        })
+        .collect();
+    if up > cutter.corner_radius() {
+        let begins = tip + cutter.corner_radius();
+        discs.push(Disc {
+            radius,
+            outer_radius: radius,
+            bottom: begins + left,
+            begins,
+        });
+    }
+    discs
+}
+
+/// Tells `out` of the cells that the front of a disc passes over anew: how far left of the axis (m), and what
+/// stands there above the disc.
+fn look(
+    stock: &Stock,
+    (heading, feed): (&Heading, Vector2<f64>),
+    disc: &Disc,
+    mut out: impl FnMut(f64, Sight),
+) {
+    let left = Vector2::new(-feed.y, feed.x);
+    let (pitch, radius) = (stock.pitch(), disc.radius);
+    let window = WINDOW_PITCHES * pitch;
+    let first: Point2<f64> = heading.at.xy() - feed * heading.step.min(window);
+    let inside_squared = (radius * (1.0 - RIM)).powi(2);
+    // Two places a pitch along the arc, on two arcs between the first and the last.
+    let count = (2.0 * PI * radius / pitch).ceil().clamp(8.0, MOST_STRIPS);
+    let (turn_sin, turn_cos) = (PI / count).sin_cos();
+    let (mut sin, mut cos) = (FRAC_PI_2 / count).sin_cos();
+    for _ in 0..count as usize {
+        for part in [0.25, 0.75] {
+            let at = first + feed * (radius * sin + part * window) + left * (radius * cos);
+            // Beside the box the place itself tells of air.
+            let (centre, height) = stock.cell_at(at).unwrap_or((at, 0.0));
+            let off = centre - first;
+            let (x, y) = (off.dot(&feed), off.dot(&left));
+            let ahead = if x > window { x - window } else { 0.0 };
+            // All of it at once: what a place comes to is hard to guess, and a wrong guess takes longer.
+            let passed_before = (x <= 0.0) | (x * x + y * y <= radius * radius);
+            if passed_before | (ahead * ahead + y * y >= inside_squared) {
+                continue;
+            }
+            let height = f64::from(height);
+            let top = stock.bottom() + height;
+            let stands = height > LEAST_HEIGHT && top > disc.bottom + LEAST_HEIGHT;
+            out(y, if stands { top } else { AIR });
+        }
+        (sin, cos) = (sin * turn_cos + cos * turn_sin, cos * turn_cos - sin * turn_sin);
+    }
+}
+
+/// The run of engaged strips that is longest round the cutter of this radius; each is so wide (m).
+fn longest_arc(stock: &Stock, strips: &[Option<Strip>], [radius, width]: [f64; 2]) -> Option<Front> {
+    let mut longest: Option<(f64, Front)> = None;
+    let mut first = 0;
+    for run in strips.chunk_by(|one, next| one.is_some() == next.is_some()) {
+        let (begin, end) = (first, first + run.len());
+        first = end;
+        let engaged = || run.iter().flatten();
+        let rho = engaged().fold(0.0, |most: f64, strip| most.max(strip.outer_radius));
+        if rho <= 0.0 {
+            continue;
+        }
+        // The outermost strip of a disc reaches to its edge.
+        let edge = |strip: usize| {
+            let y = strip as f64 * width - radius;
+            if rho - y.abs() < width { rho.copysign(y) } else { y }
+        };
+        let (right, left) = (edge(begin), edge(end));
+        let arc = (right / rho).acos() - (left / rho).acos();
+        let right_beyond = if right <= -rho { -radius } else { right };
+        let left_beyond = if left >= rho { radius } else { left };
+        let Ok(strip) = Engagement::strip([right_beyond, left_beyond], 2.0 * radius) else {
+            continue;
+        };
+        let depth = engaged().map(|strip| strip.top - strip.begins.max(stock.bottom()));
+        let full = rho - stock.pitch();
+        let front = Front {
+            strip,
+            width: left - right,
+            depth: depth.fold(0.0, f64::max),
+            is_slot: left >= full && right <= -full,
+        };
+        if longest.as_ref().is_none_or(|(most, _)| arc > *most) {
+            longest = Some((arc, front));
+        }
+    }
+    longest.map(|(_, front)| front)
+}
+
+/// Strips without a cell see what the nearest strip sees that has one; the left one of two as near.
+fn take_after_neighbours(sights: &mut [Sight]) {
+    let mut known: Option<usize> = None;
+    for index in 0..=sights.len() {
+        let next = sights.get(index).copied();
+        if next == Some(UNSEEN) {
+            continue;
+        }
+        let before = known.map(|known| sights[known]);
+        let first = known.map_or(0, |known| known + 1);
+        let gap = index - first;
+        for (k, sight) in sights[first..index].iter_mut().enumerate() {
+            let nearer = if 2 * k < gap {
+                before.or(next)
+            } else {
+                next.or(before)
+            };
+            *sight = nearer.unwrap_or(UNSEEN);
+        }
+        known = Some(index);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Unit, Vector3};
+
+    fn pass(direction: [f64; 3]) -> Pass {
+        Pass {
+            from: Point3::new(1.0, 2.0, 3.0),
+            to: Point3::new(1.3, 2.4, 3.0),
+            direction: Unit::new_normalize(Vector3::from(direction)),
+            axis: Vector3::z_axis(),
+        }
+    }
+
+    #[test]
+    fn a_tool_dives_that_goes_down_steeper_than_along() {
+        for (direction, dives) in [
+            ([1.0, 0.0, 0.0], false),
+            ([0.0, 1.0, -0.99], false),
+            ([0.6, 0.8, -1.01], true),
+            ([0.0, 0.0, -1.0], true),
+            ([0.0, 0.0, 1.0], false),
+        ] {
+            let heading = Heading::of(&pass(direction));
+            assert_eq!(heading.dives(), dives, "{direction:?}");
+            assert!((heading.step - 0.5).abs() < 1e-15);
+        }
+        assert!(Heading::of(&pass([0.0, 0.0, 1.0])).feed.is_none());
+        assert!((Heading::of(&pass([3.0, 4.0, -2.5])).slope + 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn strips_without_a_cell_take_after_the_nearest_that_has_one() {
+        let (a, b) = (1.0, 2.0);
+        for (mut sights, expected) in [
+            (vec![UNSEEN, a, UNSEEN, UNSEEN, b, UNSEEN], vec![a, a, a, b, b, b]),
+            (vec![a, UNSEEN, UNSEEN, UNSEEN, AIR], vec![a, a, a, AIR, AIR]),
+            (vec![UNSEEN, UNSEEN, b], vec![b; 3]),
+            (vec![UNSEEN; 3], vec![UNSEEN; 3]),
+            (vec![a, AIR, b], vec![a, AIR, b]),
+            (vec![], vec![]),
+        ] {
+            take_after_neighbours(&mut sights);
+            assert_eq!(sights, expected);
+        }
+    }
+
+    #[test]
+    fn of_several_runs_the_one_over_the_longest_arc_is_told_with_its_own_depth() {
+        let corners = [Point3::new(0.0, 0.0, -0.02), Point3::new(0.01, 0.01, 0.0)];
+        let stock = Stock::new(corners, 1e-3).unwrap();
+        let strip = |top: f64| {
+            Some(Strip {
+                top,
+                begins: -0.004,
+                outer_radius: 5e-3,
+            })
+        };
+        // Ten strips of a millimetre from the right: two at the rim there, three in the middle.
+        let mut strips = vec![None; 10];
+        (strips[0], strips[1]) = (strip(-0.003), strip(-0.002));
+        (strips[4], strips[5], strips[6]) = (strip(0.0), strip(-0.001), strip(-0.001));
+        let front = longest_arc(&stock, &strips, [5e-3, 1e-3]).unwrap();
+        // At the rim two strips are passed over acos(0.6) = 53 deg, three in the middle over 35 deg.
+        let [right, left] = front.strip.edges();
+        assert!(right == -5e-3 && (left + 3e-3).abs() < 1e-12, "{right} {left}");
+        assert!((front.depth - 0.002).abs() < 1e-12 && (front.width - 2e-3).abs() < 1e-12);
+        assert!(!front.is_slot);
+        let all = longest_arc(&stock, &[strip(0.0); 10], [5e-3, 1e-3]).unwrap();
+        assert!(all.is_slot && all.strip.edges() == [-5e-3, 5e-3]);
+        assert!(longest_arc(&stock, &[None; 10], [5e-3, 1e-3]).is_none());
+    }
+}
