@@ -202,7 +202,7 @@ fn predictions<'a>(arm: &'a Arm, paths: &'a Paths) -> Vec<Candidate<'a>> {
     };
     let cutting = cutting();
     let along_cut = move || {
-        let forces = cutting.along((&of_cut.path.points, &[]), &of_cut.placing, None, Watch::NONE);
+        let forces = cutting.along(&of_cut.path, &of_cut.placing, None, Watch::NONE);
         let load = PathLoad::Cuts(forces.expect("feed and spindle are told").cuts);
         black_box(along_path(&question, &of_cut, load, Watch::NONE)).ok();
     };

@@ -137,7 +137,7 @@ pub const APT: &[&str] = &[
 /// Columns of a path.
 #[rustfmt::skip]
 pub const PATH_CSV: &[&str] = &[
-    "x_mm", "y_mm", "z_mm", "x_in", "i,j,k", "feed_mm_per_min", "feed_mm_s", "rapid", "spindle_rpm", "axial_depth_mm", "radial_depth_mm", "op", "note", ";", "\t", "yes",
+    "x_mm", "y_mm", "z_mm", "x_in", "i,j,k", "feed_mm_per_min", "feed_mm_per_s", "rapid", "spindle_rpm", "axial_depth_mm", "radial_depth_mm", "op", "note", ";", "\t", "yes",
     "true", "nan", "1e308",
 ];
 

@@ -143,7 +143,7 @@ pub fn apt() -> Vec<Vec<u8>> {
 pub fn path_csv() -> Vec<Vec<u8>> {
     seeds(&[
         "x_mm,y_mm,z_mm,i,j,k,feed_mm_per_min,rapid,spindle_rpm,axial_depth_mm,radial_depth_mm,op,note\n0,0,5,0,0,1,,1,,,,a,\n1,2,3,0,0.1,0.995,300,0,6000,1,2,a,x\n",
-        "x_m;y_m;z_m;feed_mm_s\n0,1;0,2;0,3;10,5\n0,2;0,2;0,3;\n",
+        "x_m;y_m;z_m;feed_mm_per_s\n0,1;0,2;0,3;10,5\n0,2;0,2;0,3;\n",
     ])
 }
 

@@ -13,7 +13,7 @@ use armill_core::load::{Cutter, CuttingLaw, Doubt, Greatest, Immersion, Mechanis
 use armill_core::map::{Counts, Permitted, ProgramLimits, along_path, plane_map, program_limits};
 use armill_core::nalgebra::{Point3, Vector3};
 use armill_core::path::{
-    Course, Cutting, Move, Operation, Pace, PathBuilder, Placing, Sampling, Spin, Step, Track,
+    Course, Cutting, Move, Operation, Pace, PathBuilder, Placing, SampledPath, Sampling, Spin, Step, Track,
 };
 use armill_core::robot::{BranchPattern, JointCompliance, Robot};
 use armill_core::source::{Arm, StiffnessModel};
@@ -93,12 +93,11 @@ fn limits(
         normal: Vector3::z_axis(),
         choice: FRONT,
     };
-    let forces = cutting().along(
-        (&track.path.points, operations),
-        &track.placing,
-        None,
-        Watch::NONE,
-    );
+    let path = SampledPath {
+        operations: operations.to_vec(),
+        ..track.path.clone()
+    };
+    let forces = cutting().along(&path, &track.placing, None, Watch::NONE);
     let load = PathLoad::Cuts(forces.unwrap().cuts);
     let found = along_path(&question, &track, load, Watch::NONE).unwrap();
     Ok(program_limits(&question, &track, &found, LIMIT, watch)?.unwrap())
@@ -163,7 +162,7 @@ fn a_thinner_tool_on_a_part_of_the_way_permits_the_same_depth_of_a_slot() {
         diameter: Some(5e-3),
         ..Operation::default()
     };
-    let half = track().points.len() / 2;
+    let half = track().path.points.len() / 2;
     let found = limits(robot.compliance().unwrap(), &[(half, thin)], Watch::NONE).unwrap();
     let plain = limits(robot.compliance().unwrap(), &[], Watch::NONE).unwrap();
     for (both, wide) in found.points.iter().zip(&plain.points) {

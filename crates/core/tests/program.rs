@@ -330,7 +330,7 @@ fn cutting() -> Cutting {
 const SPINDLE: f64 = 8000.0 * TAU / 60.0;
 
 fn cut_along(cutting: &Cutting, track: &Track) -> PathLoad {
-    let forces = cutting.along((&track.path.points, &[]), &track.placing, None, Watch::NONE);
+    let forces = cutting.along(&track.path, &track.placing, None, Watch::NONE);
     PathLoad::Cuts(forces.unwrap().cuts)
 }
 

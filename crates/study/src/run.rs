@@ -208,8 +208,7 @@ impl Runner<'_> {
             return Ok((ask.load.clone(), ask.forces));
         };
         let (path, placing) = (&ask.track.path, &ask.track.placing);
-        let points = (&path.points[..], &path.operations[..]);
-        let found = cut.cutting.along(points, placing, Some(&mut stock), self.watch);
+        let found = cut.cutting.along(path, placing, Some(&mut stock), self.watch);
         let found = found.map_err(|error| match error {
             NoForces::Cancelled => StudyError::Cancelled(Cancelled),
             error => StudyError::value(format!("{}: {error}", ask.shown()), BESIDE_STOCK),

@@ -13,26 +13,6 @@ pub const RULE: Rule = Rule {
     check,
 };
 
-/// Modules that are still in two places; none may come in.
-const TO_MOVE: &[&str] = &[
-    "crates/core/src/load/record.rs",
-    "crates/core/src/source/standing.rs",
-    "crates/formats/src/document.rs",
-    "crates/formats/src/material.rs",
-    "crates/formats/src/robot/armill.rs",
-    "crates/formats/src/robot/dh.rs",
-    "crates/formats/src/robot/elementary.rs",
-    "crates/formats/src/robot/opw.rs",
-    "crates/formats/src/robot/urdf.rs",
-    "crates/formats/src/robot/xacro.rs",
-    "crates/formats/src/table/vtk.rs",
-    "crates/formats/src/toolpath/apt.rs",
-    "crates/study/src/answer/program.rs",
-    "crates/study/src/file/ask.rs",
-    "crates/study/src/file/program.rs",
-    "crates/study/src/output/tables.rs",
-];
-
 /// Looks at all Rust that ships; the tests of a module may lie in a folder beside it.
 fn check(tree: &Tree) -> Vec<Violation> {
     let files = tree.rust_files("");
@@ -45,7 +25,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
                 .strip_prefix(stem)
                 .is_some_and(|rest| rest.starts_with('/'))
         });
-        if let Some(beside) = beside.filter(|_| !TO_MOVE.contains(&file.path)) {
+        if let Some(beside) = beside {
             let what = format!("its module goes on in `{}`", beside.path);
             let hint = format!("move it to {stem}/mod.rs");
             violations.push(Violation::new(file.path, 1, what, hint));

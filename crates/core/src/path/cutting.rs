@@ -17,6 +17,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::bite::{BiteKind, Pass};
 use super::placing::Placing;
 use super::program::{Operation, Pace};
+use super::sampled::SampledPath;
 use super::sampler::PathPoint;
 use super::stock::{Stock, StockError};
 use crate::load::{
@@ -135,31 +136,30 @@ pub const ALIKE: f64 = 0.02;
 const POINTS_A_LOOK: usize = 1024;
 
 impl Cutting {
-    /// The forces at `points`; `operations` come with the index of their first point. A `stock` is cut away on the way.
+    /// The forces at the points of `path`. A `stock` is cut away on the way.
     ///
     /// # Errors
     /// [`NoForces`] at the first point where the cut is not known or cannot be, or if the watch says so.
     pub fn along(
         &self,
-        (points, operations): (&[PathPoint], &[(usize, Operation)]),
+        path: &SampledPath,
         placing: &Placing,
         stock: Option<&mut Stock>,
         watch: Watch<'_>,
     ) -> Result<CuttingForces, NoForces> {
         let mut walk = Walk::new(self, placing, stock);
-        let mut operations = operations.iter().peekable();
-        let mut cuts = Vec::with_capacity(points.len());
-        for (index, point) in points.iter().enumerate() {
+        let mut cuts = Vec::with_capacity(path.points.len());
+        for (index, point, operation) in path.with_operations() {
             if index % POINTS_A_LOOK == 0 {
                 if watch.is_cancelled() {
                     return Err(NoForces::Cancelled);
                 }
-                (watch.finished)(POINTS_A_LOOK.min(points.len() - index));
+                (watch.finished)(POINTS_A_LOOK.min(path.points.len() - index));
             }
-            while let Some((_, next)) = operations.next_if(|(first, _)| *first <= index) {
-                walk.begin(next)?;
+            if let Some(operation) = operation {
+                walk.hold(operation)?;
             }
-            let before = index.checked_sub(1).map(|before| &points[before]);
+            let before = (!path.begins(index)).then(|| &path.points[index - 1]);
             cuts.push(walk.cut_at(before, point)?);
         }
         let (cutters, told) = walk.ended();
@@ -271,8 +271,11 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// The tool of `operation` is taken.
-    fn begin(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
+    /// The tool of `operation` is taken, if it is not held already.
+    fn hold(&mut self, operation: &'a Operation) -> Result<(), NoForces> {
+        if self.operation.is_some_and(|held| std::ptr::eq(held, operation)) {
+            return Ok(());
+        }
         self.operation = Some(operation);
         let cutter = self.cutting.held_in(operation)?;
         let known = self.cutters.iter().position(|known| *known == cutter);
@@ -283,7 +286,7 @@ impl<'a> Walk<'a> {
         Ok(())
     }
 
-    /// The cut on the way to `point` from the point `before`, where it cut before.
+    /// The cut on the way to `point` from the point `before`; from nowhere behind a rapid.
     fn cut_at(&mut self, before: Option<&PathPoint>, point: &PathPoint) -> Result<CutHere, NoForces> {
         let cutter = self.cutters[self.held];
         let mut process = self.cutting.process(cutter, self.operation, point)?;
@@ -291,10 +294,7 @@ impl<'a> Walk<'a> {
         let line = point.line;
         if let Some(stock) = &mut self.stock {
             let pass = Pass {
-                from: before
-                    .filter(|before| before.along < point.along)
-                    .unwrap_or(point)
-                    .at,
+                from: before.unwrap_or(point).at,
                 to: point.at,
                 direction: point.direction,
                 axis: self.placing.path_spindle(point),

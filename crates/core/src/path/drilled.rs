@@ -6,8 +6,7 @@
 
 use super::cutting::{ForcesTold, NoForces, feed_at, spindle_of};
 use super::placing::Placing;
-use super::program::Operation;
-use super::sampler::PathPoint;
+use super::sampled::SampledPath;
 use crate::load::drilling::Drilling;
 use crate::load::{Advance, Kienzle, LoadFrame, PathLoad};
 use crate::spatial::Wrench;
@@ -28,29 +27,18 @@ pub struct Drill {
 }
 
 impl Drill {
-    /// Thrust and torque at `points`, one wrench a point in the feed frame; `operations` come with the index of their first
-    /// point.
+    /// Thrust and torque at the points of `path`, one wrench a point in the feed frame.
     ///
     /// # Errors
     /// [`NoForces`] at the first plunge whose feed or spindle nobody tells, or that no drill can do.
-    pub fn along(
-        &self,
-        points: &[PathPoint],
-        operations: &[(usize, Operation)],
-        placing: &Placing,
-    ) -> Result<(PathLoad, ForcesTold), NoForces> {
+    pub fn along(&self, path: &SampledPath, placing: &Placing) -> Result<(PathLoad, ForcesTold), NoForces> {
         let none = Wrench::ZERO;
-        let mut wrenches = Vec::with_capacity(points.len());
+        let mut wrenches = Vec::with_capacity(path.points.len());
         let mut told = ForcesTold::default();
-        let mut operation = operations.iter().peekable();
-        let mut of_operation = None;
-        for (index, point) in points.iter().enumerate() {
-            while let Some((_, next)) = operation.next_if(|(first, _)| *first <= index) {
-                of_operation = Some(next);
-            }
+        for (_, point, operation) in path.with_operations() {
             wrenches.push(match placing.advance(point) {
                 Advance::Plunge => {
-                    let turns = spindle_of(of_operation, self.spindle, point)? / std::f64::consts::TAU;
+                    let turns = spindle_of(operation, self.spindle, point)? / std::f64::consts::TAU;
                     let drilling = Drilling {
                         diameter: self.diameter,
                         point_angle: self.point_angle,
@@ -86,7 +74,7 @@ mod tests {
     use super::*;
     use crate::frame::Isometry;
     use crate::load::{Estimate, KienzleValues};
-    use crate::path::{Pace, Spin};
+    use crate::path::{Pace, PathPoint, Spin};
     use nalgebra::Vector3;
     use nalgebra::{Point3, Unit};
     use std::f64::consts::TAU;
@@ -132,7 +120,11 @@ mod tests {
             spin: Spin::Fixed(0.0),
         };
         let points: Vec<PathPoint> = directions.iter().map(point).collect();
-        let (load, told) = drill.along(&points, &[], &placing)?;
+        let path = SampledPath {
+            points,
+            ..SampledPath::default()
+        };
+        let (load, told) = drill.along(&path, &placing)?;
         let PathLoad::OfEach { wrenches, .. } = load else {
             panic!("each point has its own")
         };

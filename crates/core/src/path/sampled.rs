@@ -44,6 +44,18 @@ impl SampledPath {
         starts.into_iter().zip(ends).map(|(start, end)| start..end)
     }
 
+    /// Every point with its index and the operation that it belongs to, if one was begun.
+    pub fn with_operations(&self) -> impl Iterator<Item = (usize, &PathPoint, Option<&Operation>)> {
+        let mut next = self.operations.iter().peekable();
+        let mut held = None;
+        self.points.iter().enumerate().map(move |(index, point)| {
+            while let Some((_, begun)) = next.next_if(|(first, _)| *first <= index) {
+                held = Some(begun);
+            }
+            (index, point, held)
+        })
+    }
+
     /// The least and the greatest coordinates of its points, m; the origin twice where there is none.
     pub fn corners(&self) -> [Point3<f64>; 2] {
         let first = self.points.first().map_or_else(Point3::origin, |point| point.at);
@@ -163,7 +175,10 @@ mod tests {
             to(0.01, 0.01, Pace::Rapid),
             to(0.02, 0.01, Pace::Rapid),
             to(0.02, 0.0, Pace::Rapid),
-            Step::Operation(Operation::default()),
+            Step::Operation(Operation {
+                tool: Some(2),
+                ..Operation::default()
+            }),
             to(0.03, 0.0, feed),
         ]
     }
@@ -186,8 +201,13 @@ mod tests {
         assert!((path.length() - 0.02).abs() < 1e-15 && (path.cutting_time - 1.0).abs() < 1e-12);
         assert_eq!((path.moves, path.rapids.len()), (6, 2));
         assert!(path.rapids[0] == 0.0 && (path.rapids[1] - 0.03).abs() < 1e-15);
-        let firsts: Vec<usize> = path.operations.iter().map(|(first, _)| *first).collect();
-        assert_eq!(firsts, [0, 11]);
+        for (index, point, operation) in path.with_operations() {
+            let begun = usize::from(index >= 11);
+            assert_eq!(
+                (point, operation),
+                (&path.points[index], Some(&path.operations[begun].1))
+            );
+        }
         let [low, high] = path.corners();
         assert!((high - low - Vector3::new(0.03, 0.0, 0.0)).norm() < 1e-15);
     }

@@ -5,7 +5,7 @@
 //! | `x`, `y`, `z` | the tip | `_mm`, `_m`, `_in` |
 //! | `i`, `j`, `k` | direction from the tip towards the spindle, of length 1; all three or none | |
 //! | `spin` | turn of the tool about its axis | `_deg`, `_rad` |
-//! | `feed` | speed towards the point, above 0 | `_mm_min`, `_mm_s`, `_m_s`, `_in_min` |
+//! | `feed` | speed towards the point, above 0 | `_mm_per_min`, `_mm_per_s`, `_m_per_s`, `_in_per_min` |
 //! | `rapid` | whether the move cuts nothing: `1`, `true`, `yes`, or not | |
 //! | `spindle` | its speed, below 0 counterclockwise | `_rpm` |
 //! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
@@ -49,10 +49,10 @@ enum Column {
 
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("m", 1.0), ("in", 0.0254)];
 const SPEEDS: [(&str, f64); 4] = [
-    ("mm_min", 1e-3 / 60.0),
-    ("mm_s", 1e-3),
-    ("m_s", 1.0),
-    ("in_min", 0.0254 / 60.0),
+    ("mm_per_min", 1e-3 / 60.0),
+    ("mm_per_s", 1e-3),
+    ("m_per_s", 1.0),
+    ("in_per_min", 0.0254 / 60.0),
 ];
 
 /// Every name that means something.
@@ -444,7 +444,7 @@ fn unknown(shown: &str, name: &str, names: &[&str]) -> (String, String) {
         "x" | "y" | "z" => Some(("lengths", format!("`{name}_mm`, `{name}_m` or `{name}_in`"))),
         "feed" | "f" => Some((
             "speeds",
-            "`feed_mm_per_min`, `feed_mm_s`, `feed_m_s` or `feed_in_min`".to_owned(),
+            "`feed_mm_per_min`, `feed_mm_per_s`, `feed_m_per_s` or `feed_in_per_min`".to_owned(),
         )),
         "spin" => Some(("angles", "`spin_deg` or `spin_rad`".to_owned())),
         "spindle" | "s" | "rpm" => Some(("speeds", "`spindle_rpm`".to_owned())),

@@ -4,7 +4,7 @@
 //! leaves no half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does
 //! not write are removed.
 //!
-//! `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`, `program`, `limits`, `arm`, `report`: what they show.
+//! `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`, `path`, `limits`, `arm`, `report`: what they show.
 
 mod arm;
 mod folder;

@@ -42,13 +42,21 @@ fn placing() -> Placing {
     }
 }
 
+fn path(points: &[PathPoint], operations: &[(usize, Operation)]) -> SampledPath {
+    SampledPath {
+        points: points.to_vec(),
+        operations: operations.to_vec(),
+        ..SampledPath::default()
+    }
+}
+
 fn along(
     cutting: &Cutting,
     points: &[PathPoint],
     operations: &[(usize, Operation)],
     stock: Option<&mut Stock>,
 ) -> Result<CuttingForces, NoForces> {
-    cutting.along((points, operations), &placing(), stock, Watch::NONE)
+    cutting.along(&path(points, operations), &placing(), stock, Watch::NONE)
 }
 
 fn forces(cutting: &Cutting, points: &[PathPoint], operations: &[(usize, Operation)]) -> Vec<Vector3<f64>> {
@@ -236,7 +244,7 @@ fn long_work_can_be_stopped() {
         cancel: &cancel,
         ..Watch::NONE
     };
-    let stopped = cutting().along((&pocket(), &[]), &placing(), None, watch);
+    let stopped = cutting().along(&path(&pocket(), &[]), &placing(), None, watch);
     assert_eq!(stopped, Err(NoForces::Cancelled));
 }
 

@@ -34,9 +34,9 @@ fn problems(text: &str) -> String {
 fn the_same_path_in_other_units_and_separators_is_the_same() {
     let first = moves("x_mm,y_mm,z_mm,feed_mm_per_min\n25.4,0,-50.8,600\n0,12.7,0,1524\n");
     for text in [
-        "x_m,y_m,z_m,feed_m_s\n0.0254,0,-0.0508,0.01\n0,0.0127,0,0.0254\n",
-        "x_in;y_in;z_in;feed_mm_s\n1;0;-2;10\n0;0,5;0;25,4\n",
-        "\u{feff}# my path\r\n\r\nX_IN\tY_in\tz_mm\tfeed_in_min\r\n1\t0\t-50,8\t23,62204724409449\r\n\t\t\t\r\n0\t0.5\t0\t60\r\n",
+        "x_m,y_m,z_m,feed_m_per_s\n0.0254,0,-0.0508,0.01\n0,0.0127,0,0.0254\n",
+        "x_in;y_in;z_in;feed_mm_per_s\n1;0;-2;10\n0;0,5;0;25,4\n",
+        "\u{feff}# my path\r\n\r\nX_IN\tY_in\tz_mm\tfeed_in_per_min\r\n1\t0\t-50,8\t23,62204724409449\r\n\t\t\t\r\n0\t0.5\t0\t60\r\n",
     ] {
         for (a, b) in first.iter().zip(moves(text)) {
             // Rounding of numbers below 1.

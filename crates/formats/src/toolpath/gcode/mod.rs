@@ -7,7 +7,8 @@
 //!
 //! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
 //! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
-//! `motion`, `cycles`, `cutter`) as [`canonical`] calls; `steps` makes the path of them.
+//! `motion`, `cycles`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the path of them, by [`rotaries`]. [`tools`] and [`wanted`]
+//! come with a program.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.

@@ -1,4 +1,7 @@
 //! A path in the answer: how far the tool deviates along it, where and why, and what became of what it makes.
+//!
+//! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what keeps
+//! the tolerance; `program`: what a program tells of it.
 
 mod cut;
 mod feature;

@@ -103,9 +103,7 @@ pub(super) fn put_on(
 
 fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<()> {
     let (path, placing) = (&ask.track.path, &ask.track.placing);
-    let found = cut
-        .cutting
-        .along((&path.points, &path.operations), placing, None, Watch::NONE);
+    let found = cut.cutting.along(path, placing, None, Watch::NONE);
     let untold = "the program tells feed and spindle, or cut.feed_mm_per_min and cut.spindle_rpm do";
     let found = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
     ask.setting.doubt.relative = found.told.relative_uncertainty;
@@ -115,7 +113,7 @@ fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<
 
 fn put_drill(places: &mut Places<'_>, drill: drill::DrillCut, ask: &mut PathAsk) -> Option<()> {
     let (path, placing) = (&ask.track.path, &ask.track.placing);
-    let found = drill.drill.along(&path.points, &path.operations, placing);
+    let found = drill.drill.along(path, placing);
     let untold = "the program tells feed and spindle, or program.drill with feed_mm_per_min and spindle_rpm";
     let (load, told) = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
     ask.setting.doubt.relative = told.relative_uncertainty;

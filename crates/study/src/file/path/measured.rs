@@ -321,10 +321,9 @@ fn start(
 /// The mean force of the cut at every point, in the axes that the record is told in.
 fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vector3<f64>>, Refusal> {
     let mut stock = cut.stock.clone();
-    let (points, operations) = (&track.path.points, &track.path.operations);
     let along = cut
         .cutting
-        .along((points, operations), &track.placing, stock.as_mut(), Watch::NONE);
+        .along(&track.path, &track.placing, stock.as_mut(), Watch::NONE);
     let load = along.map_err(|error| {
         let hint = "the program tells feed and spindle, or cut.feed_mm_per_min and cut.spindle_rpm do";
         Refusal::new("synchronise", error.to_string(), hint)

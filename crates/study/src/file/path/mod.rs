@@ -1,4 +1,7 @@
 //! A path of an ask: a shape on the plane or a program, where it lies in the cell, and what pushes along it.
+//!
+//! `shape` and [`program`] give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given cases, a
+//! [`cut`], a [`drill`], or [`measured`] forces.
 
 pub mod cut;
 pub mod drill;

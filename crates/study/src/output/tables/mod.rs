@@ -1,6 +1,7 @@
 //! Tables of an ask: Parquet and CSV with one row a point, VTK for planes, paths and boxes.
 //!
-//! Positions count from the frame that the study names; deviations are in base axes, micrometres.
+//! Positions count from the frame that the study names; deviations are in base axes, micrometres. `track`: what only
+//! paths have.
 
 mod track;
 

@@ -6,7 +6,7 @@
 //! | table | a first line of names with `x`, `y` and `z` | `.csv`, `.tsv` |
 //! | G-code | lines of letters with numbers: `N10 G1 X5` | `.nc`, `.ngc`, `.gcode`, `.tap`, `.cnc`, `.mpf`, `.eia`, `.iso`, `.min` |
 //!
-//! Programs of robots are known and refused.
+//! Programs of robots are known and refused. `known_by`: what lines of a program show.
 
 mod known_by;
 
