@@ -15,7 +15,8 @@
 //! | `x_k` | how far it gives way | rad (m) |
 //! | `tau_g` | torque of gravity on it, compensator included | N m (N) |
 //!
-//! Made once, used at any number of postures and loads without allocation.
+//! Made once, used at any number of postures and loads without allocation. `shares`: who moves the tool by how much;
+//! `doubt`: how sure that is, of load and tool.
 
 mod doubt;
 mod shares;
