@@ -129,7 +129,8 @@ mod tests {
         assert_eq!(points.len(), 72);
         assert!((points[0].at - Point3::new(-0.1, 0.0, 0.0)).norm() < 1e-15);
         assert!((points[18].at - Point3::new(0.0, 0.1, 0.0)).norm() < 1e-15);
-        assert_eq!(path.stretches().collect::<Vec<_>>(), [0..72]);
+        let mut stretches = path.stretches();
+        assert_eq!((stretches.next(), stretches.next()), (Some(0..72), None));
     }
 
     #[test]

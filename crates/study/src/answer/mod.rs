@@ -31,6 +31,7 @@ use serde::Serialize;
 
 use crate::file::path::{Cut, PathAsk};
 use crate::file::resolve::{Study, Subject};
+use crate::joint_unit::JointUnit;
 use crate::model_words::left_out;
 use crate::run::{Done, Found, Section};
 
@@ -81,10 +82,14 @@ pub struct RobotAnswer {
 pub struct JointAnswer {
     /// Its name.
     pub name: String,
-    /// Compliance.
-    pub compliance_rad_per_n_m: f64,
+    /// Compliance of a joint that turns.
+    pub compliance_rad_per_n_m: Option<f64>,
     /// Its standard uncertainty.
-    pub compliance_u_rad_per_n_m: f64,
+    pub compliance_u_rad_per_n_m: Option<f64>,
+    /// Compliance of a joint that slides.
+    pub compliance_um_per_n: Option<f64>,
+    /// Its standard uncertainty.
+    pub compliance_u_um_per_n: Option<f64>,
     /// Where the compliance comes from.
     pub compliance_source: String,
 }
@@ -142,10 +147,14 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     let own = study.own_compliance.as_ref().map(|own| own.source.clone());
     let joint = |i: usize, joint: &armill_core::robot::Joint| {
         let compliance = robot.compliance().map(|c| c[i]);
+        let (slides, scale) = (robot.slides(i), JointUnit::SLIDING.compliance_scale);
+        let (turning, sliding) = (compliance.filter(|_| !slides), compliance.filter(|_| slides));
         JointAnswer {
             name: joint.name.clone(),
-            compliance_rad_per_n_m: compliance.map_or(0.0, |c| c.value),
-            compliance_u_rad_per_n_m: compliance.map_or(0.0, |c| c.standard_uncertainty),
+            compliance_rad_per_n_m: turning.map(|c| c.value),
+            compliance_u_rad_per_n_m: turning.map(|c| c.standard_uncertainty),
+            compliance_um_per_n: sliding.map(|c| c.value * scale),
+            compliance_u_um_per_n: sliding.map(|c| c.standard_uncertainty * scale),
             compliance_source: own
                 .clone()
                 .or_else(|| study.robot.joint_notes[i].compliance_source.clone())

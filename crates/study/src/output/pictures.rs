@@ -180,7 +180,6 @@ pub(super) fn shares(
         quantity: quantity.to_owned(),
         parts: setting.model.sharer_names(study.robot.robot.joints()),
         bars,
-        ..ShareBars::default()
     };
     picture.to_svg()
 }

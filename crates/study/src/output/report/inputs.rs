@@ -6,6 +6,7 @@ use super::cells::input;
 use super::cut;
 use crate::answer::{SettingAnswer, StudyAnswer};
 use crate::file::resolve::Study;
+use crate::joint_unit::JointUnit;
 
 /// Robot and compliances, load or cut, tolerance, tool, stiffness model.
 pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
@@ -17,7 +18,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         .chain(answer.paths.iter().map(|path| &path.setting))
         .chain(answer.volumes.iter().map(|volume| &volume.setting));
     let first = settings.into_iter().next();
-    inputs.extend(first.into_iter().flat_map(|setting| forces(setting)));
+    inputs.extend(first.into_iter().flat_map(forces));
     inputs.extend(cut::rows(study, answer));
     inputs.extend(first.into_iter().flat_map(|setting| others(answer, setting)));
     for index in (1..inputs.len()).rev() {
@@ -51,10 +52,15 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         &place(answer, &chain),
     )];
     for joint in &answer.robot.joints {
-        let value = format!(
-            "{:.3e} ± {:.1e}",
-            joint.compliance_rad_per_n_m, joint.compliance_u_rad_per_n_m
-        );
+        let turning = joint.compliance_rad_per_n_m.zip(joint.compliance_u_rad_per_n_m);
+        let sliding = joint.compliance_um_per_n.zip(joint.compliance_u_um_per_n);
+        let unit = if sliding.is_some() {
+            JointUnit::SLIDING
+        } else {
+            JointUnit::TURNING
+        };
+        let (value, u) = turning.or(sliding).unwrap_or_default();
+        let value = format!("{value:.3e} ± {u:.1e}");
         let assumed = if answer.robot.compliance_assumed {
             ", assumed"
         } else {
@@ -62,7 +68,7 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         };
         let name = format!("compliance of joint {}{assumed}", joint.name);
         let source = place(answer, &joint.compliance_source);
-        inputs.push(input(&name, value, "rad/(N m)", &source));
+        inputs.push(input(&name, value, unit.compliance_name, &source));
     }
     inputs
 }
