@@ -3,7 +3,7 @@
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
 //! compliance), [`spring`], [`compensator`], [`torque_curve`], [`structure`] (what else yields and weighs), [`model`]
 //! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`yielding`]
-//! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`] (why there may be none),
+//! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`](mod@unreachable) (why there may be none),
 //! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
 //! disagrees with the pendant).
 

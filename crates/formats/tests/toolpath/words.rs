@@ -187,7 +187,15 @@ fn refused_words_of_apt_are_refused_where_they_stand() {
 /// A column without the unit in its name.
 fn plain(column: &str) -> &str {
     let units = [
-        "_mm_min", "_in_min", "_mm_s", "_m_s", "_mm", "_m", "_in", "_deg", "_rad",
+        "_mm_per_min",
+        "_in_per_min",
+        "_mm_per_s",
+        "_m_per_s",
+        "_mm",
+        "_m",
+        "_in",
+        "_deg",
+        "_rad",
     ];
     units
         .iter()
