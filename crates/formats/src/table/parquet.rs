@@ -1,35 +1,37 @@
 //! A table as a Parquet file, and back: snappy, row groups of 65536 rows, missing is null.
 //!
-//! | column | Arrow type |
+//! | column | Parquet type |
 //! |---|---|
-//! | float, optional float | Float64, nullable if values may be missing |
-//! | integer, flag, text | Int64, Boolean, Utf8 |
-//! | category | Utf8 of labels; all labels, in order, are a JSON list in the field's metadata `labels` |
+//! | float, optional float | DOUBLE, optional if values may be missing |
+//! | integer, flag | INT64, BOOLEAN |
+//! | text, category | BYTE_ARRAY of UTF-8 text; of a category its labels |
 //!
 //! Numbers of a column that says how many decimals mean something are kept to a power of two below the last decimal
 //! (1/1024 for three decimals): the bytes that are then zero take no room. Numbers are split into streams of bytes
 //! (`BYTE_STREAM_SPLIT`), except where few differ: there a dictionary is shorter.
 //!
-//! Each field's metadata has its `unit`, `description` and `decimals`; the file's has `table` and what the caller adds. Same table,
-//! same bytes, for one version of the `parquet` crate.
+//! The file's metadata has `table`, what the caller adds, and `columns`: a JSON list with the `name`, `unit`, `description` and
+//! `decimals` of each, and of a category all `labels` in order. Same table, same bytes, for one version of the `parquet`
+//! crate.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::sync::Arc;
 
-use ::parquet::arrow::ArrowWriter;
-use ::parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
-use ::parquet::arrow::arrow_writer::{ArrowColumnChunk, ArrowColumnWriter, compute_leaves};
-use ::parquet::basic::{Compression, Encoding};
+use ::parquet::basic::{Compression, Encoding, LogicalType, Repetition, Type as PhysicalType};
+use ::parquet::column::reader::ColumnReader;
+use ::parquet::column::writer::{ColumnCloseResult, ColumnWriter, get_column_writer};
+use ::parquet::data_type::ByteArray;
 use ::parquet::file::metadata::KeyValue;
-use ::parquet::file::properties::{EnabledStatistics, WriterProperties, WriterPropertiesBuilder};
-use ::parquet::schema::types::ColumnPath;
-use arrow_array::cast::AsArray;
-use arrow_array::types::{Float64Type, Int64Type};
-use arrow_array::{Array, ArrayRef, BooleanArray, Float64Array, Int64Array, RecordBatch, StringArray};
-use arrow_schema::{DataType, Field, Schema};
+use ::parquet::file::properties::{
+    EnabledStatistics, WriterProperties, WriterPropertiesBuilder, WriterPropertiesPtr,
+};
+use ::parquet::file::reader::{FileReader, SerializedFileReader};
+use ::parquet::file::writer::{SerializedFileWriter, SerializedPageWriter, TrackedWrite};
+use ::parquet::schema::types::{ColumnDescPtr, ColumnPath, Type, TypePtr};
 use bytes::Bytes;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::{Column, ColumnData, Table, TableError};
 
@@ -37,13 +39,21 @@ use super::{Column, ColumnData, Table, TableError};
 const ROW_GROUP_ROWS: usize = 65_536;
 
 const TABLE_KEY: &str = "table";
-const UNIT_KEY: &str = "unit";
-const DESCRIPTION_KEY: &str = "description";
-const DECIMALS_KEY: &str = "decimals";
-const LABELS_KEY: &str = "labels";
+const COLUMNS_KEY: &str = "columns";
 
 /// Facts about a whole file, such as the version that made it and the hash of its study.
 pub type Metadata = BTreeMap<String, String>;
+
+/// What a file says of a column beside its values.
+#[derive(Clone, Debug, Default, Deserialize, Serialize)]
+struct Facts {
+    name: String,
+    unit: Option<String>,
+    description: String,
+    decimals: Option<u8>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    labels: Option<Vec<String>>,
+}
 
 /// Why a Parquet file was not written or read.
 #[derive(Debug, thiserror::Error)]
@@ -54,17 +64,17 @@ pub enum ParquetError {
     /// The bytes are damaged in a way that the `parquet` crate does not survive.
     #[error("the Parquet file is damaged: write it anew")]
     Damaged,
-    /// The columns could not be put together.
-    #[error("Parquet columns do not fit together: {0}")]
-    Columns(#[from] arrow_schema::ArrowError),
+    /// What the file says of its columns is not what [`write()`] says.
+    #[error("the metadata `columns` of the Parquet file is no list of columns: {0}")]
+    Facts(#[from] serde_json::Error),
     /// A column has a type, or missing values, that no [`ColumnData`] holds.
     #[error(
-        "Parquet column `{column}` is {found}: expected Float64, or Int64, Boolean or Utf8 without missing values"
+        "Parquet column `{column}` is {found}: expected DOUBLE, or INT64, BOOLEAN or text without missing values"
     )]
     Type {
         /// The column.
         column: String,
-        /// Its Arrow type.
+        /// Its type.
         found: String,
     },
     /// A category is not among the labels the file lists.
@@ -77,7 +87,7 @@ pub enum ParquetError {
         /// The text that is no label.
         label: String,
     },
-    /// The metadata `table` belongs to the name of the table.
+    /// The metadata `table` and `columns` belong to the table.
     #[error("the file metadata `{key}` is taken: choose another name")]
     ReservedKey {
         /// The name.
@@ -91,41 +101,41 @@ pub enum ParquetError {
 /// The table as the bytes of a Parquet file.
 ///
 /// # Errors
-/// [`ParquetError::ReservedKey`] for metadata called `table` or `ARROW:schema`; the `parquet` crate refuses nothing that a
+/// [`ParquetError::ReservedKey`] for metadata called `table` or `columns`; the `parquet` crate refuses nothing that a
 /// [`Table`] can hold.
 pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError> {
     if let Some(key) = metadata
         .keys()
-        .find(|key| *key == TABLE_KEY || *key == ::parquet::arrow::ARROW_SCHEMA_META_KEY)
+        .find(|key| [TABLE_KEY, COLUMNS_KEY].contains(&key.as_str()))
     {
         return Err(ParquetError::ReservedKey { key: key.clone() });
     }
-    let name = KeyValue::new(TABLE_KEY.to_owned(), table.name().to_owned());
-    let facts = metadata
+    let facts: Vec<Facts> = table.columns().iter().map(facts).collect();
+    let own = [
+        KeyValue::new(TABLE_KEY.to_owned(), table.name().to_owned()),
+        KeyValue::new(COLUMNS_KEY.to_owned(), serde_json::to_string(&facts)?),
+    ];
+    let told = metadata
         .iter()
         .map(|(key, value)| KeyValue::new(key.clone(), value.clone()));
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_statistics_enabled(EnabledStatistics::None)
         .set_created_by(concat!("armill-formats version ", env!("CARGO_PKG_VERSION")).to_owned())
-        .set_key_value_metadata(Some(std::iter::once(name).chain(facts).collect()));
-    let properties = table.columns().iter().fold(properties, encoded).build();
-    let schema = Arc::new(Schema::new(table.columns().iter().map(field).collect::<Vec<_>>()));
-    let writer = ArrowWriter::try_new(Vec::new(), Arc::clone(&schema), Some(properties))?;
-    let (mut file, groups) = writer.into_serialized_writer()?;
-    for (index, start) in (0..table.row_count()).step_by(ROW_GROUP_ROWS).enumerate() {
+        .set_key_value_metadata(Some(own.into_iter().chain(told).collect()));
+    let properties = Arc::new(table.columns().iter().fold(properties, encoded).build());
+    let fields = table.columns().iter().map(field).collect::<Result<_, _>>()?;
+    let schema = Type::group_type_builder("table").with_fields(fields).build()?;
+    let mut file = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::clone(&properties))?;
+    for start in (0..table.row_count()).step_by(ROW_GROUP_ROWS) {
         let rows = start..table.row_count().min(start + ROW_GROUP_ROWS);
-        let writers = groups.create_column_writers(index)?;
-        let chunks = writers
-            .into_par_iter()
-            .zip(table.columns())
-            .zip(schema.fields().par_iter());
-        let chunks: Vec<ArrowColumnChunk> = chunks
-            .map(|((writer, column), field)| chunk(writer, field, array(column, rows.clone())))
+        let columns = table.columns().par_iter().zip(file.schema_descr().columns());
+        let chunks: Vec<(Vec<u8>, ColumnCloseResult)> = columns
+            .map(|(column, described)| chunk(column, rows.clone(), described, &properties))
             .collect::<Result<_, _>>()?;
         let mut group = file.next_row_group()?;
-        for chunk in chunks {
-            chunk.append_to_row_group(&mut group)?;
+        for (bytes, closed) in chunks {
+            group.append_column(&Bytes::from(bytes), closed)?;
         }
         group.close()?;
     }
@@ -134,14 +144,68 @@ pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError
 
 /// The values of a column in one row group, encoded.
 fn chunk(
-    mut writer: ArrowColumnWriter,
-    field: &Field,
-    values: ArrayRef,
-) -> Result<ArrowColumnChunk, ParquetError> {
-    for leaf in compute_leaves(field, &values)? {
-        writer.write(&leaf)?;
+    column: &Column,
+    rows: Range<usize>,
+    described: &ColumnDescPtr,
+    properties: &WriterPropertiesPtr,
+) -> Result<(Vec<u8>, ColumnCloseResult), ParquetError> {
+    let mut sink = TrackedWrite::new(Vec::new());
+    let pages = Box::new(SerializedPageWriter::new(&mut sink));
+    let mut writer = get_column_writer(Arc::clone(described), Arc::clone(properties), pages);
+    write_values(&mut writer, column, rows)?;
+    let closed = writer.close()?;
+    Ok((sink.into_inner()?, closed))
+}
+
+fn write_values(
+    writer: &mut ColumnWriter<'_>,
+    column: &Column,
+    rows: Range<usize>,
+) -> Result<(), ParquetError> {
+    let kept = kept(column.decimals);
+    match (writer, &column.data) {
+        (ColumnWriter::DoubleColumnWriter(writer), ColumnData::Float(values)) => {
+            let values: Vec<f64> = values[rows].iter().map(|value| kept(*value)).collect();
+            writer.write_batch(&values, None, None)?;
+        }
+        (ColumnWriter::DoubleColumnWriter(writer), ColumnData::OptionalFloat(values)) => {
+            let known: Vec<f64> = values[rows.clone()]
+                .iter()
+                .flatten()
+                .map(|value| kept(*value))
+                .collect();
+            let levels: Vec<i16> = values[rows]
+                .iter()
+                .map(|value| i16::from(value.is_some()))
+                .collect();
+            writer.write_batch(&known, Some(&levels), None)?;
+        }
+        (ColumnWriter::Int64ColumnWriter(writer), ColumnData::Integer(values)) => {
+            writer.write_batch(&values[rows], None, None)?;
+        }
+        (ColumnWriter::BoolColumnWriter(writer), ColumnData::Flag(values)) => {
+            writer.write_batch(&values[rows], None, None)?;
+        }
+        (ColumnWriter::ByteArrayColumnWriter(writer), ColumnData::Text(values)) => {
+            let texts: Vec<ByteArray> = values[rows].iter().map(|text| bytes_of(text)).collect();
+            writer.write_batch(&texts, None, None)?;
+        }
+        (ColumnWriter::ByteArrayColumnWriter(writer), ColumnData::Category { codes, labels }) => {
+            let labels: Vec<ByteArray> = labels.iter().map(|label| bytes_of(label)).collect();
+            let texts: Vec<ByteArray> = codes[rows]
+                .iter()
+                .map(|code| labels[*code as usize].clone())
+                .collect();
+            writer.write_batch(&texts, None, None)?;
+        }
+        // The schema is made of the same columns.
+        (_, data) => unreachable!("a writer for {data:?}"),
     }
-    Ok(writer.close()?)
+    Ok(())
+}
+
+fn bytes_of(text: &str) -> ByteArray {
+    ByteArray::from(Bytes::copy_from_slice(text.as_bytes()))
 }
 
 /// How many rows are looked at to tell whether a dictionary of numbers is worth it, and how many may differ.
@@ -170,84 +234,32 @@ fn encoded(properties: WriterPropertiesBuilder, column: &Column) -> WriterProper
         .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT)
 }
 
-/// The table in the bytes of a Parquet file, and the file's metadata.
-///
-/// # Errors
-/// Bytes that are not Parquet, columns of other types than [`write()`] makes, and what [`Table::new`] refuses.
-///
-/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums.
-pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
-    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half done.
-    std::panic::catch_unwind(|| read_trusting(bytes)).unwrap_or(Err(ParquetError::Damaged))
-}
-
-fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
-    let builder = ParquetRecordBatchReaderBuilder::try_new(Bytes::copy_from_slice(bytes))?;
-    let pairs = builder
-        .metadata()
-        .file_metadata()
-        .key_value_metadata()
-        .cloned()
-        .unwrap_or_default();
-    let mut metadata: Metadata = pairs
-        .into_iter()
-        .map(|pair| (pair.key, pair.value.unwrap_or_default()))
-        .collect();
-    metadata.remove(::parquet::arrow::ARROW_SCHEMA_META_KEY);
-    let name = metadata.remove(TABLE_KEY).unwrap_or_default();
-    let schema = Arc::clone(builder.schema());
-    let batches = builder.build()?.collect::<Result<Vec<RecordBatch>, _>>()?;
-    let column = |(index, field): (usize, &Arc<Field>)| {
-        let parts: Vec<&ArrayRef> = batches.iter().map(|batch| batch.column(index)).collect();
-        read_column(field, &parts)
-    };
-    let columns = schema
-        .fields()
-        .iter()
-        .enumerate()
-        .map(column)
-        .collect::<Result<Vec<_>, _>>()?;
-    Ok((Table::new(name, columns)?, metadata))
-}
-
-fn field(column: &Column) -> Field {
-    let mut metadata = HashMap::from([(DESCRIPTION_KEY.to_owned(), column.description.clone())]);
-    metadata.extend(column.unit.clone().map(|unit| (UNIT_KEY.to_owned(), unit)));
-    let decimals = column.decimals.map(|decimals| decimals.to_string());
-    metadata.extend(decimals.map(|decimals| (DECIMALS_KEY.to_owned(), decimals)));
-    let (kind, nullable) = match &column.data {
-        ColumnData::Float(_) => (DataType::Float64, false),
-        ColumnData::OptionalFloat(_) => (DataType::Float64, true),
-        ColumnData::Integer(_) => (DataType::Int64, false),
-        ColumnData::Flag(_) => (DataType::Boolean, false),
-        ColumnData::Text(_) => (DataType::Utf8, false),
-        ColumnData::Category { labels, .. } => {
-            metadata.insert(LABELS_KEY.to_owned(), serde_json::json!(labels).to_string());
-            (DataType::Utf8, false)
-        }
-    };
-    Field::new(&column.name, kind, nullable).with_metadata(metadata)
-}
-
-fn array(column: &Column, rows: Range<usize>) -> ArrayRef {
-    let kept = kept(column.decimals);
-    match &column.data {
-        ColumnData::Float(values) => Arc::new(Float64Array::from_iter_values(
-            values[rows].iter().map(|value| kept(*value)),
-        )),
-        ColumnData::OptionalFloat(values) => Arc::new(
-            values[rows]
-                .iter()
-                .map(|value| value.map(&kept))
-                .collect::<Float64Array>(),
-        ),
-        ColumnData::Integer(values) => Arc::new(Int64Array::from_iter_values(values[rows].iter().copied())),
-        ColumnData::Flag(values) => Arc::new(BooleanArray::from(values[rows].to_vec())),
-        ColumnData::Text(values) => Arc::new(StringArray::from_iter_values(&values[rows])),
-        ColumnData::Category { codes, labels } => Arc::new(StringArray::from_iter_values(
-            codes[rows].iter().map(|code| &labels[*code as usize]),
-        )),
+fn facts(column: &Column) -> Facts {
+    Facts {
+        name: column.name.clone(),
+        unit: column.unit.clone(),
+        description: column.description.clone(),
+        decimals: column.decimals,
+        labels: match &column.data {
+            ColumnData::Category { labels, .. } => Some(labels.clone()),
+            _ => None,
+        },
     }
+}
+
+fn field(column: &Column) -> Result<TypePtr, ParquetError> {
+    let (kind, repetition) = match &column.data {
+        ColumnData::Float(_) => (PhysicalType::DOUBLE, Repetition::REQUIRED),
+        ColumnData::OptionalFloat(_) => (PhysicalType::DOUBLE, Repetition::OPTIONAL),
+        ColumnData::Integer(_) => (PhysicalType::INT64, Repetition::REQUIRED),
+        ColumnData::Flag(_) => (PhysicalType::BOOLEAN, Repetition::REQUIRED),
+        ColumnData::Text(_) | ColumnData::Category { .. } => (PhysicalType::BYTE_ARRAY, Repetition::REQUIRED),
+    };
+    let text = (kind == PhysicalType::BYTE_ARRAY).then_some(LogicalType::String);
+    let field = Type::primitive_type_builder(&column.name, kind)
+        .with_repetition(repetition)
+        .with_logical_type(text);
+    Ok(Arc::new(field.build()?))
 }
 
 /// What is kept of a number when so many decimals mean something: multiples of the largest power of two that is not
@@ -264,74 +276,140 @@ fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
     }
 }
 
-fn read_column(field: &Field, parts: &[&ArrayRef]) -> Result<Column, ParquetError> {
-    let metadata = field.metadata();
-    let missing = parts.iter().any(|part| part.null_count() > 0);
-    let data = match (field.data_type(), metadata.get(LABELS_KEY)) {
-        (DataType::Float64, _) if field.is_nullable() => {
-            let values = parts
-                .iter()
-                .flat_map(|part| part.as_primitive::<Float64Type>().iter());
-            ColumnData::OptionalFloat(values.collect())
+/// The table in the bytes of a Parquet file, and the file's metadata.
+///
+/// # Errors
+/// Bytes that are not Parquet, columns of other types than [`write()`] makes, and what [`Table::new`] refuses.
+///
+/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the `parquet`
+/// crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
+pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
+    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half done.
+    std::panic::catch_unwind(|| read_trusting(bytes)).unwrap_or(Err(ParquetError::Damaged))
+}
+
+fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
+    let file = SerializedFileReader::new(Bytes::copy_from_slice(bytes))?;
+    let described = file.metadata().file_metadata();
+    let pairs = described.key_value_metadata().cloned().unwrap_or_default();
+    let mut metadata: Metadata = pairs
+        .into_iter()
+        .map(|pair| (pair.key, pair.value.unwrap_or_default()))
+        .collect();
+    let name = metadata.remove(TABLE_KEY).unwrap_or_default();
+    let facts: Vec<Facts> = match metadata.remove(COLUMNS_KEY) {
+        Some(text) => serde_json::from_str(&text)?,
+        None => Vec::new(),
+    };
+    let column = |(index, described): (usize, &ColumnDescPtr)| {
+        let known = facts.iter().find(|known| known.name == described.name());
+        read_column(&file, (index, described), known.cloned().unwrap_or_default())
+    };
+    let columns = described.schema_descr().columns();
+    let columns = columns.iter().enumerate().map(column).collect::<Result<_, _>>()?;
+    Ok((Table::new(name, columns)?, metadata))
+}
+
+/// Column `index` in all row groups.
+fn read_column(
+    file: &SerializedFileReader<Bytes>,
+    (index, described): (usize, &ColumnDescPtr),
+    facts: Facts,
+) -> Result<Column, ParquetError> {
+    let is_text = described.logical_type_ref() == Some(&LogicalType::String);
+    let mut values = match described.physical_type() {
+        PhysicalType::DOUBLE => Values::Float(Vec::new()),
+        PhysicalType::INT64 => Values::Integer(Vec::new()),
+        PhysicalType::BOOLEAN => Values::Flag(Vec::new()),
+        PhysicalType::BYTE_ARRAY if is_text => Values::Text(Vec::new()),
+        other => return Err(unfit(described, other.to_string())),
+    };
+    let mut levels: Vec<i16> = Vec::new();
+    for group in 0..file.num_row_groups() {
+        let group = file.get_row_group(group)?;
+        let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
+        values.read(group.get_column_reader(index)?, rows, &mut levels)?;
+    }
+    let optional = described.max_def_level() > 0;
+    let missing = optional && levels.contains(&0);
+    let data = match values {
+        Values::Float(values) if optional => {
+            let mut known = values.into_iter();
+            let value = |level: &i16| (*level > 0).then(|| known.next()).flatten();
+            ColumnData::OptionalFloat(levels.iter().map(value).collect())
         }
-        (DataType::Float64, _) => {
-            let values = parts
-                .iter()
-                .flat_map(|part| part.as_primitive::<Float64Type>().values().iter());
-            ColumnData::Float(values.copied().collect())
+        Values::Float(values) => ColumnData::Float(values),
+        _ if missing => {
+            let kind = described.physical_type();
+            return Err(unfit(described, format!("{kind} with missing values")));
         }
-        (DataType::Int64, _) if !missing => {
-            let values = parts
+        Values::Integer(values) => ColumnData::Integer(values),
+        Values::Flag(values) => ColumnData::Flag(values),
+        Values::Text(texts) => {
+            let text = |bytes: &ByteArray| Ok(bytes.as_utf8()?.to_owned());
+            let texts = texts
                 .iter()
-                .flat_map(|part| part.as_primitive::<Int64Type>().values().iter());
-            ColumnData::Integer(values.copied().collect())
-        }
-        (DataType::Boolean, _) if !missing => ColumnData::Flag(
-            parts
-                .iter()
-                .flat_map(|part| part.as_boolean().values().iter())
-                .collect(),
-        ),
-        (DataType::Utf8, labels) if !missing => {
-            let texts = parts
-                .iter()
-                .flat_map(|part| part.as_string::<i32>().iter().flatten());
-            match labels.and_then(|labels| serde_json::from_str(labels).ok()) {
-                Some(labels) => category(field.name(), texts, labels)?,
-                None => ColumnData::Text(texts.map(str::to_owned).collect()),
+                .map(text)
+                .collect::<Result<Vec<String>, ParquetError>>()?;
+            match facts.labels {
+                Some(labels) => category(described.name(), &texts, labels)?,
+                None => ColumnData::Text(texts),
             }
         }
-        (kind, _) => {
-            let found = if missing {
-                format!("{kind} with missing values")
-            } else {
-                kind.to_string()
-            };
-            return Err(ParquetError::Type {
-                column: field.name().clone(),
-                found,
-            });
-        }
     };
-    let description = metadata
-        .get(DESCRIPTION_KEY)
-        .map(ToString::to_string)
-        .unwrap_or_default();
     Ok(Column {
-        name: field.name().clone(),
-        unit: metadata.get(UNIT_KEY).map(ToString::to_string),
-        description,
-        decimals: metadata.get(DECIMALS_KEY).and_then(|text| text.parse().ok()),
+        name: described.name().to_owned(),
+        unit: facts.unit,
+        description: facts.description,
+        decimals: facts.decimals,
         data,
     })
 }
 
-fn category<'a>(
-    column: &str,
-    texts: impl Iterator<Item = &'a str>,
-    labels: Vec<String>,
-) -> Result<ColumnData, ParquetError> {
-    let code = |(row, text): (usize, &str)| {
+fn unfit(described: &ColumnDescPtr, found: String) -> ParquetError {
+    ParquetError::Type {
+        column: described.name().to_owned(),
+        found,
+    }
+}
+
+/// Values of a column that are there.
+enum Values {
+    Float(Vec<f64>),
+    Integer(Vec<i64>),
+    Flag(Vec<bool>),
+    Text(Vec<ByteArray>),
+}
+
+impl Values {
+    /// Adds those of a row group of so many rows; `levels` says which rows have one.
+    fn read(&mut self, reader: ColumnReader, rows: usize, levels: &mut Vec<i16>) -> Result<(), ParquetError> {
+        let levels = Some(levels);
+        let (records, ..) = match (self, reader) {
+            (Values::Float(values), ColumnReader::DoubleColumnReader(mut reader)) => {
+                reader.read_records(rows, levels, None, values)?
+            }
+            (Values::Integer(values), ColumnReader::Int64ColumnReader(mut reader)) => {
+                reader.read_records(rows, levels, None, values)?
+            }
+            (Values::Flag(values), ColumnReader::BoolColumnReader(mut reader)) => {
+                reader.read_records(rows, levels, None, values)?
+            }
+            (Values::Text(values), ColumnReader::ByteArrayColumnReader(mut reader)) => {
+                reader.read_records(rows, levels, None, values)?
+            }
+            _ => return Err(ParquetError::Damaged),
+        };
+        if records == rows {
+            Ok(())
+        } else {
+            Err(ParquetError::Damaged)
+        }
+    }
+}
+
+fn category(column: &str, texts: &[String], labels: Vec<String>) -> Result<ColumnData, ParquetError> {
+    let code = |(row, text): (usize, &String)| {
         let code = labels
             .iter()
             .position(|label| label == text)
@@ -339,257 +417,12 @@ fn category<'a>(
         code.ok_or_else(|| ParquetError::Label {
             column: column.to_owned(),
             row,
-            label: text.to_owned(),
+            label: text.clone(),
         })
     };
-    let codes = texts.enumerate().map(code).collect::<Result<_, _>>()?;
+    let codes = texts.iter().enumerate().map(code).collect::<Result<_, _>>()?;
     Ok(ColumnData::Category { codes, labels })
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::sample;
-    use super::*;
-
-    fn metadata() -> Metadata {
-        Metadata::from([
-            ("study".to_owned(), "mh12-groove".to_owned()),
-            ("armill".to_owned(), "0.1.0".to_owned()),
-        ])
-    }
-
-    #[test]
-    fn a_table_reads_back_equal() {
-        let bytes = write(&sample(), &metadata()).unwrap();
-        assert_eq!(read(&bytes).unwrap(), (sample(), metadata()));
-    }
-
-    #[test]
-    fn the_same_table_gives_the_same_bytes() {
-        // Hash maps order their keys anew each time: eight writings would show it.
-        let first = write(&sample(), &metadata()).unwrap();
-        for _ in 0..8 {
-            assert_eq!(write(&sample(), &metadata()).unwrap(), first);
-        }
-    }
-
-    #[test]
-    fn units_and_meanings_are_in_the_field_metadata() {
-        let bytes = Bytes::from(write(&sample(), &metadata()).unwrap());
-        let builder = ParquetRecordBatchReaderBuilder::try_new(bytes).unwrap();
-        let field = builder.schema().field_with_name("in_plane_um").unwrap();
-        assert_eq!(
-            field.metadata().get("unit").map(ToString::to_string).as_deref(),
-            Some("um")
-        );
-        assert!(
-            field
-                .metadata()
-                .get("description")
-                .unwrap()
-                .starts_with("what in_plane_um means")
-        );
-    }
-
-    #[test]
-    fn row_groups_are_bounded_and_compressed_with_snappy() {
-        let values: Vec<f64> = (0..150_000).map(f64::from).collect();
-        let column = Column {
-            name: "x_mm".to_owned(),
-            unit: None,
-            description: String::new(),
-            decimals: None,
-            data: ColumnData::Float(values),
-        };
-        let table = Table::new("long", vec![column]).unwrap();
-        let bytes = write(&table, &Metadata::new()).unwrap();
-        let builder = ParquetRecordBatchReaderBuilder::try_new(Bytes::from(bytes.clone())).unwrap();
-        let rows: Vec<i64> = builder
-            .metadata()
-            .row_groups()
-            .iter()
-            .map(::parquet::file::metadata::RowGroupMetaData::num_rows)
-            .collect();
-        assert_eq!(rows, [65_536, 65_536, 18_928]);
-        assert_eq!(
-            builder.metadata().row_group(0).column(0).compression(),
-            Compression::SNAPPY
-        );
-        assert_eq!(read(&bytes).unwrap().0, table);
-    }
-
-    /// A column of 100 000 numbers that all differ, every fifth missing.
-    fn deviations(decimals: Option<u8>) -> Table {
-        let value = |i: u32| (!i.is_multiple_of(5)).then(|| (f64::from(i) * 0.618).sin() * 200.0);
-        let column = Column {
-            name: "in_plane_um".to_owned(),
-            unit: Some("um".to_owned()),
-            description: String::new(),
-            decimals,
-            data: ColumnData::OptionalFloat((0..100_000).map(value).collect()),
-        };
-        Table::new("map", vec![column]).unwrap()
-    }
-
-    #[test]
-    fn numbers_without_decimals_read_back_bit_for_bit() {
-        let table = deviations(None);
-        assert_eq!(read(&write(&table, &Metadata::new()).unwrap()).unwrap().0, table);
-    }
-
-    #[test]
-    fn numbers_with_decimals_read_back_to_them_and_take_half_the_room() {
-        let (exact, table) = (deviations(None), deviations(Some(3)));
-        let bytes = write(&table, &Metadata::new()).unwrap();
-        let back = read(&bytes).unwrap().0;
-        assert_eq!(back.columns()[0].decimals, Some(3));
-        let numbers = |table: &Table| match &table.columns()[0].data {
-            ColumnData::OptionalFloat(values) => values.clone(),
-            _ => panic!("the column has numbers"),
-        };
-        for (kept, value) in numbers(&back).into_iter().zip(numbers(&table)) {
-            // Half of 2^-10.
-            assert!(
-                kept.zip(value)
-                    .is_none_or(|(kept, value)| (kept - value).abs() <= 0.5 / 1024.0)
-            );
-            assert_eq!(kept.is_some(), value.is_some());
-        }
-        let all = write(&exact, &Metadata::new()).unwrap();
-        assert!(
-            bytes.len() * 2 < all.len(),
-            "{} of {} bytes",
-            bytes.len(),
-            all.len()
-        );
-    }
-
-    #[test]
-    fn numbers_too_large_for_their_decimals_are_kept_whole() {
-        let kept = kept(Some(3));
-        assert_eq!(
-            (kept(1e300), kept(-1e13), kept(-0.2)),
-            (1e300, -1e13, -205.0 / 1024.0)
-        );
-        assert_eq!(kept(179.312), 183_615.0 / 1024.0);
-    }
-
-    #[test]
-    fn a_table_without_rows_reads_back_equal() {
-        let columns = sample().columns.into_iter().map(|mut column| {
-            column.data = match column.data {
-                ColumnData::Float(_) => ColumnData::Float(vec![]),
-                ColumnData::OptionalFloat(_) => ColumnData::OptionalFloat(vec![]),
-                ColumnData::Integer(_) => ColumnData::Integer(vec![]),
-                ColumnData::Flag(_) => ColumnData::Flag(vec![]),
-                ColumnData::Text(_) => ColumnData::Text(vec![]),
-                ColumnData::Category { labels, .. } => ColumnData::Category {
-                    codes: vec![],
-                    labels,
-                },
-            };
-            column
-        });
-        let table = Table::new("empty", columns.collect()).unwrap();
-        assert_eq!(read(&write(&table, &Metadata::new()).unwrap()).unwrap().0, table);
-    }
-
-    #[test]
-    fn bytes_that_are_not_parquet_are_refused() {
-        for bytes in [b"".as_slice(), b"PAR1", b"PAR1PAR1", b"a,b\r\n1,2\r\n"] {
-            assert!(matches!(read(bytes), Err(ParquetError::Format(_))));
-        }
-    }
-
-    #[test]
-    fn a_file_cut_short_is_refused() {
-        let bytes = write(&sample(), &metadata()).unwrap();
-        for length in 0..bytes.len() {
-            assert!(read(&bytes[..length]).is_err(), "{length}");
-        }
-    }
-
-    #[test]
-    fn a_damaged_file_is_refused_or_read_but_never_a_panic() {
-        let bytes = write(&sample(), &metadata()).unwrap();
-        let mut outcomes = [0, 0, 0];
-        for at in 0..bytes.len() {
-            for bits in [0x01, 0x80, 0xff] {
-                let mut damaged = bytes.clone();
-                damaged[at] ^= bits;
-                outcomes[match read(&damaged) {
-                    Ok(_) => 0,
-                    Err(ParquetError::Damaged) => 1,
-                    Err(_) => 2,
-                }] += 1;
-            }
-        }
-        println!("read, panicked inside the crate, refused: {outcomes:?}");
-        assert!(outcomes[2] > 0);
-    }
-
-    fn foreign(array: ArrayRef, field: Field) -> Vec<u8> {
-        let schema = Arc::new(Schema::new(vec![field]));
-        let batch = RecordBatch::try_new(Arc::clone(&schema), vec![array]).unwrap();
-        let mut writer = ArrowWriter::try_new(Vec::new(), schema, None).unwrap();
-        writer.write(&batch).unwrap();
-        writer.into_inner().unwrap()
-    }
-
-    #[test]
-    fn types_that_no_table_holds_are_refused_by_name() {
-        let short = arrow_array::Float32Array::from(vec![1.0]);
-        let error = read(&foreign(
-            Arc::new(short),
-            Field::new("x", DataType::Float32, false),
-        ))
-        .unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .starts_with("Parquet column `x` is Float32: expected"),
-            "{error}"
-        );
-        let gaps = Int64Array::from(vec![Some(1), None]);
-        let error = read(&foreign(Arc::new(gaps), Field::new("n", DataType::Int64, true))).unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .starts_with("Parquet column `n` is Int64 with missing values"),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn numbers_that_are_not_finite_are_refused() {
-        let strange = Float64Array::from(vec![f64::NAN]);
-        let error = read(&foreign(
-            Arc::new(strange),
-            Field::new("x", DataType::Float64, false),
-        ))
-        .unwrap_err();
-        assert!(
-            matches!(error, ParquetError::Table(TableError::NotFinite { .. })),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn a_category_that_is_no_label_is_refused() {
-        let labels = HashMap::from([("labels".to_owned(), "[\"a\"]".to_owned())]);
-        let field = Field::new("c", DataType::Utf8, false).with_metadata(labels);
-        let error = read(&foreign(Arc::new(StringArray::from(vec!["a", "b"])), field)).unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "Parquet column `c` has \"b\" in row 1: not among its labels"
-        );
-    }
-
-    #[test]
-    fn metadata_of_a_taken_name_is_refused() {
-        for key in ["table", "ARROW:schema"] {
-            let error = write(&sample(), &Metadata::from([(key.to_owned(), String::new())])).unwrap_err();
-            assert!(matches!(error, ParquetError::ReservedKey { .. }), "{error}");
-        }
-    }
-}
+mod tests;
