@@ -128,7 +128,7 @@ const WAITS: &[Wait] = &[
     path("a path in CSV read", PROGRAM, "CSV path read", 10.0),
     path(
         "deviation along a path, a load case in the feed frame",
-        "armill along_program",
+        "armill along_path",
         "along a path",
         2.0,
     ),
@@ -229,8 +229,8 @@ mod tests {
 
     #[test]
     fn a_wait_is_what_a_million_points_take() {
-        let slow = "armill along_program\talong a path\t1\t0.4";
-        let other = "armill along_program\talong a path, cutting forces\t1\t4.0";
+        let slow = "armill along_path\talong a path\t1\t0.4";
+        let other = "armill along_path\talong a path, cutting forces\t1\t4.0";
         assert_eq!(waits(&rows(&[other])), "");
         let table = waits(&rows(&[
             other,
