@@ -419,6 +419,7 @@ fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
         })
     });
     assert_eq!((steady.share_count, of_each.share_count), (6, 0));
+    // Four cases at once against seven unit loads put together: some tens of roundings.
     for ((i, steady), (_, of_each)) in steady.held().zip(of_each.held()) {
         assert!(
             (steady.in_plane - of_each.in_plane).abs() < 1e-12 * steady.in_plane,

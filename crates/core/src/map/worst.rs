@@ -83,6 +83,7 @@ mod tests {
         let worst = worst_points(&track, &answers, 4);
         assert_eq!(worst[0], 1000);
         for pair in worst.windows(2) {
+            // 100 steps of a millimetre, and one for rounding.
             assert!((99..=101).contains(&(pair[0] - pair[1])), "{worst:?}");
         }
     }

@@ -4,8 +4,9 @@ use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probabilit
 use armill_core::nalgebra::Point2;
 use serde::Serialize;
 
-use super::point::{PointAnswer, SettingAnswer, tidy};
+use super::point::{PointAnswer, SettingAnswer};
 use crate::file::resolve::{Setting, Study};
+use crate::number::without_rounding;
 
 /// A map of one plane.
 #[derive(Clone, Debug, Serialize)]
@@ -180,7 +181,7 @@ fn region_answer(region: &Region) -> RegionAnswer {
         boundary_mm: boundary(region),
         rectangle_mm: region.rectangle.map(|r| [in_plane(&r.lower), in_plane(&r.upper)]),
         circle_centre_mm: region.disc.map(|d| in_plane(&d.centre)),
-        circle_radius_mm: region.disc.map(|d| tidy(d.radius * 1e3)),
+        circle_radius_mm: region.disc.map(|d| without_rounding(d.radius * 1e3)),
     }
 }
 
@@ -204,7 +205,7 @@ fn boundary(region: &Region) -> Vec<Vec<[f64; 2]>> {
 
 /// Part coordinates as y', z' in mm.
 fn in_plane(at: &Point2<f64>) -> [f64; 2] {
-    [tidy(-at.x * 1e3), tidy(at.y * 1e3)]
+    [without_rounding(-at.x * 1e3), without_rounding(at.y * 1e3)]
 }
 
 fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
@@ -220,10 +221,10 @@ fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
     GridAnswer {
         points: grid.len(),
         y_mm: (0..grid.columns)
-            .map(|i| tidy(-grid.coordinate(i, grid.columns) * 1e3))
+            .map(|i| without_rounding(-grid.coordinate(i, grid.columns) * 1e3))
             .collect(),
         z_mm: (0..grid.rows)
-            .map(|i| tidy(grid.coordinate(i, grid.rows) * 1e3))
+            .map(|i| without_rounding(grid.coordinate(i, grid.rows) * 1e3))
             .collect(),
         in_plane_um: of(&|held| held.in_plane * 1e6),
         in_plane_u_um: of(&|held| held.in_plane_uncertainty * 1e6),

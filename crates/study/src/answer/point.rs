@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
 use crate::model_words::parts;
+use crate::number::without_rounding;
 
 /// What all points of an ask share. Positions count from the frame `base`.
 #[derive(Clone, Debug, Serialize)]
@@ -58,17 +59,17 @@ impl SettingAnswer {
         SettingAnswer {
             base: setting.base_name.clone(),
             centre_mm: clean(centre.coords.map(|c| c * 1e3).into()),
-            tilt_deg: setting.tilt.map(f64::to_degrees).map(tidy),
+            tilt_deg: setting.tilt.map(f64::to_degrees).map(without_rounding),
             normal_axis: clean(setting.plane.normal().into_inner().into()),
-            tool_length_mm: tidy(setting.flange_from_tool.translation.vector.norm() * 1e3),
+            tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
             load_frame: if turns { "feed" } else { crate::BASE_LINK },
             cases_n: cases.iter().map(|w| clean(w.force.into())).collect(),
             moments_n_m: cases.iter().map(|w| clean(w.moment.into())).collect(),
             load_source: setting.load_source.clone(),
-            load_u_percent: tidy(setting.doubt.relative * 100.0),
+            load_u_percent: without_rounding(setting.doubt.relative * 100.0),
             load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
-            tool_length_u_mm: tidy(setting.doubt.tool_length * 1e3),
-            limit_um: tidy(setting.limit * 1e6),
+            tool_length_u_mm: without_rounding(setting.doubt.tool_length * 1e3),
+            limit_um: without_rounding(setting.limit * 1e6),
             model: parts(robot, &setting.model),
             shares_of: setting.model.sharer_names(robot.joints()),
         }
@@ -113,7 +114,10 @@ impl PointAnswer {
     /// y', z' of a point of base from the centre of `plane`.
     pub(super) fn in_plane_mm(plane: &Plane, at: &Point3<f64>) -> [f64; 2] {
         let in_part = plane.base_from_part.inverse_transform_point(at);
-        [tidy(-in_part.x * 1e3), tidy(in_part.y * 1e3)]
+        [
+            without_rounding(-in_part.x * 1e3),
+            without_rounding(in_part.y * 1e3),
+        ]
     }
 
     pub(super) fn of(
@@ -154,12 +158,6 @@ impl PointAnswer {
     }
 }
 
-/// A length, angle or force as it was meant: rounding of frame changes taken off at the tenth decimal.
-pub(super) fn tidy(value: f64) -> f64 {
-    let rounded = (value * 1e10).round() / 1e10;
-    if rounded == 0.0 { 0.0 } else { rounded }
-}
-
 fn clean(values: [f64; 3]) -> [f64; 3] {
-    values.map(tidy)
+    values.map(without_rounding)
 }

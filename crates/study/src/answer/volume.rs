@@ -58,7 +58,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &Volu
         origin_mm: setting
             .counted(&volume.grid.corner())
             .coords
-            .map(|c| super::point::tidy(c * 1e3))
+            .map(|c| crate::number::without_rounding(c * 1e3))
             .into(),
         best: volume.answers.best().map(point),
         worst: volume.answers.worst().map(point),

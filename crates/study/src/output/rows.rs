@@ -8,7 +8,11 @@ use armill_core::nalgebra::Point3;
 
 use crate::file::path::PathAsk;
 use crate::file::resolve::Setting;
+use crate::number::decimals;
 use crate::run::{Found, Section};
+
+/// Decimals of a position, mm, that mean something: what changes of frame leave behind them is no length.
+pub(super) const MM_DECIMALS: u8 = 6;
 
 /// One series of points that share a setting: a map, a section, a volume or a path.
 pub(super) struct Rows<'a> {
@@ -32,7 +36,13 @@ impl<'a> Rows<'a> {
         answers: &'a Answers,
         points: impl Iterator<Item = Point3<f64>>,
     ) -> Rows<'a> {
-        let mm = |at: Point3<f64>| setting.counted(&at).coords.map(|c| rounded(c * 1e3)).into();
+        let mm = |at: Point3<f64>| {
+            setting
+                .counted(&at)
+                .coords
+                .map(|c| decimals(c * 1e3, i32::from(MM_DECIMALS)))
+                .into()
+        };
         Rows {
             label: label.to_owned(),
             setting,
@@ -71,12 +81,6 @@ pub(super) fn of_held<'r>(
         let held = rows.answers.points[index].as_ref().ok()?;
         Some(value(rows, index, held)).filter(|value| value.is_finite())
     })
-}
-
-/// A length without the rounding of frame changes.
-fn rounded(value: f64) -> f64 {
-    let rounded = (value * 1e6).round() / 1e6;
-    if rounded == 0.0 { 0.0 } else { rounded }
 }
 
 /// Every series of points of what was found.

@@ -4,8 +4,8 @@ use armill_core::map::Rested;
 use armill_core::path::Met;
 use serde::Serialize;
 
-use super::super::point::tidy;
 use crate::file::path::PathAsk;
+use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What cuts or drills along a path, and the forces of it.
@@ -108,7 +108,7 @@ fn other_tools(ask: &PathAsk) -> Option<String> {
         let Some(diameter_mm) = operation.diameter.map(|diameter| diameter * 1e3) else {
             continue;
         };
-        let told = format!("{} mm", tidy(diameter_mm));
+        let told = format!("{} mm", without_rounding(diameter_mm));
         if (diameter_mm / cutter_mm - 1.0).abs() > OTHER_DIAMETER && !others.contains(&told) {
             others.push(told);
         }
@@ -118,7 +118,7 @@ fn other_tools(ask: &PathAsk) -> Option<String> {
             "the program tells tools of {}: they cut with that size, and with all else of the cutter of {} mm that the study \
              tells",
             others.join(", "),
-            tidy(cutter_mm)
+            without_rounding(cutter_mm)
         )
     })
 }

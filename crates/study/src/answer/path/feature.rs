@@ -4,8 +4,8 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Became, Strayed, became};
 use serde::Serialize;
 
-use super::super::point::tidy;
 use crate::file::path::{FeatureTable, PathAsk};
+use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What became of a feature under one load case.
@@ -96,7 +96,7 @@ fn of_case(
             centre_shift,
             roundness,
         }) => {
-            told.radius_mm = Some(tidy(radius * 1e3));
+            told.radius_mm = Some(without_rounding(radius * 1e3));
             told.radius_change_um = Some(radius_change * 1e6);
             told.shift_um = um(centre_shift);
             told.roundness_um = Some(roundness * 1e6);

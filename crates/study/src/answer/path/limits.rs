@@ -3,8 +3,8 @@
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use serde::Serialize;
 
-use super::super::point::tidy;
 use crate::file::path::PathAsk;
+use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What keeps the tolerance on the whole of a program: the least of its points.
@@ -50,7 +50,7 @@ impl LimitsAnswer {
             let points = limits.points.iter();
             let least = points.min_by(|a, b| of(&a.forces).total_cmp(&of(&b.forces)))?;
             Some(LimitAnswer {
-                value: tidy(of(&least.forces)),
+                value: without_rounding(of(&least.forces)),
                 unit: "N",
                 verdict: "up to",
                 line: line(least),

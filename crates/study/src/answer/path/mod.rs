@@ -21,9 +21,10 @@ use armill_core::kernel::{Answers, BranchChoice};
 use armill_core::path::Shape;
 use serde::Serialize;
 
-use super::point::{PointAnswer, SettingAnswer, tidy};
+use super::point::{PointAnswer, SettingAnswer};
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Setting, Study};
+use crate::number::without_rounding;
 use crate::run::{MOST_JUMPS, PathFound};
 
 /// A path.
@@ -209,7 +210,7 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
             .held()
             .map(|(index, _)| answers.joints_at(index)[joint] * scale);
         let [low, high] = positions.fold([f64::MAX, f64::MIN], |[low, high], q| [low.min(q), high.max(q)]);
-        (low <= high).then(|| [tidy(low), tidy(high)])
+        (low <= high).then(|| [without_rounding(low), without_rounding(high)])
     };
     let ranges: Option<Vec<[f64; 2]>> = (0..answers.joint_count).map(range).collect();
     ranges.unwrap_or_default()

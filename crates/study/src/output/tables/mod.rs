@@ -15,7 +15,7 @@ use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 
 use super::Csv;
-use super::rows::{Rows, of_held, of_points, rows};
+use super::rows::{MM_DECIMALS, Rows, of_held, of_points, rows};
 use crate::error::StudyError;
 use crate::file::resolve::{Ask, Study, Subject};
 use crate::run::{Done, Found};
@@ -176,7 +176,6 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
 /// position as it was asked.
 const UM_DECIMALS: u8 = 3;
 const DEG_DECIMALS: u8 = 6;
-const MM_DECIMALS: u8 = 6;
 
 /// A column of numbers that is yet to be filled.
 struct Numbers<'a> {
