@@ -1,6 +1,9 @@
 //! Advance widths of the embedded DejaVu Sans subsets, in thousandths of the font size.
 //!
 //! Made from `hmtx` and `cmap` of the two files in `fonts/`; remake it when they change.
+//!
+//! Each run begins at a code point and has one width for each character that follows; characters between two
+//! runs are not in the subset. `crate::font` looks a character up by halving this list.
 
 use crate::font::Run;
 

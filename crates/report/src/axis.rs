@@ -1,11 +1,20 @@
 //! Nice numbers: tick positions and their labels.
 //!
 //! A step is 1, 2, 2.5 or 5 times a power of ten; labels carry the decimals that the step needs and a true minus sign.
+//!
+//! | function | 0.0123 | 45.678 | 1234.5 |
+//! |---|---|---|---|
+//! | `three_digits` | 0.0123 | 45.7 | 1234 |
+//! | `plain` | 0.0123 | 45.68 | 1234 |
+//!
+//! A value that is not finite is written as a dash; a negative value that rounds to zero is written without its
+//! sign.
 
-/// Longest list of ticks; more cannot be read.
+/// Longest list of ticks; more cannot be read, and none are drawn then.
 const MOST_TICKS: usize = 60;
 
-/// The smallest nice step that is not below `span / count`; 1 for a span of nothing.
+/// The smallest nice step that is not below `span / count`; 1 for a span of nothing or one that is not finite.
+/// A `count` below 1 counts as 1.
 pub(crate) fn nice_step(span: f64, count: f64) -> f64 {
     let raw = span.abs() / count.max(1.0);
     if !raw.is_finite() || raw <= f64::MIN_POSITIVE {
@@ -32,7 +41,9 @@ pub(crate) fn nice_below(value: f64) -> f64 {
     nice * decade
 }
 
-/// Multiples of `step` from `low` to `high`, both included, whichever is larger.
+/// Multiples of `step` from `low` to `high` in rising order, both ends included, whichever of them is larger.
+/// An end that misses a multiple by a millionth of a step counts as on it. Empty where an end is not finite,
+/// the step is not positive, or there would be more than 60.
 pub(crate) fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
     if !(low.is_finite() && high.is_finite() && step > 0.0) {
         return Vec::new();
@@ -48,7 +59,7 @@ pub(crate) fn multiples(low: f64, high: f64, step: f64) -> Vec<f64> {
     (0..count as usize).map(|k| (first + k as f64) * step).collect()
 }
 
-/// `value` with the decimals that `step` needs.
+/// `value` with the decimals that `step` needs, at most six: `0.25` for a step of 0.25, `3` for a step of 1.
 pub(crate) fn tick_label(value: f64, step: f64) -> String {
     let decimals = (0..6).find(|d| {
         let scaled = step.abs() * 10f64.powi(*d);
@@ -68,7 +79,8 @@ pub(crate) fn three_digits(value: f64) -> String {
     number(value, decimals)
 }
 
-/// `value` without trailing zeros after the decimal point, four significant digits.
+/// `value` with four significant digits, six decimals at most, without trailing zeros after the decimal point;
+/// whole from 1000 on.
 pub(crate) fn plain(value: f64) -> String {
     let size = value.abs();
     let decimals = if size >= 1000.0 {
@@ -84,7 +96,8 @@ pub(crate) fn plain(value: f64) -> String {
     }
 }
 
-/// `value` with `decimals` decimals and a true minus sign.
+/// `value` with `decimals` decimals, a true minus sign, and never a minus before zero; a dash where it is not
+/// finite.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".to_owned();
@@ -97,7 +110,7 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
     }
 }
 
-/// Smallest and largest finite value.
+/// Smallest and largest finite value; `None` where no value is finite.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     values
         .into_iter()

@@ -1,4 +1,15 @@
 //! A chart with two independent axes: frame, ticks, grid lines, and lines broken where a value is missing.
+//!
+//! ```text
+//!           ┌───────────┐ high[1]
+//!    label  │           │
+//!  (upwards)│   area    │        value v  ->  x = area.x + (v - low) / (high - low) area.w
+//!           └───────────┘ low[1]
+//!         low[0]      high[0]
+//!               label
+//! ```
+//!
+//! The axes have scales of their own; a drawing of a plane, where 1 mm is as long both ways, is `crate::plane`.
 
 use crate::axis::extent;
 use crate::colour::INK;
@@ -13,8 +24,12 @@ pub(crate) const APART_PX: [f64; 2] = [75.0, 42.0];
 /// A chart placed on the picture; `low` and `high` are left and right, bottom and top.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chart {
+    /// Where the lines are drawn, px, without ticks and labels.
     pub(crate) area: Rect,
+    /// Values at the left and at the lower edge.
     pub(crate) low: [f64; 2],
+    /// Values at the right and at the upper edge. Not checked: that they differ from the lower ones; `range`
+    /// sees to it.
     pub(crate) high: [f64; 2],
 }
 
@@ -41,6 +56,8 @@ impl Chart {
         Self { area, ..self }
     }
 
+    /// Where a pair of values (across, up) stands on the picture; values beyond the ends stand outside the
+    /// area.
     pub(crate) fn at(&self, v: [f64; 2]) -> Point {
         let t = |k: usize| (v[k] - self.low[k]) / (self.high[k] - self.low[k]);
         [
@@ -72,18 +89,21 @@ impl Chart {
         svg.text([x, c[1]], &labels.vertical, &text.turned(-90.0));
     }
 
-    /// Room left of the chart for numbers and label.
+    /// Room left of the chart for its numbers, ticks and label.
     fn left_room_px(&self) -> f64 {
         self.ticks(1).width_px(SMALL_PX) + LEFT_PX
     }
 
+    /// The ticks across (0) or up (1), about as many as have room and at least two.
     fn ticks(&self, k: usize) -> Ticks {
         let count = [self.area.w / APART_PX[0], self.area.h / APART_PX[1]][k];
         Ticks::about(count.max(2.0), [self.low[k], self.high[k]])
     }
 }
 
-/// The range of some values, widened by `margin` of itself and never empty.
+/// The range of some values, widened by `margin` of itself to either side and never empty: values that are all
+/// equal get a tenth of their size to either side, zero gets 1. Values that are not finite are left out; `None`
+/// where none is left.
 pub(crate) fn range(values: impl IntoIterator<Item = f64>, margin: f64) -> Option<[f64; 2]> {
     let (low, high) = extent(values)?;
     let span = high - low;
@@ -94,7 +114,8 @@ pub(crate) fn range(values: impl IntoIterator<Item = f64>, margin: f64) -> Optio
     Some([low - margin * span, high + margin * span])
 }
 
-/// The runs of finite points: a line is broken where a value is missing.
+/// The runs of finite points, in their order: a line is broken where a value is missing. A run may be a single
+/// point.
 pub(crate) fn runs(points: impl IntoIterator<Item = Point>) -> Vec<Vec<Point>> {
     let mut runs: Vec<Vec<Point>> = vec![Vec::new()];
     for p in points {

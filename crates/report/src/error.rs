@@ -1,6 +1,8 @@
 //! What can go wrong when a picture becomes a file: only the step from SVG to pixels can.
 
 /// Why a picture could not be turned into pixels.
+///
+/// Making an SVG or a report never fails: input that cannot be drawn gives a picture that says so.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReportError {
@@ -20,7 +22,7 @@ pub enum ReportError {
         /// Largest side that is drawn.
         limit_px: u32,
     },
-    /// The pixels could not be written as PNG.
+    /// The pixels were drawn but could not be written as PNG.
     #[error("the PNG could not be written: {reason}")]
     Encoding {
         /// What the writer said.

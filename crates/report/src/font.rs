@@ -1,20 +1,28 @@
 //! How wide a text is when set in DejaVu Sans, so that labels can keep out of each other's way.
 //!
 //! The widths are the advance widths of the two embedded fonts (`fonts/`), in thousandths of the font size; kerning is left out.
+//!
+//! A picture is laid out before anybody draws it: whether two labels meet, where a line of the title breaks and
+//! how wide the numbers of an axis are has to be known without a font engine.
 
 use crate::advances::RUNS;
 
 /// A run of characters that follow each other in Unicode, with their advance widths in thousandths of the font size.
 pub(crate) struct Run {
+    /// Code of the first character.
     pub(crate) first: u32,
+    /// Widths in the regular font, one for each character of the run.
     pub(crate) regular: &'static [u16],
+    /// Widths in the bold font, as many as regular ones.
     pub(crate) bold: &'static [u16],
 }
 
 /// Weight of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Weight {
+    /// As nearly every text.
     Regular,
+    /// As titles, names and the limit.
     Bold,
 }
 
@@ -27,7 +35,8 @@ pub(crate) fn text_width_px(text: &str, size_px: f64, weight: Weight) -> f64 {
     thousandths * size_px / 1000.0
 }
 
-/// `text` cut at blanks into lines no wider than `width_px`; a single word that is wider stays whole.
+/// `text` cut at white space into lines no wider than `width_px`; a single word that is wider stays whole. No
+/// line for an empty text; the words of a line are joined by one blank.
 pub(crate) fn wrap(text: &str, size_px: f64, weight: Weight, width_px: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -42,6 +51,7 @@ pub(crate) fn wrap(text: &str, size_px: f64, weight: Weight, width_px: f64) -> V
     lines
 }
 
+/// The width of one character in thousandths of the font size.
 fn advance(c: char, weight: Weight) -> u16 {
     let code = u32::from(c);
     let after = RUNS.partition_point(|run| run.first <= code);

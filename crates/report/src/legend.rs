@@ -1,4 +1,11 @@
 //! The legend below a drawing: signs with what they mean, in rows.
+//!
+//! ```text
+//! [key] label    [key] label    [key] label      a key is 24 px wide, a row 20 px high
+//! [key] label
+//! ```
+//!
+//! Entries keep their order; one that does not fit into a row begins the next.
 
 use crate::colour::KEY_EDGE;
 use crate::font::{Weight, text_width_px};
@@ -13,13 +20,14 @@ const ENTRY_GAP_PX: f64 = 18.0;
 /// Height of a field in a legend.
 const FIELD_PX: f64 = 13.0;
 
-/// The sign in front of a legend entry.
+/// The sign in front of a legend entry, drawn in the style that the thing has on the picture.
 pub(crate) enum Key {
-    /// A filled field.
+    /// A filled field, as areas and bands have.
     Field(Style),
-    /// Lines drawn over each other.
+    /// Lines drawn over each other, the first at the bottom: a line with the white ground under it.
     Line(Vec<Style>),
-    /// A line of several pieces, one after the other.
+    /// A line of several pieces, one after the other: one thing in several colours. Not checked: that there is
+    /// a piece.
     Pieces(Vec<Style>),
     /// A filled dot.
     Dot(Style),

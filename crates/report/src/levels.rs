@@ -1,6 +1,13 @@
 //! The levels of a filled map: 6 to 12 bands between nice numbers, shared by all panels of a sheet.
 //!
 //! Edges are multiples of the nice step `s >= (high - low) / 11`, from `floor(low / s) s` to `ceil(high / s) s`, um.
+//!
+//! ```text
+//! values   13 ... 214      step 20 (the smallest nice step not below 201 / 11)
+//! edges    0  20  40  ...  200  220         11 bands, 10 inner edges with iso-lines
+//! ```
+//!
+//! All values equal: one band of one nice step about them.
 
 use crate::axis::{extent, multiples, nice_step, tick_label};
 use crate::colour::ColourScale;
@@ -8,7 +15,7 @@ use crate::colour::ColourScale;
 /// Bands between equally spaced nice values in um.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Levels {
-    /// Edges of the bands, rising; one more than there are bands.
+    /// Edges of the bands, rising; one more than there are bands, at least two.
     pub(crate) edge_um: Vec<f64>,
     /// Distance of the edges.
     pub(crate) step_um: f64,
@@ -18,7 +25,8 @@ pub(crate) struct Levels {
 const BANDS: f64 = 11.0;
 
 impl Levels {
-    /// Bands that cover all finite values; one band if they are all equal.
+    /// Bands that cover all finite values; one band if they are all equal, to a billionth of their size. `None`
+    /// where no value is finite.
     pub(crate) fn covering(values_um: impl IntoIterator<Item = f64>) -> Option<Self> {
         let (low, high) = extent(values_um)?;
         let size = low.abs().max(high.abs());
@@ -53,7 +61,7 @@ impl Levels {
         self.edge_um.get(1..self.bands()).unwrap_or(&[])
     }
 
-    /// Colour of a band: the lowest has the first of the scale, the highest the last.
+    /// Colour of a band, counted from 0: the lowest has the first of the scale, the highest the last.
     pub(crate) fn colour(&self, band: usize, scale: ColourScale) -> String {
         let last = self.bands().saturating_sub(1).max(1) as f64;
         scale.at(band as f64 / last)

@@ -16,6 +16,16 @@
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
+//!
+//! How a picture comes about: the values are checked (a reason to draw nothing makes a notice), scales and
+//! levels are chosen from them, the page is begun with its title block, the drawing is written as SVG from back
+//! to front, axes and legend close it. Lengths on the picture are pixels with y downwards; values keep the unit
+//! in their name: mm along axes of planes, um for deviations, s, deg and um/N where a name says so. Text is set
+//! in the two embedded fonts (DejaVu Sans, regular and bold), whose widths are known here, so that labels keep
+//! clear of each other.
+//!
+//! With the feature `png` the module `raster` turns a picture into pixels. `html` joins pictures, tables and
+//! sources into one file. The example `gallery` draws every picture from made-up values.
 
 mod grid;
 mod map;

@@ -1,4 +1,7 @@
 //! The limit on a picture: its line, what is written on it, and its entry in a legend.
+//!
+//! One colour and one wording on all pictures, so that the eye finds the limit without the legend. A limit is a
+//! permissible deviation in um; one that is not finite is not drawn.
 
 use crate::axis::{extent, plain};
 use crate::colour::LIMIT;
@@ -11,12 +14,12 @@ pub(crate) fn style() -> Style {
     Style::line(LIMIT, 2.4)
 }
 
-/// What lies under the line where it runs over bands of colour.
+/// What lies under the line where it runs over bands of colour: a wider, nearly opaque line of white.
 pub(crate) fn ground_style() -> Style {
     Style::line("#fff", 4.6).opacity(0.9)
 }
 
-/// How a text on the limit is set.
+/// How a text on the limit is set: small, bold, in the colour of the line.
 pub(crate) fn text() -> Text {
     Text::new(SMALL_PX).bold().colour(LIMIT)
 }
@@ -26,7 +29,8 @@ pub(crate) fn label(limit_um: f64) -> String {
     format!("limit {} µm", plain(limit_um))
 }
 
-/// The legend's entry: the line, its label, and a remark that follows the label as it stands.
+/// The legend's entry: the line, its label, and a remark that follows the label as it stands, its blank or
+/// colon included.
 pub(crate) fn entry(limit_um: f64, remark: &str) -> Entry {
     Entry::line(style(), format!("{}{remark}", label(limit_um)))
 }

@@ -1,12 +1,16 @@
 //! Lines of points on the picture, in pixels: without those that nobody would miss, and by the way along them.
+//!
+//! Leaving out points keeps files small: a level line has a point for every cell of a fine lattice, far closer
+//! than a picture shows. Labels need the way along a line, to stand a chosen number of pixels from its start.
 
 use crate::svg::Point;
 
 /// Farthest that a point which is left out lies from the line drawn: at 0.25 the corners of a thick line are seen in print.
 const SEEN_PX: f64 = 0.1;
 
-/// A line without the points that nobody would miss: each kept point is joined to the farthest one for which all points
-/// between lie in a cone about the line.
+/// A line without the points that nobody would miss: each kept point is joined to the farthest one for which
+/// all points between lie in a cone about the line. The first and the last point stay. No point that is left
+/// out lies farther than 0.1 px from the line drawn; a line that turns back is kept at its turn.
 pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
     let mut kept: Vec<Point> = line.first().copied().into_iter().collect();
     let mut cone: Option<(f64, f64)> = None;
@@ -17,6 +21,7 @@ pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
         if distance <= SEEN_PX {
             continue;
         }
+        // The directions from the kept point that pass this one within what is seen.
         let (towards, half) = (dy.atan2(dx), (SEEN_PX / distance).asin());
         cone = match cone {
             None => Some((towards - half, towards + half)),
@@ -42,7 +47,7 @@ pub(crate) fn without_straight(line: &[Point]) -> Vec<Point> {
     kept
 }
 
-/// Points every few pixels along a line, as obstacles for labels.
+/// Points at most 3 px apart along a line, as obstacles for labels; those that are not finite are left out.
 pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
     const EVERY_PX: f64 = 3.0;
     let mut points = Vec::new();
@@ -62,8 +67,9 @@ pub(crate) fn points_along(line: &[Point]) -> Vec<Point> {
     points
 }
 
-/// A line with the way from its start to each of its points.
+/// A line with the way from its start to each of its points, so that a place on it can be asked for by its way.
 pub(crate) struct Stations<'a> {
+    /// The corners of the line, as given.
     pub(crate) points: &'a [Point],
     /// From the first point along the line to each, px.
     way: Vec<f64>,
@@ -72,6 +78,7 @@ pub(crate) struct Stations<'a> {
 }
 
 impl<'a> Stations<'a> {
+    /// Measures the line, which may have one point or none: its length is 0 then.
     pub(crate) fn along(points: &'a [Point]) -> Self {
         let mut way = Vec::with_capacity(points.len());
         let mut length = 0.0;

@@ -2,6 +2,16 @@
 //! nothing to draw.
 //!
 //! All lengths are pixels of the picture, y downwards.
+//!
+//! ```text
+//! border 18 px
+//!   Title, bold 15 px, as many lines as it needs
+//!   Subtitle, 12 px, grey
+//!   ─ top_px ─
+//!   drawing (its own business)
+//!   legend
+//! border 18 px
+//! ```
 
 use crate::colour::{EMPTY, INK, MUTED};
 use crate::font::{Weight, text_width_px, wrap};
@@ -29,23 +39,26 @@ const NOTICE_LINE_PX: f64 = 18.0;
 const NOTICE_ROOM_PX: f64 = 60.0;
 const NOTICE_FIRST_LINE_PX: f64 = 38.0;
 
-/// First and second line of a picture.
+/// First and second line of a picture; each is broken at blanks where it is wider than the page.
 #[derive(Clone, Copy)]
 pub(crate) struct Heading<'a> {
+    /// What is shown; it also describes the picture to screen readers.
     pub(crate) title: &'a str,
+    /// Under which conditions; empty for none.
     pub(crate) subtitle: &'a str,
 }
 
-/// A picture that has its title block and waits for its drawing.
+/// A picture that has its title block and waits for its drawing, which begins at `top_px`.
 pub(crate) struct Page<'a> {
     pub(crate) svg: Svg,
-    /// Where the title block ends.
+    /// Where the title block ends and the drawing may begin, from the upper edge.
     pub(crate) top_px: f64,
     width_px: f64,
     title: &'a str,
 }
 
 impl<'a> Heading<'a> {
+    /// The two lines as they are to be read.
     pub(crate) fn new(title: &'a str, subtitle: &'a str) -> Self {
         Self { title, subtitle }
     }
@@ -73,7 +86,8 @@ impl<'a> Heading<'a> {
         }
     }
 
-    /// A picture that says why there is nothing to draw.
+    /// A picture that says why there is nothing to draw: the title block and a card with the reason, as a
+    /// complete document.
     pub(crate) fn notice(self, reason: &str) -> String {
         let mut page = self.page(NOTICE_PX);
         let width = NOTICE_PX - 2.0 * BORDER_PX;
@@ -109,7 +123,8 @@ impl Page<'_> {
     }
 }
 
-/// The rectangle that a text takes up, for keeping labels apart.
+/// The rectangle that a text of regular weight takes up, for keeping labels apart: from 0.8 of the font size
+/// above its baseline at `at` to 0.2 below.
 pub(crate) fn text_box(at: Point, content: &str, size_px: f64, anchor: Anchor) -> Rect {
     let w = text_width_px(content, size_px, Weight::Regular);
     let x = match anchor {

@@ -1,4 +1,15 @@
 //! The numbers along an axis: which ones, how wide they are, and how they stand below or left of a drawing.
+//!
+//! ```text
+//!       │           │
+//!  200 ─┤  drawing  │      tick 5 px, gap 3 px, number; numbers centred on their value
+//!       └──┬─────┬──┘
+//!         100   200
+//! ```
+//!
+//! A number left of a drawing ends before its tick, a number below is centred under it. Values are in the unit
+//! of the axis; where they stand on the picture is asked from the caller, so that charts, planes and bars share
+//! this.
 
 use crate::axis::{multiples, nice_step, tick_label};
 use crate::colour::{GRID, INK};
@@ -17,7 +28,9 @@ const OVERHANG_PX: f64 = 4.0;
 /// Values of an axis that are marked; their labels carry the decimals that the step needs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ticks {
+    /// Rising multiples of the step, in the unit of the axis; none where they would be more than can be read.
     pub(crate) at: Vec<f64>,
+    /// Their distance, greater than 0.
     pub(crate) step: f64,
 }
 
@@ -35,11 +48,12 @@ impl Ticks {
         }
     }
 
+    /// A value with the decimals that the step needs, so that all numbers of an axis look alike.
     pub(crate) fn label(&self, value: f64) -> String {
         tick_label(value, self.step)
     }
 
-    /// Width of the widest number.
+    /// Width of the widest number at this font size; 0 without ticks.
     pub(crate) fn width_px(&self, font_px: f64) -> f64 {
         let widths = self
             .at
@@ -52,25 +66,30 @@ impl Ticks {
 /// What becomes of a number that would reach over the end of its axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Overhang {
+    /// It is written all the same: there is room beside the drawing.
     Allowed,
-    /// Panels stand close together: it would run into the next.
+    /// It is left out: panels stand close together, and it would run into the next. The tick stays.
     LeftOut,
 }
 
 /// Whether a line crosses the drawing at each tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Across {
+    /// A thin grid line at each tick, drawn before what the chart shows.
     Lines,
+    /// The tick alone.
     Nothing,
 }
 
-/// One axis of a drawing.
+/// One axis of a drawing: what is marked on it, and how it looks.
 pub(crate) struct Axis {
     pub(crate) ticks: Ticks,
-    /// The drawing.
+    /// The drawing that the axis belongs to, px.
     pub(crate) area: Rect,
+    /// Font size of the numbers.
     pub(crate) font_px: f64,
     pub(crate) across: Across,
+    /// Heeded by an axis below the drawing alone.
     pub(crate) overhang: Overhang,
 }
 
