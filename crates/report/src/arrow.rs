@@ -1,4 +1,8 @@
 //! An arrow: a shaft with a filled head.
+//!
+//! ```text
+//! from ────────────────▶ to       head 8 px long and 5.8 px wide, at most 0.6 of a short arrow
+//! ```
 
 use crate::svg::{Point, Style, Svg};
 
@@ -10,7 +14,8 @@ const HALF_WIDTH: f64 = 0.36;
 /// Arrows shorter than this are not drawn.
 const SHORTEST_PX: f64 = 0.3;
 
-/// Draws an arrow; the head of a short one shrinks with it.
+/// Draws an arrow between two points of the picture; the head of a short one shrinks with it. An arrow shorter
+/// than 0.3 px, or one with an end that is not finite, is left out.
 pub(crate) fn draw_arrow(svg: &mut Svg, [from, to]: [Point; 2], colour: &str) {
     let length = (to[0] - from[0]).hypot(to[1] - from[1]);
     if length < SHORTEST_PX || !length.is_finite() {

@@ -1,6 +1,16 @@
 //! Colours: one scale for fields, one colour-blind-safe set for cases, and the greys of axes.
 //!
 //! Fields use viridis (perceptually even, readable in grey); cases use the set of Okabe and Ito (2008).
+//!
+//! | what | how it is told apart |
+//! |---|---|
+//! | a value in a field | lightness of the scale: low is dark, high is light |
+//! | load cases, joints, series | ten colours by number, then from the first again |
+//! | the limit | red; so are the softest direction, the path on a drawn arm and its x direction |
+//! | within, doubtful, over | green, sand, grey of similar lightness, the limit between them |
+//!
+//! Sources: the gradients of the crate `colorous`; Okabe and Ito, Color Universal Design (2008); Paul Tol's
+//! muted set (2021).
 
 /// Text and axes.
 pub(crate) const INK: &str = "#1b1b1b";
@@ -36,7 +46,7 @@ const CATEGORIES: [&str; 10] = [
     "#332288",
 ];
 
-/// Which colour scale a field is drawn in.
+/// Which colour scale a field is drawn in. Both rise steadily in lightness, so that they read in grey.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ColourScale {
     /// Dark violet over green to yellow.
@@ -47,7 +57,8 @@ pub enum ColourScale {
 }
 
 impl ColourScale {
-    /// Colour at `t` from 0 (low) to 1 (high).
+    /// Colour at `t` from 0 (low) to 1 (high); beyond these the nearer end, and the low end for what is not
+    /// finite.
     pub(crate) fn at(self, t: f64) -> String {
         let gradient = match self {
             Self::Viridis => colorous::VIRIDIS,
@@ -59,12 +70,12 @@ impl ColourScale {
     }
 }
 
-/// Colour of the `index`-th case, joint or series.
+/// Colour of the `index`-th case, joint or series, counted from 0; after ten they begin again.
 pub(crate) const fn category(index: usize) -> &'static str {
     CATEGORIES[index % CATEGORIES.len()]
 }
 
-/// `#rrggbb` between `a` and `b`, at `share` of the way to `b`.
+/// `#rrggbb` between `a` and `b`, at `share` of the way to `b`, each channel by itself.
 pub(crate) fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
     let channel = |k: usize| (f64::from(a[k]) * (1.0 - share) + f64::from(b[k]) * share).round();
     format!(

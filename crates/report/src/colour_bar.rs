@@ -1,4 +1,15 @@
 //! The colour bar of a filled map: one box a band, numbers at the edges, the limit as a line across.
+//!
+//! ```text
+//!  ┌──┐─ 200   q
+//!  │  │        u
+//!  ╞══╡ limit  a     bar 16 px; numbers at the edges of bands; the limit in place of the numbers near it;
+//!  │  │─ 100   n     the quantity with its unit, reading upwards
+//!  └──┘─ 50    t
+//! ```
+//!
+//! Where edges stand closer than 16 px, only every second, third, ... has its number. A limit outside the bands
+//! has no line here: the legend of the map tells it.
 
 use crate::axis::plain;
 use crate::colour::{ColourScale, INK};
@@ -8,17 +19,22 @@ use crate::limit;
 use crate::page::{BODY_PX, SMALL_PX};
 use crate::svg::{Rect, Style, Svg, Text};
 
+/// Width of the bar itself.
 const BAR_PX: f64 = 16.0;
 /// From a drawing to the bar beside it, and the least height that such a bar has.
 const GAP_PX: f64 = 22.0;
 const LEAST_PX: f64 = 150.0;
+/// From line to line of a quantity that does not fit into one.
 const QUANTITY_LINE_PX: f64 = 15.0;
 
 /// A colour bar with its quantity and limit.
 pub(crate) struct ColourBar<'a> {
+    /// The bands, as they are drawn on the map.
     pub(crate) levels: &'a Levels,
     pub(crate) scale: ColourScale,
+    /// What the colours mean, with its unit.
     pub(crate) quantity: &'a str,
+    /// The limit in um, marked where it lies within the bands.
     pub(crate) limit_um: Option<f64>,
 }
 
@@ -39,7 +55,7 @@ impl ColourBar<'_> {
         }
     }
 
-    /// Draws the bar at the left of `area`; its quantity reads upwards along the right side.
+    /// Draws the bar at the left of `area`, as high as `area`; its quantity reads upwards along the right side.
     pub(crate) fn draw(&self, svg: &mut Svg, area: Rect) {
         let edges = &self.levels.edge_um;
         let (Some(low), Some(high)) = (edges.first(), edges.last()) else {
@@ -89,11 +105,12 @@ impl ColourBar<'_> {
         }
     }
 
+    /// The quantity, broken where the bar is too low for it.
     fn quantity_lines(&self, height_px: f64) -> Vec<String> {
         wrap(self.quantity, BODY_PX, Weight::Regular, height_px.max(60.0))
     }
 
-    /// Bar, ticks and numbers.
+    /// Width of bar, ticks and numbers, the limit's number among them.
     fn numbers_px(&self) -> f64 {
         let numbers = self
             .levels
@@ -107,6 +124,7 @@ impl ColourBar<'_> {
         BAR_PX + 8.0 + numbers.max(limit)
     }
 
+    /// The limit, if it lies within the bands.
     fn limit_inside(&self) -> Option<f64> {
         let (low, high) = (self.levels.edge_um.first()?, self.levels.edge_um.last()?);
         self.limit_um.filter(|l| l >= low && l <= high)

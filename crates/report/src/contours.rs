@@ -2,23 +2,36 @@
 //!
 //! The crate `contour` places a sample at the centre of its cell and closes areas half a cell outside the lattice:
 //! taking half a step off and cutting at the lattice's edge puts every sample where it belongs.
+//!
+//! | space | horizontal | vertical |
+//! |---|---|---|
+//! | index | 0 to `nx - 1` | 0 to `ny - 1`, from the first row |
+//! | values | as the axes give them, rising or falling, steps of any size | the same |
+//!
+//! The level lines are found in index space (marching squares with straight pieces between crossings) and
+//! carried into values cell by cell.
 
 /// A horizontal and a vertical value.
 type Pair = [f64; 2];
 
-/// One closed line around an area, or around a hole in it.
+/// One closed line around an area, or around a hole in it; its last point is its first.
 pub(crate) type Ring = Vec<Pair>;
 
-/// A lattice of samples, row by row. Not checked: that each axis rises or falls steadily.
+/// A lattice of samples. Not checked: that each axis rises or falls steadily.
 #[derive(Clone, Copy)]
 pub(crate) struct Lattice<'a> {
+    /// Values of the columns.
     pub(crate) horizontal: &'a [f64],
+    /// Values of the rows.
     pub(crate) vertical: &'a [f64],
+    /// Row by row, each from the first column to the last.
     pub(crate) samples: &'a [f64],
 }
 
 impl Lattice<'_> {
-    /// For each level, the rings of the area where the samples are at least that level (even-odd rule).
+    /// For each level, the rings of the area where the samples are at least that level (even-odd rule). Where
+    /// the area reaches the edge of the lattice, its ring runs along the edge. No ring for a lattice below 2 x
+    /// 2, with a wrong number of samples or with one that is not finite.
     pub(crate) fn areas_from(&self, levels: &[f64]) -> Vec<Vec<Ring>> {
         let index_rings = self.index_rings(levels);
         let on_lattice = |ring: Vec<Pair>| ring.into_iter().map(|p| self.at(p)).collect();
@@ -29,6 +42,7 @@ impl Lattice<'_> {
     }
 
     /// For each level, the lines along which the samples equal it; the edge of the lattice is not part of them.
+    /// A line that closes in itself ends at its first point.
     pub(crate) fn lines_at(&self, levels: &[f64]) -> Vec<Vec<Vec<Pair>>> {
         let index_rings = self.index_rings(levels);
         index_rings
@@ -42,6 +56,7 @@ impl Lattice<'_> {
             .collect()
     }
 
+    /// For each level the rings in index space: half a cell taken off and cut at the lattice's edge.
     fn index_rings(&self, levels: &[f64]) -> Vec<Vec<Vec<Pair>>> {
         let (nx, ny) = (self.horizontal.len(), self.vertical.len());
         if nx < 2 || ny < 2 || self.samples.len() != nx * ny || self.samples.iter().any(|s| !s.is_finite()) {
@@ -99,6 +114,7 @@ impl Lattice<'_> {
         lines
     }
 
+    /// From index space to values.
     fn at(&self, index: Pair) -> Pair {
         [
             between(self.horizontal, index[0]),
@@ -107,6 +123,7 @@ impl Lattice<'_> {
     }
 }
 
+/// The value at an index that need not be whole, straight between the two neighbours.
 fn between(values: &[f64], index: f64) -> f64 {
     let k = (index.floor() as usize).min(values.len().saturating_sub(2));
     let t = index - k as f64;

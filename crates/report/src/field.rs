@@ -3,6 +3,10 @@
 //! What is drawn between the grid points is the monotone cubic of [`crate::surface`]: exact at the points, between the two
 //! neighbours in between. How far a line lies from that of the true field is not known here; a finer grid tells. Zones
 //! end half-way between a point inside and a point outside.
+//!
+//! Painted from back to front: bands or region; iso-lines; hatch of what lies outside the joint limits; the
+//! limit; hatch of what is out of reach; labels. The limit runs over the first hatch, since those points have
+//! values, and under the second, since there it is a continuation of the neighbours.
 
 use crate::colour::{ColourScale, DOUBTFUL, INK, NOMINAL, OVER, WITHIN};
 use crate::grid::{Grid, PointState};
@@ -27,16 +31,20 @@ pub(crate) enum Paint {
 /// Which iso-lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum IsoLines {
+    /// None, beside bands or a region.
     Off,
+    /// Without numbers, for small panels.
     Thin,
+    /// With numbers where they have room.
     Labelled,
 }
 
-/// How a field is drawn.
+/// How a field is drawn; values and limit in um.
 pub(crate) struct Look<'a> {
     pub(crate) levels: &'a Levels,
     pub(crate) paint: Paint,
     pub(crate) iso_lines: IsoLines,
+    /// The limit; a line where the field crosses it.
     pub(crate) limit_um: Option<f64>,
     /// The least and the greatest that each value may be, where a region tells what is doubtful.
     pub(crate) doubt: Option<&'a [Grid; 2]>,
@@ -44,7 +52,8 @@ pub(crate) struct Look<'a> {
     pub(crate) obstacles: &'a [Point],
 }
 
-/// Draws `grid` into `plane`; the frame comes afterwards, on top.
+/// Draws `grid` into `plane`; the frame comes afterwards, on top. Not checked: that the grid can be drawn, see
+/// [`Grid::obstacle`].
 pub(crate) fn draw_field(svg: &mut Svg, plane: &Plane, grid: &Grid, look: &Look<'_>) {
     let steps = (plane.area.w.max(plane.area.h) / 3.0).clamp(40.0, crate::surface::FINE as f64) as usize;
     let surface = Surface::refine(grid, steps);
@@ -120,7 +129,7 @@ fn draw_zone(svg: &mut Svg, zone: &Placed<'_>, fill: &str) {
     }
 }
 
-/// The window that shows all points of a grid.
+/// The window that shows all points of a grid, in the direction in which its axes run.
 pub(crate) fn window_of(grid: &Grid) -> Window {
     let ends = |values: &[f64]| {
         (
@@ -138,7 +147,7 @@ pub(crate) fn window_of(grid: &Grid) -> Window {
     }
 }
 
-/// Legend entries for the zones of these grids that cannot be used.
+/// Legend entries for the zones of these grids that cannot be used; none for a zone that no grid has.
 pub(crate) fn zone_entries<'a>(
     svg: &mut Svg,
     grids: impl Iterator<Item = &'a Grid> + Clone,
@@ -158,6 +167,7 @@ pub(crate) fn zone_entries<'a>(
     entries
 }
 
+/// Rising lines on near white: what lies under them is no value.
 fn unreachable_hatch() -> Hatch {
     Hatch {
         turn_deg: 45.0,
@@ -168,6 +178,7 @@ fn unreachable_hatch() -> Hatch {
     }
 }
 
+/// Falling lines, over the bands where they stay visible, over grey where a region is told.
 fn outside_hatch(paint: Paint) -> Hatch {
     let ground = match paint {
         Paint::Bands(_) => None,

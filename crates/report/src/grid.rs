@@ -1,4 +1,11 @@
 //! The grid of points behind every map: axis values in mm and the state of each point.
+//!
+//! ```text
+//! vertical_mm[ny-1]  p[(ny-1) nx] ...        p[ny nx - 1]
+//!       ...                                                  drawn as it stands here: row 0 at the bottom
+//! vertical_mm[0]     p[0]         p[1] ...   p[nx - 1]
+//!               horizontal_mm[0]  [1]  ...   [nx - 1]
+//! ```
 
 use crate::contours::Lattice;
 
@@ -7,9 +14,10 @@ use crate::contours::Lattice;
 pub enum PointState {
     /// Reached within the joint limits; the value in um.
     Reached(f64),
-    /// Reached only beyond a joint limit; the value in um there.
+    /// Reached only beyond a joint limit; the value in um there. Such points are drawn with their value and
+    /// hatched.
     OutsideJointLimits(f64),
-    /// Out of reach.
+    /// Out of reach: there is no posture, so no value.
     Unreachable,
 }
 
@@ -24,6 +32,9 @@ impl PointState {
 }
 
 /// Points of a plane on a rectangular lattice; the steps need not be equal.
+///
+/// Any values may be given: a grid that cannot be drawn (axes that do not rise or fall steadily, less than 2 x
+/// 2 points, a wrong number of points, none with a value) gives a picture that says so.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grid {
     /// Values of the horizontal axis in mm as drawn from left to right, rising or falling.
@@ -69,7 +80,8 @@ impl Grid {
         None
     }
 
-    /// The same points with every value this much higher.
+    /// The same points, each value higher by `times` its own part of `by_um`. Not checked: that there is one
+    /// part for each point; points without one are lost.
     pub(crate) fn raised(&self, by_um: &[f64], times: f64) -> Grid {
         let raise = |(point, by): (&PointState, &f64)| match point {
             PointState::Reached(value) => PointState::Reached(value + times * by),
@@ -82,7 +94,7 @@ impl Grid {
         }
     }
 
-    /// Samples of these points, one each.
+    /// Samples of these points, one each, in their order.
     pub(crate) fn lattice<'a>(&'a self, samples: &'a [f64]) -> Lattice<'a> {
         Lattice {
             horizontal: &self.horizontal_mm,
@@ -109,7 +121,7 @@ impl Grid {
     }
 }
 
-/// Whether values rise steadily or fall steadily; none of them is missing.
+/// Whether values rise steadily or fall steadily, and all are finite; equal neighbours do neither.
 pub(crate) fn is_steady(values: &[f64]) -> bool {
     values.iter().all(|v| v.is_finite())
         && (values.windows(2).all(|w| w[1] > w[0]) || values.windows(2).all(|w| w[1] < w[0]))

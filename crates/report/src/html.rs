@@ -1,7 +1,18 @@
 //! A report as one HTML file: question, answer, pictures, tables, warnings and the sources of the inputs; nothing is loaded from elsewhere.
+//!
+//! Order of the page, each part but the title left out where it is empty:
+//!
+//! ```text
+//! title · question · answer · warnings · sections, paragraphs, lists, figures, tables · inputs and their sources
+//! ```
+//!
+//! Figures and tables are numbered in the order of adding, apart from each other; the table of inputs has no
+//! number. All words are escaped; pictures are put in as they stand, as SVG inside the page. Colours follow the
+//! reader's light or dark setting.
 
 use crate::svg::escape;
 
+/// The style sheet, written into each report.
 const STYLE: &str = include_str!("report.css");
 
 /// How the cells of a column stand.
@@ -14,25 +25,27 @@ pub enum Align {
     Number,
 }
 
-/// One column of a table.
+/// One column of a table: its head reads `name (unit)`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Column {
     /// What stands in it.
     pub name: String,
-    /// Its unit, or nothing.
+    /// Its unit; empty for a column of words or pure numbers.
     pub unit: String,
     /// How its cells stand.
     pub align: Align,
 }
 
 /// A table. A row shorter than the columns is filled with empty cells, a longer one is cut.
+///
+/// Not checked: that numbers carry the decimals that they should; cells are shown as they stand.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Table {
     /// What the table shows.
     pub caption: String,
     /// The columns.
     pub columns: Vec<Column>,
-    /// The cells, row by row, as they are to be read.
+    /// The cells, row by row from the top, as they are to be read.
     pub rows: Vec<Vec<String>>,
 }
 
@@ -50,6 +63,8 @@ pub struct Input {
 }
 
 /// A report being written; what is added appears in the order of adding.
+///
+/// Each method takes the report and gives it back, so that a report reads as a chain that ends in `to_html`.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     title: String,
@@ -63,7 +78,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// An empty report.
+    /// An empty report with its title, which is also the name of the page.
     pub fn new(title: &str) -> Self {
         Self {
             title: title.to_owned(),
@@ -71,21 +86,22 @@ impl Report {
         }
     }
 
-    /// The question that the report answers.
+    /// The question that the report answers; a second one replaces the first.
     #[must_use]
     pub fn question(mut self, text: &str) -> Self {
         text.clone_into(&mut self.question);
         self
     }
 
-    /// The answer in one sentence.
+    /// The answer in one sentence; a second one replaces the first.
     #[must_use]
     pub fn answer(mut self, text: &str) -> Self {
         text.clone_into(&mut self.answer);
         self
     }
 
-    /// Something the reader must know before using the answer.
+    /// Something the reader must know before using the answer; it stands above everything but question and
+    /// answer.
     #[must_use]
     pub fn warning(mut self, text: &str) -> Self {
         self.warnings.push(text.to_owned());
@@ -106,7 +122,7 @@ impl Report {
         self
     }
 
-    /// A paragraph.
+    /// A paragraph of plain text.
     #[must_use]
     pub fn paragraph(mut self, text: &str) -> Self {
         self.body.push_str(&format!("<p>{}</p>\n", escape(text)));
@@ -135,7 +151,7 @@ impl Report {
         self
     }
 
-    /// A table.
+    /// A table with its number before its caption.
     #[must_use]
     pub fn table(mut self, table: &Table) -> Self {
         self.tables += 1;
@@ -145,7 +161,8 @@ impl Report {
         self
     }
 
-    /// The report as a complete HTML document.
+    /// The report as a complete HTML document in one string, without anything to load: no script, font, picture
+    /// or style from elsewhere.
     pub fn to_html(&self) -> String {
         let title = escape(&self.title);
         let mut main = format!("<h1>{title}</h1>\n");
@@ -172,11 +189,13 @@ impl Report {
     }
 }
 
+/// Items as an unordered list, escaped.
 fn list_html(items: &[String]) -> String {
     let items = items.iter().map(|item| format!("<li>{}</li>\n", escape(item)));
     format!("<ul>\n{}</ul>\n", items.collect::<String>())
 }
 
+/// Inputs as a table of four columns, the value to the right.
 fn inputs_table(inputs: &[Input]) -> Table {
     let column = |name: &str, align| Column {
         name: name.to_owned(),
@@ -198,6 +217,8 @@ fn inputs_table(inputs: &[Input]) -> Table {
     }
 }
 
+/// A table that scrolls sideways where the page is too narrow. `number` is HTML before the caption, as it
+/// stands; without number and caption there is no caption.
 fn table_html(table: &Table, number: &str) -> String {
     let class = |align| {
         if align == Align::Number {

@@ -1,4 +1,7 @@
 //! From SVG to PNG with the embedded fonts only, so that a picture is the same on every machine.
+//!
+//! Only the two fonts of this crate are known to the renderer: a picture needs none of the machine's. The
+//! widths of `crate::font` are those of the same files.
 
 use std::sync::Arc;
 
@@ -6,16 +9,19 @@ use resvg::{tiny_skia, usvg};
 
 use crate::error::ReportError;
 
+/// The subsets of `DejaVu Sans` with the characters that pictures use; their licence lies beside them.
 const REGULAR: &[u8] = include_bytes!("../fonts/DejaVuSans.subset.ttf");
 const BOLD: &[u8] = include_bytes!("../fonts/DejaVuSans-Bold.subset.ttf");
 
-/// Longest side in pixels; a picture of this size takes 400 MB.
+/// Longest side in pixels; a square picture of this size takes 400 MB.
 const LARGEST_PX: u32 = 10_000;
 
-/// `svg` as PNG, `scale` pixels to each unit of the SVG (2 or 3 for print).
+/// `svg` as PNG, `scale` pixels to each unit of the SVG (2 or 3 for print). The sides are rounded to whole
+/// pixels.
 ///
 /// # Errors
-/// The text is no SVG, or the picture has no pixels or more than 10 000 a side.
+/// The text is no SVG (`UnreadableSvg`); the picture has less than one pixel or more than 10 000 a side, or
+/// `scale` is no number (`Size`); the PNG cannot be written (`Encoding`).
 pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, ReportError> {
     let tree = read(svg)?;
     let (width_px, height_px) = (

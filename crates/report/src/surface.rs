@@ -14,17 +14,20 @@ use crate::grid::{Grid, PointState};
 /// Fine steps wanted along the longer side of a picture.
 pub(crate) const FINE: usize = 180;
 
-/// Samples on a fine lattice, row by row from the bottom.
+/// Samples on a fine lattice, row by row from the bottom; the given points are among them.
 pub(crate) struct Surface {
+    /// The axes, each step of the grid cut into equal parts.
     pub(crate) horizontal_mm: Vec<f64>,
     pub(crate) vertical_mm: Vec<f64>,
+    /// A value everywhere: where nothing is reached, one carried on from the neighbours.
     pub(crate) value_um: Vec<f64>,
     /// 1 where reached, 0 where not; the zone ends at one half.
     pub(crate) reached: Vec<f64>,
 }
 
 impl Surface {
-    /// A grid that passed [`Grid::obstacle`], refined to about `steps` steps.
+    /// A grid that passed [`Grid::obstacle`], refined to about `steps` steps along its longer side; each step
+    /// of the grid is cut into 1 to 48.
     pub(crate) fn refine(grid: &Grid, steps: usize) -> Self {
         let (nx, ny) = (grid.horizontal_mm.len(), grid.vertical_mm.len());
         let factor = steps.div_ceil(nx.max(ny).saturating_sub(1).max(1)).clamp(1, 48);
@@ -76,6 +79,7 @@ impl Surface {
     }
 }
 
+/// How values run between two points.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Between {
     Straight,
@@ -124,11 +128,13 @@ fn filled(grid: &Grid) -> Vec<f64> {
     known.into_iter().map(|v| v.unwrap_or(0.0)).collect()
 }
 
+/// The mean; `None` of nothing.
 fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (count, sum) = values.fold((0, 0.0), |(n, s), v| (n + 1, s + v));
     (count > 0).then(|| sum / f64::from(count))
 }
 
+/// An axis with each of its steps cut into `factor` equal parts.
 fn subdivided(values: &[f64], factor: usize) -> Vec<f64> {
     let mut out = Vec::with_capacity(values.len() * factor);
     for w in values.windows(2) {
@@ -138,6 +144,7 @@ fn subdivided(values: &[f64], factor: usize) -> Vec<f64> {
     out
 }
 
+/// Samples of the points on the fine lattice: along each row first, then along each fine column.
 fn spread(values: &[f64], grid: &Grid, factor: usize, between: Between) -> Vec<f64> {
     let nx = grid.horizontal_mm.len();
     let rows: Vec<Vec<f64>> = values
@@ -157,6 +164,9 @@ fn spread(values: &[f64], grid: &Grid, factor: usize, between: Between) -> Vec<f
         .collect()
 }
 
+/// Values `y` at `x`, filled up to `factor` parts a step:
+/// `y(t) = (2 t³ - 3 t² + 1) y₀ + (3 t² - 2 t³) y₁ + h ((t³ - 2 t² + t) m₀ + (t³ - t²) m₁)` with the slopes
+/// `m`, or straight.
 fn interpolated(x: &[f64], y: &[f64], factor: usize, between: Between) -> Vec<f64> {
     let slopes = match between {
         Between::Straight => Vec::new(),
@@ -181,7 +191,8 @@ fn interpolated(x: &[f64], y: &[f64], factor: usize, between: Between) -> Vec<f6
     out
 }
 
-/// Slopes at the points: zero at an extremum, else a weighted harmonic mean of the two secants; one-sided and limited at the ends.
+/// Slopes at the points: zero at an extremum, else a weighted harmonic mean of the two secants; one-sided and
+/// limited at the ends. Two points make a straight line.
 fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     let n = y.len();
     let h: Vec<f64> = x.windows(2).map(|w| w[1] - w[0]).collect();
@@ -201,6 +212,9 @@ fn monotone_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     slope
 }
 
+/// Slope at an end from the two steps and secants next to it, the nearer first: that of the parabola through
+/// three points, zero where it would turn the wrong way, and at most three times the nearer secant where the two
+/// differ in sign.
 fn end_slope(h: [f64; 2], secant: [f64; 2]) -> f64 {
     let slope = ((2.0 * h[0] + h[1]) * secant[0] - h[0] * secant[1]) / (h[0] + h[1]);
     if slope * secant[0] <= 0.0 {

@@ -3,6 +3,15 @@
 //! Everything is in pixels with y downwards; angles are in degrees, clockwise.
 //!
 //! Identifiers (clips, gradients, hatches) carry a prefix made from the picture's own content, so that several pictures can stand in one HTML page.
+//!
+//! | written | rule |
+//! |---|---|
+//! | numbers | two decimals at most, no trailing zeros, cut at a million; not finite: 0 |
+//! | text | the five characters of XML escaped, control characters left out |
+//! | identifiers | `p`, eight hexadecimal digits of the content's fingerprint, `-`, a running number |
+//!
+//! Not checked: colours and dash patterns, which come from this crate and are written as they stand.
+//! Source: Scalable Vector Graphics 1.1 (W3C).
 
 use std::fmt::Write;
 
@@ -17,7 +26,7 @@ const FONT_FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
 /// Stands for the picture's prefix until the picture is complete.
 const PREFIX: char = '\u{1}';
 
-/// A rectangle in pixels.
+/// A rectangle in pixels with sides along the picture; `y` is its upper edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rect {
     pub(crate) x: f64,
@@ -48,7 +57,8 @@ impl Rect {
         self.x < other.right() && other.x < self.right() && self.y < other.bottom() && other.y < self.bottom()
     }
 
-    /// The rectangle with `by` pixels taken off each side.
+    /// The rectangle with `by` pixels taken off each side, its sides never less than nothing; a negative `by`
+    /// widens it.
     pub(crate) fn shrunk(&self, by: f64) -> Self {
         Self {
             x: self.x + by,
@@ -59,7 +69,8 @@ impl Rect {
     }
 }
 
-/// How a shape is filled and outlined.
+/// How a shape is filled and outlined: begun by `fill` or `line`, then changed by the methods that take it by
+/// value.
 #[derive(Clone, Debug)]
 pub(crate) struct Style {
     fill: String,
@@ -126,7 +137,7 @@ impl Style {
     }
 }
 
-/// Which point of a text stands at its position.
+/// Which point of a text's baseline stands at its position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Anchor {
     Start,
@@ -141,7 +152,9 @@ pub(crate) struct Text {
     pub(crate) anchor: Anchor,
     pub(crate) weight: Weight,
     pub(crate) colour: String,
+    /// Clockwise about the position; 0 reads to the right.
     pub(crate) turn_deg: f64,
+    /// Width of the white edge, both sides together; 0 for none.
     pub(crate) halo_px: f64,
 }
 
@@ -193,7 +206,7 @@ impl Text {
     }
 }
 
-/// A picture being written.
+/// A picture being written: what is drawn later lies on top.
 pub(crate) struct Svg {
     defs: String,
     body: String,
@@ -209,7 +222,7 @@ impl Svg {
         }
     }
 
-    /// A side that is less than nothing is nothing.
+    /// A rectangle with sharp corners. A side that is less than nothing is nothing.
     pub(crate) fn rect(&mut self, r: Rect, style: &Style) {
         self.rounded(r, 0.0, style);
     }
@@ -231,6 +244,7 @@ impl Svg {
         );
     }
 
+    /// A circle; a radius that is less than nothing is nothing.
     pub(crate) fn circle(&mut self, c: Point, radius_px: f64, style: &Style) {
         let _ = writeln!(
             self.body,
@@ -275,7 +289,7 @@ impl Svg {
         }
     }
 
-    /// `content` with its baseline at `at`.
+    /// `content` with the anchor of its baseline at `at`; its halo, if any, is a copy of the text under it.
     pub(crate) fn text(&mut self, at: Point, content: &str, text: &Text) {
         let mut attributes = format!(
             " x=\"{}\" y=\"{}\" font-size=\"{}\"",
@@ -343,7 +357,7 @@ impl Svg {
         self.body.push_str("</g>\n");
     }
 
-    /// A fill of parallel lines; the answer is the value of a `fill`.
+    /// A fill of parallel lines; the answer is the value of a `fill`, good for this picture alone.
     pub(crate) fn hatch(&mut self, hatch: &Hatch) -> String {
         let id = self.new_id();
         let pitch = num(hatch.pitch_px);
@@ -360,7 +374,8 @@ impl Svg {
         format!("url(#{id})")
     }
 
-    /// A fill that changes from `from` to `to` over the given stops (offset, colour); the answer is the value of a `fill`.
+    /// A fill that changes from `from` to `to` over the given stops (offset from 0 to 1, colour); the answer is
+    /// the value of a `fill`. Before the first and beyond the last stop the colour stays.
     pub(crate) fn gradient(&mut self, from: Point, to: Point, stops: &[(f64, String)]) -> String {
         let id = self.new_id();
         let _ = write!(
@@ -382,7 +397,8 @@ impl Svg {
         format!("url(#{id})")
     }
 
-    /// The complete document on white, `width_px` by `height_px`, described by `title` for screen readers.
+    /// The complete document on white, `width_px` by `height_px` (rounded up), described by `title` for screen
+    /// readers. The same shapes give the same bytes.
     pub(crate) fn finish(self, width_px: f64, height_px: f64, title: &str) -> String {
         let (w, h) = (num(width_px.ceil()), num(height_px.ceil()));
         let prefix = format!("p{:08x}-", fingerprint(&[&self.defs, &self.body]));
@@ -403,10 +419,12 @@ impl Svg {
 
 /// A fill of parallel lines.
 pub(crate) struct Hatch {
+    /// How far the lines are turned, clockwise; 0 draws upright lines.
     pub(crate) turn_deg: f64,
     pub(crate) pitch_px: f64,
     pub(crate) width_px: f64,
     pub(crate) colour: &'static str,
+    /// Of the ground between them; what lies under it shows where there is none.
     pub(crate) ground: Option<&'static str>,
 }
 
@@ -417,7 +435,8 @@ pub(crate) enum Ends {
     Closed,
 }
 
-/// Path data through `points`; points that are not finite are left out.
+/// Path data through `points`; points that are not finite are left out, and the line runs on past them. Empty
+/// without points.
 pub(crate) fn trace(points: &[Point], ends: Ends) -> String {
     let mut data = String::new();
     for p in points.iter().filter(|p| p[0].is_finite() && p[1].is_finite()) {
@@ -446,7 +465,8 @@ pub(crate) fn num(value: f64) -> String {
     }
 }
 
-/// `text` with the five characters of XML replaced and characters that XML forbids left out.
+/// `text` with the five characters of XML replaced and characters that XML forbids left out; tabs and line ends
+/// become blanks. Safe as content and as a value in quotes, in SVG and in HTML.
 pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
