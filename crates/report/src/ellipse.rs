@@ -3,6 +3,15 @@
 //! The 2 x 2 compliance C (um/N) maps the unit circle of forces to an ellipse. Its symmetric part has the principal compliances
 //! `m ± r`, `m = (c11 + c22) / 2`, `r = hypot((c11 - c22) / 2, c12)`, the softer one at `atan2(c12, (c11 - c22) / 2) / 2`.
 //! The reference circle has the compliance m: the same arm, equally soft in all directions.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `C` | compliance: row = deviation, column = force; horizontal, vertical | um/N |
+//! | `m` | mean of the principal compliances | um/N |
+//! | `m + r`, `m - r` | softest, stiffest principal compliance | um/N |
+//!
+//! The outline is `C f` for all `f` of length one, drawn from the whole of `C`; arrows and numbers are of the
+//! symmetric part. The two agree where `C` is symmetric, as the compliance of springs alone is.
 
 use crate::arrow::draw_arrow;
 use crate::axis::three_digits;
@@ -13,14 +22,16 @@ use crate::page::{BORDER_PX, Heading, SMALL_PX, text_box};
 use crate::plane::{AxisLabels, Growth, Plane, Window};
 use crate::svg::{Anchor, Point, Rect, Style, Svg, Text};
 
+/// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [380.0, 380.0];
 /// Half the side of the drawing, in the softest compliance.
 const ROOM: f64 = 1.45;
+/// Corners of the polygon that stands for the ellipse.
 const CORNERS: u32 = 180;
 /// Colour of the stiffest direction.
 const STIFF: &str = category(2);
 
-/// What an ellipse picture shows.
+/// What an ellipse picture shows: a picture of compliance, larger where the arm is softer.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StiffnessEllipse {
     /// First line, bold.
@@ -36,7 +47,8 @@ pub struct StiffnessEllipse {
 }
 
 impl StiffnessEllipse {
-    /// The picture as a complete SVG document; a compliance that is no number gives a picture that says so.
+    /// The picture as a complete SVG document; a compliance that is no number, or not positive in any
+    /// direction, gives a picture that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         let principal = Principal::of(self.compliance_um_per_n);
@@ -86,8 +98,11 @@ impl StiffnessEllipse {
 
 /// The symmetric part of a compliance in its own directions, um/N.
 struct Principal {
+    /// Mean of the two.
     mean: f64,
+    /// The larger one.
     soft: f64,
+    /// The smaller one; negative where `C` is not a compliance of springs.
     stiff: f64,
     /// Where the arm is softest, from the horizontal axis.
     turn_rad: f64,
@@ -101,6 +116,7 @@ struct Direction {
 }
 
 impl Principal {
+    /// Of the symmetric part of a matrix.
     fn of([[a, b], [c, d]]: [[f64; 2]; 2]) -> Self {
         let mean = (a + d) / 2.0;
         let shear = (b + c) / 2.0;
@@ -113,6 +129,7 @@ impl Principal {
         }
     }
 
+    /// Whether both are numbers and the larger is positive.
     fn is_drawable(&self) -> bool {
         self.soft.is_finite() && self.stiff.is_finite() && self.soft > 0.0
     }
@@ -160,6 +177,7 @@ fn draw_directions(svg: &mut Svg, plane: &Plane, directions: [Direction; 2]) {
     }
 }
 
+/// What the legend says: ellipse, both directions, reference circle.
 fn entries(principal: &Principal) -> [Entry; 4] {
     let even = format!(
         "equally soft in all directions: {} µm/N",
@@ -181,7 +199,8 @@ fn mean_style() -> Style {
     Style::line(INK, 1.2).dashed("6 4")
 }
 
-/// A place beyond one of the two arrow heads, inside the frame and clear of other labels.
+/// A place beyond one of the two arrow heads, inside the frame and clear of other labels; the second head's
+/// where neither is clear.
 fn label_place(plane: &Plane, direction: &Direction, label: &str, taken: &[Rect]) -> Point {
     let centre = plane.at([0.0, 0.0]);
     let half = text_width_px(label, SMALL_PX, Weight::Bold) / 2.0;

@@ -29,15 +29,19 @@ const BEFORE: &str = "#b9b9b9";
 const AIR: &str = "#e3eef7";
 const NOTHING: &str = "There is nothing to draw: the record has no values.";
 
-/// Least and greatest value in each column of pixels, over a span of time.
+/// Least and greatest value in each column of pixels, over a span of time. There are 640 columns of equal time,
+/// whatever the number of samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
+    /// From, to.
     span_s: [f64; 2],
     columns: Vec<Option<[f64; 2]>>,
 }
 
 impl Envelope {
-    /// Of samples (time, value) in a span of time; what lies outside or is not finite is left out.
+    /// Of samples (time in s, value in the unit of the trace) in a span of time (from, to in s), in the order
+    /// of time; what lies outside or is not finite is left out. A column without a sample stays empty; a span
+    /// of no length leaves all empty.
     pub fn of(span_s: [f64; 2], samples: impl IntoIterator<Item = (f64, f64)>) -> Envelope {
         let mut columns = vec![None; COLUMNS];
         let length = span_s[1] - span_s[0];
@@ -58,19 +62,20 @@ impl Envelope {
         Envelope { span_s, columns }
     }
 
+    /// The ends of all columns that have samples.
     fn values(&self) -> impl Iterator<Item = f64> + '_ {
         self.columns.iter().flatten().flatten().copied()
     }
 }
 
-/// One component over time.
+/// One component over time, in two states with the same scale.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ForceTrace {
     /// Its name with the unit: `Fx (N)`.
     pub name: String,
-    /// As it was measured.
+    /// As it was measured, drawn in grey behind.
     pub before: Envelope,
-    /// As it was treated.
+    /// As it was treated and is used, drawn in colour in front.
     pub after: Envelope,
 }
 
@@ -81,11 +86,12 @@ pub struct ForcePlot {
     pub title: String,
     /// Second line: file, sampling rate, what was done.
     pub subtitle: String,
-    /// One below the other; all envelopes are of one span, which is the time that is shown.
+    /// One below the other; all envelopes are of one span, which is the time that is shown. Traces of different
+    /// spans give a picture that says so.
     pub traces: Vec<ForceTrace>,
-    /// Stretches where nothing is cut, s.
+    /// Stretches where nothing is cut (from, to), s; drawn as a pale ground.
     pub air_s: Vec<[f64; 2]>,
-    /// Instants with their names, s.
+    /// Instants with their names, s, in the order of time; a name without room is left out, its line stays.
     pub marks_s: Vec<(f64, String)>,
 }
 
@@ -135,6 +141,7 @@ impl ForcePlot {
         page.finish_with_legend(&self.entries(), [left, area.bottom() + 50.0])
     }
 
+    /// The ground of one chart where nothing is cut.
     fn draw_air(&self, svg: &mut Svg, time: &TimeAxis) {
         for [from, to] in &self.air_s {
             let x = time.x(*from);

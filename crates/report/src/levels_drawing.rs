@@ -1,5 +1,8 @@
 //! A field drawn by its levels, wherever its lattice stands on the picture: bands, iso-lines, the line of the limit, and
 //! the labels of these lines.
+//!
+//! What knows the lattice (`crate::contours`) thinks in its values, what draws thinks in pixels: here the two
+//! meet, by a function from values to the picture. Maps and charts of any scale share it.
 
 use crate::colour::ColourScale;
 use crate::contours::{Lattice, Ring};
@@ -16,9 +19,9 @@ const COINCIDES: f64 = 0.05;
 #[derive(Clone, Copy)]
 pub(crate) struct Placed<'a> {
     pub(crate) lattice: Lattice<'a>,
-    /// Where a point of the lattice stands on the picture.
+    /// Where a point of the lattice, in the values of its axes, stands on the picture.
     pub(crate) at: &'a dyn Fn([f64; 2]) -> Point,
-    /// What the lattice covers.
+    /// What the lattice covers, px.
     pub(crate) area: Rect,
 }
 
@@ -28,7 +31,8 @@ impl<'a> Placed<'a> {
         Placed { lattice, ..*self }
     }
 
-    /// One colour a band, the lowest under all others.
+    /// One colour a band: the lowest covers the whole area, each further one is painted over it from its lower
+    /// edge up.
     pub(crate) fn draw_bands(&self, svg: &mut Svg, levels: &Levels, scale: ColourScale) {
         svg.rect(self.area, &Style::fill(levels.colour(0, scale)));
         for (band, rings) in self.lattice.areas_from(levels.inner_um()).iter().enumerate() {
@@ -56,6 +60,7 @@ impl<'a> Placed<'a> {
         without_straight(&line)
     }
 
+    /// Fills the rings of one area, holes left out.
     fn fill(&self, svg: &mut Svg, rings: &[Ring], colour: &str) {
         let data: String = rings
             .iter()
@@ -69,13 +74,14 @@ impl<'a> Placed<'a> {
 pub(crate) struct LevelLines<'a> {
     levels: &'a Levels,
     limit_um: Option<f64>,
-    /// One list of lines for each inner level.
+    /// One list of lines for each inner level, px.
     iso: Vec<Vec<Vec<Point>>>,
+    /// The lines of the limit, px; none where the field does not cross it.
     limit: Vec<Vec<Point>>,
 }
 
 impl<'a> LevelLines<'a> {
-    /// No line stands for a limit that is not finite.
+    /// The lines of a field. No line stands for a limit that is not finite.
     pub(crate) fn of(placed: &Placed<'_>, levels: &'a Levels, limit_um: Option<f64>) -> Self {
         let limit_um = limit_um.filter(|limit| limit.is_finite());
         let limit: Vec<f64> = limit_um.into_iter().collect();
@@ -87,6 +93,7 @@ impl<'a> LevelLines<'a> {
         }
     }
 
+    /// All iso-lines in one style; the limit is not among them.
     pub(crate) fn draw_iso(&self, svg: &mut Svg, style: &Style) {
         for line in self.iso.iter().flatten() {
             svg.polyline(line, style);
@@ -102,7 +109,8 @@ impl<'a> LevelLines<'a> {
         }
     }
 
-    /// What is written on the lines, the limit first.
+    /// What is written on the lines, the limit first, so that it chooses its place before the others. An
+    /// iso-line that coincides with the limit has no label of its own.
     pub(crate) fn labels(&self) -> Vec<Labelled> {
         let on_limit = self.limit.iter().map(|points| Labelled {
             points: points.clone(),

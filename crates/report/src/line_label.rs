@@ -1,4 +1,13 @@
 //! Labels on lines: rotated along the line, where it is straight, clear of each other, of other lines and of masked zones.
+//!
+//! | step | rule |
+//! |---|---|
+//! | trial places | every 6 px along the line |
+//! | out of question | outside the drawing, on a masked zone, on another label, where the line bends too much |
+//! | cost | `bow + 0.8 crossed + 2.5 off_middle + 1.5 steep`, see `Wish::cost` |
+//! | chosen | the cheapest, if below 14; longer lines ask again, 190 px away |
+//!
+//! A bold label (the limit) stands once and on a white plate; other lines have up to four.
 
 use crate::font::{Weight, text_width_px};
 use crate::line::Stations;
@@ -28,13 +37,17 @@ const STEEPEST_DEG: f64 = 78.0;
 
 /// A line that wants a label.
 pub(crate) struct Labelled {
+    /// The line, px.
     pub(crate) points: Vec<Point>,
+    /// What is written on it.
     pub(crate) text: String,
+    /// How it is set; anchor and turn are decided here.
     pub(crate) look: Text,
 }
 
 /// Where labels may stand.
 pub(crate) struct Room<'a> {
+    /// The drawing; labels stay 4 px inside it.
     pub(crate) area: Rect,
     /// Whether a point may be covered.
     pub(crate) free: &'a dyn Fn(Point) -> bool,
@@ -42,7 +55,7 @@ pub(crate) struct Room<'a> {
     pub(crate) obstacles: &'a [Point],
 }
 
-/// Points all over a centred text, as obstacles for labels.
+/// Points all over a text whose baseline is centred at `at`, in three rows, as obstacles for labels.
 pub(crate) fn points_under(at: Point, content: &str, size_px: f64) -> Vec<Point> {
     let area = text_box(at, content, size_px * 1.1, Anchor::Middle);
     let rows = [area.y, area.centre()[1], area.bottom()];
@@ -51,7 +64,8 @@ pub(crate) fn points_under(at: Point, content: &str, size_px: f64) -> Vec<Point>
     rows.into_iter().flat_map(row).collect()
 }
 
-/// Writes as many labels as find room; lines earlier in the list choose first.
+/// Writes as many labels as find room; lines earlier in the list choose first. A line too short or too crooked
+/// has none.
 pub(crate) fn write_labels(svg: &mut Svg, lines: &[Labelled], room: &Room<'_>) {
     let mut taken: Vec<(Point, f64)> = Vec::new();
     for (index, line) in lines.iter().enumerate() {
@@ -123,6 +137,7 @@ struct Wish<'a> {
 #[derive(Clone, Copy)]
 struct Place {
     at: Point,
+    /// Direction of the reading before it is turned over where steep.
     cos: f64,
     sin: f64,
 }

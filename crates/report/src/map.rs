@@ -1,4 +1,7 @@
 //! The map of a deviation over a plane: filled bands, labelled iso-lines, the limit, and hatched zones that cannot be used.
+//!
+//! Between the points the field is interpolated, see `crate::surface`; at the points it is exact. Both axes
+//! have the same scale, so shapes on the map are true to the plane.
 
 use crate::colour::{ColourScale, INK};
 use crate::colour_bar::ColourBar;
@@ -16,16 +19,17 @@ use crate::svg::{Point, Style, Svg};
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [600.0, 470.0];
 
-/// A line drawn on a map, such as the path of the cut.
+/// A line drawn on a map, such as the path of the cut, dashed on a white ground.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overlay {
-    /// What the line is, for the legend.
+    /// What the line is, for the legend; without one it has no entry.
     pub label: String,
-    /// Points in mm: horizontal, vertical.
+    /// Points in mm: horizontal, vertical, in the axes of the grid. What lies outside the grid is cut off.
     pub points_mm: Vec<[f64; 2]>,
 }
 
-/// What a deviation map shows.
+/// What a deviation map shows. The default is an empty map, which draws as a notice; set the fields that
+/// matter.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeviationMap {
     /// First line, bold.
@@ -38,13 +42,14 @@ pub struct DeviationMap {
     pub axes: AxisLabels,
     /// What is drawn, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
-    /// Permissible deviation in um, drawn as an emphasised line.
+    /// Permissible deviation in um, drawn as an emphasised line. A limit below or above all values is told in
+    /// the legend; one that is not finite counts as none.
     pub limit_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
-    /// Lines drawn on top.
+    /// Lines drawn on top; labels of iso-lines keep clear of them.
     pub overlays: Vec<Overlay>,
-    /// Points drawn on top.
+    /// Points drawn on top of everything.
     pub markers: Vec<Marker>,
     /// Whether the grid points are shown as small dots.
     pub show_grid_points: bool,
@@ -111,6 +116,7 @@ impl DeviationMap {
         drawn.chain(marked).collect()
     }
 
+    /// Grid points, overlays and markers, cut to the drawing.
     fn draw_on_top(&self, svg: &mut Svg, plane: &Plane) {
         svg.clipped(plane.area, |svg| {
             if self.show_grid_points {
@@ -132,6 +138,7 @@ impl DeviationMap {
         });
     }
 
+    /// The legend's entries of what is drawn on top, in the order of drawing.
     fn entries_on_top(&self) -> Vec<Entry> {
         let mut entries = Vec::new();
         if self.show_grid_points {
@@ -148,6 +155,7 @@ impl DeviationMap {
     }
 }
 
+/// The points of an overlay on the picture.
 fn on_picture(plane: &Plane, overlay: &Overlay) -> Vec<Point> {
     overlay.points_mm.iter().map(|p| plane.at(*p)).collect()
 }

@@ -1,4 +1,15 @@
 //! Small multiples: maps of a series (distance, tilt, slices of a volume) at one scale, in one set of colours, with one colour bar.
+//!
+//! ```text
+//! title                 note    title                 note
+//! ┌──────── map ───────┐        ┌──────── map ───────┐    ┌┐
+//! └────────────────────┘        └────────────────────┘    ││  colour bar of all maps
+//! ┌────── region ──────┐        ┌────── region ──────┐    └┘
+//! └────────────────────┘        └────────────────────┘
+//! ```
+//!
+//! All panels show the same part of the plane at the same scale, even where their grids differ; numbers stand
+//! at the lowest panel of each column and at the first column alone.
 
 use crate::colour::{ColourScale, EMPTY, MUTED, OVER, WITHIN};
 use crate::colour_bar::ColourBar;
@@ -37,7 +48,8 @@ const LEAST_SHEET_PX: f64 = 480.0;
 pub struct Panel {
     /// What distinguishes this panel: `x = 600 mm`.
     pub title: String,
-    /// A number worth reading at once: `62 % within`; empty for none.
+    /// A number worth reading at once: `62 % within`; empty for none. Left out where it would run into the
+    /// title.
     pub note: String,
     /// The points and their values in um.
     pub grid: Grid,
@@ -52,22 +64,24 @@ pub struct MapSeries {
     pub subtitle: String,
     /// The maps in reading order.
     pub panels: Vec<Panel>,
-    /// Panels in a row, 1 to 8; any other number stands for the nearer of the two.
+    /// Panels in a row, 1 to 8; any other number stands for the nearer of the two. Fewer panels take fewer
+    /// columns.
     pub columns: usize,
     /// Axis labels with units, shared by all panels.
     pub axes: AxisLabels,
-    /// What is drawn, with its unit.
+    /// What is drawn, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
     /// Permissible deviation in um.
     pub limit_um: Option<f64>,
     /// Colours of the bands.
     pub scale: ColourScale,
-    /// Whether the permissible region stands under each map; needs a limit.
+    /// Whether the permissible region stands under each map; needs a limit that is finite.
     pub show_regions: bool,
 }
 
 impl MapSeries {
-    /// The sheet as a complete SVG document; a panel that cannot be drawn says why.
+    /// The sheet as a complete SVG document; a panel that cannot be drawn says why in its place. A notice where
+    /// there are no panels or none can be drawn.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         if self.panels.is_empty() {
@@ -121,10 +135,12 @@ impl MapSeries {
         svg.text(left, &self.axes.vertical, &text.turned(-90.0));
     }
 
+    /// Whether each panel has a region under its map.
     fn has_regions(&self) -> bool {
         self.show_regions && self.limit_um.is_some_and(f64::is_finite)
     }
 
+    /// Title, note, map and region of one panel.
     fn draw_panel(&self, svg: &mut Svg, panel: &Panel, cell: &Cell, levels: &Levels) {
         let area = cell.planes[0].area;
         let room = area.w - text_width_px(&panel.note, NOTE_PX, Weight::Regular) - 6.0;
@@ -156,6 +172,7 @@ impl MapSeries {
         }
     }
 
+    /// The limit, the colours of regions, and the zones that some panel has.
     fn entries(&self, svg: &mut Svg, drawable: &[&Grid]) -> Vec<Entry> {
         let mut entries = Vec::new();
         if let Some(limit) = self.limit_um.filter(|l| l.is_finite()) {
@@ -187,7 +204,7 @@ fn write_reason(svg: &mut Svg, area: Rect, reason: &str) {
     }
 }
 
-/// The window that shows all grids, drawn in the direction of the first.
+/// The window that shows all grids, drawn in the direction of the first; `None` without grids.
 fn common_window(grids: &[&Grid]) -> Option<Window> {
     let first = window_of(grids.first()?);
     let reach = |pick: fn(&Window) -> [f64; 2]| {
@@ -205,14 +222,18 @@ fn common_window(grids: &[&Grid]) -> Option<Window> {
     })
 }
 
-/// Where the panels of a sheet stand.
+/// Where the panels of a sheet stand, px.
 struct Layout {
     window: Window,
     columns: usize,
     panels: usize,
+    /// 1, or 2 with regions.
     planes_per_panel: usize,
+    /// Width and height of one drawing.
     panel_px: [f64; 2],
+    /// Left edge of the first column.
     left_px: f64,
+    /// Of all columns and of all rows, with the gaps between.
     width_px: f64,
     height_px: f64,
 }
@@ -224,6 +245,7 @@ struct Cell {
 }
 
 impl Layout {
+    /// Panels as large as a row has room for.
     fn new(sheet: &MapSeries, window: Window) -> Self {
         let panels = sheet.panels.len();
         let columns = sheet.columns.clamp(1, panels.clamp(1, MOST_COLUMNS));
@@ -244,6 +266,7 @@ impl Layout {
         }
     }
 
+    /// The place of the panel `index`, counted from 0 in reading order, below `top_px`.
     fn cell(&self, index: usize, top_px: f64) -> Cell {
         let (column, row) = (index % self.columns, index / self.columns);
         let [w, h] = self.panel_px;

@@ -1,4 +1,6 @@
 //! Marked points of a plane: their signs, the text beside them, and their entries in a legend.
+//!
+//! A marker is a place in the plane, not a measure: its sign has the same size at every scale.
 
 use crate::colour::INK;
 use crate::legend::{Entry, Key, diamond};
@@ -19,26 +21,27 @@ pub enum MarkerKind {
     Best,
 }
 
-/// A marked point on a map.
+/// A marked point on a map or track.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Marker {
     /// Horizontal and vertical value in mm; a marker that stands nowhere is left out.
     pub at_mm: [f64; 2],
     /// What is marked, for the legend; markers with the same label share an entry, an empty one has none.
     pub label: String,
-    /// Its sign.
+    /// Which sign stands there.
     pub kind: MarkerKind,
     /// What is written above the sign, such as a number; empty for nothing.
     pub name: String,
 }
 
 impl Marker {
+    /// Whether both coordinates are numbers.
     fn is_somewhere(&self) -> bool {
         self.at_mm.iter().all(|v| v.is_finite())
     }
 }
 
-/// Draws the sign of a marker, and its name above it.
+/// Draws the sign of a marker, and its name above it; nothing for a marker that stands nowhere.
 pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
     if !marker.is_somewhere() {
         return;
@@ -53,7 +56,7 @@ pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
     }
 }
 
-/// One entry for each label, in the order of the markers.
+/// One entry for each label, in the order of the markers; the sign is that of the first with this label.
 pub(crate) fn marker_entries(markers: &[Marker]) -> Vec<Entry> {
     let mut named: Vec<&str> = Vec::new();
     let mut entries = Vec::new();
@@ -75,6 +78,7 @@ pub(crate) fn write_on_map(svg: &mut Svg, at: Point, content: &str) {
     svg.text(at, content, &Text::new(SMALL_PX).bold().middle().halo(3.5));
 }
 
+/// Fill and edge of a sign.
 fn style(kind: MarkerKind) -> Style {
     match kind {
         MarkerKind::Point => Style::fill("#fff").outlined(INK, 1.6),

@@ -1,4 +1,7 @@
 //! The deviation along a path: one line a load case, their envelope, and the limit.
+//!
+//! The chart shows zero and, unless it is more than three times the largest value, the limit; values that are
+//! all positive stand on the axis. A far limit is told in words at the upper edge.
 
 use crate::chart::{Chart, range, runs};
 use crate::colour::{INK, category};
@@ -9,20 +12,22 @@ use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::plane::AxisLabels;
 use crate::svg::{Point, Style, Svg};
 
+/// Width and height of the chart.
 const AREA_PX: [f64; 2] = [560.0, 300.0];
 
-/// One line of a chart.
+/// One line of a chart: pairs of position and value, as many as the shorter list has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Name for the legend.
     pub name: String,
-    /// Path length, angle or time at each sample.
+    /// Path length, angle or time at each sample, in the unit of the axis label; need not rise.
     pub position: Vec<f64>,
     /// Deviation in um at each sample; a value that is not finite breaks the line.
     pub deviation_um: Vec<f64>,
 }
 
 impl Series {
+    /// The samples as (position, deviation).
     pub(crate) fn points(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         self.position
             .iter()
@@ -47,9 +52,10 @@ pub struct PathPlot {
     pub quantity: String,
     /// The load cases.
     pub series: Vec<Series>,
-    /// Largest value over the cases at each position; drawn as a band from the axis.
+    /// Largest value over the cases at each position; drawn as a strong line over a pale band down to the axis.
+    /// Not checked: that it is the largest.
     pub envelope: Option<Series>,
-    /// Permissible deviation in um.
+    /// Permissible deviation in um; one that is not finite counts as none.
     pub limit_um: Option<f64>,
 }
 
@@ -96,6 +102,7 @@ impl PathPlot {
         self.series.iter().chain(&self.envelope).flat_map(Series::points)
     }
 
+    /// One entry for each case, then the envelope.
     fn entries(&self) -> Vec<Entry> {
         let cases = self.series.iter().enumerate();
         let mut entries: Vec<Entry> = cases
@@ -106,6 +113,7 @@ impl PathPlot {
         entries
     }
 
+    /// The envelope first, the cases over it; a value alone between gaps is a dot.
     fn draw_lines(&self, svg: &mut Svg, chart: &Chart) {
         if let Some(envelope) = &self.envelope {
             let zero = chart.at([0.0, 0.0_f64.max(chart.low[1])])[1];
@@ -139,6 +147,7 @@ impl PathPlot {
                 .filter(|p| (p[0] - x).abs() < half && (p[1] - text_y + 4.0).abs() < 11.0)
                 .count()
         };
+        // Trial places along the line, from the preferred one on.
         let places = [0.9, 0.1, 0.5, 0.7, 0.3]
             .map(|t| (chart.area.x + half + 4.0) * (1.0 - t) + (chart.area.right() - half - 4.0) * t);
         let above = places.iter().map(|x| [*x, y - 6.0]);

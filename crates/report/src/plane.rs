@@ -1,6 +1,15 @@
 //! A plane in mm drawn at the same scale in both directions, with ticks and axis labels.
 //!
 //! The horizontal axis may run either way: maps are seen from the tool side, where base y grows to the left.
+//!
+//! ```text
+//!          left_mm      right_mm
+//!  top_mm    ┌────────────┐
+//!            │    area    │      x = area.x + px_per_mm |horizontal - left_mm|
+//!  bottom_mm └────────────┘      y = area.bottom - px_per_mm |vertical - bottom_mm|
+//! ```
+//!
+//! (for points of the window). Charts, whose axes have scales of their own, are `crate::chart`.
 
 use crate::axis::{nice_step, tick_label};
 use crate::colour::INK;
@@ -9,7 +18,7 @@ use crate::page::{BODY_PX, BORDER_PX, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 use crate::ticks::{Across, Axis, Overhang, Ticks};
 
-/// The labels of the two axes, with units: `base y (mm)`.
+/// The labels of the two axes, with units: `base y (mm)`. An empty label leaves its room blank.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AxisLabels {
     /// Label below the drawing.
@@ -46,7 +55,7 @@ impl Growth {
     }
 }
 
-/// The part of a plane that is drawn; `left_mm` may be greater than `right_mm`.
+/// The part of a plane that is drawn; `left_mm` may be greater than `right_mm`, and `bottom_mm` than `top_mm`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Window {
     pub(crate) left_mm: f64,
@@ -55,24 +64,30 @@ pub(crate) struct Window {
     pub(crate) top_mm: f64,
 }
 
-/// A window placed on the picture.
+/// A window placed on the picture: the map from mm to pixels and back.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plane {
+    /// What is shown; it may be wider than asked.
     pub(crate) window: Window,
+    /// Where it is drawn, px, without ticks and labels.
     pub(crate) area: Rect,
+    /// The scale, the same both ways and always positive.
     pub(crate) px_per_mm: f64,
 }
 
 /// How much is written around a drawing: panels of a sheet share their labels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Marks {
+    /// Ticks and numbers below.
     pub(crate) horizontal_numbers: bool,
+    /// Ticks and numbers at the left.
     pub(crate) vertical_numbers: bool,
     pub(crate) font_px: f64,
     pub(crate) overhang: Overhang,
 }
 
 impl Marks {
+    /// As a drawing that stands alone has them.
     pub(crate) const ALL: Self = Self {
         horizontal_numbers: true,
         vertical_numbers: true,
@@ -93,7 +108,9 @@ pub(crate) const LABEL_LEFT_PX: f64 = 14.0;
 const THINNEST_PX: f64 = 70.0;
 
 impl Plane {
-    /// The window inside a box of `most` (width, height) pixels whose top left corner stands at `at`.
+    /// The window inside a box of `most` (width, height) pixels whose top left corner stands at `at`. The area
+    /// fills the box in one direction and stays below it in the other; a side thinner than 70 px is widened
+    /// with more of the plane to both sides.
     pub(crate) fn fit(window: Window, at: Point, most: [f64; 2]) -> Self {
         let mut window = window;
         let spans = [
@@ -145,7 +162,7 @@ impl Plane {
         ]
     }
 
-    /// The point of the plane that stands at a point of the picture.
+    /// The point of the plane that stands at a point of the picture: `at` backwards.
     pub(crate) fn mm(&self, at: Point) -> [f64; 2] {
         let [across, up] = self.px_per_mm_signed();
         [
@@ -167,7 +184,7 @@ impl Plane {
         [signed(w.left_mm, w.right_mm), signed(w.bottom_mm, w.top_mm)]
     }
 
-    /// Room left of the drawing for tick labels and axis label.
+    /// Room left of the drawing for tick labels and axis label, px.
     pub(crate) fn left_room_px(window: &Window) -> f64 {
         let step = nice_step(window.top_mm - window.bottom_mm, 5.0);
         let widest = [window.bottom_mm, window.top_mm].map(|v| {

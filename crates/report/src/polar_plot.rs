@@ -1,4 +1,9 @@
 //! How round a circle comes out: the radial deviation, magnified, around the nominal circle.
+//!
+//! `radius = hole + (um - first) / (last - first) (rim - hole)`: the deviation of the innermost ring stands at
+//! 0.22 of the rim's radius, that of the outermost at the rim. The nominal circle, deviation 0, is the dashed
+//! ring between. Lengths along the radius are true to scale among each other; shapes are not, since the hole
+//! stands for no deviation.
 
 use crate::axis::{extent, nice_step};
 use crate::chart::runs;
@@ -9,6 +14,7 @@ use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
 use crate::ticks::Ticks;
 
+/// Radius of the rim, and width of the picture.
 const RADIUS_PX: f64 = 190.0;
 const WIDTH_PX: f64 = 500.0;
 /// Radius of the innermost ring, which keeps clear of the centre.
@@ -17,14 +23,16 @@ const HOLE_PX: f64 = 0.22 * RADIUS_PX;
 const NUMBER_PX: f64 = 10.0;
 const APART_PX: f64 = 16.0;
 
-/// The radial deviation around a circle under one load case.
+/// The radial deviation around a circle under one load case; as many points as the shorter list has, joined in
+/// their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RadialSeries {
     /// Name for the legend.
     pub name: String,
-    /// Angle from the horizontal axis towards the vertical axis in degrees.
+    /// Angle from the horizontal axis towards the vertical axis in degrees; give the first point again at the
+    /// end to close the line.
     pub angle_deg: Vec<f64>,
-    /// Deviation along the radius in um, outwards positive.
+    /// Deviation along the radius in um, outwards positive; a value that is not finite breaks the line.
     pub radial_um: Vec<f64>,
 }
 
@@ -47,7 +55,7 @@ pub struct PolarPlot {
     pub horizontal: String,
     /// Name of the direction at 90 degrees: `z'`.
     pub vertical: String,
-    /// Which way the horizontal axis grows.
+    /// Which way the horizontal axis grows: to the left, the angles run clockwise on the picture.
     pub growth: Growth,
     /// The load cases.
     pub series: Vec<RadialSeries>,
@@ -81,11 +89,13 @@ impl PolarPlot {
         page.finish_with_legend(&entries, [BORDER_PX + 20.0, centre[1] + RADIUS_PX + 32.0])
     }
 
+    /// Whether some point has an angle and a deviation.
     fn has_values(&self) -> bool {
         let mut points = self.series.iter().flat_map(RadialSeries::points);
         points.any(|p| p.iter().all(|v| v.is_finite()))
     }
 
+    /// The point of the picture at an angle and a distance from the centre.
     fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         [
@@ -168,7 +178,7 @@ impl PolarPlot {
 /// Rings of equal deviation around the nominal circle.
 struct Rings {
     ticks: Ticks,
-    /// The deviations of the innermost and of the outermost ring.
+    /// The deviations of the innermost and of the outermost ring: at least one step below 0 and one above.
     ends_um: [f64; 2],
 }
 
@@ -184,7 +194,7 @@ impl Rings {
         }
     }
 
-    /// Distance from the centre.
+    /// Distance from the centre of a deviation, px.
     fn radius_px(&self, um: f64) -> f64 {
         let [first, last] = self.ends_um;
         HOLE_PX + (um - first) / (last - first) * (RADIUS_PX - HOLE_PX)
@@ -199,6 +209,7 @@ impl Rings {
         self.ticks.step * 1e-6
     }
 
+    /// The rings, the nominal one dashed.
     fn draw(&self, svg: &mut Svg, centre: Point) {
         for um in &self.ticks.at {
             let style = if um.abs() < self.slack_um() {

@@ -1,4 +1,7 @@
 //! What a cut may be: the deviation over two of its quantities, with the line of the tolerance and the cut as it stands.
+//!
+//! The quantities may be any two of a cut, such as depth and feed, each in its own unit. Values go straight
+//! between the points of the lattice, not in curves as on a map.
 
 use crate::axis::extent;
 use crate::chart::Chart;
@@ -15,12 +18,13 @@ use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
 use crate::svg::{Style, Svg};
 
+/// Width and height of the chart.
 const AREA_PX: [f64; 2] = [480.0, 360.0];
 /// Deviations beyond this many times the limit have one colour: nobody cuts there.
 const MOST_LIMITS: f64 = 4.0;
 const NOTHING: &str = "There is nothing to draw: no cut has a value.";
 
-/// What a picture of permitted cuts shows.
+/// What a picture of permitted cuts shows. Values beyond four times the limit are drawn as four times.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ProcessMap {
     /// First line, bold.
@@ -35,11 +39,13 @@ pub struct ProcessMap {
     pub horizontal: Vec<f64>,
     /// Values along the vertical axis, rising or falling steadily; at least two.
     pub vertical: Vec<f64>,
-    /// Deviation in um, row by row from the bottom; infinite where the cut cannot be held at all.
+    /// Deviation in um, row by row from the bottom, each from left to right; infinite where the cut cannot be
+    /// held at all.
     pub deviation_um: Vec<f64>,
     /// Permissible deviation in um.
     pub limit_um: f64,
-    /// The cut as it stands: horizontal and vertical value.
+    /// The cut as it stands: horizontal and vertical value, in the units of the axes; one that is not finite is
+    /// not drawn.
     pub drawn: Option<[f64; 2]>,
 }
 
@@ -80,7 +86,7 @@ impl ProcessMap {
         page.finish_with_legend(&entries, [chart.area.x, chart.area.bottom() + 48.0])
     }
 
-    /// Why there is nothing to draw.
+    /// Why there is nothing to draw; `None` where there is something.
     fn obstacle(&self) -> Option<&'static str> {
         let sizes = [self.horizontal.len(), self.vertical.len()];
         if sizes[0] < 2 || sizes[1] < 2 || self.deviation_um.len() != sizes[0] * sizes[1] {
@@ -95,6 +101,7 @@ impl ProcessMap {
         (!self.limit_um.is_finite()).then_some("The limit is not a number.")
     }
 
+    /// Bands, iso-lines, the line of the limit and labels, cut to the chart by the caller.
     fn draw_field(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[f64]) {
         let at = |values: [f64; 2]| chart.at(values);
         let placed = Placed {

@@ -1,4 +1,13 @@
 //! The permissible region of a plane: where the deviation keeps within the limit, and what part fits in there.
+//!
+//! | colour | what it says |
+//! |---|---|
+//! | green | the value is within the limit; with a spread: surely within |
+//! | sand | the limit lies between value - spread and value + spread |
+//! | grey | the value is over the limit; with a spread: surely over |
+//! | hatched | no posture, or one beyond the joint limits |
+//!
+//! Inscribed shapes are found elsewhere and only drawn here. Not checked: that they fit.
 
 use crate::axis::plain;
 use crate::colour::{DOUBTFUL, INK, OVER, WITHIN};
@@ -15,7 +24,7 @@ use crate::svg::{Point, Style, Svg};
 
 const MOST_PX: [f64; 2] = [600.0, 470.0];
 
-/// An axis-parallel rectangle in mm.
+/// A rectangle with its sides along the axes of the plane, by two opposite corners in any order.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RectangleMm {
     /// One corner: horizontal, vertical.
@@ -24,7 +33,7 @@ pub struct RectangleMm {
     pub opposite_mm: [f64; 2],
 }
 
-/// A circle in mm.
+/// A circle in the plane; one without a positive radius is not drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CircleMm {
     /// Centre: horizontal, vertical.
@@ -42,12 +51,13 @@ pub struct RegionMap {
     pub subtitle: String,
     /// The points and their values in um.
     pub grid: Grid,
-    /// How far each value may stray to either side, in um, by point; empty where that is not known. Where the limit
-    /// lies in between is painted as doubtful.
+    /// How far each value may stray to either side, in um, by point, to a confidence of 95 % as the legend
+    /// says; empty where that is not known. Where the limit lies in between is painted as doubtful. A list of
+    /// another length than the points, or with a number that is not finite, counts as empty.
     pub spread_um: Vec<f64>,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// Permissible deviation in um.
+    /// Permissible deviation in um; a limit that is not finite gives a picture that says so.
     pub limit_um: f64,
     /// Whether iso-lines of the deviation are drawn.
     pub show_iso_lines: bool,
@@ -103,6 +113,7 @@ impl RegionMap {
         page.finish_with_legend(&entries, [plane.area.x, below])
     }
 
+    /// Whether there is a spread to paint.
     fn is_doubtful(&self) -> bool {
         self.spread_um.len() == self.grid.points.len()
             && self.spread_um.iter().all(|spread| spread.is_finite())
@@ -141,6 +152,7 @@ impl RegionMap {
         (rectangle, circle)
     }
 
+    /// The outlines of the shapes that fit.
     fn draw_fits(&self, svg: &mut Svg, plane: &Plane) {
         let (rectangle, circle) = self.fits();
         if let Some(r) = rectangle {

@@ -1,4 +1,13 @@
 //! Which joint is to blame: the share of each joint in a deviation, signed, with its uncertainty and the total.
+//!
+//! ```text
+//!  label │  joint 1 │ joint 2 │ j3 │       the bar: shares end to end from zero, negative ones to the left
+//!        │              ├────◇────┤         the total with its standard uncertainty, in the row below
+//!        0        quantity (µm)
+//! ```
+//!
+//! Shares of both signs may be longer together than the total that they make. Not checked: that they add up to
+//! it.
 
 use crate::axis::number;
 use crate::chart::range;
@@ -9,6 +18,7 @@ use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::svg::{Point, Rect, Style, Svg, Text};
 use crate::ticks::Ticks;
 
+/// Width of the chart.
 const AREA_WIDTH_PX: f64 = 470.0;
 /// Height of a bar, and of the row under it for the mark of its total.
 const BAR_PX: f64 = 22.0;
@@ -24,11 +34,12 @@ const NUMBER_PX: f64 = 92.0;
 pub struct ShareBar {
     /// Name of the point or condition.
     pub label: String,
-    /// Signed share of each part in um, in the order of [`ShareBars::parts`].
+    /// Signed share of each part in um, in the order of [`ShareBars::parts`]; one that is not finite is left
+    /// out.
     pub shares_um: Vec<f64>,
-    /// Total in um, marked by a diamond.
+    /// Total in um, marked by a diamond and written at the right.
     pub total_um: Option<f64>,
-    /// Standard uncertainty of the total in um, drawn as a whisker.
+    /// Standard uncertainty of the total in um, drawn as a whisker to both sides.
     pub total_uncertainty_um: Option<f64>,
 }
 
@@ -47,13 +58,14 @@ pub struct ShareBars {
     pub bars: Vec<ShareBar>,
 }
 
-/// The value axis placed on the picture.
+/// The value axis placed on the picture: um along the bars.
 struct Scale {
     area: Rect,
     range: [f64; 2],
 }
 
 impl Scale {
+    /// Where a value stands across the picture.
     fn x(&self, um: f64) -> f64 {
         self.area.x + (um - self.range[0]) / (self.range[1] - self.range[0]) * self.area.w
     }
@@ -109,6 +121,7 @@ impl ShareBars {
         ])
     }
 
+    /// The parts in their colours, then the mark of the total.
     fn entries(&self) -> Vec<Entry> {
         let parts = self.parts.iter().enumerate();
         let mut entries: Vec<Entry> = parts
@@ -134,6 +147,7 @@ impl ShareBars {
         }
     }
 
+    /// Grid lines, numbers and the label below.
     fn draw_axis(&self, svg: &mut Svg, scale: &Scale) {
         let area = scale.area;
         let ticks = Ticks::about(6.0, scale.range);
@@ -168,7 +182,7 @@ fn ends_um(bar: &ShareBar) -> Vec<f64> {
     [sum(1.0), sum(-1.0)].into_iter().chain(total).collect()
 }
 
-/// End to end from zero: positive to the right, negative to the left.
+/// End to end from zero: positive to the right, negative to the left, the value written where it has room.
 fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     let mut end = [0.0, 0.0];
     for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
@@ -193,6 +207,7 @@ fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     }
 }
 
+/// The diamond, its whisker, and the number at the right; nothing without a total.
 fn draw_total(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     let Some(total) = bar.total_um.filter(|t| t.is_finite()) else {
         return;
@@ -213,6 +228,7 @@ fn draw_total(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     );
 }
 
+/// A line between two values with a stroke across each end, on a white ground.
 fn draw_whisker(svg: &mut Svg, [a, b]: [f64; 2], y: f64, half_px: f64) {
     for style in [Style::line("#fff", 3.2).opacity(0.8), Style::line(INK, 1.3)] {
         svg.line([a, y], [b, y], &style);
@@ -226,7 +242,7 @@ fn total_style() -> Style {
     Style::fill("#fff").outlined(INK, 1.5)
 }
 
-/// A bar label no longer than the room for it.
+/// A bar label no longer than the room for it; one that is cut ends in an ellipsis.
 fn cut(label: &str) -> String {
     if text_width_px(label, BODY_PX, Weight::Regular) <= LABEL_PX {
         return label.to_owned();

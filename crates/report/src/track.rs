@@ -1,4 +1,7 @@
 //! A tool path seen from above, coloured by the deviation along it; where there is no posture it is drawn in grey.
+//!
+//! A piece between two points has the colour of its larger deviation: a peak that one point has is seen on both
+//! sides of it, and nothing is interpolated. Bands and colour bar are those of a map.
 
 use crate::axis::extent;
 use crate::colour::{ColourScale, MUTED};
@@ -17,12 +20,13 @@ const MOST_PX: [f64; 2] = [620.0, 520.0];
 /// White around the path, part of its size.
 const MARGIN: f64 = 0.06;
 
-/// A stretch of path without rapids.
+/// A stretch of path without rapids; where two stretches meet nothing is drawn between them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Stretch {
     /// Points in mm: horizontal, vertical.
     pub points_mm: Vec<[f64; 2]>,
-    /// The deviation at each; not finite where there is no posture.
+    /// The deviation at each point in um; not finite where there is no posture. Not checked: that there are as
+    /// many as points.
     pub deviation_um: Vec<f64>,
 }
 
@@ -37,18 +41,20 @@ pub struct TrackMap {
     pub axes: AxisLabels,
     /// What is drawn, with its unit: `deviation across the tool (µm)`.
     pub quantity: String,
-    /// Permissible deviation in um.
+    /// Permissible deviation in um: a line across the colour bar and an entry of the legend; the path itself
+    /// has no line for it.
     pub limit_um: Option<f64>,
-    /// Colours.
+    /// Colours of the bands.
     pub scale: ColourScale,
-    /// The path.
+    /// The path, in the order of the cut.
     pub stretches: Vec<Stretch>,
     /// Points drawn on top.
     pub markers: Vec<Marker>,
 }
 
 impl TrackMap {
-    /// The picture as a complete SVG document; a path without points gives one that says so.
+    /// The picture as a complete SVG document; a path without points, or without one that is reached, gives one
+    /// that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         let Some(window) = self.window() else {
@@ -84,6 +90,7 @@ impl TrackMap {
         self.stretches.iter().flat_map(|s| &s.deviation_um).copied()
     }
 
+    /// All points with some white around them; `None` without a point.
     fn window(&self) -> Option<Window> {
         let along = |k: usize| {
             let points = self.stretches.iter().flat_map(|s| &s.points_mm);
@@ -113,7 +120,8 @@ impl TrackMap {
         }
     }
 
-    /// The pieces of the path whose larger end lies in this band, or that have an end without a value.
+    /// The pieces of the path whose larger end lies in this band; for no band those that have an end without a
+    /// value. Neighbouring pieces are joined.
     fn pieces(&self, band: Option<usize>, levels: &Levels) -> Vec<Vec<[f64; 2]>> {
         let band_of = |a: f64, b: f64| {
             let value = (a.is_finite() && b.is_finite()).then(|| a.max(b))?;

@@ -1,4 +1,8 @@
 //! Which way the tool is pushed: a path with the deviation as an arrow at sampled points, one colour a load case.
+//!
+//! An arrow begins on the path, where the tool should be, and points to where it is; all are drawn at one
+//! magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of the path's extent
+//! at most. The magnification and an arrow of known length stand below the drawing.
 
 use crate::arrow::draw_arrow;
 use crate::axis::{extent, nice_below, plain};
@@ -8,16 +12,17 @@ use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
 use crate::plane::{AxisLabels, BELOW_PX, Growth, Plane, Window};
 use crate::svg::{Point, Style, Svg, Text};
 
+/// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [560.0, 480.0];
-/// The longest arrow, as a share of the drawing.
+/// The longest arrow, as a share of the longer side of what path and arrows' feet take up.
 const LONGEST_ARROW: f64 = 0.16;
 
-/// The deviation at one point of a path.
+/// The deviation at one point of a path; an arrow with a number that is not finite is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Arrow {
     /// Where: horizontal, vertical, in mm.
     pub at_mm: [f64; 2],
-    /// Deviation along the horizontal and vertical axis in um.
+    /// Deviation along the horizontal and vertical axis in um, in the directions in which the axes grow.
     pub deviation_um: [f64; 2],
 }
 
@@ -39,7 +44,7 @@ pub struct VectorField {
     pub subtitle: String,
     /// Axis labels with units.
     pub axes: AxisLabels,
-    /// Which way the horizontal axis grows.
+    /// Which way the horizontal axis grows; positions and deviations follow it alike.
     pub growth: Growth,
     /// The nominal path in mm; give the first point again at the end to close it.
     pub path_mm: Vec<[f64; 2]>,
@@ -89,10 +94,12 @@ impl VectorField {
         page.finish_with_legend(&self.entries(), [left, scale_y + 10.0])
     }
 
+    /// The arrows that can be drawn, of all cases.
     fn finite_arrows(&self) -> impl Iterator<Item = &Arrow> {
         self.cases.iter().flat_map(|c| &c.arrows).filter(|a| is_finite(a))
     }
 
+    /// Length of the longest deviation; 0 without arrows.
     fn longest_um(&self) -> f64 {
         let sizes = self
             .finite_arrows()
@@ -123,7 +130,9 @@ impl VectorField {
 
 /// Deviations drawn so many times as long as they are.
 struct Magnified {
+    /// The longest deviation of all.
     longest_um: f64,
+    /// How many times as long as it is a deviation is drawn.
     times: f64,
 }
 
@@ -138,12 +147,13 @@ impl Magnified {
         Self { longest_um, times }
     }
 
+    /// Where an arrow ends on the magnified plane.
     fn tip_mm(&self, arrow: &Arrow) -> [f64; 2] {
         let mm = self.times / 1000.0;
         [0, 1].map(|k| arrow.at_mm[k] + arrow.deviation_um[k] * mm)
     }
 
-    /// The arrow that says how long a nice deviation is drawn, from `at`.
+    /// The arrow that says how long a nice deviation is drawn, from `at`; none where nothing deviates.
     fn draw_scale(&self, svg: &mut Svg, at: Point, px_per_mm: f64) {
         if self.longest_um <= 0.0 {
             return;
