@@ -2,11 +2,29 @@
 //!
 //! Sizes follow from the length of the arm, not from a data sheet: this is a schematic. A joint that turns about its own link is drawn
 //! as a collar on that link, since its origin may stand anywhere along the axis.
+//!
+//! ```text
+//!   joint (cylinder about its axis)
+//!    ◯════link═══▯═══link═══◯          ▯ collar: a joint that turns about its own link
+//!    ║                      ║
+//!    ▯                      ▮ flange, tool, tip
+//!  ▟███▙ foot
+//! ```
+//!
+//! | size | as a share |
+//! |---|---|
+//! | radius of the links, falling from foot to flange | 0.046 to 0.022 of the arm's length |
+//! | radius of a joint, of a collar | 1.25, 1.22 of the link's |
+//! | half length of a joint, of a collar | 1.3, 0.42 of the link's radius |
+//! | a link shorter than this is not drawn | 0.02 of the arm's length |
+//!
+//! The arm's length is the way from the base over all joint origins to the flange. All points are in the base
+//! frame, mm.
 
 use super::view::{Vec3, along, between, dot, length, unit};
 use super::{ArmJoint, ArmPosture};
 
-/// What a solid belongs to; decides its colour.
+/// What a solid belongs to; decides its colour and when it is painted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     Foot,
@@ -20,13 +38,13 @@ pub(crate) enum Part {
 /// A solid of the arm.
 #[derive(Clone, Debug)]
 pub(crate) enum Solid {
-    /// A link with round ends.
+    /// A link with round ends, which joints hide: two spheres and what lies between them.
     Capsule {
         ends: [Vec3; 2],
         radii: [f64; 2],
         part: Part,
     },
-    /// A cylinder about `axis`.
+    /// A cylinder about `axis`, a vector of length one; its ends lie `half_length` to both sides of `centre`.
     Cylinder {
         centre: Vec3,
         axis: Vec3,
@@ -36,7 +54,7 @@ pub(crate) enum Solid {
     },
 }
 
-/// Where a joint is drawn, for its label.
+/// Where a joint is drawn, for its label, which keeps `radius` away.
 #[derive(Clone, Debug)]
 pub(crate) struct JointSpot {
     pub(crate) name: String,
@@ -44,7 +62,7 @@ pub(crate) struct JointSpot {
     pub(crate) radius: f64,
 }
 
-/// The solids of one posture.
+/// The solids of one posture, in no order of depth, and a spot for each joint from the base on.
 pub(crate) struct Body {
     pub(crate) solids: Vec<Solid>,
     pub(crate) joints: Vec<JointSpot>,
@@ -56,13 +74,14 @@ const NEAR: f64 = 0.02;
 const FOOT: f64 = 0.022;
 /// Half the length of a collar as a share of its link's radius.
 const COLLAR: f64 = 0.42;
-/// Where a collar stands on the link above its joint.
+/// Where a collar stands on the link above its joint, as a part of that link's first straight piece.
 const COLLAR_ABOVE: f64 = 0.45;
 /// Radius of the first and of the last link, schematic like all sizes here, as shares of the arm's length.
 const THICK: f64 = 0.046;
 const THIN: f64 = 0.022;
 
 impl Body {
+    /// Of a posture that has a joint; all numbers are finite.
     pub(crate) fn of(posture: &ArmPosture) -> Self {
         let skeleton = Skeleton::of(posture);
         let mut solids = vec![foot(posture, skeleton.size_mm)];
@@ -84,7 +103,7 @@ impl Body {
 /// The lines of an arm, and how thick it is along them.
 struct Skeleton<'a> {
     posture: &'a ArmPosture,
-    /// Length of the arm, and what is too short to be drawn.
+    /// Length of the arm, at least 1 mm, and what is too short to be drawn.
     size_mm: f64,
     near_mm: f64,
     /// The line of each link: straight, or round the corner where the next joint stands off the axis.
@@ -124,15 +143,17 @@ impl<'a> Skeleton<'a> {
         self.size_mm * (THICK + (THIN - THICK) * k / self.last())
     }
 
+    /// How many links there are.
     fn last(&self) -> f64 {
         self.posture.joints.len().max(1) as f64
     }
 
+    /// Whether the first joint stands where the foot does.
     fn stands_on_foot(&self) -> bool {
         length(self.from_base) <= self.near_mm
     }
 
-    /// What carries a first joint that stands off the foot.
+    /// What carries a first joint that stands off the foot; `None` where it does not.
     fn column(&self) -> Option<Solid> {
         let axis = unit(self.from_base);
         let half_length = length(self.from_base) / 2.0;
@@ -213,7 +234,7 @@ impl<'a> Skeleton<'a> {
     }
 }
 
-/// The place of a joint that turns about its link.
+/// The place of a joint that turns about its link: the link is cut open there.
 struct Collar {
     /// Which link, and which straight part of it.
     link: [usize; 2],
@@ -221,7 +242,8 @@ struct Collar {
     half_length: f64,
 }
 
-/// The collar of joint `k`, if its axis lies along the link before it or after it; the better fit of the two.
+/// The collar of joint `k`, if its axis lies along the link before it or after it, within 25 degrees; the
+/// better fit of the two. It stands half-way along the link before, or at 0.45 of the link after.
 fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3, half_length: f64) -> Option<Collar> {
     let before = (0..k)
         .rev()
@@ -248,7 +270,8 @@ fn collar_of(routes: &[Vec<Vec3>], k: usize, axis: Vec3, half_length: f64) -> Op
     })
 }
 
-/// A straight part of a link: round ends where joints hide them, flat where it meets a collar.
+/// A straight part of a link: a capsule with round ends, which joints hide; where collars stand on it,
+/// cylinders with flat ends between them.
 fn link(ends: [Vec3; 2], radii: [f64; 2], collars: &[&Collar]) -> Vec<Solid> {
     if collars.is_empty() {
         return vec![Solid::Capsule {
@@ -298,6 +321,7 @@ pub(crate) fn arm_length(posture: &ArmPosture) -> f64 {
     total
 }
 
+/// A flat disc on the floor, about the axis of the first joint.
 fn foot(posture: &ArmPosture, size: f64) -> Solid {
     let half_length = FOOT * size;
     let axis = posture.joints.first().map_or([0.0, 0.0, 1.0], |j| unit(j.axis));
@@ -310,6 +334,9 @@ fn foot(posture: &ArmPosture, size: f64) -> Solid {
     }
 }
 
+/// The line of a link from one joint to the next: along the joint's axis to the foot of the perpendicular and
+/// from there across, or straight where one of the two is too short; a single point where both joints stand at
+/// one place.
 fn route(from: Vec3, axis: Vec3, to: Vec3, near: f64) -> Vec<Vec3> {
     let way = between(from, to);
     if length(way) <= near {

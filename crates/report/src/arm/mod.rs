@@ -1,6 +1,17 @@
 //! How the arm stands: a schematic drawing from joint origins and axes, seen from a chosen side.
 //!
 //! `view`: from which side; `body`: the posture as solids; `shapes`: solids on paper; `scene`: the whole drawing.
+//!
+//! | what | drawn as |
+//! |---|---|
+//! | posture | solids in full colour, a name in a badge beside each joint |
+//! | ghosts | the same, faint, without foot and names |
+//! | plate, path | a translucent quadrilateral, a red line on white |
+//! | floor | a grid of nice steps with the arm's shadow; a line where it is seen from the side |
+//! | base frame | three arrows at the lower left, x red, y green, z blue |
+//!
+//! All points are in the base frame, in mm. Nothing about the arm's shape is known but its joints: how thick it
+//! is drawn follows from its length.
 
 mod body;
 mod scene;
@@ -13,27 +24,27 @@ use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::svg::{Rect, Text};
 use scene::{Scene, draw_scene, wanted_height_px};
 
-/// One joint of a posture, in the base frame.
+/// One joint of a posture, in the base frame, at the position that it has in this posture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmJoint {
-    /// Its name, written beside it: `S`.
+    /// Its name, written beside it: `S`; empty for none.
     pub name: String,
     /// A point on its axis, in mm; links are drawn from origin to origin.
     pub origin_mm: [f64; 3],
-    /// Direction of its axis; any length.
+    /// Direction of its axis, of any length; one of no length counts as z.
     pub axis: [f64; 3],
 }
 
 /// The arm in one posture, in the base frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmPosture {
-    /// Where the foot stands, in mm.
+    /// Where the foot stands, in mm. The foot is drawn about the axis of the first joint.
     pub base_mm: [f64; 3],
     /// The joints from base to flange.
     pub joints: Vec<ArmJoint>,
     /// Centre of the flange, in mm.
     pub flange_mm: [f64; 3],
-    /// Tool centre point, in mm.
+    /// Tool centre point, in mm; where it is the flange, no tool is drawn.
     pub tool_mm: [f64; 3],
 }
 
@@ -46,30 +57,35 @@ pub struct ArmDrawing {
     pub subtitle: String,
     /// The posture drawn in full.
     pub posture: ArmPosture,
-    /// Further postures, drawn faintly behind it.
+    /// Further postures, drawn faintly behind it; one without joints, or with a point that is not finite, is
+    /// left out.
     pub ghosts: Vec<ArmPosture>,
-    /// Corners of a plate in mm, in order around it.
+    /// Corners of a plate in mm, in order around it. Not checked: that they lie in one plane.
     pub plate_mm: Option<[[f64; 3]; 4]>,
-    /// Path of the tool in mm.
+    /// Path of the tool in mm; points that are not finite are left out.
     pub path_mm: Vec<[f64; 3]>,
-    /// From where the arm is seen.
+    /// From where the arm is seen; `to_svg_views` takes its own.
     pub view: View,
 }
 
+/// Largest drawing of one view, and each of several panels: width, height.
 const SINGLE_PX: [f64; 2] = [600.0, 520.0];
 const PANEL_PX: [f64; 2] = [390.0, 340.0];
 
 impl ArmDrawing {
-    /// The drawing as a complete SVG document; an arm without joints gives a picture that says so.
+    /// The drawing as a complete SVG document, as high as it needs; an arm without joints, or with a point that
+    /// is not finite, gives a picture that says so.
     pub fn to_svg(&self) -> String {
         self.drawn(&[self.view], SINGLE_PX)
     }
 
-    /// The same arm from several sides, two panels in a row.
+    /// The same arm from several sides, two panels in a row, each with the name of its view; a notice without
+    /// views.
     pub fn to_svg_views(&self, views: &[View]) -> String {
         self.drawn(views, PANEL_PX)
     }
 
+    /// Title block and one panel for each view.
     fn drawn(&self, views: &[View], panel_px: [f64; 2]) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
         if self.posture.joints.is_empty() || views.is_empty() {

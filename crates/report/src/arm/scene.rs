@@ -1,4 +1,9 @@
 //! The whole drawing: floor with shadow, ghosts, plate, path and arm painted from back to front, then names and directions.
+//!
+//! Painter's order: floor, shadow, ghosts, then solids, plate and path sorted by their depth, names and base
+//! directions last. What lies nearer hides what lies behind it; solids that pass through each other are not
+//! cut, which a schematic bears. Points of the scene are in the base frame in mm, points of the drawing in px
+//! with y downwards.
 
 use super::body::{Body, JointSpot, Part, Solid, arm_length};
 use super::shapes::{Place, corners, draw_solid, hull, paint_depth};
@@ -11,19 +16,24 @@ use crate::font::{Weight, text_width_px};
 use crate::page::SMALL_PX;
 use crate::svg::{Point, Rect, Style, Svg, Text};
 
-/// Everything that is drawn, in the base frame.
+/// Everything that is drawn, in the base frame; what is not finite is left out.
 pub(crate) struct Scene {
+    /// The arm in colour.
     body: Body,
     ghosts: Vec<Body>,
     plate_mm: Option<[Vec3; 4]>,
     path_mm: Vec<Vec3>,
-    /// Floor: low and high corner.
+    /// Floor: low and high corner, on multiples of its grid step; at the height of the foot, or of the lowest
+    /// point where something reaches well below the foot.
     floor_mm: [Vec3; 2],
+    /// Base, joint origins, flange and tool: the line that throws the shadow and that names keep clear of.
     links_mm: Vec<Vec3>,
+    /// Length of the arm, at least 1 mm.
     size_mm: f64,
 }
 
 impl Scene {
+    /// What a drawing asks for. Its posture has a joint, and its numbers are finite.
     pub(crate) fn of(drawing: &ArmDrawing) -> Self {
         let ghosts: Vec<&ArmPosture> = drawing
             .ghosts
@@ -82,6 +92,7 @@ impl Scene {
         }
     }
 
+    /// All solids, ghosts included, for fitting.
     fn solids(&self) -> impl Iterator<Item = &Solid> {
         self.body
             .solids
@@ -89,6 +100,7 @@ impl Scene {
             .chain(self.ghosts.iter().flat_map(|g| &g.solids))
     }
 
+    /// The corners of the floor, in order around it.
     fn floor_corners(&self) -> [Vec3; 4] {
         let [a, b] = self.floor_mm;
         [a, [b[0], a[1], a[2]], b, [a[0], b[1], a[2]]]
@@ -102,7 +114,7 @@ const AXIS_COLOURS: [&str; 3] = ["#c8102e", "#2e8b57", "#1f5fa8"];
 /// Strip below it for the base directions.
 const DIRECTIONS_PX: f64 = 46.0;
 
-/// A projection placed on the picture.
+/// A projection placed on the picture: a scale, and where the base origin stands.
 struct Placed {
     projection: Projection,
     px_per_mm: f64,
@@ -127,7 +139,7 @@ impl Place for Placed {
     }
 }
 
-/// Something that is painted in its turn.
+/// Something that is painted in its turn, by its depth.
 enum Item<'a> {
     Solid(&'a Solid),
     Plate([Vec3; 4]),
@@ -151,7 +163,7 @@ pub(crate) fn wanted_height_px(
     (2.0 * INSET_PX + DIRECTIONS_PX + (y.1 - y.0) * px_per_mm).clamp(least_px, most_px)
 }
 
-/// Draws the scene into `area`.
+/// Draws the scene into `area`, as large as it fits with the base directions below it.
 pub(crate) fn draw_scene(svg: &mut Svg, scene: &Scene, view: View, area: Rect) {
     let inset = area.shrunk(INSET_PX);
     let place = fitted(
@@ -215,11 +227,12 @@ fn is_foot(solid: &Solid) -> bool {
     matches!(solid, Solid::Cylinder { part: Part::Foot, .. })
 }
 
+/// Distance of the floor's lines, mm: about a tenth of the arm.
 fn floor_step(size_mm: f64) -> f64 {
     nice_step(size_mm, 10.0)
 }
 
-/// The projection that shows everything inside `area`.
+/// The projection that shows everything inside `area`, in its middle.
 fn fitted(scene: &Scene, view: View, area: Rect) -> Placed {
     let projection = view.projection();
     let unit = Placed {
@@ -250,6 +263,8 @@ fn bounds(scene: &Scene, place: &Placed) -> [(f64, f64); 2] {
     [0, 1].map(|k| extent(points.iter().map(|p| p[k])).unwrap_or((0.0, 1.0)))
 }
 
+/// A line where the floor is seen from the side; else the grid and, straight below, the shadow of arm and
+/// plate.
 fn draw_floor(svg: &mut Svg, scene: &Scene, view: View, place: &Placed) {
     let [a, b] = scene.floor_mm;
     let z = a[2];
@@ -332,7 +347,8 @@ struct Around<'a> {
     inner: Rect,
 }
 
-/// The badge of a joint and the point it belongs to; `None` without a name or without room.
+/// The badge of a joint and the point it belongs to; `None` without a name or without room. Of 16 directions on
+/// 5 rings the one that comes least close to the arm and stays near; it overlaps no other badge.
 fn best_badge(spot: &JointSpot, place: &Placed, around: &Around<'_>) -> Option<(Rect, Point)> {
     if spot.name.is_empty() {
         return None;
@@ -374,7 +390,7 @@ fn best_badge(spot: &JointSpot, place: &Placed, around: &Around<'_>) -> Option<(
     best.map(|(_, badge)| (badge, joint))
 }
 
-/// The base directions, at the lower left.
+/// The base directions, at the lower left; one that points at the viewer is left out.
 fn draw_directions(svg: &mut Svg, view: View, area: Rect) {
     const LENGTH_PX: f64 = 30.0;
     let projection = view.projection();

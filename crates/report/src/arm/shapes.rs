@@ -1,13 +1,24 @@
 //! Solids as flat shapes: outlines with a gradient that rounds them, the lit side up and to the left.
+//!
+//! | solid | outline |
+//! |---|---|
+//! | capsule | convex hull of two circles |
+//! | cylinder | convex hull of its two end discs, and the disc that faces the viewer over it |
+//!
+//! Discs are polygons of 40 corners. A gradient across the outline, from middle over light to dark, makes it
+//! look round.
 
 use super::body::{Part, Solid};
 use super::view::{Vec3, along, cross, unit};
 use crate::svg::{Point, Style, Svg};
 
-/// Where a point of the base frame stands on the picture.
+/// Where a point of the base frame stands on the picture: a parallel projection with one scale.
 pub(crate) trait Place {
+    /// Pixels, y downwards.
     fn at(&self, p: Vec3) -> Point;
+    /// The scale of a length across the line of sight.
     fn px_per_mm(&self) -> f64;
+    /// How near to the viewer, mm.
     fn depth(&self, p: Vec3) -> f64;
 }
 
@@ -27,7 +38,7 @@ fn colours(part: Part) -> [&'static str; 4] {
     }
 }
 
-/// How far back a solid is painted: a link before both of its joints.
+/// How far back a solid is painted, mm, nearer to the viewer is more: a link before both of its joints.
 pub(crate) fn paint_depth(solid: &Solid, place: &impl Place) -> f64 {
     match solid {
         Solid::Capsule { ends, .. } => place.depth(ends[0]).min(place.depth(ends[1])),
@@ -48,6 +59,7 @@ pub(crate) fn paint_depth(solid: &Solid, place: &impl Place) -> f64 {
     }
 }
 
+/// Draws one solid over what is there.
 pub(crate) fn draw_solid(svg: &mut Svg, solid: &Solid, place: &impl Place) {
     match solid {
         Solid::Capsule { ends, radii, part } => draw_capsule(
@@ -100,6 +112,7 @@ pub(crate) fn corners(solid: &Solid, place: &impl Place) -> Vec<Point> {
     }
 }
 
+/// The hull of two circles about the ends, lit across.
 fn draw_capsule(svg: &mut Svg, [a, b]: [Point; 2], radii: [f64; 2], part: Part) {
     let mut outline = circle(a, radii[0]);
     outline.extend(circle(b, radii[1]));
@@ -130,6 +143,7 @@ struct FlatCylinder {
     part: Part,
 }
 
+/// The side, then the end that faces the viewer; joints have a darker middle.
 fn draw_cylinder(svg: &mut Svg, cylinder: &FlatCylinder) {
     let FlatCylinder {
         caps,
@@ -182,7 +196,7 @@ fn draw_cylinder(svg: &mut Svg, cylinder: &FlatCylinder) {
     }
 }
 
-/// The direction across a line that points to the light.
+/// The direction across a line that points to the light; the light's own where the line is seen end on.
 fn across_lit(a: Point, b: Point) -> Point {
     let n = (b[0] - a[0]).hypot(b[1] - a[1]);
     if n < 1e-6 {
@@ -196,6 +210,7 @@ fn across_lit(a: Point, b: Point) -> Point {
     }
 }
 
+/// A circle of the picture as a polygon.
 fn circle(c: Point, r: f64) -> Vec<Point> {
     (0..CORNERS)
         .map(|k| {
@@ -205,6 +220,7 @@ fn circle(c: Point, r: f64) -> Vec<Point> {
         .collect()
 }
 
+/// A disc at right angles to `axis`, which has length one, as it is seen.
 fn disc(centre: Vec3, axis: Vec3, radius: f64, place: &impl Place) -> Vec<Point> {
     let helper = if axis[2].abs() < 0.9 {
         [0.0, 0.0, 1.0]
@@ -221,7 +237,7 @@ fn disc(centre: Vec3, axis: Vec3, radius: f64, place: &impl Place) -> Vec<Point>
         .collect()
 }
 
-/// The convex hull, by Andrew's monotone chain.
+/// The convex hull, by Andrew's monotone chain (1979); points that are not finite are left out.
 pub(crate) fn hull(mut points: Vec<Point>) -> Vec<Point> {
     points.retain(|p| p[0].is_finite() && p[1].is_finite());
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

@@ -2,6 +2,15 @@
 //!
 //! The viewer stands in direction `d = (cos e cos a, cos e sin a, sin e)`; picture axes are `r = (-sin a, cos a, 0)` to the right
 //! and `u = d x r` up; the depth `p . d` grows towards the viewer.
+//!
+//! | view | azimuth a | elevation e | to the right | up |
+//! |---|---|---|---|---|
+//! | iso | -122 deg | 20 deg | | |
+//! | front | 0 | 0 | y | z |
+//! | side | -90 deg | 0 | x | z |
+//! | top | -90 deg | 90 deg | x | y |
+//!
+//! Parallel: lengths do not shrink with distance, and a length across the line of sight is true.
 
 /// A point or direction in base components, mm where it is a point.
 pub(crate) type Vec3 = [f64; 3];
@@ -31,6 +40,7 @@ impl View {
         }
     }
 
+    /// The directions of right, up and towards the viewer that belong to the view.
     pub(crate) fn projection(self) -> Projection {
         let (azimuth_deg, elevation_deg): (f64, f64) = match self {
             Self::Iso => (-122.0, 20.0),
@@ -50,7 +60,8 @@ impl View {
     }
 }
 
-/// The three directions of a parallel projection.
+/// The three directions of a parallel projection in base components, each of length one, at right angles to
+/// each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
     pub(crate) right: Vec3,
@@ -59,11 +70,12 @@ pub(crate) struct Projection {
 }
 
 impl Projection {
-    /// Right and up, in mm.
+    /// Picture coordinates of a point: right and up, in mm.
     pub(crate) fn flat(&self, p: Vec3) -> [f64; 2] {
         [dot(self.right, p), dot(self.up, p)]
     }
 
+    /// How near to the viewer a point is, in mm, from the plane through the base origin.
     pub(crate) fn depth(&self, p: Vec3) -> f64 {
         dot(self.toward, p)
     }
@@ -73,6 +85,7 @@ pub(crate) fn dot(a: Vec3, b: Vec3) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// The vector product, right-handed.
 pub(crate) fn cross(a: Vec3, b: Vec3) -> Vec3 {
     [
         a[1] * b[2] - a[2] * b[1],
@@ -86,6 +99,7 @@ pub(crate) fn along(a: Vec3, b: Vec3, t: f64) -> Vec3 {
     [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]]
 }
 
+/// The way from one point to another.
 pub(crate) fn between(from: Vec3, to: Vec3) -> Vec3 {
     along(to, from, -1.0)
 }
