@@ -2,6 +2,15 @@
 //!
 //! Results go to stdout, progress and talk to stderr. Exit code 0: fine; 1: the tolerance is not held and `--strict`
 //! was given; 2: bad input; 3: a fault of armill; 130: interrupted.
+//!
+//! | step | where |
+//! |---|---|
+//! | what was typed | `arguments`: a type a command, by clap, with the text of its help |
+//! | the work | `command`: options into a question of `armill_study`, its answer into words or JSON |
+//! | what is said | `terminal` for data, talk and problems, `progress` for a bar |
+//!
+//! The command is thin: no mechanics, no format, no JSON of its own. What clap refuses (an unknown option, a
+//! missing value) it tells itself on stderr, with exit code 2 like any bad input.
 
 mod arguments;
 mod command;
@@ -38,7 +47,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// How a command ended that did its work.
+/// How a command ended that did its work; what stopped it before is a `StudyError`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Outcome {
     /// Nothing to complain of.
@@ -47,6 +56,7 @@ pub(crate) enum Outcome {
     ToleranceNotHeld,
 }
 
+/// The kind of an error alone decides how the process ends.
 fn exit_code(error: &StudyError) -> ExitCode {
     match error.kind() {
         ErrorKind::InvalidInput => ExitCode::from(2),

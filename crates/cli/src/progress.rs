@@ -2,21 +2,25 @@
 //!
 //! Nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell tells as 130: files are whole
 //! or not there, and `result.json` comes last, so that nothing needs to be cleared away.
+//!
+//! ```text
+//! ████████████████░░░░░░░░░░░░░░░░░░░░░░░░ 1026/2565 points, 12s left plate.png
+//! ```
 
 use std::sync::atomic::AtomicBool;
 
 use armill_core::watch::Watch;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Points finished, on a bar.
+/// Points finished, on a bar. Dropping it takes the bar off the terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    /// Never set.
+    /// Never set: the core asks for a flag, and nothing here stops work half-way.
     cancel: AtomicBool,
 }
 
 impl Progress {
-    /// A bar for this many points; drawn only on a terminal.
+    /// A bar for this many points; drawn only on a terminal, at most ten times a second.
     pub(crate) fn new(points: usize) -> Progress {
         let bar = ProgressBar::with_draw_target(Some(points as u64), ProgressDrawTarget::stderr_with_hz(10));
         if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left {msg}") {
@@ -28,7 +32,7 @@ impl Progress {
         }
     }
 
-    /// Runs `work` under this bar.
+    /// Runs `work` under this bar, which its threads move on together, and gives what it gives.
     pub(crate) fn watch<T>(&self, work: impl FnOnce(Watch<'_>) -> T) -> T {
         let finished = |points: usize| self.bar.inc(points as u64);
         work(Watch {
@@ -37,7 +41,7 @@ impl Progress {
         })
     }
 
-    /// Shows what is being done besides counting.
+    /// Shows what is being done besides counting, such as the file that is being written.
     pub(crate) fn tell(&self, what: &str) {
         self.bar.set_message(what.to_owned());
     }

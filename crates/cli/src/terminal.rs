@@ -1,4 +1,13 @@
 //! What the command says: data on stdout, talk on stderr.
+//!
+//! | what | where | ends in |
+//! |---|---|---|
+//! | an answer, in words or JSON | stdout | one line end |
+//! | warnings, what was written, what to do next | stderr | one line end |
+//! | problems | stderr, in colour on a terminal unless `NO_COLOR` is set; with `--json` on stdout too | - |
+//!
+//! JSON of problems is `{"problems": [...]}`: those of a file with their places, else one with a `message` and,
+//! where there is one, a `hint`.
 
 use std::io::{ErrorKind, IsTerminal, Write};
 
@@ -25,7 +34,7 @@ pub(crate) fn print(text: &str) -> Result<(), StudyError> {
     }
 }
 
-/// Says `text` on stderr.
+/// Says `text` on stderr, with a line end. That nobody can hear it stops no work.
 pub(crate) fn say(text: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{text}");
 }
@@ -35,7 +44,7 @@ fn coloured() -> bool {
     std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
 }
 
-/// Says what went wrong; as JSON on stdout too where `json` is asked for.
+/// Says what went wrong on stderr; as JSON on stdout too where `json` is asked for.
 pub(crate) fn show_error(error: &StudyError, json: bool) {
     if json {
         let problems = match error {
@@ -62,8 +71,9 @@ pub(crate) enum Align {
     Right,
 }
 
-/// A line for each row, its cells below each other, two blanks between. A row of one cell is a line of words: it widens no
-/// column. Cells beyond the alignments stand to the right.
+/// A line for each row, its cells below each other, two blanks between, no blanks at the end. A row of one cell
+/// is a line of words: it widens no column. Cells beyond the alignments stand to the right. Widths count
+/// characters, not columns of the screen.
 pub(crate) fn columns(rows: &[Vec<String>], aligned: &[Align]) -> Vec<String> {
     let wide = |cell: &String| cell.chars().count();
     let mut widths: Vec<usize> = Vec::new();

@@ -1,4 +1,6 @@
 //! What can be typed behind `armill check`.
+//!
+//! Neither study nor `--schema` is refused by clap.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,7 @@
 //! What can be typed behind `armill forces`.
+//!
+//! `--columns` and `--rate-hz` are for a CSV, `--channels` and `--cycle` for an export of DynoWare. `--air-s`
+//! stays text until `command::forces` reads it, since clap would take its two numbers for two stretches.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,7 @@
 //! What can be typed behind `armill identify`.
+//!
+//! A table of tests and `--plan` exclude each other. `--points`, `--prior` and their variants are types here,
+//! so that clap lists them in the help; `command::identify` carries them over to those of `armill_study`.
 
 use std::path::PathBuf;
 

@@ -1,6 +1,13 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `new`, `robots`, `materials`, `pose`, `identify`, `forces`, `completions`.
+//!
+//! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
+//! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
+//! names of fields with hyphens; `--json` is an option of every command that has an answer.
+//!
+//! Clap checks that options go together and that numbers are numbers; how many there are, and whether they can
+//! be, is checked in `command`, so that all refusals sound alike.
 
 mod check;
 mod completions;

@@ -1,4 +1,6 @@
 //! What can be typed behind `armill new`.
+//!
+//! The folder may exist, a study in it may not. The robot is the one that the new study names.
 
 use std::path::PathBuf;
 

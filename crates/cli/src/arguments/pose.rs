@@ -1,4 +1,9 @@
 //! What can be typed behind `armill pose`.
+//!
+//! The place of the tool is told in one of two ways, which exclude each other: `--joints-deg`, or `--at-mm`
+//! with what turns the tool (`--axis` or `--tilt-deg`, `--spin-deg`) and what arms with joints to spare are
+//! drawn to (`--home-deg`). Without a load there is no deviation in the answer, without compliances neither
+//! deviation nor compliance.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,7 @@
 //! What can be typed behind `armill robots`.
+//!
+//! Without a subcommand a name is shown and no name lists the library; options of the one do not go with the
+//! other.
 
 use std::path::PathBuf;
 

@@ -1,4 +1,7 @@
 //! What can be typed behind `armill run`.
+//!
+//! What is computed stands in the study; options only say where it goes, how much of it, and on how many
+//! threads.
 
 use std::path::PathBuf;
 

@@ -12,6 +12,10 @@ use crate::Outcome;
 use crate::arguments::CheckArguments;
 use crate::terminal::{print, say};
 
+/// Checks the study, or prints the schema.
+///
+/// # Errors
+/// No study there; every problem of its file, told together.
 pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, StudyError> {
     if arguments.schema {
         print(schema_json::<StudyFile>().trim_end())?;

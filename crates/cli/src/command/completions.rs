@@ -6,6 +6,10 @@ use clap::CommandFactory;
 use crate::Outcome;
 use crate::arguments::{Arguments, CompletionsArguments};
 
+/// Prints the script, made from the same arguments that are parsed.
+///
+/// # Errors
+/// Stdout takes no more.
 pub(crate) fn run(arguments: &CompletionsArguments) -> Result<Outcome, StudyError> {
     let mut script = Vec::new();
     clap_complete::generate(arguments.shell, &mut Arguments::command(), "armill", &mut script);

@@ -5,13 +5,14 @@ use std::path::Path;
 use armill_formats::file::write_atomically;
 use armill_study::StudyError;
 
-/// Pixels of a PNG in one of an SVG.
+/// Pixels of a PNG to one of an SVG, each way: sharp on paper.
 const PIXELS: f64 = 2.0;
 
-/// Writes `svg` to `file`: as it is where the name ends in `.svg`, as pixels where it ends in `.png`.
+/// Writes `svg` to `file`: as it is where the name ends in `.svg`, as pixels where it ends in `.png`, in
+/// letters of either case. Says on stderr where it is.
 ///
 /// # Errors
-/// Another ending; a place where nothing can be written.
+/// Another ending; a picture that cannot become pixels; a place where nothing can be written.
 pub(super) fn write(file: &Path, svg: &str) -> Result<(), StudyError> {
     let ends_in = |wanted: &str| {
         let ending = file.extension();

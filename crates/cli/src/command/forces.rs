@@ -2,6 +2,16 @@
 //!
 //! `--rate-hz`, `--columns` and `--channels` say how the file is read, `--air-s` or `--no-drift`, `--low-pass-hz` and
 //! `--spindle-rpm` what is done to it. Stdout holds a [`ForcesAnswer`], in words or as JSON; `--out` takes tables and pictures.
+//!
+//! ```text
+//! groove.txt: DynoWare, cycle 1 of 2                                 file, format
+//! 30000 samples from 0 s to 3 s, 10000 Hz; Fx, Fy, Fz                what was read
+//! passed over: Ch4                                                   columns not used
+//! drift        (ox, oy, oz) N and (rx, ry, rz) N/s                   at the first sample, and its rate; or "left in"
+//! N            mean least greatest   mean least greatest             as measured | as used: Fx, Fy, Fz, size
+//! ```
+//!
+//! Times and rates are told to a microsecond, forces to a hundredth of a newton.
 
 use armill_core::load::ActsOn;
 use armill_formats::measurement::format::Wanted;
@@ -16,6 +26,11 @@ use crate::Outcome;
 use crate::arguments::ForcesArguments;
 use crate::terminal::{print, say};
 
+/// Reads, treats, writes what was asked for and prints.
+///
+/// # Errors
+/// A file that cannot be read, or its problems; a refusal of what is asked, under the name of its option; a
+/// folder or stdout that takes no more.
 pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     let shown = arguments.file.display().to_string();
     let wanted = Wanted {
@@ -48,7 +63,7 @@ pub(crate) fn run(arguments: &ForcesArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// A refusal under the name of its option.
+/// A refusal of `armill_study`, told under the name of its option instead of that of its key.
 fn refused(refusal: Refusal) -> StudyError {
     let message = match refusal.key {
         "file" => refusal.message,
@@ -62,6 +77,8 @@ fn refused(refusal: Refusal) -> StudyError {
     StudyError::value(message, refusal.hint)
 }
 
+/// Where nothing is cut: `--no-drift` keeps the drift, `--air-s` tells the stretches, without either they are
+/// found.
 fn air(arguments: &ForcesArguments) -> Result<Air, StudyError> {
     if arguments.no_drift {
         return Ok(Air::Kept);
@@ -87,6 +104,7 @@ fn air(arguments: &ForcesArguments) -> Result<Air, StudyError> {
     ))
 }
 
+/// The answer as a person reads it, see the head of this file.
 fn as_text(answer: &ForcesAnswer) -> String {
     let [cycle, cycles] = answer.cycle_of;
     let of_cycles = match cycles {
@@ -135,6 +153,7 @@ fn as_text(answer: &ForcesAnswer) -> String {
 /// A row of the table: its name and where it is.
 type Row = (&'static str, fn(&SummaryAnswer) -> RangeAnswer);
 
+/// The rows of the table: components in the record's axes, and the size of the force.
 const ROWS: [Row; 4] = [
     ("Fx", |summary| summary.fx_n),
     ("Fy", |summary| summary.fy_n),
@@ -142,6 +161,7 @@ const ROWS: [Row; 4] = [
     ("size", |summary| summary.size_n),
 ];
 
+/// Mean, least and greatest as measured, then as used, N.
 fn row(name: &str, before: RangeAnswer, after: RangeAnswer) -> String {
     let three = |range: RangeAnswer| {
         format!(
@@ -152,6 +172,7 @@ fn row(name: &str, before: RangeAnswer, after: RangeAnswer) -> String {
     format!("{name:<12} {}   {}", three(before), three(after))
 }
 
+/// What was taken off: force and rate, and the stretches that it was found in.
 fn drift_text(drift: &DriftAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
     let stretch = |[from, to]: &[f64; 2]| format!("{} to {} s", told(*from), told(*to));

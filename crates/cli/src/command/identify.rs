@@ -3,6 +3,14 @@
 //! A table of tests gives an [`Answer`] on stdout and, with `--out`, the robot with its new compliances; `--plan` gives a
 //! table to fill in, on stdout or in `--out`, and on stderr what it will tell. `--unknowns`, `--points`, `--prior` and
 //! `--tool-mm` are the [`Question`] of both.
+//!
+//! | `--plan` | stdout | `--out` | stderr |
+//! |---|---|---|---|
+//! | given | the table, unless it goes to `--out`; the plan with `--json` | the table | what the tests will tell |
+//! | not given | springs, points, errors, in words or JSON | the robot with its compliances | where it is |
+//!
+//! Compliances are rad/(N m) about an axis and um/N along one; `+-` stands before a standard uncertainty in per
+//! cent of its value.
 
 use std::fmt::Write;
 use std::path::Path;
@@ -23,6 +31,11 @@ use crate::Outcome;
 use crate::arguments::{IdentifyArguments, PointsArgument, PriorArgument};
 use crate::terminal::{print, say};
 
+/// Identifies from tests, or plans tests.
+///
+/// # Errors
+/// No such robot; a number that cannot be; neither a table nor a plan asked for; the problems of the table;
+/// springs that cannot be found from it; a file that cannot be written.
 pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(&arguments.robot, ".".as_ref())?;
     let question = question(arguments)?;
@@ -36,6 +49,8 @@ pub(crate) fn run(arguments: &IdentifyArguments) -> Result<Outcome, StudyError> 
     }
 }
 
+/// What is asked of tests and of plans alike, in SI. The pull and the gauge are checked even where no plan
+/// needs them.
 fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
     let tool_point_mm = match &arguments.tool_mm {
         Some(tool_mm) => three("--tool-mm", tool_mm)?,
@@ -64,6 +79,7 @@ fn question(arguments: &IdentifyArguments) -> Result<Question, StudyError> {
     })
 }
 
+/// Proposes `count` tests and says what they will tell.
 fn plan_tests(
     arguments: &IdentifyArguments,
     found: &RobotDescription,
@@ -91,6 +107,7 @@ fn plan_tests(
     Ok(Outcome::Fine)
 }
 
+/// For each spring how well the tests will know it; less than half from the tests counts as hardly anything.
 fn plan_text(plan: &PlanAnswer) -> String {
     let mut text = format!(
         "{} tests in {} postures of {}. Check each posture for room before you go there.\n\
@@ -110,6 +127,7 @@ fn plan_text(plan: &PlanAnswer) -> String {
     text
 }
 
+/// Reads the table and finds the springs; with `--out` a robot file that has them.
 fn from_tests(
     arguments: &IdentifyArguments,
     found: &RobotDescription,
@@ -139,6 +157,8 @@ fn from_tests(
     Ok(Outcome::Fine)
 }
 
+/// The answer as a person reads it: springs, lost motion, points, errors, outliers, what cannot be told apart,
+/// notes.
 fn as_text(answer: &Answer) -> String {
     let mut lines = vec![format!(
         "{}: {} tests, {} readings, {} springs",
@@ -194,6 +214,7 @@ fn as_text(answer: &Answer) -> String {
     lines.join("\n")
 }
 
+/// One line a spring: compliance with its uncertainty, stiffness, and how much of it the tests tell.
 fn spring_text(spring: &SpringAnswer) -> String {
     let (value, u, unit) = match (spring.compliance_rad_per_n_m, spring.compliance_um_per_n) {
         (Some(value), _) => (value, spring.compliance_u_rad_per_n_m.unwrap_or(0.0), "rad/(N m)"),
@@ -216,10 +237,12 @@ fn spring_text(spring: &SpringAnswer) -> String {
     )
 }
 
+/// A part of a whole in per cent; 0 of nothing.
 fn percent(part: f64, whole: f64) -> f64 {
     if whole > 0.0 { 100.0 * part / whole } else { 0.0 }
 }
 
+/// Where a point was found, in the flange frame, mm.
 fn point_text(what: &str, point: &PointAnswer) -> String {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.1}, {y:.1}, {z:.1})");
     format!(
@@ -230,6 +253,7 @@ fn point_text(what: &str, point: &PointAnswer) -> String {
     )
 }
 
+/// How far the springs found miss the readings.
 fn errors_text(what: &str, errors: &ErrorsAnswer) -> String {
     format!(
         "{what:<12} mean {:.1} um, rms {:.1} um, largest {:.1} um; mean {:.1} % of what was measured",

@@ -9,6 +9,10 @@ use crate::Outcome;
 use crate::arguments::MaterialsArguments;
 use crate::terminal::{Align, columns, print};
 
+/// Prints the library or one material of it.
+///
+/// # Errors
+/// A name that is not there; a stdout that takes no more.
 pub(crate) fn run(arguments: &MaterialsArguments) -> Result<Outcome, StudyError> {
     print(&match &arguments.name {
         Some(name) => {
@@ -34,6 +38,7 @@ pub(crate) fn run(arguments: &MaterialsArguments) -> Result<Outcome, StudyError>
     Ok(Outcome::Fine)
 }
 
+/// One line a material: name, title, and how many whole sets of each law.
 fn table(rows: &[MaterialRow]) -> String {
     let law = |law: &str, sets: usize| match sets {
         0 => String::new(),
@@ -57,6 +62,7 @@ fn table(rows: &[MaterialRow]) -> String {
     columns(&cells, &[Align::Left; 4]).join("\n")
 }
 
+/// Every set of one material by law, under them what forces are computed from, and the sources.
 fn as_text(found: &KnownMaterial) -> String {
     let mut lines = vec![format!("{} ({})", found.title, found.name)];
     lines.extend(found.note.iter().cloned());
@@ -111,6 +117,7 @@ fn indented(rows: &[Vec<String>]) -> Vec<String> {
     lines.iter().map(|line| format!("  {line}")).collect()
 }
 
+/// A set of coefficients under its tool and source; a dash for one that the source does not give.
 fn mechanistic_row(set: &KnownMechanistic) -> Vec<String> {
     let numbers = set.coefficients();
     let numbers = numbers.map(|value| value.map_or("-".to_owned(), plain));
@@ -118,6 +125,7 @@ fn mechanistic_row(set: &KnownMechanistic) -> Vec<String> {
     [title].into_iter().chain(numbers).collect()
 }
 
+/// A pair of Kienzle values under its condition, group and source.
 fn kienzle_row(set: &KnownKienzle) -> Vec<String> {
     let group = set.group.map(|group| format!("group {group}"));
     let words: Vec<String> = set.condition.iter().cloned().chain(group).collect();

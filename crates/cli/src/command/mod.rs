@@ -2,6 +2,12 @@
 //!
 //! A file a command: `run`, `check`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `identify`,
 //! `forces`, `completions`. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
+//!
+//! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
+//! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
+//! the files that were asked for, and prints the answer last. So a file that cannot be written is told before
+//! an answer that would seem complete. The functions called `as_text` or `..._text` make words out of an answer
+//! and compute nothing.
 
 pub(crate) mod check;
 pub(crate) mod completions;

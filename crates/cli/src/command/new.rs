@@ -11,6 +11,10 @@ use crate::Outcome;
 use crate::arguments::NewArguments;
 use crate::terminal::{print, say};
 
+/// Makes the folder and the study in it.
+///
+/// # Errors
+/// No such robot; a study that is there already; a place where nothing can be written.
 pub(crate) fn run(arguments: &NewArguments) -> Result<Outcome, StudyError> {
     let made = new_study(&arguments.robot)?;
     let path = arguments.dir.join("study.toml");

@@ -1,9 +1,18 @@
 //! What an option that takes numbers refuses, in one voice: `--at-mm: 2 numbers`, `--axis: nan is not a finite number`.
+//!
+//! | function | takes | refuses |
+//! |---|---|---|
+//! | `finite` | any numbers | not finite; beyond 1e9 |
+//! | `above_zero` | one | also 0 and less |
+//! | `three` | three, as a vector | also another count |
+//! | `three_or_six` | a place, or a place and turns | also another count |
+//!
+//! All keep the unit of their option; who calls them turns it into SI.
 
 use armill_core::nalgebra::Vector3;
 use armill_study::StudyError;
 
-/// No length, angle or force of a real cell is larger, in the units of the options.
+/// No length (mm), angle (deg) or force (N) of a real cell is larger; beyond it a unit is wrong.
 const LARGEST: f64 = 1e9;
 
 /// Nothing, where all are numbers that a cell may have.

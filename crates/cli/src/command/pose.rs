@@ -3,6 +3,19 @@
 //! `--joints-deg`, or `--at-mm` with `--axis` (or `--tilt-deg`) and `--spin-deg`, becomes where the tool is; `--tool-mm` its
 //! place on the flange, `--wrench-n` the load; `--compliance-...` stands in for what the robot file says. `--drawing` draws
 //! the postures found.
+//!
+//! ```text
+//! yaskawa/mh12, positions in base_link
+//!
+//! front elbow-up no-flip                                            a posture by its branch
+//!   joints      S 0.000  L 11.600 ...   (inside limits, ...)        the robot file's signs and zeros
+//!   TCP         (x, y, z) mm                                        counted from --base
+//!   compliance  a, b, c µm/N in its principal directions, softest along (x, y, z)
+//!   deviation   (x, y, z) µm, ... µm long (standard uncertainty (x, y, z) µm)
+//!   by joint    S 1.20  L 3.40 ... µm                               lengths of the shares: they need not add up
+//! ```
+//!
+//! A pose that nothing holds gets the reason instead of postures; this is an answer, not an error.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::robot::{JointCompliance, RobotError};
@@ -19,6 +32,11 @@ use crate::Outcome;
 use crate::arguments::PoseArguments;
 use crate::terminal::print;
 
+/// Finds every posture of the pose and prints it.
+///
+/// # Errors
+/// No such robot; a number or a count that cannot be; compliances that the robot does not take; a drawing that
+/// cannot be written.
 pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     let mut found = robots::find(&arguments.robot, ".".as_ref())?;
     let caution = with_compliances(arguments, &mut found)?;
@@ -46,7 +64,8 @@ pub(crate) fn run(arguments: &PoseArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
-/// Puts the compliances of `--compliance-rad-per-n-m` or `--compliance-class` into the robot; what to say of the latter.
+/// Puts the compliances of `--compliance-rad-per-n-m` (taken as exact) or `--compliance-class` into the robot;
+/// what to say of the latter. Without either option the robot keeps its own.
 fn with_compliances(
     arguments: &PoseArguments,
     found: &mut RobotDescription,
@@ -74,12 +93,15 @@ fn with_compliances(
     class.caution().map(Some)
 }
 
+/// Joint positions where the tool was set; finite, their count is checked by the study.
 fn reference(arguments: &PoseArguments) -> Result<Option<Vec<f64>>, StudyError> {
     let joints = arguments.reference_joints_deg.clone();
     finite("--reference-joints-deg", joints.as_deref().unwrap_or_default())?;
     Ok(joints)
 }
 
+/// Where the tool is: joints if given, else the TCP in m with its axis and spin. Without `--axis` the tool
+/// stands against a plane at the base's origin, tilted by `--tilt-deg`, which is upright without it.
 fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
     if let Some(joints) = &arguments.joints_deg {
         finite("--joints-deg", joints)?;
@@ -102,6 +124,7 @@ fn at(arguments: &PoseArguments) -> Result<At, StudyError> {
     })
 }
 
+/// The load: force in N and moment in N m on the tool at the TCP, base axes.
 fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
     let [fx, fy, fz, mx, my, mz] = three_or_six("--wrench-n", Some(values))?;
     Ok(Wrench {
@@ -110,6 +133,7 @@ fn wrench(values: &[f64]) -> Result<Wrench, StudyError> {
     })
 }
 
+/// The answer as a person reads it, see the head of this file.
 fn as_text(answer: &PoseAnswer) -> String {
     let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
     if answer.model.len() > 1 {
@@ -126,6 +150,7 @@ fn as_text(answer: &PoseAnswer) -> String {
     lines.join("\n")
 }
 
+/// The lines of one posture; what is not known has none.
 fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     let three = |v: &[f64; 3]| {
         let [x, y, z] = v.map(without_minus_zero);
@@ -181,7 +206,7 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     lines
 }
 
-/// What prints as -0.000 prints as 0.000.
+/// What prints as -0.000 prints as 0.000: less than half of the last of three decimals.
 fn without_minus_zero(value: f64) -> f64 {
     if value.abs() < 5e-4 { 0.0 } else { value }
 }

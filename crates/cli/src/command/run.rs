@@ -16,6 +16,11 @@ use crate::arguments::RunArguments;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
+/// Runs the study and writes all of its results.
+///
+/// # Errors
+/// No study there, or its problems; a folder where nothing can be written, told before any work is done; a
+/// fault while results are written.
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.study)?;
     let study = found.read()?;
@@ -38,6 +43,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     })
 }
 
+/// Runs `work` on this many threads, or on as many as there are processors; the numbers are the same.
 fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, StudyError> {
     let Some(threads) = threads else { return Ok(work()) };
     let pool = rayon::ThreadPoolBuilder::new()
@@ -49,6 +55,7 @@ fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Re
     Ok(pool.install(work))
 }
 
+/// From the study to its answer and its files, under a bar.
 fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
@@ -66,7 +73,8 @@ fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnsw
     Ok(answer)
 }
 
-/// The answer as a person reads it.
+/// The answer as a person reads it: the sentence that answers, then each statement of a source beside the
+/// readings that could be meant, each with the range of its in-plane deviation.
 fn summary(answer: &StudyAnswer) -> String {
     let mut lines = vec![answer.answer.clone()];
     for statement in &answer.statements {

@@ -15,6 +15,10 @@ use crate::arguments::RobotsCheckArguments;
 use crate::command::numbers::{above_zero, three_or_six};
 use crate::terminal::print;
 
+/// Compares the file with the readings and prints the verdict, whichever it is.
+///
+/// # Errors
+/// A convention that is not known; a reading that is none; a number that cannot be; no such robot or frame.
 pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyError> {
     let convention = convention(&arguments.convention)?;
     let readings = arguments.pose.iter().map(|text| {
@@ -46,6 +50,7 @@ pub(super) fn run(arguments: &RobotsCheckArguments) -> Result<Outcome, StudyErro
     Ok(Outcome::Fine)
 }
 
+/// The convention of this name.
 fn convention(name: &str) -> Result<Convention, StudyError> {
     let found = Convention::ALL
         .into_iter()
@@ -59,6 +64,8 @@ fn convention(name: &str) -> Result<Convention, StudyError> {
     })
 }
 
+/// How far each reading is from the file, the verdict, what explains it, and what these readings would not
+/// show.
 fn as_text(answer: &PendantAnswer, arguments: &RobotsCheckArguments) -> String {
     let mut lines = vec![format!("{}, positions in {}", answer.robot, answer.base)];
     for (index, reading) in answer.readings.iter().enumerate() {

@@ -14,6 +14,11 @@ use crate::Outcome;
 use crate::arguments::ImportArguments;
 use crate::terminal::{print, say};
 
+/// Reads the foreign file, writes it as ours, and reads that again before it is kept.
+///
+/// # Errors
+/// A file that is there, without `--force`; a format that is not known; the problems of the file; a place where
+/// nothing can be written.
 pub(super) fn run(arguments: &ImportArguments) -> Result<Outcome, StudyError> {
     let out = arguments.out.as_deref();
     if let Some(path) = out.filter(|path| path.exists() && !arguments.force) {

@@ -7,6 +7,10 @@ use crate::Outcome;
 use crate::arguments::RobotsArguments;
 use crate::terminal::{Align, columns, print};
 
+/// Prints the library; every robot of it is read for this.
+///
+/// # Errors
+/// Stdout takes no more.
 pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let rows = library::ROBOTS.iter().map(|entry| {
         let found = robots::find(entry.name, ".".as_ref())?;
@@ -21,6 +25,7 @@ pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     Ok(Outcome::Fine)
 }
 
+/// One line a robot; a dash for a payload or a reach that is not known.
 fn table(rows: &[RobotRow]) -> String {
     let cells = |row: &RobotRow| {
         let known = if row.compliance_known {

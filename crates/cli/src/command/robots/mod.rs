@@ -14,6 +14,7 @@ use armill_study::StudyError;
 use crate::Outcome;
 use crate::arguments::{RobotsAction, RobotsArguments};
 
+/// Goes by the subcommand, else by whether a name is given.
 pub(crate) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     match (&arguments.action, &arguments.name) {
         (Some(RobotsAction::Import(file)), _) => import::run(file),

@@ -14,6 +14,10 @@ use crate::arguments::RobotsArguments;
 use crate::command::drawing;
 use crate::terminal::print;
 
+/// Prints everything that is known of the robot `name`; the drawing, if any, comes first.
+///
+/// # Errors
+/// No such robot; a drawing that cannot be written.
 pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
     let found = robots::find(name, ".".as_ref())?;
     if let Some(file) = &arguments.drawing {
@@ -27,6 +31,8 @@ pub(super) fn run(name: &str, arguments: &RobotsArguments) -> Result<Outcome, St
     Ok(Outcome::Fine)
 }
 
+/// Chain, joints, what yields beside the drives, inverse, frames, assumptions and sources, each under its
+/// heading. Numbers are told as the file has them.
 fn as_text(found: &RobotDescription) -> String {
     let robot = &found.robot;
     let mut lines = vec![format!("{} ({})", found.title, robot.name())];

@@ -1,4 +1,15 @@
 //! What a robot has beside its drives, for `armill robots NAME`.
+//!
+//! ```text
+//! Beside the drives:
+//!   spring at SEAT: about AXIS, ... rad/(N m)       or: along AXIS, ... um/N; or both, of a screw
+//!   mass at SEAT: ... kg, centre (x, y, z) mm
+//!   torque curve of JOINT: ... pairs, both ways
+//!   gravity compensator of JOINT: ... N/mm
+//!   covariance of the compliances: known
+//! ```
+//!
+//! A seat is the body that something belongs to; axes and centres are in its frame.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot};
@@ -67,6 +78,7 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
     lines
 }
 
+/// A direction by its letter where it is one of the three, else by its components.
 fn axis(v: &Vector3<f64>) -> String {
     match [v.x, v.y, v.z] {
         [1.0, 0.0, 0.0] => "x".to_owned(),
@@ -76,7 +88,8 @@ fn axis(v: &Vector3<f64>) -> String {
     }
 }
 
-/// A compliance with its standard uncertainty, in the unit of its kind.
+/// A compliance with its standard uncertainty, in the unit of its kind: of a joint that turns or one that
+/// slides.
 pub(super) fn compliance_text(c: JointCompliance, unit: JointUnit) -> String {
     let (value, u) = (
         c.value * unit.compliance_scale,
