@@ -1,4 +1,7 @@
 //! Dependencies: licences, banned crates and origins, by the rules in `deny.toml`.
+//!
+//! By `deny.toml`; nothing is downloaded but what cargo-deny itself fetches. The program must be installed: it
+//! is not built here.
 
 use crate::COULD_NOT_RUN;
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool, run_in_place};

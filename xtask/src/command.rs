@@ -1,17 +1,21 @@
 //! Other programs: how a chore names, announces and runs them.
+//!
+//! Whatever is started is first told on stderr, behind a `+`, as a line that a person could type: who wants to
+//! repeat one step of a chore takes it from there.
 
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use std::env;
 use std::process::{Command, ExitCode, Stdio};
 
-/// `cargo` with `arguments`: the very cargo that runs this chore.
+/// `cargo` with `arguments`: the very cargo that runs this chore, so that both are of one toolchain.
 pub fn cargo(arguments: &[&str]) -> Command {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments);
     command
 }
 
-/// Whether `cargo <tool> --version` works, that is, whether this cargo extension is installed.
+/// Whether `cargo <tool> --version` works, that is, whether this cargo extension is installed. What it says is
+/// not shown.
 pub fn has_cargo_tool(tool: &str) -> bool {
     let mut command = cargo(&[tool, "--version"]);
     command
@@ -21,7 +25,8 @@ pub fn has_cargo_tool(tool: &str) -> bool {
     command.status().is_ok_and(|status| status.success())
 }
 
-/// The line a person would type for `command`, variables that differ from ours included.
+/// The line a person would type for `command`, variables that differ from ours included. Arguments with blanks
+/// are not put into quotes: it is for reading.
 pub fn command_line(command: &Command) -> String {
     let variables = command.get_envs().filter_map(|(name, value)| {
         Some(format!(
@@ -42,7 +47,8 @@ pub fn command_line(command: &Command) -> String {
         .join(" ")
 }
 
-/// Says what runs, runs it on our own terminal, and gives its verdict as ours.
+/// Says what runs, runs it on our own terminal, and gives its verdict as ours: 0 for success, 1 for any
+/// failure, 2 where it does not start.
 pub fn run_in_place(mut command: Command) -> ExitCode {
     eprintln!("+ {}", command_line(&command));
     match command.status() {

@@ -1,6 +1,15 @@
 //! The chores of armill: `cargo xtask <chore>`. What a person would otherwise have to remember stands here.
 //!
 //! Exit code 0: done, nothing to complain about. 1: the chore found something wrong. 2: it could not run.
+//!
+//! ```text
+//! cargo xtask tidy            what the name says; the arguments behind it belong to the chore
+//! cargo xtask                 lists all chores and leaves with 2
+//! ```
+//!
+//! A chore works from the root of the repository, wherever it is called. It depends on no crate, so that it
+//! builds where nothing else does; what it needs besides (a runner of tests, a compiler for C++, cargo-deny) it
+//! asks for in words.
 
 // A chore talks to a person: the report goes to stdout, everything else to stderr.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
@@ -26,11 +35,13 @@ const COULD_NOT_RUN: u8 = 2;
 /// Something a person does to this repository, by name.
 struct Chore {
     name: &'static str,
+    /// The line in the list: what it does, and the arguments that it takes.
     about: &'static str,
     /// Does it, with what follows the name on the command line.
     run: fn(&[String]) -> ExitCode,
 }
 
+/// In the order of the list; ARCHITECTURE.md names them in the same order.
 const CHORES: &[Chore] = &[
     Chore {
         name: "test",
@@ -100,6 +111,9 @@ fn list_of_chores() -> String {
 }
 
 /// Makes the repository root the working directory, so that every chore does the same wherever it is called.
+///
+/// # Errors
+/// There is no `Cargo.toml` where the root should be, or the folder cannot be entered.
 fn go_to_repository_root() -> Result<(), String> {
     // Cargo sets the variable for `cargo run`; without it the caller stands in the root.
     let xtask = env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);

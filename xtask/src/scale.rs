@@ -2,6 +2,14 @@
 //!
 //! `crates/formats/examples/scale.rs` reads programs that are made as they are read, each in a process of its own. Here
 //! it is called for every case, and its memory is held against the limit of the case.
+//!
+//! | case | input | must be |
+//! |---|---|---|
+//! | `gcode`, `apt`, `csv` | many short lines | read within 64 MiB |
+//! | `...-line` | one line without end | refused within 64 MiB |
+//! | `gcode-loop`, `-call`, `-labels` | lines that have to be kept | read or refused within 1 GiB |
+//!
+//! Memory is the most that the process ever held, as the example tells it.
 
 use crate::command::{cargo, printed};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
@@ -23,10 +31,13 @@ struct Case {
     name: &'static str,
     /// Length as a share of what is asked for, percent.
     percent: u64,
+    /// Whether it is read to its end; else it must be refused.
     read: bool,
+    /// Most memory that it may take.
     most_mib: u64,
 }
 
+/// One line of the list below.
 const fn case(name: &'static str, percent: u64, read: bool, most_mib: u64) -> Case {
     Case {
         name,
@@ -50,13 +61,16 @@ const CASES: &[Case] = &[
     case("gcode-labels", 200, false, KEPT_MIB),
 ];
 
-/// What the example prints of a case.
+/// What the example prints of a case: six fields between tabs, the first its name.
 #[derive(Debug, PartialEq)]
 struct Row {
+    /// How much of the program was taken before its end or its refusal.
     bytes: u64,
     steps: u64,
     seconds: f64,
+    /// Most memory of the process.
     kib: u64,
+    /// `read`, or why it was refused.
     said: String,
 }
 
@@ -110,6 +124,7 @@ fn measured(case: &Case, megabytes: u64) -> Result<Row, String> {
 }
 
 impl Row {
+    /// The row in a line; nothing where it is none.
     fn read(line: &str) -> Option<Row> {
         let fields: Vec<&str> = line.trim_end().split('\t').collect();
         let [_, bytes, steps, seconds, kib, said] = fields.as_slice() else {
@@ -137,6 +152,7 @@ impl Case {
         })
     }
 
+    /// One line for a person, what is wrong at its end.
     fn line(&self, row: &Row, wrong: Option<&str>) -> String {
         format!(
             "{:<12}{:>10.1}{:>10}{:>18.2}{:>11}{:>8}  {}{}",

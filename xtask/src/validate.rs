@@ -1,4 +1,7 @@
 //! Validation: our numbers beside published ones, written to `validation/TABLE.md`.
+//!
+//! The program is `armill-validation` in `validation/`; its tests hold the same checks, so that a number that
+//! drifts fails there too. Exit code 1: a check does not hold, or the table cannot be written.
 
 use crate::command::{cargo, run_in_place};
 use std::process::ExitCode;

@@ -1,5 +1,9 @@
 //! The goals: how many times another's rate armill must reach, and where nobody else does the work, how long it may
 //! take. A goal shows once all of it was measured.
+//!
+//! A ratio is ours over theirs, both the median rates of one run on one machine. `must` is what armill
+//! promises, `stretch` what it could reach; below `must` a goal is missed. Missed goals are told, not failed: a
+//! busy machine misses them too.
 
 use super::row::{Row, digits};
 
@@ -16,13 +20,18 @@ struct Goal {
     text: &'static str,
     ours: Side,
     theirs: Side,
+    /// The ratio below which the goal is missed.
     must: f64,
+    /// The ratio from which it is more than reached.
     stretch: f64,
 }
 
+/// How rows of armill's lanes begin, without the back end.
 const LANES: &str = "armill lanes f64";
+/// The row of the version that anyone would write.
 const PLAIN: &str = "plain Rust with trigonometry";
 
+/// A side on one thread.
 const fn side(begins: &'static str, ends: &'static str, work: &'static str) -> Side {
     Side {
         begins,
@@ -32,6 +41,7 @@ const fn side(begins: &'static str, ends: &'static str, work: &'static str) -> S
     }
 }
 
+/// The widest lanes of armill on one thread.
 const fn lanes(work: &'static str) -> Side {
     side(LANES, LANES, work)
 }
@@ -109,9 +119,11 @@ const GOALS: &[Goal] = &[
 struct Wait {
     text: &'static str,
     ours: Side,
+    /// Most seconds for a million points.
     most_s: f64,
 }
 
+/// A goal of one row of armill.
 const fn path(text: &'static str, who: &'static str, work: &'static str, most_s: f64) -> Wait {
     Wait {
         text,
@@ -120,6 +132,7 @@ const fn path(text: &'static str, who: &'static str, work: &'static str, most_s:
     }
 }
 
+/// Whose rows those of reading are.
 const PROGRAM: &str = "armill, tool path program";
 
 const WAITS: &[Wait] = &[
@@ -186,6 +199,7 @@ pub fn table(rows: &[Row]) -> String {
 }
 
 impl Side {
+    /// The median rate of the first row that this side means, million a second.
     fn rate(&self, rows: &[Row]) -> Option<f64> {
         let is = |row: &&Row| {
             row.who.starts_with(self.begins)

@@ -2,6 +2,15 @@
 //!
 //! Compared with what `bench/instructions.tsv` records (function, instructions per pose, compiler); `--record` writes it
 //! anew. Valgrind emulates AVX2 and FMA but not AVX-512: it is the AVX2 path that is counted.
+//!
+//! | column of the record | meaning |
+//! |---|---|
+//! | `function` | name in `bench/benches/instructions.rs` |
+//! | `instructions_per_pose` | one decimal |
+//! | `compiler` | what `rustc --version` says; told, not compared |
+//!
+//! A rise of more than 2 % against the record is a regression and leaves with 1; a fall is told and needs a new
+//! record only to be kept.
 
 use super::bench_cargo;
 use crate::command::{cargo, printed};
@@ -10,7 +19,9 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::{env, fs};
 
+/// What was counted before, kept in the repository.
 const RECORD: &str = "bench/instructions.tsv";
+/// Where the runner is installed.
 const TOOLS: &str = "target/tools";
 /// Must be the version of gungraun in `bench/Cargo.toml`.
 const RUNNER: &str = "0.20.0";
@@ -53,12 +64,16 @@ pub fn run(record: bool) -> ExitCode {
     ExitCode::SUCCESS
 }
 
+/// Says why, and gives the exit code.
 fn could_not_run(problem: &str) -> ExitCode {
     eprintln!("{problem}");
     ExitCode::from(COULD_NOT_RUN)
 }
 
 /// Installs the runner if it is not there, and counts.
+///
+/// # Errors
+/// The runner cannot be installed, or the benchmark does not build or run under Valgrind.
 fn counted() -> Result<Vec<Count>, String> {
     let runner = env::current_dir()
         .unwrap_or_default()
@@ -130,6 +145,7 @@ fn compared(count: &Count, before: Option<&Count>) -> (String, bool) {
     )
 }
 
+/// The text of the record, one line a function.
 fn written(counts: &[Count], compiler: &str) -> String {
     let mut text = String::from("function\tinstructions_per_pose\tcompiler\n");
     for count in counts {
@@ -138,6 +154,7 @@ fn written(counts: &[Count], compiler: &str) -> String {
     text
 }
 
+/// The lines of a record; one that is none is left out, the heading too.
 fn read(text: &str) -> Vec<Count> {
     let row = |line: &str| {
         let mut fields = line.split('\t');

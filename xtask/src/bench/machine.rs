@@ -1,4 +1,7 @@
 //! On what a run was made: processor, cores, system, compilers.
+//!
+//! Read from `/proc/cpuinfo` and from what programs say of themselves; elsewhere than on Linux the processor
+//! stays unknown. A program that is not there is told as `not there`.
 
 use std::fs;
 use std::process::Command;
@@ -42,6 +45,7 @@ fn vectors(flags: &str) -> &'static str {
     }
 }
 
+/// The first line that a program prints.
 fn first_line(program: &str, arguments: &[&str]) -> String {
     let output = Command::new(program).args(arguments).output();
     let text = output.map(|output| String::from_utf8_lossy(&output.stdout).into_owned());

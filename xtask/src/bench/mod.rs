@@ -5,6 +5,13 @@
 //! under `target/` ([`peers`]); a peer that cannot be had is left out in plain words.
 //!
 //! `row`: what a program prints; `instructions`: the same work in instructions instead of time; `machine`: where it ran.
+//!
+//! | arguments | what runs | writes the page |
+//! |---|---|---|
+//! | none | armill, peers in Rust, Python and C++ | yes |
+//! | `--quick` | the same with fewer rounds | no |
+//! | `--only rust`, `--only paths` | a part | no |
+//! | `--instructions` | counts under Valgrind, against the record | no; `--record` writes the record |
 
 mod goals;
 mod instructions;
@@ -34,9 +41,11 @@ const TARGET: &str = "target/bench";
 /// What was asked for.
 #[derive(Debug, Default, PartialEq)]
 struct Options {
+    /// Fewer rounds: to see whether it runs, not how fast.
     quick: bool,
     only: Option<Only>,
     instructions: bool,
+    /// Whether counts become the new record; with `instructions` alone.
     record: bool,
 }
 
@@ -75,6 +84,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// The arguments, or nothing where they cannot be understood.
 fn options(arguments: &[String]) -> Option<Options> {
     let mut options = Options::default();
     let mut arguments = arguments.iter().map(String::as_str);
@@ -96,7 +106,10 @@ fn options(arguments: &[String]) -> Option<Options> {
     (options.instructions || !options.record).then_some(options)
 }
 
-/// Rows of all who could be had.
+/// Rows of all who could be had; why others could not.
+///
+/// # Errors
+/// A program that is there fails: its rows would be missing without a reason.
 fn measured(options: &Options) -> Result<Found, String> {
     let mut found = Found::default();
     let venv = match options.only {
@@ -148,6 +161,7 @@ fn bench_cargo(arguments: &[&str]) -> Command {
     command
 }
 
+/// Prints the page, and writes it after a full run.
 fn publish(options: &Options, found: &Found) -> Result<(), String> {
     let page = page::page(&found.rows, &found.skipped, &machine::lines());
     println!("{page}");
@@ -159,6 +173,7 @@ fn publish(options: &Options, found: &Found) -> Result<(), String> {
 }
 
 impl Options {
+    /// Hands `--quick` on.
     fn quicken<'a>(&self, command: &'a mut Command) -> &'a mut Command {
         if self.quick {
             command.arg("--quick");

@@ -1,4 +1,10 @@
 //! The page of a run: what was measured, on what, the rates side by side, the goals, every row.
+//!
+//! ```text
+//! what is measured · machine · rates side by side · goals · tool paths · who is missing and why · every row
+//! ```
+//!
+//! A part without rows is left out. Rates are millions a second, in brackets how many times the yardstick's.
 
 use super::goals;
 use super::row::{Row, digits};
@@ -8,6 +14,7 @@ const WORKS: &[&str] = &["dev", "dev8", "C66", "ik8", "dev from angles", "C66 fr
 /// Whose rate is 1.
 const YARDSTICK: &str = "plain Rust with trigonometry";
 
+/// The beginning of the page, the same after every run.
 const WHAT: &str = "\
 # Performance
 
@@ -52,6 +59,7 @@ pub fn page(rows: &[Row], skipped: &[String], machine: &[String]) -> String {
     page + &format!("\n## Every row\n\n{}", every_row(rows))
 }
 
+/// One item a line.
 fn list(lines: &[String]) -> String {
     lines.iter().map(|line| format!("- {line}\n")).collect()
 }
@@ -96,6 +104,7 @@ fn cell(rows: &[Row], who: &str, (threads, work): (usize, &str)) -> String {
     }
 }
 
+/// All rows as they were printed, with quartiles and notes.
 fn every_row(rows: &[Row]) -> String {
     let mut table =
         String::from("| who | work | threads | median | quartiles | note |\n|---|---|--:|--:|--:|---|\n");

@@ -1,6 +1,13 @@
 //! What the peers need: a virtual environment under `target/`, a C++ compiler, cmake.
 //!
 //! Pinocchio comes as a wheel that holds its C++ headers, and Eigen's and Boost's beside them; so does cmake.
+//!
+//! | thing | where | made from |
+//! |---|---|---|
+//! | virtual environment | `target/bench-venv` | `bench/python/requirements.txt`, anew when that changes |
+//! | programs in C++ | `target/bench-...` | `bench/cpp/`, anew when the source is younger |
+//!
+//! All work on one thread. Nothing outside `target/` is installed.
 
 use super::WORKLOAD;
 use crate::command::printed;
@@ -8,6 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::{env, fs};
 
+/// Where the packages of the peers are installed, and the list of them.
 const VENV: &str = "target/bench-venv";
 const REQUIREMENTS: &str = "bench/python/requirements.txt";
 const PINOCCHIO: CppPeer = CppPeer {
@@ -55,6 +63,7 @@ pub fn python() -> Command {
 /// A source in C++ and the program made of it.
 struct CppPeer {
     source: &'static str,
+    /// Where the program lies that is made of it.
     program: &'static str,
 }
 
@@ -117,6 +126,7 @@ pub fn cmake() -> Option<PathBuf> {
     there.is_ok_and(|status| status.success()).then(|| "cmake".into())
 }
 
+/// The path of a program of the virtual environment.
 fn in_venv(program: &str) -> PathBuf {
     Path::new(VENV).join("bin").join(program)
 }

@@ -1,4 +1,11 @@
 //! One measured rate, as the programs in `bench/` print it: fields separated by tabs.
+//!
+//! ```text
+//! who    work    threads    median    lower quartile    upper quartile    note
+//! ```
+//!
+//! Rates are million poses (or points) per second. Lines with another number of fields, or words where numbers
+//! belong, are talk and no rows.
 
 /// A rate of somebody at some work, million poses per second.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,7 +42,7 @@ impl Row {
     }
 }
 
-/// Three digits that mean something.
+/// Three digits that mean something: whole from 100 on, three decimals at most.
 pub fn digits(value: f64) -> String {
     let decimals = match value.abs() {
         size if size >= 100.0 => 0,

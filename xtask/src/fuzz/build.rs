@@ -1,4 +1,7 @@
 //! The fuzzing program: built with counters at every branch, asked which targets it has.
+//!
+//! `fuzz/` is a workspace of its own with its own lock file; it is built into `target/fuzz/build`, so that
+//! neither its flags nor its products touch those of the workspace.
 
 use super::{FOLDER, built};
 use crate::command::{cargo, printed};
@@ -57,7 +60,10 @@ pub fn targets(program: &OsStr) -> Result<Vec<String>, String> {
     Ok(told.lines().map(str::to_owned).collect())
 }
 
-/// The machine that rustc builds for when nobody says otherwise.
+/// The machine that rustc builds for when nobody says otherwise, such as `x86_64-unknown-linux-gnu`.
+///
+/// # Errors
+/// Rustc does not start, or names none.
 fn host() -> Result<String, String> {
     let told = printed(Command::new("rustc").arg("-vV"))?;
     let host = told.lines().find_map(|line| line.strip_prefix("host: "));

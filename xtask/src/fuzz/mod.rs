@@ -4,6 +4,16 @@
 //! with the compiler's coverage counters ([`build`]), called for each target, and what it says is read ([`said`]).
 //! All that is written lies under `target/fuzz/`: `corpus/TARGET/` (kept from run to run), `crashes/TARGET/`,
 //! `dictionaries/`, `build/`.
+//!
+//! | argument | meaning | left out |
+//! |---|---|---|
+//! | `TARGET` | one parser by its name | all, one after another |
+//! | `--seconds N` | time for each | 60 |
+//! | `--jobs N` | processes at once | 1 |
+//! | `--input FILE` | one input instead of a campaign, to repeat a finding | - |
+//!
+//! A finding is a panic, an input that takes longer than 10 s, or more than 2 GiB of memory. It is written to
+//! `crashes/TARGET/` and told with the line that repeats it.
 
 mod build;
 mod said;
@@ -32,7 +42,7 @@ const MOST_MIB: u32 = 2048;
 /// Inputs are no longer: 64 KiB hold any robot and any study, and longer ones run slowly.
 const LONGEST_BYTES: u32 = 64 << 10;
 
-/// What was asked for.
+/// What was asked for; numbers are above 0.
 #[derive(Debug, PartialEq)]
 struct Options {
     target: Option<String>,
@@ -57,6 +67,7 @@ pub fn run(arguments: &[String]) -> ExitCode {
     }
 }
 
+/// The arguments, or nothing where they cannot be understood.
 fn options(arguments: &[String]) -> Option<Options> {
     let mut options = Options {
         target: None,
@@ -80,11 +91,15 @@ fn options(arguments: &[String]) -> Option<Options> {
     (options.input.is_none() || options.target.is_some()).then_some(options)
 }
 
+/// A whole number above 0.
 fn positive(text: &str) -> Option<u32> {
     text.parse().ok().filter(|number| *number > 0)
 }
 
-/// Whether nothing was found.
+/// Builds, runs what was chosen and prints a row for each; whether nothing was found.
+///
+/// # Errors
+/// The program does not build or run; there is no such target; a folder cannot be made.
 fn fuzzed(options: &Options) -> Result<bool, String> {
     let program = build::program()?;
     let all = build::targets(&program)?;
@@ -129,7 +144,7 @@ fn fuzzed(options: &Options) -> Result<bool, String> {
     Ok(sound)
 }
 
-/// What libFuzzer is told for a run over time.
+/// What libFuzzer is told for a run over time: corpus, dictionary, place of findings, seconds, processes.
 fn campaign(target: &str, crashes: &str, options: &Options) -> Vec<String> {
     let mut arguments = limits();
     arguments.push(format!("{FOLDER}/corpus/{target}"));
@@ -153,6 +168,9 @@ fn limits() -> Vec<String> {
 }
 
 /// Runs it, passes on what a person wants to see of its talk, and keeps what it counted.
+///
+/// # Errors
+/// It does not start, or its end cannot be waited for. That it found something is no error.
 fn watch(command: &mut Command) -> Result<Said, String> {
     let line = command_line(command);
     eprintln!("+ {line}");

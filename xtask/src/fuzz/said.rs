@@ -1,18 +1,30 @@
 //! What libFuzzer says of a run: how much was tried, how much was reached, where a finding lies.
+//!
+//! ```text
+//! #1234  NEW    cov: 567 ft: 890 corp: 12/34Kb lim: 64 exec/s: 1000 rss: 50Mb ...
+//! stat::number_of_executed_units: 123456
+//! stat::peak_rss_mb:              70
+//! Test unit written to target/fuzz/crashes/urdf/crash-...
+//! ```
+//!
+//! Source: what libFuzzer prints, one process or many (`-fork`), as its documentation and its runs show it.
 
 /// The heading over all rows.
 pub const HEADING: &str =
     "target        verdict   executions   per s   edges   features   inputs   most MiB\n";
 
-/// What a run came to.
+/// What a run came to; the last line that tells a number decides.
 #[derive(Debug, Default, PartialEq)]
 pub struct Said {
     /// Whether it ended without a finding.
     pub passed: bool,
     /// The input of the finding.
     pub written: Option<String>,
+    /// Inputs tried.
     executions: u64,
+    /// Inputs tried in a second.
     per_second: u64,
+    /// Branches reached (`cov`), and what libFuzzer tells apart beyond them (`ft`).
     edges: u64,
     features: u64,
     /// Inputs kept since each reached something new.
@@ -69,7 +81,7 @@ impl Said {
         ["INITED", "DONE"].iter().any(|word| progress.contains(word))
     }
 
-    /// One line for a person.
+    /// One line for a person, under [`HEADING`].
     pub fn row(&self, target: &str) -> String {
         format!(
             "{target:<14}{:<10}{:>10}{:>8}{:>8}{:>11}{:>9}{:>11}\n",

@@ -1,4 +1,12 @@
 //! How many tests ran, read from the summary lines of the test runners.
+//!
+//! | runner | line | passed, failed, skipped |
+//! |---|---|---|
+//! | `cargo test` | `test result: ok. 5 passed; 0 failed; 1 ignored; ...` | 5, 0, 1; one line for each program |
+//! | nextest | `Summary [   0.01s] 5 tests run: 5 passed, 1 skipped` | 5, 0, 1; one line in all |
+//!
+//! Not checked: what the runners print elsewhere; a summary in other words counts nothing, and a run that
+//! counts nothing is told as one that could not run.
 
 use std::fmt;
 
@@ -14,7 +22,7 @@ pub struct Count {
 }
 
 impl Count {
-    /// Both together.
+    /// Both together, verdict by verdict.
     pub fn plus(self, other: Self) -> Self {
         Self {
             passed: self.passed + other.passed,

@@ -4,6 +4,15 @@
 //! says that it was skipped.
 //!
 //! `step`: one of them; `count`: the tests in what it printed.
+//!
+//! | step | fails where |
+//! |---|---|
+//! | unit and integration tests | one does not pass, in any crate of the workspace |
+//! | documentation tests | an example in the documentation does not compile or run |
+//! | documentation | a link leads nowhere, or rustdoc has another warning |
+//! | the kernel for NEON | it does not compile; left out without the standard library for that target |
+//!
+//! Exit codes as for any chore; a run without a single test is one that could not run.
 
 mod count;
 mod step;
@@ -38,7 +47,7 @@ fn steps() -> Vec<Step> {
 /// The target whose back end no test machine of ours can run.
 const NEON: &str = "aarch64-unknown-linux-gnu";
 
-/// Whether rustc can compile for `target`; asks rustup for it.
+/// Whether rustc can compile for `target`; asks rustup to install what is missing, and says so if it cannot.
 fn has_target(target: &str) -> bool {
     eprintln!("installing the standard library for {target}, if rustup is here and it is missing");
     let added = Command::new("rustup").args(["target", "add", target]).status();

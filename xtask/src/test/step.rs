@@ -1,4 +1,7 @@
 //! One step of a run: a named command whose output goes through to the reader and is counted on the way.
+//!
+//! Output stays as it is on its way: a person sees it at once, as if the command ran alone. Standard output and
+//! errors are relayed by a thread each, since a runner may write its summary to either.
 
 use super::count::Count;
 use crate::command::command_line;
@@ -13,7 +16,7 @@ pub struct Step {
     command: Command,
 }
 
-/// What came of a step.
+/// What came of a step; a command that does not start is a failed step.
 pub struct Outcome {
     /// The name of the step.
     pub name: &'static str,

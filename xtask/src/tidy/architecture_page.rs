@@ -1,4 +1,7 @@
 //! ARCHITECTURE.md names every crate, every folder and every file of the root, every chore, and nothing else.
+//!
+//! The page is the map that a stranger begins with: the tree in its first code block, the sentence on the files
+//! of the root, the line of the chores. What each folder is for is not checked, only that it is named.
 
 use super::Rule;
 use super::tree::Tree;

@@ -1,4 +1,7 @@
 //! Fields that cross a boundary: those of types that a file, a result or a command line is made of.
+//!
+//! A type crosses where it derives serde's traits, a JSON schema or clap's: its field names are then keys or
+//! options. Found in the text by its brackets, without a parser; types made by macros are not seen.
 
 use super::rust::{RustFile, find_word, is_word};
 

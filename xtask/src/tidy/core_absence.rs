@@ -1,4 +1,14 @@
 //! What the core never does: files, environment, time, printing, randomness, serialisation, hash order, global state.
+//!
+//! | never | instead |
+//! |---|---|
+//! | files, environment, clock, process, network | come in as parameters, go out as values |
+//! | threads | rayon, results written by index |
+//! | printing | values, or progress to the watch |
+//! | hash maps and sets | `BTreeMap`, `Vec`: the same order in every run |
+//! | random numbers, global state | seeds and values come in |
+//!
+//! Tests may do all of it. Found by name: a type that is renamed by `use ... as` is not seen.
 
 use super::Rule;
 use super::rust::{RustFile, find_word};
@@ -51,6 +61,7 @@ const NAMES: &[(&str, &str)] = &[
     ("OnceCell", STATE),
 ];
 
+/// What to do instead of a static.
 const STATE: &str = "there is no global state: values come in and go out";
 
 /// The one static there is, and where: a flag that nobody sets.
@@ -64,6 +75,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
         .collect()
 }
 
+/// What one file of the core does that it should not.
 fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
     let mut violations = Vec::new();
     for (line, name) in file.names_after("std") {

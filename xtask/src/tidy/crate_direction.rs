@@ -1,4 +1,11 @@
 //! Which crate may depend on which: core <- formats <- study <- cli, report <- study; programs beside them.
+//!
+//! ```text
+//! core <- formats <- study <- cli        report <- study        validation, bench, fuzz, xtask: on them nobody depends
+//! ```
+//!
+//! Direct dependencies alone are read, in any table of a `Cargo.toml`, tests included: a test may not turn the
+//! direction round either. That a direction is used is checked too, so that the list stays true.
 
 use super::Rule;
 use super::tree::Tree;
@@ -50,6 +57,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
     violations
 }
 
+/// Against its place in [`USES`]; the core also against the libraries that it is built of.
 fn check_crate(path: &str, text: &str) -> Vec<Violation> {
     let folder = path.split('/').nth(1).unwrap_or_default();
     let Some((_, uses)) = USES.iter().find(|(name, _)| *name == folder) else {
@@ -121,6 +129,7 @@ impl<'a> Dependency<'a> {
         }
     }
 
+    /// The violation that this dependency is.
     fn told(&self, path: &str, hint: &str) -> Violation {
         let folder = path.trim_end_matches("/Cargo.toml").trim_start_matches("crates/");
         let what = format!(

@@ -1,4 +1,7 @@
 //! The exit codes of the command are told alike wherever they are told.
+//!
+//! Compared are the words from the first `Exit code` of a file to the full stop, line breaks and `//!` taken
+//! out.
 
 use super::Rule;
 use super::tree::Tree;

@@ -1,4 +1,6 @@
 //! No Rust file is longer than a sitting, its tests not counted.
+//!
+//! 500 lines, comments and blank lines counted; `predict.rs`, which tells the whole idea, has 80.
 
 use super::Rule;
 use super::tree::Tree;

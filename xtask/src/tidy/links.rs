@@ -1,4 +1,8 @@
 //! Every relative link of a page leads to a file.
+//!
+//! Followed are `[text](target)`, pictures and `[name]: target`, from the folder of their page, or from the
+//! root where they begin with `/`. Left alone are code blocks, what stands in backticks, addresses with `://`,
+//! anchors, paths of Rust.
 
 use super::Rule;
 use super::tree::Tree;
@@ -18,6 +22,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
         .collect()
 }
 
+/// The links of one page that lead nowhere.
 fn check_page(tree: &Tree, path: &str, text: &str) -> Vec<Violation> {
     let mut violations = Vec::new();
     let mut in_code = false;

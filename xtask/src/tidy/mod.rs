@@ -2,6 +2,10 @@
 //!
 //! A rule looks at the text of the files that git knows or would take; it builds nothing. To add a rule: one
 //! file here with its `RULE`, one line in [`RULES`].
+//!
+//! Whether code compiles, is formatted and passes clippy is not asked here. A violation is told as
+//! `path:line: what; hint`; the reason of a rule stands once over its violations. Exit code 1 where there is
+//! one.
 
 // The repository as the rules see it.
 mod boundary_fields;
@@ -45,9 +49,11 @@ pub const ABOUT: &str = "Checks the architecture: directions, sizes, names, unit
 
 /// Something that must hold everywhere.
 struct Rule {
+    /// How people call it.
     name: &'static str,
     /// Printed with the violations: what goes wrong without the rule.
     reason: &'static str,
+    /// Looks at the whole tree; no violation, no talk.
     check: fn(&Tree) -> Vec<Violation>,
 }
 

@@ -1,5 +1,8 @@
 //! A module that is a folder begins with its `mod.rs`, which introduces every file of it: by name in its header, or by a
 //! comment over a group of them.
+//!
+//! So there is one place to begin in a folder, never a file `name.rs` beside a folder `name/`. Test modules
+//! need no introduction.
 
 use super::Rule;
 use super::rust::{RustFile, find_word};

@@ -1,4 +1,7 @@
 //! Inside the core a module uses only those above it in the reading order.
+//!
+//! The order is that of the table of modules in ARCHITECTURE.md. Looked at are `crate::name` and as many
+//! `super::` as lead to the root; a name that the root re-exports hides its module and is told too.
 
 use super::Rule;
 use super::rust::RustFile;
@@ -15,6 +18,7 @@ pub const RULE: Rule = Rule {
 /// What every module may use: how long work is watched and cancelled.
 const FOR_ALL: &[&str] = &["watch", "Watch"];
 
+/// The page that tells the order, the root that declares the modules, and where they lie.
 const PAGE: &str = "ARCHITECTURE.md";
 const ROOT: &str = "crates/core/src/lib.rs";
 const SOURCE_FOLDER: &str = "crates/core/src/";

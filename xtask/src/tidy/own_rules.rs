@@ -1,4 +1,6 @@
 //! Every rule that is written is checked.
+//!
+//! A rule is any file in `xtask/src/tidy/` with a `pub const RULE`.
 
 use super::Rule;
 use super::tree::Tree;

@@ -1,4 +1,7 @@
 //! Every path that ARCHITECTURE.md names in backticks is there.
+//!
+//! A path may be told from the root, or by an end that only one file has: `backend.rs`. NAME and MAKER stand
+//! for any name.
 
 use super::Rule;
 use super::rust::is_word;

@@ -1,4 +1,7 @@
 //! Every picture stands in the table of its crate and in the gallery.
+//!
+//! Found by text: a type whose `impl` has a `pub fn to_svg(`. The table is that of the crate's head, where each
+//! picture answers a question; the gallery is an example that draws one of each.
 
 use super::Rule;
 use super::rust::find_word;

@@ -1,4 +1,12 @@
 //! Every robot format is read, described, mutated and fuzzed.
+//!
+//! | place | what must stand there |
+//! |---|---|
+//! | `robot/format.rs` | an arm of the last `match` that calls `module::read` |
+//! | the module | `pub fn read`, or `read_to_tip` where a file has several ends |
+//! | `tests/robots/mutations.rs` | a good file of the format, which is then spoiled |
+//! | `docs/guide/your-robot.md` | its name among those of `--format` |
+//! | `fuzz/src/targets.rs` | its verdict |
 
 use super::Rule;
 use super::tree::Tree;
@@ -11,6 +19,7 @@ pub const RULE: Rule = Rule {
     check,
 };
 
+/// Where formats are read, spoiled, told and fuzzed.
 const FOLDER: &str = "crates/formats/src/robot/";
 const MUTATIONS: &str = "crates/formats/tests/robots/mutations.rs";
 const GUIDE: &str = "docs/guide/your-robot.md";

@@ -1,5 +1,12 @@
 //! Rust text as the rules need it: code without comments, literals and tests. No parser: the source is
 //! formatted by rustfmt, and a rule that looks at names needs no more.
+//!
+//! ```text
+//! let a = "// no comment"; // why       ->       let a = ";         one quote for a literal
+//! ```
+//!
+//! Lines keep their numbers. What it does not see: code made by macros, modules in other places by `#[path]`,
+//! tests marked by another attribute than `#[cfg(test)]`.
 
 /// A Rust file, split into lines.
 pub struct RustFile<'a> {
@@ -16,7 +23,8 @@ pub struct RustFile<'a> {
 }
 
 impl<'a> RustFile<'a> {
-    /// Splits `text`. Tests begin at `#[cfg(test)]` right before a module or an impl with a body.
+    /// Splits `text`. Tests begin at `#[cfg(test)]` right before a module or an impl with a body, and are taken
+    /// to go on to the end of the file.
     pub fn read(path: &'a str, text: &'a str) -> Self {
         let mut code = code_lines(text);
         let mut test_modules = Vec::new();
@@ -94,7 +102,7 @@ pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// Where `word` stands in `line` as a whole name.
+/// Where `word` first stands in `line` as a whole name.
 pub fn find_word(line: &str, word: &str) -> Option<usize> {
     line.match_indices(word)
         .map(|(at, _)| at)

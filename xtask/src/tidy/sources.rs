@@ -1,4 +1,12 @@
 //! Every number of a robot or a material says where it comes from.
+//!
+//! ```text
+//! [joints]                 a number here is covered by `source` here, or in a table around it,
+//! source = "paper"         or by `joints_source` in the table just outside
+//! [sources.paper]          needs no source; must be used
+//! ```
+//!
+//! All slips of a file are told in the order of its lines.
 
 use super::Rule;
 use super::toml_lines::{Table, tables};
@@ -23,6 +31,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
         .collect()
 }
 
+/// Sources that are not defined, numbers without one, sources that are not used.
 fn check_file(path: &str, tables: &[Table]) -> Vec<Violation> {
     let mut violations = Vec::new();
     let defined: Vec<(&str, usize)> = tables

@@ -1,4 +1,6 @@
 //! The command makes no JSON by hand: what it prints are answers of the crates below it.
+//!
+//! Looked for is the macro of serde that writes JSON in place; answers are types that serialise.
 
 use super::Rule;
 use super::rust::find_word;

@@ -1,5 +1,13 @@
 //! TOML as the rules need it: tables with their line, which sources they name, whether they hold numbers.
 //! Read line by line; our files have one key a line.
+//!
+//! ```text
+//! [joints.mass]                     name "joints.mass"
+//! centre_mm = [1.0, 2.0, 3.0]       first_number
+//! mass_source = ["paper", "scale"]  two sources with the key "mass_source"
+//! ```
+//!
+//! Not checked: that it is TOML; the crate `formats` reads it as such in its tests.
 
 use super::rust::is_word;
 

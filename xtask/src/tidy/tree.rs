@@ -1,4 +1,7 @@
 //! The files of the repository: those that git tracks and those it would take with the next commit.
+//!
+//! Read once; rules share it and touch no disk. For the tests of a rule a tree is made of a few files in
+//! memory.
 
 use super::rust::RustFile;
 use std::collections::{BTreeMap, BTreeSet};
@@ -50,7 +53,8 @@ impl Tree {
             .filter_map(|(path, text)| Some((path.as_str(), text.as_deref()?)))
     }
 
-    /// The texts whose path begins with `folder` (which ends in `/`) and ends with `ending`.
+    /// The texts whose path begins with `folder` (which ends in `/`, or is empty for all) and ends with
+    /// `ending`.
     pub fn texts_in(&self, folder: &str, ending: &str) -> impl Iterator<Item = (&str, &str)> {
         self.texts()
             .filter(move |(path, _)| path.starts_with(folder) && path.ends_with(ending))

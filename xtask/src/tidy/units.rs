@@ -1,4 +1,13 @@
 //! Every number in a file, a result or an option says its unit in its name.
+//!
+//! ```text
+//! depth_mm   feed_mm_per_min   compliance_rad_per_n_m       end in a unit
+//! gear_ratio   jacobian   fraction_within_limit             known to have none
+//! depth   force_per_mm                                      violations
+//! ```
+//!
+//! Looked at are fields of floating-point numbers of the types that cross a boundary (`boundary_fields`), in
+//! the crates whose types users see. Not checked: that the number is in the unit that its name says.
 
 use super::Rule;
 use super::boundary_fields::{Field, boundary_fields};
@@ -75,6 +84,7 @@ fn check(tree: &Tree) -> Vec<Violation> {
     files.flat_map(|file| check_file(&file)).collect()
 }
 
+/// The fields of one file that do not say their unit.
 fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
     let fields = boundary_fields(file).into_iter();
     let unclear = fields.filter(|field| holds_numbers(field) && !says_its_unit(&field.name));
@@ -88,6 +98,7 @@ fn check_file(file: &RustFile<'_>) -> Vec<Violation> {
         .collect()
 }
 
+/// Whether its type has a floating-point number anywhere in it.
 fn holds_numbers(field: &Field) -> bool {
     find_word(&field.of_type, "f64").is_some() || find_word(&field.of_type, "f32").is_some()
 }

@@ -1,4 +1,8 @@
 //! No unsafe code but where ARCHITECTURE.md names it.
+//!
+//! Comments and literals may say the word. The compiler denies it as well (`unsafe_code` in `Cargo.toml`); this
+//! rule counts where an exception is made. Further calls in a file that has its number are told from the first
+//! one too many.
 
 use super::Rule;
 use super::rust::find_word;

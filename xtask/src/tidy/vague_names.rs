@@ -1,4 +1,6 @@
 //! No file, folder or module has a name that would fit anything.
+//!
+//! Compared are whole names, up to their first dot: `common.rs` and `common/` are vague, `uncommon.rs` is not.
 
 use super::Rule;
 use super::rust::find_word;

@@ -1,4 +1,12 @@
 //! Every validation case explains itself, and stands in the overview and in the table of achieved errors.
+//!
+//! | must be there | for each folder in `validation/` |
+//! |---|---|
+//! | `README.md` in it | what is compared, the witness, the tolerance and why |
+//! | a link in `validation/README.md` | which kind of witness it is |
+//! | a row of `validation/TABLE.md` | that it runs |
+//!
+//! and no row without its folder.
 
 use super::Rule;
 use super::tree::Tree;

@@ -1,4 +1,6 @@
 //! One place that breaks a rule.
+//!
+//! The line that is printed is one that an editor opens.
 
 use std::fmt;
 
