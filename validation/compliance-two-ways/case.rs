@@ -1,4 +1,11 @@
 //! `J diag(c) J^T` against equations (7) to (9) of the paper, moved to the TCP. See README.md.
+//!
+//! ```text
+//! C_base = sum over the joints of  A_i C_i A_i^T          (7) to (9); C_i holds one number, A_i moves twists
+//! C_tcp  = S C_base S^T,  S = [1  -[p]; 0  1]             what the paper leaves out; p the TCP in base
+//! ```
+//!
+//! Compliances are 6 x 6, linear before angular, m and rad per N and N m.
 
 use nalgebra::{Matrix6, Point3, Vector3};
 
@@ -18,8 +25,9 @@ const SEED: u64 = 2;
 const POSTURES: usize = 2000;
 /// Postures whose stiffness is known worse than this are left out of the comparison of stiffness.
 const MOST_CONDITION: f64 = 1e6;
-/// Points on the circle of the paper, one every 5 deg.
+/// Points on the circle of the paper, of radius 0.1 m, one every 5 deg.
 const CIRCLE_POINTS: usize = 72;
+/// The four force cases of the paper on the tool, base axes, N.
 const CASES_N: [[f64; 3]; 4] = [
     [3.0, -5.0, -5.0],
     [3.0, -5.0, 5.0],
@@ -41,6 +49,7 @@ fn compliance_at_base(robot: &Robot, q: &[f64]) -> Matrix6<f64> {
         .sum()
 }
 
+/// What one joint gives to the sum: its number on the diagonal, moved by the motions up to it.
 fn joint_compliance_at_base(
     chain: &Chain,
     theta: &[f64],
@@ -69,7 +78,8 @@ fn joint_compliance_at_base(
     base_from_joint * in_joint * base_from_joint.transpose()
 }
 
-/// What the paper leaves out: the compliance at the base origin told at the TCP.
+/// What the paper leaves out: the compliance at the base origin told at the TCP, which lies at `tcp` in base,
+/// m.
 fn moved_to(tcp: &Vector3<f64>, at_base: &Matrix6<f64>) -> Matrix6<f64> {
     let mut shift = Matrix6::identity();
     shift.fixed_view_mut::<3, 3>(0, 3).copy_from(&-tcp.cross_matrix());
@@ -136,7 +146,8 @@ pub fn checks() -> Vec<Check> {
     ]
 }
 
-/// Distance of our stiffness from the inverse of the other compliance, relative to the condition.
+/// Distance of our stiffness from the inverse of the other compliance, relative to the condition; nothing where
+/// the condition is worse than is compared.
 fn stiffness_error(ours: &Matrix6<f64>, theirs: &Matrix6<f64>) -> Option<f64> {
     let stiffness = stiffness_at_tool(ours, 1.0);
     let inverse = theirs.lu().try_inverse()?;
@@ -144,7 +155,7 @@ fn stiffness_error(ours: &Matrix6<f64>, theirs: &Matrix6<f64>) -> Option<f64> {
         .then(|| (stiffness.matrix - inverse).norm() / inverse.norm() / stiffness.condition_number)
 }
 
-/// In-plane envelope over all readings, told at the base.
+/// In-plane envelope over all readings, told at the base: what another program found, mm.
 const LITERAL_RANGE_MM: [f64; 2] = [0.5, 1.2];
 
 /// A reading of the paper's experiment: tilt (deg), tool beyond the flange (m), height of the centre (m), branch.
@@ -188,7 +199,7 @@ fn literal_in_plane_mm(robot: &Robot, (tilt_deg, beyond, height, branch): Readin
     worst(in_plane)
 }
 
-/// The posture that holds the flange there, in the branch of this name.
+/// The posture that holds the flange there, in the branch of this name. Every reading has it.
 fn posture_of(robot: &Robot, branch: &str, base_from_flange: &Isometry) -> Posture {
     let branch: BranchPattern = branch.parse().expect("names of branches");
     let tool = ToolAt {

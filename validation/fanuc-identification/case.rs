@@ -1,4 +1,7 @@
 //! FANUC R-2000iC: deflections computed elsewhere, back to the joint stiffness behind them. See README.md.
+//!
+//! Plain least squares of fifteen readings for six unknown compliances, without anything known beforehand, so
+//! that nothing but the readings can lead to the answer.
 
 use nalgebra::Vector3;
 
@@ -46,6 +49,7 @@ pub fn checks() -> Vec<Check> {
     )]
 }
 
+/// The three components of a deflection as readings in m; their uncertainty is half of the last printed digit.
 fn readings(deflection_mm: Vector3<f64>) -> Vec<Reading> {
     let reading = |axis: Axis| Reading {
         what: Measured::Displacement(axis),

@@ -1,4 +1,7 @@
 //! FANUC R-2000iC: measured postures and forces to joint torques and deflection. See README.md.
+//!
+//! Controller angles go in, coupled as this controller couples them; tool point, torque about each joint axis
+//! and deflection come out. The measured deflections of the data set are not used here.
 
 use nalgebra::Vector3;
 
@@ -30,7 +33,7 @@ pub(crate) struct Row {
     pub predicted_mm: [f64; 3],
 }
 
-/// Every row.
+/// Every row: five of the 43 of the data set, all over its postures and forces.
 pub(crate) const ROWS: [Row; 5] = [
     Row {
         number: 1,

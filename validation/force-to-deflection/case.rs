@@ -1,4 +1,7 @@
 //! From a milling force to a static deflection, TX200. See README.md.
+//!
+//! `d = C F`: once with the printed compliance, three digits, once with that of the chain and its springs.
+//! Force and deflection are in the workpiece frame.
 
 use nalgebra::Vector3;
 
@@ -15,6 +18,7 @@ const WITNESS: &str = "independent computation";
 const FORCE: Vector3<f64> = Vector3::new(-150.7929, 35.6771, 14.3684);
 /// Deflection with the printed matrix, um.
 const DEFLECTION_UM: [f64; 3] = [-107.7, 78.6, -104.1];
+/// Lengths of the deflection with the printed matrix, and with the one before it was printed, um.
 const LENGTH_PRINTED_MATRIX_UM: f64 = 169.13;
 const LENGTH_UM: f64 = 169.19;
 

@@ -1,4 +1,8 @@
 //! Every posture of random poses against rs-opw-kinematics. See README.md.
+//!
+//! Two sets of postures a pose: each of ours takes the nearest of theirs, joints compared modulo a turn, and
+//! what is left on either side stands alone. Whatever the order of the two lists, the sets are equal where
+//! nothing stands alone.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -21,9 +25,13 @@ const SEED: u64 = 1;
 /// Poses an arm: two thirds made from joint positions, one third placed freely.
 const POSES: usize = 33_400;
 /// Poses with a posture nearer to a singularity than this are left out: product of the sines of elbow and wrist
-/// bend and of the distance of the wrist centre from the first axis over the arm's length.
+/// bend and of the distance of the wrist centre from the first axis over the arm's length. Each program makes
+/// its own choice there.
 const SINGULAR: f64 = 3e-4;
 
+/// One arm in both programs.
+///
+/// One arm in both programs.
 struct Arm {
     title: &'static str,
     robot: Robot,
@@ -32,6 +40,7 @@ struct Arm {
     links: [f64; 2],
 }
 
+/// The arm, with the lengths of its links from the parameters of the other program.
 fn arm(title: &'static str, robot: Robot, parameters: Parameters) -> Arm {
     let links = [parameters.c2, parameters.a2.hypot(parameters.c3)];
     Arm {
@@ -42,6 +51,7 @@ fn arm(title: &'static str, robot: Robot, parameters: Parameters) -> Arm {
     }
 }
 
+/// Three arms that differ in what goes wrong easily, see README.md.
 fn arms() -> [Arm; 3] {
     // opw_parameters_mh12.yaml of ros-industrial/motoman (433be15f).
     let mh12 = Parameters {
@@ -105,6 +115,7 @@ struct Tally {
 }
 
 impl Arm {
+    /// All poses of one arm, from the same seed.
     fn tally(&self) -> Tally {
         let mut random = Random::seeded(SEED);
         let mut tally = Tally::default();
@@ -122,6 +133,7 @@ impl Arm {
         tally
     }
 
+    /// Puts both answers to one pose side by side and counts.
     fn compare(&self, pose: &Pose, tally: &mut Tally) {
         let tool = ToolAt {
             flange_from_tool: &Isometry::identity(),
@@ -159,7 +171,7 @@ impl Arm {
         tally.alone += theirs.len();
     }
 
-    /// `|det J| / (l2 l3 (l2 + l3))`.
+    /// `|det J| / (l2 l3 (l2 + l3))`: 0 where joints are not determined, at most about 1.
     fn away_from_singularity(&self, posture: &Posture) -> f64 {
         let [l2, l3] = self.links;
         let square = jacobian(&self.robot, &posture.screws)
@@ -169,6 +181,7 @@ impl Arm {
     }
 }
 
+/// A pose of the other program as ours.
 fn isometry(pose: &Pose) -> Isometry {
     let (t, q) = (pose.translation, pose.rotation);
     let rotation = nalgebra::Quaternion::new(q.w, q.x, q.y, q.z);
@@ -191,6 +204,7 @@ pub fn checks() -> Vec<Check> {
     arms().iter().flat_map(|arm| rows(arm, &arm.tally())).collect()
 }
 
+/// What is told of one arm: how far joints are apart, and how many postures stand alone.
 fn rows(arm: &Arm, tally: &Tally) -> [Check; 2] {
     let Tally {
         compared,

@@ -1,4 +1,7 @@
 //! The analytic Jacobian against central differences of the forward kinematics. See README.md.
+//!
+//! `J_k ~ (x(q_k + h) - x(q_k - h)) / 2 h`, with `x` the pose of the TCP: displacement of its origin and
+//! rotation vector in base axes. The error is `h^2 / 6` times the third derivative, and rounding over `h`.
 
 use nalgebra::Vector6;
 
@@ -45,7 +48,8 @@ pub fn checks() -> Vec<Check> {
     .collect()
 }
 
-/// Greatest length of the difference of a column at a random posture.
+/// Greatest length of the difference of a column, m/rad (m/m for a joint that slides), at a random posture with
+/// a random tool.
 fn error_at(robot: &Robot, random: &mut Random) -> f64 {
     let mut q: Vec<f64> = random.joints::<8>()[..robot.joints().len()].to_vec();
     for (index, position) in q.iter_mut().enumerate() {
@@ -70,7 +74,7 @@ fn error_at(robot: &Robot, random: &mut Random) -> f64 {
     worst(errors)
 }
 
-/// Displacement of the origin, then rotation vector, base.
+/// Displacement of the origin (m), then rotation vector (rad), base axes; for small rotations.
 fn twist_between(from: &Isometry, to: &Isometry) -> Vector6<f64> {
     let linear = to.translation.vector - from.translation.vector;
     // Of a small rotation the vector part of the quaternion is half the angle; its error is the angle cubed / 24.

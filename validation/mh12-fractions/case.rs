@@ -1,4 +1,7 @@
 //! How much of a tilted plane holds 0.05 mm. See README.md.
+//!
+//! A fraction counts points of the grid, all with the same weight; a point without a posture in the branch is
+//! not within. Joint limits do not count.
 
 use crate::check::{Check, Gap};
 use crate::studies::answer_to;

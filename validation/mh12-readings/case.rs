@@ -1,4 +1,8 @@
 //! The paper's groove under every reading of what the paper leaves open. See README.md.
+//!
+//! A reading is one way to fill in what the paper does not say: tool length, plate angle, branch, and the frame
+//! that heights count from. Each is an ask of `study.toml`; here stand the numbers that another program found
+//! for it.
 
 use armill_study::answer::PathAnswer;
 
@@ -24,6 +28,7 @@ struct Reading {
     inside: Option<bool>,
 }
 
+/// All numbers as printed, one decimal; what is left out was not stated.
 const READINGS: [Reading; 11] = [
     Reading {
         name: "(i) horizontal plate, 250 mm, elbow up",
@@ -146,6 +151,7 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
+/// The greatest of the differences that one reading states, um.
 fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
     let away = |found: Option<f64>, printed: f64| found.unwrap_or(f64::NAN) - printed;
     let (least, greatest) = reading.in_plane;
@@ -169,6 +175,7 @@ fn deviations(reading: &Reading, path: &PathAnswer) -> Check {
     Check::printed(format!("{}: {told}", reading.name), WITNESS, gap, 3)
 }
 
+/// Whether every point of the path keeps inside the joint limits.
 fn is_inside(path: &PathAnswer) -> bool {
     path.outside_joint_limits == 0
 }

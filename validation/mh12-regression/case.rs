@@ -1,4 +1,7 @@
 //! MH12 at one point: posture, compliance, zero position, reach. See README.md.
+//!
+//! One posture that can be followed by hand: the arm stands in the plane y = 0, so that links and levers add up
+//! on paper. README.md does so.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -14,10 +17,13 @@ const WITNESS: &str = "independent computation";
 
 /// Tip (m) of the bare flange, tool along base +x.
 const TIP: Point3<f64> = Point3::new(1.0, 0.0, 0.8);
+/// The posture there, deg: S, L, U, R, B, T.
 const JOINTS_DEG: [f64; 6] = [0.0, 11.5959, -27.7845, 0.0, 39.3804, 0.0];
 /// Translational compliance there, um/N.
 const COMPLIANCE: Matrix3<f64> = Matrix3::new(2.8357, 0.0, 6.5188, 0.0, 2.3415, 0.0, 6.5188, 0.0, 23.2123);
+/// Flange in base with all joints at zero.
 const FLANGE_AT_ZERO_MM: [f64; 3] = [895.0, 0.0, 1264.0];
+/// How far the wrist centre comes from the first axis at the height of the shoulder.
 const REACH_MM: f64 = 1439.5;
 
 /// Chain, compliance and deviation at one posture against those computed before.

@@ -1,4 +1,14 @@
 //! From a published cut to its mean milling force, and on to the deflection of a TX200. See README.md.
+//!
+//! | symbol | value | unit |
+//! |---|---|---|
+//! | diameter, teeth, helix | 16, 4, 45 | mm, -, deg |
+//! | axial, radial depth | 1, 5 | mm |
+//! | spindle, feed | 3333, 40 | rpm, mm/s |
+//! | Ktc, Krc, Kac | 1930.4, 1159.6, 200.6 | N/mm2, no edge terms |
+//!
+//! Forces act on the tool: x along its feed, y to its left, z from part to spindle. The helix is a left hand's,
+//! as the sign of the printed z asks for.
 
 use std::f64::consts::TAU;
 
@@ -20,14 +30,18 @@ const WITNESS: &str = "independent computation";
 const LENGTH_PUBLISHED_N: f64 = 155.6;
 /// The same from the averaged equations, N.
 const LENGTH_N: f64 = 155.6207;
+/// Components of the mean force, up-milling and down-milling, N.
 const UP_N: [f64; 3] = [-150.7929, 35.6771, 14.3684];
 const DOWN_N: [f64; 3] = [39.3263, 149.8826, 14.3684];
 /// Deflection of the arm under the force of up-milling, um.
 const LENGTH_UM: f64 = 169.19;
 
+/// How far the cutter reaches into the part, m.
 const RADIAL_DEPTH: f64 = 5e-3;
+/// Angles of the spindle at which the force is summed.
 const STEPS_OF_A_TURN: u32 = 7200;
 
+/// The published cut, on the side that `immersion` says.
 fn process(immersion: Immersion) -> Process {
     let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
     let law = Mechanistic::new(shear, Vector3::zeros()).expect("published numbers are finite");
@@ -45,6 +59,7 @@ fn process(immersion: Immersion) -> Process {
     }
 }
 
+/// Its mean force on the tool, N.
 fn mean(immersion: Immersion) -> Vector3<f64> {
     let milling = process(immersion).milling(Advance::Level);
     milling.expect("a published cut can be made").mean().force
@@ -93,6 +108,7 @@ pub fn checks() -> Vec<Check> {
     checks
 }
 
+/// The mean in closed form against the sum of the force at even angles: two ways through the same model.
 fn mean_of_a_turn(closed: Vector3<f64>) -> Check {
     let milling = process(Immersion::Up(RADIAL_DEPTH)).milling(Advance::Level);
     let milling = milling.expect("a published cut can be made");
@@ -109,6 +125,7 @@ fn mean_of_a_turn(closed: Vector3<f64>) -> Check {
     )
 }
 
+/// The static deflection of the arm under this mean force: the end of the way from cut to offset.
 fn deflection(force: Vector3<f64>) -> Check {
     let robot = arms::tx200(OLDER_SPRINGS);
     let joints = robot.compliance().expect("the arm was made with springs");

@@ -1,4 +1,13 @@
 //! Equation (11) of the paper, with its arctangent, against our split. See README.md.
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `v` | deviation in base, of any unit |
+//! | `alpha` | tilt of the plane about base y; at 0 it is upright and faces the robot |
+//! | `x'` | along the normal of the plane, `y, z'` in it |
+//!
+//! The paper takes `arctan[dz/dx]`, which does not know the quadrant: signs along the normal are right with two
+//! arguments only.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -27,7 +36,7 @@ pub fn checks() -> Vec<Check> {
     let mut random = Random::seeded(SEED);
     let (mut in_plane, mut normal, mut signed) = (Vec::new(), Vec::new(), Vec::new());
     for _ in 0..VECTORS {
-        // Vectors of up to a length of 1; tilts as the paper allows, -90 to 90 deg.
+        // Components of up to 1; tilts as the paper allows, -90 to 90 deg.
         let (v, alpha) = (random.vector(1.0), random.between(-0.5 * PI, 0.5 * PI));
         let split = Split::of(&v, Plane::tilted(Point3::origin(), alpha).normal());
         let (x, plane) = equation_11(&v, alpha, (v.z / v.x).atan());

@@ -1,4 +1,8 @@
 //! Arms of the cases, typed from their sources; those of the library come from there.
+//!
+//! A chain is a row of elementary motions from `base_link` to the flange, `Along` an axis in m or `About` one
+//! in rad, each by a constant or by the position of a joint; signs and couplings lead from the controller's
+//! positions to those of the chain. Each arm names the file and the commit that its numbers were typed from.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -9,18 +13,21 @@ use Amount::{Constant, Joint as Var};
 use Axis::{X, Y, Z};
 use Motion::{About, Along};
 
-/// A robot of the library.
+/// A robot of the library, with the compliances that the library gives.
 pub fn library(name: &str) -> Robot {
     let found = armill_study::library::robot(name).expect("the library has it");
     found.expect("every robot of the library reads").robot
 }
 
-/// Yaskawa MH12 of the library.
+/// Yaskawa MH12 of the library, whose compliances are those of the paper.
 pub fn mh12() -> Robot {
     library("yaskawa/mh12")
 }
 
-/// KUKA KR 150 R3100-2: `kr150r3100_2_macro.xacro` of ros-industrial/kuka_experimental (e78bbd15).
+/// KUKA KR 150 R3100-2, without compliances: `kr150r3100_2_macro.xacro` of ros-industrial/kuka_experimental
+/// (e78bbd15).
+///
+/// Its first axis counts downwards, and its flange is turned so that z points out of it.
 pub fn kr150() -> Robot {
     let motions = vec![
         Along(Z, Constant(0.645)),
@@ -124,7 +131,8 @@ pub fn tx200(stiffness_n_m_per_rad: [f64; 6]) -> Robot {
     with_stiffness(six_joints("tx200", motions, [1; 6]), stiffness_n_m_per_rad)
 }
 
-/// An arm of our own on a rail, with a telescope for its fourth joint: chains with sliding joints.
+/// An arm of our own: seven joints, a rail first, a telescope for the fourth, the fifth counted against the
+/// chain and the sixth coupled to it. It has no compliances.
 pub fn railed() -> Robot {
     let motions = vec![
         Along(Y, Var(0)),
@@ -162,10 +170,12 @@ fn origin([x, y, z]: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> [Motion; 6] {
     ]
 }
 
+/// Six plain joints, each counted with the chain or against it (1, -1).
 fn six_joints(name: &str, motions: Vec<Motion>, signs: [i8; 6]) -> Robot {
     Robot::new(name, motions, joints(signs)).expect("its chain is typed here")
 }
 
+/// Joints without names and limits of their own.
 fn joints(signs: [i8; 6]) -> Vec<Joint> {
     let joint = |sign| Joint {
         sign: if sign > 0 { Sign::Positive } else { Sign::Negative },
@@ -174,6 +184,7 @@ fn joints(signs: [i8; 6]) -> Vec<Joint> {
     signs.map(joint).to_vec()
 }
 
+/// The robot with a spring about each joint axis; an infinite stiffness is a compliance of zero.
 fn with_stiffness(robot: Robot, stiffness_n_m_per_rad: [f64; 6]) -> Robot {
     let joints = stiffness_n_m_per_rad.map(|k| JointCompliance {
         value: 1.0 / k,

@@ -2,6 +2,14 @@
 //!
 //! The words of a check are the same on every machine: errors at the level of rounding are told as a power of ten
 //! well above them, errors against printed numbers with fixed decimals.
+//!
+//! | made by | told | for |
+//! |---|---|---|
+//! | `Check::printed` | the error with fixed decimals | numbers that a source prints: it errs by half of its last digit |
+//! | `Check::computed` | `below 1e-12` | two computations that differ by rounding |
+//! | `Check::none_wrong` | a count | things that must not be |
+//!
+//! A check holds where the greatest error is not above the tolerance, which the page of its case derives.
 
 /// Smallest exponent that is told: below it one machine finds zero where another finds a few bits.
 const LEAST_EXPONENT: i32 = -14;
@@ -11,7 +19,7 @@ const MORE_ERROR: f64 = 3.0;
 /// The greatest error found and the greatest that may be, in the same unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Gap {
-    /// As found, never negative; infinite where there was nothing to compare.
+    /// As found, never negative; infinite where there was nothing to compare, or where a number is none.
     pub worst: f64,
     /// As permitted.
     pub tolerance: f64,
@@ -35,19 +43,21 @@ pub struct Check {
 }
 
 impl Check {
-    /// A comparison with printed numbers: the error is told with this many decimals.
+    /// A comparison with printed numbers: the error is told with this many decimals. Take so many that the
+    /// words show how much of the tolerance is used.
     pub fn printed(what: impl Into<String>, witness: &'static str, gap: Gap, decimals: usize) -> Check {
         let reached = format!("{:.decimals$}", gap.worst);
         Check::new(what.into(), witness, gap, reached)
     }
 
-    /// A comparison of two computations: the error is told as the first power of ten above three times it.
+    /// A comparison of two computations: the error is told as the first power of ten above three times it,
+    /// never less than 1e-14.
     pub fn computed(what: impl Into<String>, witness: &'static str, gap: Gap) -> Check {
         let reached = format!("below {}", power_of_ten_above(MORE_ERROR * gap.worst));
         Check::new(what.into(), witness, gap, reached)
     }
 
-    /// A count of things that must not be.
+    /// A count of things that must not be; holds at 0 alone.
     pub fn none_wrong(what: impl Into<String>, witness: &'static str, wrong: usize) -> Check {
         Check {
             what: what.into(),
@@ -58,6 +68,9 @@ impl Check {
         }
     }
 
+    /// The tolerance is told plainly from 1e-5 on, below as a power.
+    ///
+    /// The tolerance is told plainly from 1e-5 on, below as a power of ten.
     fn new(what: String, witness: &'static str, gap: Gap, reached: String) -> Check {
         let with_unit = |number: String| format!("{number} {}", gap.unit).trim_end().to_owned();
         let plain = gap.tolerance >= 1e-5;
@@ -93,7 +106,8 @@ pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
         .unwrap_or(f64::INFINITY)
 }
 
-/// The greatest difference between these numbers, one by one; infinite if there are not as many of both.
+/// The greatest difference between these numbers, one by one; infinite if there are not as many of both, or
+/// none.
 pub fn worst_difference(found: &[f64], expected: &[f64]) -> f64 {
     if found.len() != expected.len() {
         return f64::INFINITY;
@@ -101,6 +115,7 @@ pub fn worst_difference(found: &[f64], expected: &[f64]) -> f64 {
     worst(found.iter().zip(expected).map(|(a, b)| a - b))
 }
 
+/// `1e-9` for 3e-10: the first power of ten above, not below [`LEAST_EXPONENT`].
 fn power_of_ten_above(error: f64) -> String {
     if !error.is_finite() {
         return "infinity".to_owned();

@@ -3,6 +3,15 @@
 //! Every case is a folder of `validation/`: `README.md` says what is compared and where the witness comes from,
 //! `case.rs` holds its numbers and gives its checks. [`CASES`] lists them; the program writes [`table`], and
 //! the tests assert that every case holds and that the committed table is what the cases give.
+//!
+//! | kind of witness | what it shows |
+//! |---|---|
+//! | published numbers | that the model is the one that others mean |
+//! | an independent computation from published inputs | that inputs are read as meant and the arithmetic is right |
+//! | another program | that nothing is missing over very many random inputs |
+//! | the same quantity on a second path | that two derivations agree to rounding |
+//!
+//! Cases are seeded: each run compares the same numbers, on any machine and any number of threads.
 
 pub mod check;
 pub mod table;

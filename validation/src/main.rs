@@ -1,4 +1,13 @@
 //! Runs every validation case, tells how near each came, and writes `validation/TABLE.md`.
+//!
+//! ```text
+//! holds tx200-compliance: translational compliance in the workpiece frame, 9 numbers: 0.00040 um/N (may be 0.0005 um/N)
+//! ...
+//! validation: 13 cases, 0 checks fail
+//! ```
+//!
+//! The table is written even where a check fails, so that it shows what was reached. Exit code 1 then, or where
+//! the table cannot be written.
 #![expect(
     clippy::print_stdout,
     clippy::print_stderr,

@@ -2,6 +2,14 @@
 //!
 //! Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", and the public-domain
 //! code of Vigna, `prng.di.unimi.it/splitmix64.c`; its three constants.
+//!
+//! ```text
+//! state += 0x9e3779b97f4a7c15;  z = state
+//! z = (z ^ z >> 30) 0xbf58476d1ce4e5b9;  z = (z ^ z >> 27) 0x94d049bb133111eb;  z ^ z >> 31        modulo 2^64
+//! ```
+//!
+//! Only sums, products and shifts of whole numbers, so that the stream is the same everywhere; orientations go
+//! through sines besides, which may differ in the last bit.
 
 use std::f64::consts::PI;
 
@@ -17,6 +25,7 @@ impl Random {
         Random(seed)
     }
 
+    /// The next 64 random bits.
     fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -31,17 +40,18 @@ impl Random {
         lower + unit * (upper - lower)
     }
 
-    /// Joint positions of a whole turn each, rad.
+    /// Positions of `N` joints that turn, each in -pi to pi rad.
     pub fn joints<const N: usize>(&mut self) -> [f64; N] {
         [0.0; N].map(|_| self.between(-PI, PI))
     }
 
-    /// A point in the cube of this half side.
+    /// A point in the cube about the origin of this half side, in its unit; its length goes to sqrt(3) times
+    /// that.
     pub fn vector(&mut self, half_side: f64) -> Vector3<f64> {
         Vector3::zeros().map(|_: f64| self.between(-half_side, half_side))
     }
 
-    /// An orientation, any.
+    /// An orientation, each as likely as any: roll and yaw even over a turn, the sine of pitch even in -1 to 1.
     pub fn orientation(&mut self) -> UnitQuaternion<f64> {
         let [roll, yaw, _] = self.joints::<3>();
         UnitQuaternion::from_euler_angles(roll, self.between(-1.0, 1.0).asin(), yaw)

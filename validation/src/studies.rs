@@ -1,4 +1,8 @@
 //! Studies of the cases, run as a user's study is run.
+//!
+//! A case of this kind goes through the whole program but its command: the text is read and checked, points are
+//! made and computed, and the answer is what `result.json` would hold. No file is read but the study itself,
+//! none is written.
 
 use std::path::Path;
 
@@ -7,7 +11,8 @@ use armill_study::answer::{PathAnswer, StudyAnswer, answer};
 use armill_study::file::resolve::read;
 use armill_study::run::run;
 
-/// The answer to the study in this text, which `path` names in messages.
+/// The answer to the study in this text, which `path` names in messages. Not checked: that the study is sound;
+/// a slip in the text of a case ends the program.
 pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
     let study = match read(path, Path::new("."), text.as_bytes()) {
         Ok(study) => study,
@@ -17,7 +22,7 @@ pub fn answer_to(path: &str, text: &str) -> StudyAnswer {
     answer(&study, &found)
 }
 
-/// The path of this name.
+/// The path of this name; the study of the case has it.
 pub fn path<'a>(answer: &'a StudyAnswer, name: &str) -> &'a PathAnswer {
     answer
         .paths

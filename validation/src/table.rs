@@ -1,4 +1,8 @@
 //! The table of achieved errors, `validation/TABLE.md`.
+//!
+//! The table is committed, and a test asserts that it is what the cases give: so its words must not change from
+//! machine to machine, nor without a change of a number. The first row of a case links its page, further rows
+//! leave the name out.
 
 use std::fmt::Write;
 
@@ -7,6 +11,7 @@ use crate::{Case, Check};
 /// Where the table lies.
 pub const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/TABLE.md");
 
+/// What stands over the rows.
 const HEAD: &str = "\
 # Validation: achieved errors
 
@@ -18,7 +23,7 @@ level of rounding are told as the first power of ten above three times the error
 |---|---|---|---:|---:|---|
 ";
 
-/// The text of the table.
+/// The text of the table, Markdown, cases in the order of [`crate::CASES`].
 pub fn table(results: &[(&Case, Vec<Check>)]) -> String {
     let mut text = HEAD.to_owned();
     for (case, checks) in results {

@@ -1,4 +1,12 @@
 //! Staubli TX200 against a published compliance matrix. See README.md.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `k` | springs about joint axes, about bending axes | N m/rad |
+//! | `C` | translational compliance at the TCP, upper left 3 x 3 | um/N |
+//! | `E` | potential energy of links and spindle; gravity's torque on a drive is `-dE/dq` | J |
+//!
+//! Base and workpiece frame share z; the workpiece is turned by -90 deg about it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -17,7 +25,8 @@ use crate::check::{Check, Gap, worst_difference};
 const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
 const COMPUTED: &str = "independent computation";
 
-/// Springs of the older identification, joints 4 to 6 rigid, N m/rad.
+/// Springs of the older identification, joints 4 to 6 rigid, N m/rad: those that the published matrix belongs
+/// to.
 pub const OLDER_SPRINGS: [f64; 6] = [
     1.15e6,
     3.76e6,
@@ -26,15 +35,17 @@ pub const OLDER_SPRINGS: [f64; 6] = [
     f64::INFINITY,
     f64::INFINITY,
 ];
-/// Springs about the drive axes of Huynh et al., N m/rad.
+/// Springs about the drive axes of Huynh et al., N m/rad, the newer set; the source warns not to mix the two.
 const DRIVE_SPRINGS: [f64; 6] = [2.3e6, 8.6e6, 2.8e6, 3.0e6, 0.2e6, 0.9e6];
 
+/// The published pose: TCP in base, m; its joints, deg.
 const TCP: [f64; 3] = [-0.025, -1.6224, 0.4857];
 const JOINTS_DEG: [f64; 6] = [-91.2017, 26.2433, 113.0264, -2.0609, -34.2838, 1.3920];
 /// Translational compliance at the TCP in the workpiece frame, um/N.
 pub const COMPLIANCE_IN_PART: Matrix3<f64> =
     Matrix3::new(0.795, 0.019, 0.801, 0.019, 2.289, -0.017, 0.801, -0.017, 1.204);
 
+/// The second pose: joints, deg, and the TCP there in base, m, to 16 digits.
 const SECOND_JOINTS_DEG: [f64; 6] = [-90.0, 30.0, 95.0, 0.0, 0.0, 0.0];
 const SECOND_TCP: [f64; 3] = [0.0, -1.647_400_025_592_229_6, 0.480_698_121_343_784_3];
 /// Bending springs about the x and y axes of the joint frames, N m/rad.
@@ -172,6 +183,7 @@ pub fn workpiece() -> Isometry {
     from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(0.0, 0.0, -FRAC_PI_2))
 }
 
+/// The spindle on the flange: TCP in m, turned by 75 deg about y.
 fn flange_from_tool() -> Isometry {
     from_xyz_and_fixed_angles(
         Vector3::new(0.277, 0.0, 0.326),
@@ -179,7 +191,8 @@ fn flange_from_tool() -> Isometry {
     )
 }
 
-/// Translational compliance at the second pose in base with bending springs beside those of the drives, um/N.
+/// Translational compliance at the second pose in base with bending springs beside those of the drives, um/N:
+/// 18 in all.
 fn with_bending(robot: &Robot) -> Matrix3<f64> {
     let axes = [Vector3::x(), Vector3::y()];
     let of_joint = |(joint, k): (usize, &[f64; 2])| {
@@ -207,6 +220,7 @@ fn with_bending(robot: &Robot) -> Matrix3<f64> {
     compliance.fixed_view::<3, 3>(0, 0) * 1e6
 }
 
+/// The arm as the sources of deviation see it.
 fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
@@ -227,7 +241,8 @@ const MASSES: [(f64, [f64; 3]); 7] = [
     (61.4, [-0.048, -0.001, 0.173]),
 ];
 
-/// Largest difference between the torques of gravity and `-dE/dq`, N m, over postures all over the range.
+/// Largest difference between the torques of gravity and `-dE/dq`, N m, over ten postures all over the range,
+/// by central differences with a step of 1e-5 rad.
 fn gravity_gap(robot: &Robot) -> f64 {
     let mass = |(index, (mass, centre)): (usize, &(f64, [f64; 3]))| Mass {
         seat: if index < 6 {

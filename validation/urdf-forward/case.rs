@@ -1,4 +1,8 @@
 //! Robots read from URDF against an evaluation of the tree that knows nothing of armill. See README.md.
+//!
+//! Two questions: does the reader of URDF put the flange where the text does, and are the robots of the library
+//! those of the files? Poses are compared by the distance of their origins (m) and the angle between their axes
+//! (rad).
 
 mod tree;
 
@@ -18,11 +22,13 @@ const SEED: u64 = 5;
 /// Postures a file.
 const POSTURES: usize = 1000;
 
+/// The files of the case, written by us from the numbers that the page names.
 const MH12: &str = include_str!("mh12.urdf");
 const KR120: &str = include_str!("kr120r2500pro.urdf");
 const OBLIQUE: &str = include_str!("oblique.urdf");
 
-/// How far (m, rad) `robot` puts its flange from where the text does, over random postures.
+/// How far (m, rad) `robot` puts its flange from where the text does, at worst over random postures; infinite
+/// where the two do not have as many joints.
 fn apart(robot: &Robot, text: &str) -> [f64; 2] {
     let parsed = urdf_rs::read_from_string(text).expect("it is a URDF");
     let count = tree::moving_joints(&parsed);
@@ -43,7 +49,7 @@ fn apart(robot: &Robot, text: &str) -> [f64; 2] {
     [worst(metres), worst(radians)]
 }
 
-/// Distance (m) and angle (rad, small) between two frames.
+/// Distance (m) and angle (rad, small) between two frames; the angle to second order.
 fn between(a: &Matrix4<f64>, b: &Matrix4<f64>) -> (f64, f64) {
     let rotation = |m: &Matrix4<f64>| -> Matrix3<f64> { m.fixed_view::<3, 3>(0, 0).into() };
     let turn = rotation(a) * rotation(b).transpose();

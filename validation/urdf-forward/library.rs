@@ -1,4 +1,7 @@
 //! The robot library beside the files its numbers were typed from, where they are at hand.
+//!
+//! Positions are random, a whole turn a joint, whatever the limits: lengths, signs, order and zeros all show.
+//! Files lie below `ARMILL_SAMPLES`; without it the tests say that they are skipped.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -54,6 +57,7 @@ const URDFS: [(&str, &str, f64); 28] = [
     ("yaskawa/mh50", "motoman/mh50_macro.xacro", 0.0),
 ];
 
+/// Library robot, and the file of its seven lengths, offsets and signs.
 const OPW: [(&str, &str); 9] = [
     ("fanuc/m20ia", "fanuc/opw_parameters_m20ia.yaml"),
     ("fanuc/m20ia-10l", "fanuc/opw_parameters_m20ia10l.yaml"),
@@ -108,16 +112,22 @@ fn assert_same(name: &str, file: &str, expected: impl Fn(&[f64]) -> Matrix4<f64>
     }
 }
 
-/// Parameters of an ortho-parallel basis with spherical wrist. Source: Brandstötter, Angerer, Hofbaur 2014, "An
-/// analytical solution of the inverse kinematics problem of industrial serial manipulators with an ortho-parallel
-/// basis and a spherical wrist".
+/// Parameters of an ortho-parallel basis with spherical wrist.
+///
+/// Forward: wrist and flange in the plane of the arm, turned about the first axis; `t = sign q - offset`.
+/// Source: Brandstötter, Angerer, Hofbaur 2014, "An analytical solution of the inverse kinematics problem of
+/// industrial serial manipulators with an ortho-parallel basis and a spherical wrist".
 struct Opw {
+    /// a1, a2, b, c1, c2, c3, c4, m.
     lengths: [f64; 7],
+    /// One a joint, rad.
     offsets: Vec<f64>,
+    /// One a joint, 1 or -1.
     signs: Vec<f64>,
 }
 
 impl Opw {
+    /// From the lines of the file; it is as flat as these files are.
     fn read(yaml: &str) -> Opw {
         let value = |key: &str| {
             let line = yaml.lines().find(|line| line.trim_start().starts_with(key));
@@ -136,6 +146,7 @@ impl Opw {
         }
     }
 
+    /// The flange in base at these positions of the controller (rad).
     fn base_from_flange(&self, q: &[f64]) -> Matrix4<f64> {
         let [a1, a2, b, c1, c2, c3, c4] = self.lengths;
         let t: Vec<f64> = (0..6).map(|i| q[i] * self.signs[i] - self.offsets[i]).collect();

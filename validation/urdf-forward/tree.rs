@@ -1,6 +1,10 @@
 //! The forward kinematics of a URDF by itself: 4 x 4 products along its joints, rotations by Rodrigues' formula.
 //!
 //! Of armill it knows nothing; of `urdf-rs` it takes the parsed text alone.
+//!
+//! `root_from_tool0 = product over the joints of (origin)(motion)`, from the root down the only way to `tool0`.
+//! Fixed joints move nothing; a joint that mimics on this way is not known here, and counts as one that moves
+//! by itself.
 
 use nalgebra::{Matrix3, Matrix4, Vector3};
 use urdf_rs::{Joint, JointType};
@@ -31,6 +35,7 @@ pub fn moving_joints(urdf: &urdf_rs::Robot) -> usize {
         .count()
 }
 
+/// The joints from the root to `tool0`, in this order: found upwards from the link, by child and parent.
 fn joints_to_tool0(urdf: &urdf_rs::Robot) -> Vec<&Joint> {
     let parent_of = |link: &str| urdf.joints.iter().find(|joint| joint.child.link == link);
     let mut joints: Vec<&Joint> =
@@ -39,7 +44,7 @@ fn joints_to_tool0(urdf: &urdf_rs::Robot) -> Vec<&Joint> {
     joints
 }
 
-/// The origin of a joint: `Rz(yaw) Ry(pitch) Rx(roll)`.
+/// The origin of a joint in the frame of its parent: `Rz(yaw) Ry(pitch) Rx(roll)`, then `xyz`.
 fn at(joint: &Joint) -> Matrix4<f64> {
     let [roll, pitch, yaw] = joint.origin.rpy.0;
     let rotation =
@@ -47,12 +52,13 @@ fn at(joint: &Joint) -> Matrix4<f64> {
     matrix(rotation, Vector3::from(joint.origin.xyz.0))
 }
 
-/// `R = 1 + sin(a) [k] + (1 - cos(a)) [k]^2`
+/// `R = 1 + sin(a) [k] + (1 - cos(a)) [k]^2` with the cross product matrix `[k]` of a unit axis.
 fn rodrigues(k: Vector3<f64>, angle: f64) -> Matrix3<f64> {
     let cross = Matrix3::new(0.0, -k.z, k.y, k.z, 0.0, -k.x, -k.y, k.x, 0.0);
     Matrix3::identity() + cross * angle.sin() + cross * cross * (1.0 - angle.cos())
 }
 
+/// Rotation and translation as one 4 x 4 matrix.
 fn matrix(rotation: Matrix3<f64>, translation: Vector3<f64>) -> Matrix4<f64> {
     let mut matrix = Matrix4::identity();
     matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&rotation);

@@ -1,4 +1,11 @@
 //! The one macro of a ROS-Industrial xacro file as a URDF: as much of xacro as these files use, by itself.
+//!
+//! ```text
+//! <xacro:macro name="..." params="prefix"> ... ${prefix}link_1 ... ${radians(90)} ... ${-pi/2} ... </xacro:macro>
+//! ```
+//!
+//! Comments and tags of xacro inside the macro are taken out; properties, conditions and includes are not
+//! worked out. armill reads xacro by a reader of its own, with which this shares nothing.
 
 use std::f64::consts::PI;
 
