@@ -5,7 +5,7 @@
 //!
 //! | made by | told | for |
 //! |---|---|---|
-//! | `Check::printed` | the error with fixed decimals | numbers that a source prints: it errs by half of its last digit |
+//! | `Check::printed` | the error with fixed decimals | numbers that a source prints: off by half of the last digit |
 //! | `Check::computed` | `below 1e-12` | two computations that differ by rounding |
 //! | `Check::none_wrong` | a count | things that must not be |
 //!
