@@ -65,6 +65,18 @@ pub struct Input {
 /// A report being written; what is added appears in the order of adding.
 ///
 /// Each method takes the report and gives it back, so that a report reads as a chain that ends in `to_html`.
+///
+/// ```
+/// use armill_report::html::Report;
+///
+/// let html = Report::new("Groove")
+///     .question("Does the groove hold 50 µm?")
+///     .answer("Yes, by 12 µm.")
+///     .section("How it was computed")
+///     .paragraph("From the compliances of the joints.")
+///     .to_html();
+/// assert!(html.starts_with("<!doctype html>"));
+/// ```
 #[derive(Clone, Debug, Default)]
 pub struct Report {
     title: String,

@@ -30,6 +30,23 @@ pub struct Overlay {
 
 /// What a deviation map shows. The default is an empty map, which draws as a notice; set the fields that
 /// matter.
+///
+/// ```
+/// use armill_report::{DeviationMap, Grid, PointState};
+///
+/// let map = DeviationMap {
+///     title: "Vertical plate".to_owned(),
+///     grid: Grid {
+///         horizontal_mm: vec![400.0, -400.0], // base y as seen from the tool side
+///         vertical_mm: vec![0.0, 400.0, 800.0],
+///         points: [31.0, 44.0, 35.0, 52.0, 40.0, 61.0].map(PointState::Reached).to_vec(),
+///     },
+///     quantity: "in-plane deviation (µm)".to_owned(),
+///     limit_um: Some(50.0),
+///     ..DeviationMap::default()
+/// };
+/// assert!(map.to_svg().starts_with("<svg "));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DeviationMap {
     /// First line, bold.
