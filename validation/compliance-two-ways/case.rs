@@ -161,6 +161,8 @@ const LITERAL_RANGE_MM: [f64; 2] = [0.5, 1.2];
 /// A reading of the paper's experiment: tilt (deg), tool beyond the flange (m), height of the centre (m), branch.
 type Reading = (f64, f64, f64, &'static str);
 
+/// In the order of their names in mh12-readings: (i) with elbow up, (ii) with elbow down and up, (iii) with
+/// elbow down, whose heights count from the controller's frame, 0.45 m above the base.
 const READINGS: [Reading; 4] = [
     (90.0, 0.150, 0.8, "front elbow-up"),
     (0.0, 0.0, 0.8, "front elbow-down"),

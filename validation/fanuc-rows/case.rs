@@ -17,7 +17,8 @@ const WITNESS: &str = "independent computation";
 /// Tool point in the flange frame, m.
 pub(crate) const TOOL_POINT: Vector3<f64> = Vector3::new(0.0069, 0.2453, 0.3193);
 
-/// One measured pose and what follows from it.
+/// One measured pose and what follows from it: angles and force were measured, the rest another program
+/// computed from them.
 pub(crate) struct Row {
     /// From 1, as in the data set.
     pub number: usize,

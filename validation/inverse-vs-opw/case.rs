@@ -33,8 +33,11 @@ const SINGULAR: f64 = 3e-4;
 ///
 /// One arm in both programs.
 struct Arm {
+    /// Maker and type, for the table.
     title: &'static str,
+    /// As armill has it: a chain of motions.
     robot: Robot,
+    /// As the other program has it: seven lengths, offsets and signs.
     witness: OPWKinematics,
     /// Upper arm and forearm, m.
     links: [f64; 2],
@@ -120,6 +123,7 @@ impl Arm {
         let mut random = Random::seeded(SEED);
         let mut tally = Tally::default();
         for index in 0..POSES {
+            // Half the side of their cube is what both links reach, so that some free poses have no posture.
             let pose = if index % 3 < 2 {
                 self.witness.forward(&random.joints())
             } else {
@@ -152,6 +156,7 @@ impl Arm {
         tally.compared += 1;
         tally.unreachable += usize::from(mine.is_empty() && theirs.is_empty());
         for posture in &mine {
+            // Taken away once it is matched: no posture is the partner of two.
             let nearest = theirs
                 .iter()
                 .map(|other| apart(&posture.joints, other))

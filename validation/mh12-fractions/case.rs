@@ -6,6 +6,7 @@
 use crate::check::{Check, Gap};
 use crate::studies::answer_to;
 
+/// Four planes, one ask each.
 const STUDY: &str = include_str!("study.toml");
 /// Points of a plane.
 const POINTS: usize = 21 * 21;

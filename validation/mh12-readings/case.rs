@@ -130,6 +130,7 @@ pub fn checks() -> Vec<Check> {
         },
         3,
     ));
+    // A reading that says nothing about limits cannot be wrong about them.
     let wrong = READINGS
         .iter()
         .filter(|r| r.inside.is_some_and(|inside| inside != is_inside(&of(r))))

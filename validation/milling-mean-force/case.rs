@@ -23,7 +23,9 @@ use crate::arms;
 use crate::check::{Check, Gap, worst_difference};
 use crate::tx200_compliance::{OLDER_SPRINGS, posture, workpiece};
 
+/// Who published the cut and the length of its force.
 const PUBLISHED: &str = "rafisondi/sensitivity_milling_analysis";
+/// The averaged equations worked by themselves, with more digits.
 const WITNESS: &str = "independent computation";
 
 /// Length of the mean force of the averaged model, N, as published.
@@ -43,6 +45,7 @@ const STEPS_OF_A_TURN: u32 = 7200;
 
 /// The published cut, on the side that `immersion` says.
 fn process(immersion: Immersion) -> Process {
+    // N/mm2 in the source, Pa here: tangential, radial, axial.
     let shear = Vector3::new(1930.4e6, 1159.6e6, 200.6e6);
     let law = Mechanistic::new(shear, Vector3::zeros()).expect("published numbers are finite");
     let cutter = Cutter::flat(16e-3, 4)

@@ -29,6 +29,7 @@ pub fn mh12() -> Robot {
 ///
 /// Its first axis counts downwards, and its flange is turned so that z points out of it.
 pub fn kr150() -> Robot {
+    // Column, shoulder, upper arm, elbow and forearm, wrist, and the turn of the flange.
     let motions = vec![
         Along(Z, Constant(0.645)),
         About(Z, Var(0)),
@@ -50,6 +51,7 @@ pub fn kr150() -> Robot {
 /// Staubli TX2-90, whose second axis stands 50 mm to the side: `tx2_90_macro.xacro` of
 /// ros-industrial/staubli_experimental (256a71ac).
 pub fn tx2_90() -> Robot {
+    // Column, shoulder with the second axis to the side, upper arm, forearm, wrist.
     let motions = vec![
         Along(Z, Constant(0.478)),
         About(Z, Var(0)),
@@ -81,6 +83,7 @@ pub fn r2000ic() -> Robot {
         (FRAC_PI_2, 0.0, 0.0, 0.0),
         (-FRAC_PI_2, 0.0, 0.0, 0.215),
     ];
+    // Modified parameters: about and along the x of the joint before, then about and along the joint's own z.
     let motions = rows
         .into_iter()
         .enumerate()

@@ -3,6 +3,14 @@
 //! The table is committed, and a test asserts that it is what the cases give: so its words must not change from
 //! machine to machine, nor without a change of a number. The first row of a case links its page, further rows
 //! leave the name out.
+//!
+//! | column | what stands in it |
+//! |---|---|
+//! | case | the folder, linked to its page, in its first row |
+//! | what | what was compared, and how often |
+//! | witness | with whose numbers |
+//! | tolerance, reached error | how near it must come, and came, in one unit |
+//! | verdict | `holds` or `FAILS` |
 
 use std::fmt::Write;
 

@@ -154,6 +154,7 @@ pub fn checks() -> Vec<Check> {
 
 /// The posture that holds the published TCP pose in the branch of the printed joints.
 pub fn posture(robot: &Robot) -> Posture {
+    // The tool looks down on the workpiece, turned by half a turn about its z.
     let orientation = workpiece() * from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(PI, 0.0, PI));
     let base_from_tool = Isometry::from_parts(TCP.into(), orientation.rotation);
     let tool = ToolAt {

@@ -35,6 +35,7 @@ fn apart(robot: &Robot, text: &str) -> [f64; 2] {
     if count != robot.joints().len() {
         return [f64::INFINITY; 2];
     }
+    // As many positions are drawn for each posture whatever the arm, so that arms share their numbers.
     let mut random = Random::seeded(SEED);
     let (metres, radians) = (0..POSTURES)
         .map(|_| {

@@ -33,7 +33,7 @@ const NOTHING: &str = "There is nothing to draw: the record has no values.";
 /// whatever the number of samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Envelope {
-    /// From, to.
+    /// From, to, s.
     span_s: [f64; 2],
     columns: Vec<Option<[f64; 2]>>,
 }
@@ -41,7 +41,8 @@ pub struct Envelope {
 impl Envelope {
     /// Of samples (time in s, value in the unit of the trace) in a span of time (from, to in s), in the order
     /// of time; what lies outside or is not finite is left out. A column without a sample stays empty; a span
-    /// of no length leaves all empty.
+    /// of no length leaves all empty. A column also holds the last value of the column right before it, from
+    /// which its line comes.
     pub fn of(span_s: [f64; 2], samples: impl IntoIterator<Item = (f64, f64)>) -> Envelope {
         let mut columns = vec![None; COLUMNS];
         let length = span_s[1] - span_s[0];

@@ -36,6 +36,7 @@ fn grid(n: usize, distance_mm: f64) -> Grid {
     }
 }
 
+/// A vertical plate as seen from the tool side: y grows to the left.
 fn axes() -> AxisLabels {
     AxisLabels {
         horizontal: "base y (mm)".into(),
@@ -52,6 +53,7 @@ fn circle_mm(centre: [f64; 2], radius: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
+/// A map of `n` by `n` points at this distance.
 fn map(n: usize, distance_mm: f64) -> DeviationMap {
     DeviationMap {
         title: format!("In-plane deviation on a vertical plate at x = {distance_mm:.0} mm"),

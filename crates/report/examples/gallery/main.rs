@@ -33,6 +33,7 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> Result<(), Box<dyn Error>> 
     Ok(std::fs::write(folder.join(name), bytes)?)
 }
 
+/// The report with a table, inputs and all pictures.
 fn report(pictures: &[(&str, String)]) -> String {
     let column = |name: &str, unit: &str, align| Column {
         name: name.into(),

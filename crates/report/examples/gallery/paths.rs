@@ -6,6 +6,7 @@ use armill_report::{
     TrackMap, VectorField,
 };
 
+/// Load cases by the direction of the feed.
 const CASES: [&str; 4] = ["feed +y", "feed −y", "feed +z'", "feed −z'"];
 
 /// Deviation in um at an angle of the circle under one case.
@@ -171,6 +172,7 @@ fn path_plot() -> PathPlot {
 
 /// Half a million samples of a cut from 1.5 s to 8 s, with drift and the teeth of a cutter.
 fn force_plot() -> ForcePlot {
+    /// Time that is shown, s, and samples a second.
     const SPAN_S: [f64; 2] = [0.0, 10.0];
     const RATE_HZ: f64 = 50_000.0;
     let cut = |time: f64| f64::from((1.5..8.0).contains(&time) && !(4.0..4.4).contains(&time));

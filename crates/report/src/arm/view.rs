@@ -5,7 +5,7 @@
 //!
 //! | view | azimuth a | elevation e | to the right | up |
 //! |---|---|---|---|---|
-//! | iso | -122 deg | 20 deg | | |
+//! | iso | -122 deg | 20 deg | x, less of -y | z, foreshortened |
 //! | front | 0 | 0 | y | z |
 //! | side | -90 deg | 0 | x | z |
 //! | top | -90 deg | 90 deg | x | y |
