@@ -9,7 +9,8 @@
 //!  bottom_mm └────────────┘      y = area.bottom - px_per_mm |vertical - bottom_mm|
 //! ```
 //!
-//! That holds for points of the window; beyond it signs turn round. Charts, whose axes have scales of their own, are `crate::chart`.
+//! That holds for points of the window; beyond its left and lower edge signs turn round. Charts, whose axes have
+//! scales of their own, are `crate::chart`.
 
 use crate::axis::{nice_step, tick_label};
 use crate::colour::INK;
