@@ -9,8 +9,8 @@
 //! | the work | `command`: options into a question of `armill_study`, its answer into words or JSON |
 //! | what is said | `terminal` for data, talk and problems, `progress` for a bar |
 //!
-//! The command is thin: no mechanics, no format, no JSON of its own. What clap refuses (an unknown option, a
-//! missing value) it tells itself on stderr, with exit code 2 like any bad input.
+//! The command is thin: no mechanics, no format, no JSON of its own but that of problems. What clap refuses (an
+//! unknown option, a missing value) it tells itself on stderr, with exit code 2 like any bad input.
 
 mod arguments;
 mod command;

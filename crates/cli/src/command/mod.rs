@@ -7,7 +7,7 @@
 //! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
 //! the files that were asked for, and prints the answer last. So a file that cannot be written is told before
 //! an answer that would seem complete. The functions called `as_text` or `..._text` make words out of an answer
-//! and compute nothing.
+//! and compute no more than the length of a vector or a percentage.
 
 pub(crate) mod check;
 pub(crate) mod completions;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Beside the drives:
-//!   spring at SEAT: about AXIS, ... rad/(N m)       or: along AXIS, ... um/N; or both, of a screw
+//!   spring at SEAT: about AXIS, ... rad/(N m)       or: along AXIS, ... µm/N; or both, of a screw
 //!   mass at SEAT: ... kg, centre (x, y, z) mm
 //!   torque curve of JOINT: ... pairs, both ways
 //!   gravity compensator of JOINT: ... N/mm
