@@ -68,7 +68,7 @@ struct Row {
     bytes: u64,
     steps: u64,
     seconds: f64,
-    /// Most memory of the process.
+    /// Most memory of the process; 0 where the system does not tell, and then no limit is exceeded.
     kib: u64,
     /// `read`, or why it was refused.
     said: String,

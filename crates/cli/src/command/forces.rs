@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! groove.txt: DynoWare, cycle 1 of 2                                 file, format
-//! 30000 samples from 0 s to 3 s, 10000 Hz; Fx, Fy, Fz                what was read
+//! 30000 samples from 0 s to 2.9999 s, 10000 Hz; Fx, Fy, Fz           what was read
 //! passed over: Ch4                                                   columns not used
 //! drift        (ox, oy, oz) N and (rx, ry, rz) N/s                   at the first sample, and its rate; or "left in"
 //! N            mean least greatest   mean least greatest             as measured | as used: Fx, Fy, Fz, size
