@@ -13,6 +13,7 @@ const MOST_LEVELS: usize = 64;
 
 /// The first place that nests deeper than [`MOST_LEVELS`], counted from above: a point in a number counts as a level.
 pub(super) fn too_deep(source: &Source) -> Option<Problem> {
+    // Brackets that are open, each with the dots of the key before it: `a.b = [` makes two levels.
     let mut open: Vec<(TokenKind, usize)> = Vec::new();
     let mut dots = 0_usize;
     let mut levels = 0_usize;
@@ -31,7 +32,9 @@ pub(super) fn too_deep(source: &Source) -> Option<Problem> {
                     dots = outer;
                 }
             }
+            // The next key of an inline table, or the next number of a list, begins its own count.
             TokenKind::Comma => dots = 0,
+            // Outside of brackets a line is a key of its own; inside, a list may go on over lines.
             TokenKind::Newline if open.is_empty() => dots = 0,
             _ => {}
         }
@@ -44,6 +47,7 @@ pub(super) fn too_deep(source: &Source) -> Option<Problem> {
     None
 }
 
+/// Whether a closing bracket fits the one that is open; one that does not is left to the parser, which refuses it.
 fn closes(kind: TokenKind, opening: TokenKind) -> bool {
     match kind {
         TokenKind::RightSquareBracket => opening == TokenKind::LeftSquareBracket,

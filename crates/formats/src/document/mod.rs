@@ -167,6 +167,7 @@ fn syntax_problems(source: &Source, errors: &[toml::de::Error]) -> Problems {
     Problems::from(problems)
 }
 
+/// Advice for the two slips that are made most often, by what the parser says of them.
 fn syntax_hint(message: &str) -> Option<String> {
     let hint = if message.contains("string values must be quoted") {
         "write text in quotes, and numbers with a point and without a unit: `step_mm = 2.5`"

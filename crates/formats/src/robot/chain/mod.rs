@@ -30,6 +30,8 @@ use crate::document::{Problems, Source};
 ///
 /// # Errors
 /// What is no factor, a length without value, a joint that moves twice, no joint at all.
+///
+/// Joints are in the order of the chain; they have no limits, no speeds and no compliance, which no chain tells.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
     let factors = factors::read(&file)?;
