@@ -52,13 +52,13 @@ const DIGITS: usize = 7;
 
 /// The robot file `text` (at `path`) with these compliances in place of its own.
 ///
-/// # Errors
-/// A text that is not TOML; what no robot file may say once the compliances stand in it, as when some joints have one
-/// and others have none: such problems stand at their place in the new text, told as that of `path (identified)`.
-///
 /// A drive goes into the table of its joint and takes the place of a torque curve as well; a drive that is not among
 /// `identified` keeps what the file has. All other springs become tables `[[spring]]`. The file that comes out has been
 /// read once more, so that it is one that `read` takes.
+///
+/// # Errors
+/// A text that is not TOML; what no robot file may say once the compliances stand in it, as when some joints have one
+/// and others have none: such problems stand at their place in the new text, told as that of `path (identified)`.
 pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<String, Problems> {
     let Identified {
         springs, covariance, ..

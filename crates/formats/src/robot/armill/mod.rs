@@ -39,11 +39,11 @@ pub use self::identified::{Identified, IdentifiedSpring, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
 ///
-/// # Errors
-/// Every problem of the file, each with its place.
-///
 /// First what the schema refuses; then, of a file that it takes, all that only the whole can show; then what the core
 /// refuses of the chain. Nothing is assumed, so `remarks` stay empty.
+///
+/// # Errors
+/// Every problem of the file, each with its place.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let document = Document::parse(path, text)?;
     let file: RobotFile = document.read()?;

@@ -89,9 +89,8 @@ type Symbols<'a> = BTreeMap<&'a str, f64>;
 /// Every factor, in order.
 ///
 /// # Errors
-/// What is neither factor nor definition, lengths without value, numbers that are none.
-///
-/// At most 20; behind a factor that is refused it goes on with the next.
+/// What is neither factor nor definition, lengths without value, numbers that are none; at most 20: behind a factor
+/// that is refused it goes on with the next.
 pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
     let text = file.text();
     let mut symbols = Symbols::new();

@@ -34,10 +34,10 @@ use crate::document::{Problems, Source};
 
 /// The robot of this table; `path` is what errors show, `id` the robot's name in results.
 ///
+/// A row of type `fixed` moves nothing and gives constant motions alone. The flange is the frame behind the last row.
+///
 /// # Errors
 /// No convention, columns that are missing, unknown or without unit, cells that are no number.
-///
-/// A row of type `fixed` moves nothing and gives constant motions alone. The flange is the frame behind the last row.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
     let file = Source::new(path, text);
     let table = table::read(&file)?;

@@ -179,10 +179,10 @@ struct RowReader<'a> {
 impl RowReader<'_> {
     /// The row, which is the one with this index from 0: a joint without name is called by it.
     ///
+    /// Of a row that is fixed the columns of the joint are not looked at.
+    ///
     /// # Errors
     /// The first word or limit that is wrong, else all numbers that are.
-    ///
-    /// Of a row that is fixed the columns of the joint are not looked at.
     fn row(&self, index: usize) -> Result<Row, Problems> {
         let moves = match self
             .cell("type")
