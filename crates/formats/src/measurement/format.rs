@@ -86,6 +86,7 @@ pub fn read(
     }
 }
 
+/// Whether one of these lines is that of an export's channels; any line ends.
 fn has_line_of_channels(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
     text.split(['\n', '\r']).any(dynoware::is_channels)
