@@ -11,7 +11,8 @@
 //! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
 //! | `op`, `note` | name of the operation; for people | |
 //!
-//! A new operation begins where its name, the spindle or a depth changes. The columns stand in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
+//! A new operation begins where its name, the spindle or a depth changes. The columns stand in
+//! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
 //! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
 //! `#` and empty ones are passed over.
 
@@ -47,7 +48,9 @@ enum Column {
     Note,
 }
 
+/// Units of lengths by the ending of a name, with their factor to m.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("m", 1.0), ("in", 0.0254)];
+/// Units of feeds, with their factor to m/s.
 const SPEEDS: [(&str, f64); 4] = [
     ("mm_per_min", 1e-3 / 60.0),
     ("mm_per_s", 1e-3),
@@ -157,9 +160,11 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
 
 /// The header, and what the rows so far have told.
 struct Table {
+    /// As the line of names has it.
     separator: char,
     header: Vec<String>,
     columns: Vec<Column>,
+    /// The one that the last row belongs to.
     operation: Option<Operation>,
 }
 
@@ -219,6 +224,7 @@ impl Table {
         (table, problems)
     }
 
+    /// What no column tells though others call for it, and what to do.
     fn missing(&self) -> Vec<(String, &'static str)> {
         let has = |wanted: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| wanted(*column));
         let absent = |names: [&str; 3], of: &dyn Fn(Column) -> Option<usize>| -> Vec<String> {
@@ -286,6 +292,9 @@ impl Table {
     }
 
     /// Gives the move of a row, and before it the operation that it begins.
+    ///
+    /// A row without a name keeps that of the one before; an empty spindle or depth is not known, and so another
+    /// operation than one that was told.
     fn give(&mut self, line: &Line, row: Row, point: Point, out: &mut dyn FnMut(Step)) {
         let Point { end, axis, depths } = point;
         let number = u32::try_from(line.number).unwrap_or(u32::MAX);
@@ -333,6 +342,7 @@ struct Point {
 type Wrong = (String, &'static str);
 
 impl Row {
+    /// Puts what a cell says into the row; an empty cell says nothing.
     fn take(&mut self, cell: &Cell<'_>, column: Column, separator: char) -> Result<(), Wrong> {
         match column {
             Column::Note => {}
@@ -403,8 +413,10 @@ impl Row {
     }
 }
 
+/// What to do with a cell that cannot be filled in.
 const NOT_KNOWN: &str = "leave the cell empty if it is not known";
 
+/// A number from -1e9 to 1e9, in the unit of its column.
 fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match sheet::number(&cell.text, separator) {
         Some(number) if number.abs() <= LARGEST => Ok(number),
@@ -419,6 +431,7 @@ fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     }
 }
 
+/// Such a number above 0.
 fn above_zero(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match number(cell, separator)? {
         // In SI it is smaller, and must still be above 0.
@@ -427,6 +440,7 @@ fn above_zero(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     }
 }
 
+/// Such a number that is not below 0.
 fn zero_or_more(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match number(cell, separator)? {
         number if number >= 0.0 => Ok(number),
