@@ -34,6 +34,7 @@ const OUTSIDE: f64 = 1e-6;
 /// What receives canonical calls, each with its line of the program.
 pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
+/// What a moved piece lies on, in the plane.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
     Line {
@@ -70,11 +71,13 @@ pub(super) enum Contour {
     Arc { centre: Point2<f64>, sense: Sense },
 }
 
+/// Compensation that is on: the plane, the cutter, and where its centre stands.
 #[derive(Clone, Copy, Debug)]
 struct Active {
     side: f64,
     radius: f64,
     plane: Plane,
+    /// Whether no piece was moved yet.
     entering: bool,
     /// Where the centre of the cutter stands.
     at: Point2<f64>,
@@ -84,8 +87,11 @@ struct Active {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cutter {
     active: Option<Active>,
+    /// The last move, which the next may shorten.
     piece: Option<Piece>,
+    /// Calls behind it, in order, with their lines.
     waiting: Vec<(Canonical, u32)>,
+    /// Whether it was ended and no move has come since.
     leaving: bool,
     /// Line of the program being read.
     pub line: u32,
@@ -113,11 +119,13 @@ impl Piece {
     }
 }
 
+/// A vector turned by 90 deg to the left.
 fn left_of(t: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-t.y, t.x)
 }
 
 impl Cutter {
+    /// Whether moves are moved aside; a cutter without radius moves nothing.
     pub fn is_on(&self) -> bool {
         self.active.is_some()
     }
@@ -149,6 +157,9 @@ impl Cutter {
     }
 
     /// Gives a call on, or keeps it behind the piece that waits.
+    ///
+    /// # Errors
+    /// Too many calls between two moves.
     pub fn pass(&mut self, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
         if self.piece.is_none() {
             return out(call, self.line);
@@ -172,6 +183,12 @@ impl Cutter {
     }
 
     /// A move of the contour `from` a point of the plane; its call ends where the contour does.
+    ///
+    /// It waits until the next one shows where it ends; the piece that waited is given out. A rapid is moved as a cut
+    /// is.
+    ///
+    /// # Errors
+    /// An arc inside which the cutter does not fit, a corner that it does not reach, an arc right after the end.
     pub fn follow(
         &mut self,
         contour: Contour,
@@ -423,6 +440,7 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
     }
 }
 
+/// Where a line meets a circle; `None` where it passes beside it.
 fn line_and_circle(
     through: Point2<f64>,
     towards: Vector2<f64>,
@@ -434,6 +452,7 @@ fn line_and_circle(
     (height >= 0.0).then(|| [foot + towards * height.sqrt(), foot - towards * height.sqrt()])
 }
 
+/// Where a move ends in the plane.
 fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
     let [first, second, _] = plane.axes();
     match call {
@@ -445,6 +464,7 @@ fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
     }
 }
 
+/// Lets a move end elsewhere in the plane.
 fn end_at(call: &mut Canonical, plane: Plane, at: Point2<f64>) {
     let [first, second, _] = plane.axes();
     match call {
@@ -457,6 +477,7 @@ fn end_at(call: &mut Canonical, plane: Plane, at: Point2<f64>) {
     }
 }
 
+/// A, B, C at the end of a move.
 fn rotary_of(call: &Canonical) -> [f64; 3] {
     match call {
         Canonical::StraightFeed([.., a, b, c]) | Canonical::StraightTraverse([.., a, b, c]) => [*a, *b, *c],

@@ -31,9 +31,11 @@ impl Line {
 pub(super) struct Lines<'r> {
     raw: RawLines<&'r mut dyn BufRead>,
     /// Read already while something was looked for.
+    /// In order.
     ahead: VecDeque<Line>,
     /// Bytes that these take.
     ahead_bytes: usize,
+    /// Of the line that was read last.
     number: u32,
     file: Option<Rc<str>>,
 }
@@ -60,6 +62,7 @@ impl<'r> Lines<'r> {
         self.read(line)
     }
 
+    /// The next line of the text, whatever was read ahead.
     fn read(&mut self, line: &mut Line) -> io::Result<bool> {
         line.file.clone_from(&self.file);
         let Some(offset) = self.raw.next(&mut line.text, LONGEST_LINE)? else {
@@ -71,6 +74,8 @@ impl<'r> Lines<'r> {
     }
 
     /// All lines still to come, at most so many bytes; they still come.
+    ///
+    /// They are kept, and `next` gives them before anything else is read.
     pub fn look_ahead(&mut self, most_bytes: usize) -> io::Result<&VecDeque<Line>> {
         let mut line = Line::default();
         while self.ahead_bytes < most_bytes && self.read(&mut line)? {

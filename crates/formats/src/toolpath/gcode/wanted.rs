@@ -55,6 +55,8 @@ pub enum Warning {
 
 impl Warning {
     /// What it means for the path.
+    ///
+    /// A sentence without its end: where it came first is put behind it.
     pub fn meaning(self) -> &'static str {
         match self {
             Warning::UnitAssumed => "no G20 or G21: the unit is assumed",
