@@ -5,7 +5,7 @@
 //!
 //! | word | numbers | meaning |
 //! |---|---|---|
-//! | `CSYS` | twelve, row by row: three of a turn, one of the origin | checked; points are in the world if TRNTYP says so |
+//! | `CSYS` | twelve, row by row: three of a turn, one of the origin | checked; points are where TRNTYP says |
 //! | `TRNTYP` | a word | `WORLD`, or refused |
 //! | `MSYS` | nine: origin, x axis, y axis | where the points that follow are counted |
 

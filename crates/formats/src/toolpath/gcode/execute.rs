@@ -6,7 +6,7 @@
 //! |---|---|
 //! | `feed_and_spindle` | G93 to G95, F, S, T |
 //! | `machine_codes` | M6, M61, M3 to M5, M19, M48 to M53, M62 to M68, M100 on, tool-centre control |
-//! | `modes` | G4, plane, unit, cutter compensation, tool length, coordinate system, G61 to G64, G90 to G91.1, G98, G99, G97 |
+//! | `modes` | G4, plane, unit, cutter and length compensation, coordinate system, G61, G64, G90, G91, G97 to G99 |
 //! | `moves` | G10, G28, G30, G52, G92, then motion |
 //! | `stopping` | M98, M99; M0, M1, M2, M30, M60 |
 //!

@@ -2,8 +2,8 @@
 //!
 //! Which words are followed, passed over and refused, and what is taken for granted, stands in
 //! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. What moves the tool and is not understood
-//! refuses the program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame of
-//! the part, and a table carries that frame with it.
+//! refuses the program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame
+//! of the part, and a table carries that frame with it.
 //!
 //! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
 //! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
