@@ -16,14 +16,14 @@
 //! second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another count holds
 //! a number without fraction, nobody can say which, and the file is refused.
 //!
-//! Source: exports of version 3.2.5.0 as quoted in public programs that read them.
-//!
 //! ```text
 //! Samples per channel:,3
 //! Time,Fx,Fy,Fz
 //! s,N,N,N
 //! 0.000000,1.25,-0.5,3.0
 //! ```
+//!
+//! Source: exports of version 3.2.5.0 as quoted in public programs that read them.
 
 use std::io::BufRead;
 

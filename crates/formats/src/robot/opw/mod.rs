@@ -15,8 +15,6 @@
 //!
 //! `yaml` finds keys and values, each with its place; here they become an arm.
 //!
-//! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
-//!
 //! ```text
 //! opw_kinematics_geometric_parameters:
 //!   a1: 0.155
@@ -27,6 +25,8 @@
 //!
 //! Lengths up to 100 m, angles up to two turns: more is a number under the wrong unit. The offset of a file is
 //! `sign q` at chain zero; ours is the chain position at the controller's zero: `-offset`.
+//!
+//! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
 
 mod yaml;
 

@@ -9,8 +9,6 @@
 //! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array
 //! `<name>_valid` is 1 where there is a value and 0 where there is none.
 //!
-//! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
-//!
 //! ```text
 //! <VTKFile type="ImageData" or "PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
 //!   geometry
@@ -18,6 +16,8 @@
 //!     <DataArray type="Float32" Name="in_plane_um" ...>       base64 of: count of bytes (UInt64), bytes
 //!     <DataArray type="UInt8" Name="in_plane_um_valid" ...>
 //! ```
+//!
+//! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
 mod image;
 mod poly_data;

@@ -3,8 +3,6 @@
 //! Blanks and capitals mean nothing outside comments. Values are computed while the line is read; parameters set in a
 //! line get their values after it, as the standard wants it.
 //!
-//! Source: NISTIR 6556, sections 3.3 and 3.4.
-//!
 //! ```text
 //! /N10 G1 (fast) X[#1+2] #2=5 M8 ; rest
 //! n10g1x[#1+2]#2=5m8                     the clean text; each of its bytes knows its place in the line
@@ -12,6 +10,8 @@
 //!
 //! Codes G and M go by their group, other letters stand once each. A letter that no code of the block has taken by the
 //! end is refused, so that no word is passed over in silence.
+//!
+//! Source: NISTIR 6556, sections 3.3 and 3.4.
 
 use super::expression::{Name, Reader, Values};
 use super::groups::{self, GROUPS};

@@ -10,8 +10,6 @@
 //!
 //! G98 goes back to where the axis stood before the cycle, G99 to R.
 //!
-//! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
-//!
 //! ```text
 //! G81 X_ Y_ Z_ R_ L_      Z bottom, R where it begins to cut, L holes
 //! X_ Y_                   another hole of the same cycle: words stay until the code changes
@@ -19,6 +17,8 @@
 //!
 //! Z and R stand for the axis across the plane. Under G91 R counts from where the axis stands and Z from R, and L holes
 //! go on by the same step.
+//!
+//! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
 
 use super::block::{Block, shown};
 use super::canonical::{Axes, Canonical, PathControl};

@@ -1,7 +1,5 @@
 //! What a block does, in the order of the standard: modes first, then offsets, then motion, then stopping.
 //!
-//! Source: NISTIR 6556, section 3.8, order of execution.
-//!
 //! | step | words |
 //! |---|---|
 //! | `feed_and_spindle` | G93 to G95, F, S, T |
@@ -12,6 +10,8 @@
 //!
 //! Codes G are in tenths: 921 is G92.1. Each step takes the words that its codes want; a word that nobody took is
 //! refused.
+//!
+//! Source: NISTIR 6556, section 3.8, order of execution.
 
 use super::block::{Block, shown};
 use super::canonical::{Canonical, PathControl, Plane};

@@ -11,8 +11,6 @@
 //! Functions: `ABS ACOS ASIN ATAN[y]/[x] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN`; angles in degrees. The text has
 //! neither blanks nor capitals.
 //!
-//! Source: NISTIR 6556, section 3.3.2; EXISTS and named parameters: LinuxCNC documentation.
-//!
 //! ```text
 //! value    = number | "#" parameter | "[" sum "]" | function "[" sum "]" | ("+" | "-") value
 //! sum      = value { operator value }                    operators of one line of the table bind from the left
@@ -20,6 +18,8 @@
 //! ```
 //!
 //! `FIX` rounds down and `FUP` up. What has no finite value is refused where it comes up.
+//!
+//! Source: NISTIR 6556, section 3.3.2; EXISTS and named parameters: LinuxCNC documentation.
 
 use super::refusal::Refusal;
 

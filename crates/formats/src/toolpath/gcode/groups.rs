@@ -1,10 +1,10 @@
 //! Codes by their modal groups: of each group a block may have one.
 //!
-//! Source: LinuxCNC documentation, G-code overview, table of modal groups; the codes of other controls for tool-centre
-//! control: FANUC G43.4 and G43.5, Heidenhain M128 and M129, Siemens TRAORI and TRAFOOF, LinuxCNC remaps M428 and M429.
-//!
 //! Codes G are in tenths, so that G92.1 is 921; codes M are whole. Groups of G and of M have the same numbers for other
 //! things, and stand in lists of their own.
+//!
+//! Source: LinuxCNC documentation, G-code overview, table of modal groups; the codes of other controls for tool-centre
+//! control: FANUC G43.4 and G43.5, Heidenhain M128 and M129, Siemens TRAORI and TRAFOOF, LinuxCNC remaps M428 and M429.
 
 /// Groups of G as of M.
 pub(super) const GROUPS: usize = 16;
