@@ -1,7 +1,7 @@
 //! Files that are either written whole or not at all.
 //!
-//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in one
-//! step: whoever reads it sees the old content or the new one, also after a power cut.
+//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in
+//! one step: whoever reads it sees the old content or the new one, also after a power cut.
 //!
 //! [`write_atomically`] writes one file. Of many files [`PartFile`] does the same in two steps, since the disk is what
 //! one waits for: while some are forced to it, others can be made. A run that is killed leaves temporary files;

@@ -1,8 +1,8 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
 //!
 //! Value by value from the root: a value of the wrong kind is told and not looked into; of a table, its fields, then
-//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told which
-//! has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
+//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told
+//! which has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
 //!
 //! | part of the tree | what is compared |
 //! |---|---|

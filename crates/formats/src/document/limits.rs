@@ -1,7 +1,8 @@
 //! Refuses text that nests so deep that walking it would exhaust the stack.
 //!
 //! The TOML parser bounds brackets (80) and the parts of one key (80), but not their product: tables within dotted keys
-//! reach 6400 levels, and even dropping such a tree overflows a thread's stack. So levels are counted on the tokens first.
+//! reach 6400 levels, and even dropping such a tree overflows a thread's stack. So levels are counted on the tokens
+//! first.
 
 use toml_parser::lexer::TokenKind;
 

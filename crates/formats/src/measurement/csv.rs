@@ -6,9 +6,9 @@
 //! | `fx_n`, `fy_n`, `fz_n` | force, axes of the sensor | `_n`, `_kn`, `_mN` |
 //! | `mx_n_m`, ... | moment about its origin; all three or none | `_n_m`, `_n_mm`, `_n_cm`, `_kn_m` |
 //!
-//! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other names
-//! are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines
-//! that begin with `#` and empty ones are passed over.
+//! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other
+//! names are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read
+//! too. Lines that begin with `#` and empty ones are passed over.
 //!
 //! A file without names is read with names that are told, in the order of its columns: its first line is a row.
 //!
@@ -28,12 +28,12 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is no
-/// part of a table.
+/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is
+/// no part of a table.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that are
-/// no numbers, rows of another length, time that does not go on.
+/// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that
+/// are no numbers, rows of another length, time that does not go on.
 pub fn read(
     path: &str,
     reader: impl BufRead,

@@ -1,8 +1,8 @@
 //! The text export of Kistler's DynoWare.
 //!
-//! A header of lines `key:,value` (18 of them in version 3.2), a line of channels that begins with `Time` (`Zeit`), a line of
-//! units, then the samples. Further cycles follow, each again with its last header lines. Lines that begin with `#` and
-//! empty ones are passed over.
+//! A header of lines `key:,value` (18 of them in version 3.2), a line of channels that begins with `Time` (`Zeit`), a
+//! line of units, then the samples. Further cycles follow, each again with its last header lines. Lines that begin with
+//! `#` and empty ones are passed over.
 //!
 //! | line | read as |
 //! |---|---|
@@ -11,10 +11,10 @@
 //! | `s,N,N,N,...` | the unit of each |
 //! | begins with a number | a sample; every other line behind samples ends their cycle |
 //!
-//! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two channels.
-//! Such a row is put together again only if every row has exactly two pieces a channel, each first one whole and each
-//! second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another count holds
-//! a number without fraction, nobody can say which, and the file is refused.
+//! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two
+//! channels. Such a row is put together again only if every row has exactly two pieces a channel, each first one whole
+//! and each second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another
+//! count holds a number without fraction, nobody can say which, and the file is refused.
 //!
 //! ```text
 //! Samples per channel:,3

@@ -38,7 +38,8 @@ pub enum Format {
     Chain,
 }
 
-/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends so.
+/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends
+/// so.
 type Known = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
 
 /// Every ending, in the order people are told them; the header explains those that several formats share.

@@ -9,11 +9,11 @@
 //! | UR | rotation vector, rad | `exp([r]x)` |
 //! | Staubli | Rx, Ry, Rz deg | `Rx(Rx) Ry(Ry) Rz(Rz)` |
 //!
-//! Positions in mm. Source: programs of one list of poses written for six controllers by the public RoboDK posts,
-//! which agree to their last digit; Staubli from such a post alone.
+//! Positions in mm. The pose is that of whatever the pendant shows (tool or flange), in the frame that it counts from;
+//! which two these are the caller knows.
 //!
-//! The pose is that of whatever the pendant shows (tool or flange), in the frame that it counts from; which two these
-//! are the caller knows.
+//! Source: programs of one list of poses written for six controllers by the public RoboDK posts, which agree to their
+//! last digit; Staubli from such a post alone.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};

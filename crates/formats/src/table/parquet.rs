@@ -10,9 +10,9 @@
 //! (1/1024 for three decimals): the bytes that are then zero take no room. Numbers are split into streams of bytes
 //! (`BYTE_STREAM_SPLIT`), except where few differ: there a dictionary is shorter.
 //!
-//! The file's metadata has `table`, what the caller adds, and `columns`: a JSON list with the `name`, `unit`, `description` and
-//! `decimals` of each, and of a category all `labels` in order. Same table, same bytes, for one version of the `parquet`
-//! crate.
+//! The file's metadata has `table`, what the caller adds, and `columns`: a JSON list with the `name`, `unit`,
+//! `description` and `decimals` of each, and of a category all `labels` in order. Same table, same bytes, for one
+//! version of the `parquet` crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -298,10 +298,11 @@ fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
 /// # Errors
 /// Bytes that are not Parquet, columns of other types than [`write()`] makes, and what [`Table::new`] refuses.
 ///
-/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the `parquet`
-/// crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
+/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the
+/// `parquet` crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
 pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
-    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half done.
+    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half
+    // done.
     std::panic::catch_unwind(|| read_trusting(bytes)).unwrap_or(Err(ParquetError::Damaged))
 }
 

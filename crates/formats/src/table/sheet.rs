@@ -1,7 +1,7 @@
 //! Lines of a table that somebody wrote, as cells that know their place: what all readers of tables share.
 //!
-//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`, numbers
-//! may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
+//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`,
+//! numbers may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
 
 use std::borrow::Cow;
 use std::ops::Range;

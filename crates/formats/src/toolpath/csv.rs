@@ -13,8 +13,8 @@
 //!
 //! A new operation begins where its name, the spindle or a depth changes. The columns stand in
 //! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
-//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
-//! `#` and empty ones are passed over.
+//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin
+//! with `#` and empty ones are passed over.
 
 use std::f64::consts::TAU;
 use std::io::BufRead;

@@ -1,8 +1,8 @@
 //! What no schema can say of a robot file, and its numbers in SI.
 //!
-//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as if
-//! it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every source
-//! is named and known is checked for all parts at once, by [`sources`](crate::sources).
+//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as
+//! if it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every
+//! source is named and known is checked for all parts at once, by [`sources`](crate::sources).
 //!
 //! - The chain names every joint once, in the order of `[[joint]]`; names differ.
 //! - A motion is `along` or `about` an axis, by exactly one of length, angle and joint.

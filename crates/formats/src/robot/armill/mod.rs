@@ -1,7 +1,7 @@
 //! armill's own robot file, format 1: TOML, the chain as ordered elementary motions, a source for every number.
 //!
-//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields and
-//! weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
+//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields
+//! and weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
 //!
 //! In reading order: `file` (the file as it stands), `checks` (what no schema can say, and SI), `structure`; `write` (a
 //! robot of another format as such a file), `identified` (such a file with compliances that were identified).

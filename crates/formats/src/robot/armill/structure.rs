@@ -1,8 +1,8 @@
 //! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
 //!
-//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the order
-//! of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all others stay
-//! independent, with their own standard uncertainty.
+//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
+//! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
+//! others stay independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! Both are followed as deep as the evaluator goes, with every condition taken as true, and the greatest where a name
-//! has several values. What recurs once a level grows by its own size a level; what recurs twice doubles, and is refused.
+//! has several values. What recurs once a level grows by its own size a level; what recurs twice doubles, and is
+//! refused.
 //!
 //! Expressions that make much of little (`lambda`, comprehensions, padding) are refused: no robot needs them.
 //!

@@ -26,8 +26,8 @@ impl Image {
     /// Point (i, j, k) has the index i + nx (j + ny k) in every array. A direction of one point still needs a spacing.
     ///
     /// # Errors
-    /// A direction without points, a spacing not above 0 mm, an origin that is not finite, and arrays of the wrong length,
-    /// of the same name or with numbers that are not finite.
+    /// A direction without points, a spacing not above 0 mm, an origin that is not finite, and arrays of the wrong
+    /// length, of the same name or with numbers that are not finite.
     pub fn new(
         origin_mm: [f64; 3],
         spacing_mm: [f64; 3],

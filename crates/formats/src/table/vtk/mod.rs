@@ -17,7 +17,8 @@
 //!     <DataArray type="UInt8" Name="in_plane_um_valid" ...>
 //! ```
 //!
-//! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+//! Source: VTK file formats, section "XML file formats",
+//! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
 mod image;
 mod poly_data;

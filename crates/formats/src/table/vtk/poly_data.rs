@@ -28,8 +28,8 @@ impl PolyData {
     /// Any points, lines and quadrilaterals; cells name their points by index, from 0.
     ///
     /// # Errors
-    /// Positions that are not finite, indices of no point, lines of fewer than two points, and arrays of the wrong length,
-    /// of the same name or with numbers that are not finite.
+    /// Positions that are not finite, indices of no point, lines of fewer than two points, and arrays of the wrong
+    /// length, of the same name or with numbers that are not finite.
     pub fn new(
         points_mm: Vec<[f64; 3]>,
         lines: Vec<Vec<usize>>,

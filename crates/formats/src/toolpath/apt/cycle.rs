@@ -1,4 +1,4 @@
-//! Drilling cycles as moves: each GOTO between CYCLE/... and CYCLE/OFF is the top of a hole `p` under the tool axis `a`.
+//! Drilling cycles as moves: each GOTO between CYCLE/... and CYCLE/OFF is the top of a hole `p`, tool axis `a`.
 //!
 //! | parameter | meaning |
 //! |---|---|

@@ -17,8 +17,8 @@ use crate::toolpath::direction::direction;
 
 /// Points no farther apart are the same, m: programs write six decimals of mm, old ones four.
 const SAME_POINT: f64 = 1e-7;
-/// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse rounding
-/// of the centre gives, and far below any radius that was mistaken.
+/// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse
+/// rounding of the centre gives, and far below any radius that was mistaken.
 const RADIUS_SLACK: [f64; 2] = [1e-3, 1e-5];
 /// A helix ends at the angle that its number of turns says, within this, rad.
 const TURN_SLACK: f64 = 1e-3;

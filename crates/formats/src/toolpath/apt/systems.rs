@@ -1,7 +1,7 @@
 //! The systems that points are counted in: CSYS and TRNTYP of SolidWorks, MSYS of NX.
 //!
-//! `path_from_here = world_from_path^-1 world_from_here`: the path is in the first MSYS, and later ones are brought into
-//! it. Points of SolidWorks are in the world, or refused.
+//! `path_from_here = world_from_path^-1 world_from_here`: the path is in the first MSYS, and later ones are brought
+//! into it. Points of SolidWorks are in the world, or refused.
 //!
 //! | word | numbers | meaning |
 //! |---|---|---|

@@ -24,7 +24,8 @@ use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
 const TANGENT: f64 = 1e-3;
-/// Directions nearer to opposite than this, rad, turn back: there bends of the radius of the cutter outweigh the corner.
+/// Directions nearer to opposite than this, rad, turn back: there bends of the radius of the cutter outweigh the
+/// corner.
 const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
