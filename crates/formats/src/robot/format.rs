@@ -114,6 +114,8 @@ impl Format {
 impl FromStr for Format {
     type Err = String;
 
+    /// The format of this name, as `--format` takes it.
+    ///
     /// # Errors
     /// A name that no format has; the message lists those that they have.
     fn from_str(name: &str) -> Result<Format, String> {

@@ -202,6 +202,8 @@ impl Table {
 }
 
 impl Column {
+    /// Whether every value may stand in the table of this name.
+    ///
     /// # Errors
     /// The first number that is not finite, or the first category without a label.
     fn check_values(&self, table: &str) -> Result<(), TableError> {

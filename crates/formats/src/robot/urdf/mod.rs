@@ -166,7 +166,7 @@ fn controller_frame(tree: &tree::Tree<'_>) -> Vec<NamedFrame> {
 
 /// What a reader should know of the arm.
 ///
-/// Every departure from the file is named with the joints that it concerns.
+/// Side branches, axes and limits that were not taken as they stand are named with their joints.
 fn remarks(tree: &tree::Tree<'_>, chain: &tree::Chain<'_>, arm: &Arm, frames: &[NamedFrame]) -> Vec<String> {
     let mut remarks = vec![format!(
         "the base is link `{}`, the flange link `{}`",

@@ -77,7 +77,7 @@ pub(super) fn expand(
 struct Find(PathBuf);
 
 impl ExtensionHandler for Find {
-    /// The home of the package; nothing for any other command, which the crate then refuses.
+    /// The home of the package; nothing for any other command.
     fn resolve(&self, command: &str, arguments: &str) -> Result<Option<String>, Box<dyn Error>> {
         if command != "find" {
             return Ok(None);

@@ -76,7 +76,7 @@ struct Macro {
     name: String,
     /// As the file has it: words between blanks, with `:=` or `=` where there is a default.
     params: String,
-    /// Its name in its file.
+    /// Where its name stands in its file.
     place: std::ops::Range<usize>,
     /// Whether `place` is in the main file.
     of_main: bool,

@@ -130,6 +130,8 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 struct Lengths<'a>(BTreeMap<&'a str, u64>);
 
 impl<'a> Lengths<'a> {
+    /// The greatest length of each name, followed level by level until none grows.
+    ///
     /// # Errors
     /// The name whose value may grow too long.
     fn of(root: Node<'a, '_>) -> Result<Lengths<'a>, String> {

@@ -142,6 +142,8 @@ impl Machine {
         Ok(())
     }
 
+    /// Whether a hole may be drilled here and now.
+    ///
     /// # Errors
     /// Rotary words, cutter compensation, no axis word, inverse time, no feed.
     fn may_drill(&self, code: u16, block: &Block) -> Result<(), Refusal> {

@@ -193,6 +193,8 @@ impl<'a> Reader<'a> {
         Ok(Name::Numbered(self.deeper(Reader::value)?))
     }
 
+    /// The value of a parameter whose name was read.
+    ///
     /// # Errors
     /// A number that is none of a parameter, a name that was never set.
     fn parameter_value(&self, name: &Name) -> Read<f64> {

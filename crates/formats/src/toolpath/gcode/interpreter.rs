@@ -3,7 +3,7 @@
 //! Lines are done as they come. Only subroutines and loops are kept, within [`MOST_KEPT_BYTES`].
 //!
 //! ```text
-//! line -> Clean -> o-word?  yes: kept to its end, then gone through (`flow`, `walk`)
+//! line -> Clean -> o-word?  yes: kept to its end, gone through or called (`flow`, `walk`)
 //!                           no:  comments, words (`block`), settings, execute (`execute`) -> canonical calls
 //! ```
 //!

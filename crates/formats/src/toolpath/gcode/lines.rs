@@ -30,8 +30,7 @@ impl Line {
 /// The lines of a program still to come.
 pub(super) struct Lines<'r> {
     raw: RawLines<&'r mut dyn BufRead>,
-    /// Read already while something was looked for.
-    /// In order.
+    /// Read already while something was looked for, in order.
     ahead: VecDeque<Line>,
     /// Bytes that these take.
     ahead_bytes: usize,

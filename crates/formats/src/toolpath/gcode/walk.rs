@@ -64,7 +64,7 @@ impl Interpreter<'_> {
 
     /// Counts a line that is done; false where there were too many, told there, or where the program has stopped.
     ///
-    /// After a fault only 10000 lines more are done, so that a loop whose end was refused comes to one.
+    /// After a fault only 10000 lines more are done, so that a loop whose end was refused ends.
     fn may_go_on(&mut self, line: &Line) -> bool {
         self.repeated += 1;
         let limit = if self.faults.is_empty() {
