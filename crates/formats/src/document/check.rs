@@ -358,6 +358,7 @@ impl Checker<'_> {
             .iter()
             .filter(|shape| self.shapes.resolved(shape).may_hold(&value.value));
         for shape in fitting {
+            // A checker of its own, so that the problems of an alternative that was not meant are forgotten.
             let mut trial = Checker {
                 source: self.source,
                 shapes: self.shapes,

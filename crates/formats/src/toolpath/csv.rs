@@ -36,14 +36,19 @@ const MOST_COLUMNS: usize = 100;
 /// What a column tells; numbers are the axis, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Column {
+    /// Coordinate of the tip, to m.
     Point(usize, f64),
+    /// Part of the tool axis.
     Axis(usize),
+    /// To rad.
     Spin(f64),
+    /// To m/s.
     Feed(f64),
     Rapid,
     Spindle,
     AxialDepth(f64),
     RadialDepth(f64),
+    /// Its name.
     Operation,
     Note,
 }

@@ -171,6 +171,7 @@ impl Checks<'_> {
                 .iter()
                 .map(|spring| spring.compliance.standard_uncertainty),
         );
+        // Own variances on the diagonal; the matrix then takes the places of those that it names.
         let squares: Vec<f64> = own.map(|u| u * u).collect();
         let mut covariance = DMatrix::from_diagonal(&squares.into());
         for (i, row) in places.iter().enumerate() {

@@ -225,6 +225,7 @@ fn degrees(rad: f64, within: f64) -> String {
 /// Up to 15 digits behind the point; where none of these is near enough, all digits that tell the number from its
 /// neighbours.
 fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
+    // Of the decimals that come back near enough the shortest has the fewest digits.
     let decimals = (0..=15).map(|digits| format!("{shown:.digits$}"));
     let found = decimals
         .filter(|text| {

@@ -226,6 +226,7 @@ impl Interpreter<'_> {
             );
             return;
         }
+        // ON without a number has set the speed already.
         let Some(speed_rpm) = speed_rpm else { return };
         if !(0.0..=FASTEST_SPINDLE_RPM).contains(&speed_rpm) {
             let message = format!("{speed_rpm} RPM is not between 0 and {FASTEST_SPINDLE_RPM}");

@@ -406,6 +406,7 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
     };
     match (last.shape, next.shape) {
         (Shape::Line { towards: t1 }, Shape::Line { towards: t2 }) => {
+            // How far along the first line the second is met; not finite where they are parallel.
             let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
             along.is_finite().then(|| last.end + t1 * along)
         }
@@ -427,6 +428,8 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
                 ..
             },
         ) => {
+            // The chord that both circles share crosses the line of their centres at `along`, half of it is
+            // `height.sqrt()`.
             let between = c2 - c1;
             let d = between.norm();
             let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);

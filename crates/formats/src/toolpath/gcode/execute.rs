@@ -80,6 +80,7 @@ impl Machine {
             };
             let per_revolution = self.feed_mode == FeedMode::PerRevolution;
             self.call(Canonical::SetFeedMode { per_revolution }, out)?;
+            // A mode that is told forgets the feed, whose number could mean something else.
             if self.feed_mode != FeedMode::InverseTime {
                 self.feed = 0.0;
                 self.call(Canonical::SetFeedRate(0.0), out)?;
@@ -124,6 +125,7 @@ impl Machine {
             if self.cutter.is_on() {
                 return Err(Refusal::NotUnderCompensation(groups::name(b'm', code)));
             }
+            // M61 tells which tool is in the spindle; M6 puts in the one that T chose, with the spindle standing.
             if code == 61 {
                 let number = block
                     .take(b'q')
@@ -140,6 +142,7 @@ impl Machine {
             Some((3, _)) => self.call(Canonical::StartSpindleClockwise, out)?,
             Some((4, _)) => self.call(Canonical::StartSpindleCounterclockwise, out)?,
             Some((5, _)) => self.call(Canonical::StopSpindleTurning, out)?,
+            // M19 turns the spindle to an angle, which is not followed.
             Some(_) => [b'r', b'p', b'q'].iter().for_each(|letter| {
                 block.take(*letter);
             }),
@@ -288,6 +291,7 @@ impl Machine {
             Some(code) => self.shift(code, block, out)?,
             None => {}
         }
+        // Axis words that no other code has taken move the tip, by the code told here or by the one in force.
         let moving = takes_axes.is_none()
             && !block.has_g(431)
             && (block.has_axes() || self.vector && block.has_vector());
@@ -315,6 +319,7 @@ impl Machine {
             800 => Ok(()),
             _ => self.cycle(code, block, out),
         };
+        // In force from here on even where this block was refused, so that later ones are read as they were meant.
         self.motion = code;
         result
     }

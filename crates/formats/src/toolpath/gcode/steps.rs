@@ -333,6 +333,7 @@ impl<'a> Tracer<'a> {
         let axis = self.tool_axis(rotary)?;
         let p = Point3::from(self.lengths(&end));
         let q = self.in_path(p);
+        // Nothing moves, but what the program calls this place may have changed.
         if self.at.is_some_and(|(_, before)| before == q) && axis == self.axis {
             self.at = Some((p, q));
             return Ok(());
@@ -353,6 +354,8 @@ impl<'a> Tracer<'a> {
             let q = self.in_path(p);
             self.step(Pace::Rapid, Tip { p, q, axis }, Course::Line, line);
         }
+        // The start in the coordinates now in force: as the program told it, or found anew where these have changed
+        // since.
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {
                 let again = self.frame.in_program(path.in_machine(q));
@@ -363,6 +366,7 @@ impl<'a> Tracer<'a> {
         let unit = self.unit.metres();
         let mut end = Vector3::zeros();
         (end[first], end[second], end[across]) = (arc.end[0] * unit, arc.end[1] * unit, arc.across * unit);
+        // The centre is told at no height: it is put at that of the start, from which a helix climbs.
         let mut centre = Point3::origin();
         (centre[first], centre[second], centre[across]) =
             (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);

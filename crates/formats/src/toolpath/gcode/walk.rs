@@ -122,10 +122,12 @@ impl Interpreter<'_> {
                 }
             },
             Keyword::Break => {
+                // The loop itself is left, and every `repeat` inside of it.
                 repeats.retain(|open| open.at < partner);
                 body.lines.get(partner).map_or(at, |first| first.end) + 1
             }
             Keyword::Continue => {
+                // The loop stays open; every `repeat` inside of it is left.
                 repeats.retain(|open| open.at <= partner);
                 body.lines.get(partner).map_or(at, |first| {
                     match first.word.as_ref().map(|word| word.keyword) {
