@@ -103,12 +103,12 @@ pub enum ParquetError {
 
 /// The table as the bytes of a Parquet file.
 ///
+/// Columns of a row group are encoded in parallel and put together in their order, so that the bytes do not depend on
+/// the number of threads. Numbers lose what lies below their last decimal that means something.
+///
 /// # Errors
 /// [`ParquetError::ReservedKey`] for metadata called `table` or `columns`; the `parquet` crate refuses nothing that a
 /// [`Table`] can hold.
-///
-/// Columns of a row group are encoded in parallel and put together in their order, so that the bytes do not depend on
-/// the number of threads. Numbers lose what lies below their last decimal that means something.
 pub fn write(table: &Table, metadata: &Metadata) -> Result<Vec<u8>, ParquetError> {
     if let Some(key) = metadata
         .keys()

@@ -1,7 +1,7 @@
 //! What a line is known by: the words that only one format begins its lines with.
 //!
-//! Lines come without blanks round them; capitals do not count. Many lines of a program are known by
-//! none of the tests; one line that is known decides.
+//! Lines come without blanks round them; capitals do not count. Many lines of a program are known by none of the tests;
+//! one line that is known decides.
 
 use crate::table::sheet::{cells, separator_of};
 
