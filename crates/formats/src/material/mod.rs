@@ -102,7 +102,7 @@ impl Material {
         self.sources_called(&keys)
     }
 
-    /// The sources with these keys, once each, in the order of the file's list.
+    /// The sources with these keys, once each, in the order of their keys.
     fn sources_called(&self, keys: &[&str]) -> Vec<&Source> {
         let called = |source: &&Source| keys.contains(&source.key.as_str());
         self.sources.iter().filter(called).collect()

@@ -24,7 +24,7 @@ pub struct RobotDescription {
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
     pub joint_notes: Vec<JointNote>,
-    /// Every source, in the order of the file.
+    /// Every source, in the order of their keys.
     pub sources: Vec<Source>,
 }
 
