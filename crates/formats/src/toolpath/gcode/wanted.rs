@@ -14,7 +14,8 @@ pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;
 pub struct Wanted<'a> {
     /// The unit before the first G20 or G21.
     pub unit: LengthUnit,
-    /// The unit of the parameters 5161 to 5386; that of the tool table is in the table.
+    /// The unit of the parameters 5161 to 5386. With a tool table it is not looked at: then they have the unit of the
+    /// table.
     pub machine_unit: LengthUnit,
     /// Parameters as the machine holds them before the program, such as work offsets from 5221 on.
     pub parameters: BTreeMap<u16, f64>,
