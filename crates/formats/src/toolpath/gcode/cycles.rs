@@ -224,8 +224,8 @@ impl Machine {
         self.call(how(end), out)
     }
 
-    /// The moves of one hole: above it, down to R, the strokes, and back. Behind G86 and G88 the spindle turns clockwise,
-    /// whichever way it did before.
+    /// The moves of one hole: above it, down to R, the strokes, and back. Behind G86 and G88 the spindle turns
+    /// clockwise, whichever way it did before.
     fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let mut above = self.at;
