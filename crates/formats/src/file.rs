@@ -1,7 +1,7 @@
 //! Files that are either written whole or not at all.
 //!
-//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in one
-//! step: whoever reads it sees the old content or the new one, also after a power cut.
+//! The bytes go to a temporary file in the same folder, are forced to the disk, and then take the name of the file in
+//! one step: whoever reads it sees the old content or the new one, also after a power cut.
 //!
 //! [`write_atomically`] writes one file. Of many files [`PartFile`] does the same in two steps, since the disk is what
 //! one waits for: while some are forced to it, others can be made. A run that is killed leaves temporary files;
@@ -143,7 +143,9 @@ pub fn write_atomically(path: impl AsRef<Path>, bytes: &[u8]) -> Result<(), File
 /// A file that is written and does not have its name yet. Dropped before, it is gone.
 #[derive(Debug)]
 pub struct PartFile {
+    /// As it was given, for errors.
     path: PathBuf,
+    /// Its size, for errors.
     bytes: usize,
     /// The temporary file and the name that it is to take; none for a device, which is written already.
     part: Option<(NamedTempFile, PathBuf)>,
@@ -227,6 +229,7 @@ pub fn create_folder(path: impl AsRef<Path>) -> Result<(), FileError> {
     })
 }
 
+/// Temporary files are called `.armill-XXXXXX.part`, with letters and digits in place of the X.
 const PART_PREFIX: &str = ".armill-";
 const PART_SUFFIX: &str = ".part";
 
@@ -247,6 +250,7 @@ fn in_brackets(bytes: Option<usize>) -> String {
     bytes.map_or_else(String::new, |bytes| format!(" ({bytes} bytes)"))
 }
 
+/// What failed while so many bytes were written to `path`, as a situation with advice.
 fn told<T>(path: &Path, bytes: usize, result: Result<T, Failure>) -> Result<T, FileError> {
     result.map_err(|failure| match failure {
         Failure::Named(error) => error,
@@ -305,6 +309,7 @@ fn write_beside(
     Ok(Some((part, target)))
 }
 
+/// The folder that a path lies in; the current one for a bare name.
 fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder.to_owned(),

@@ -10,8 +10,8 @@
 //! - [`measurement`]: records of forces and tables of load tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
-//! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs` is
-//! caught and told as a problem of the file. Same input, same bytes.
+//! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`
+//! is caught and told as a problem of the file. Same input, same bytes.
 
 pub mod document;
 pub mod file;

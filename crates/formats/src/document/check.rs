@@ -1,8 +1,18 @@
 //! Compares a document's tree with the shape it should have and collects every difference.
 //!
 //! Value by value from the root: a value of the wrong kind is told and not looked into; of a table, its fields, then
-//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told which
-//! has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
+//! what is unknown, then what is missing. Where a value may have several shapes, the problems of that one are told
+//! which has the fewest. Numbers that are not finite are told wherever they stand, also where anything goes.
+//!
+//! | part of the tree | what is compared |
+//! |---|---|
+//! | number | its kind, then its range; a whole number is a number too, the other way it is not |
+//! | text | its length in characters, or whether it is one of the names |
+//! | list | the count of its entries, then every entry |
+//! | table | known fields, unknown ones, missing ones; a tagged one by the variant that its tag names |
+//!
+//! Every message is `path: what stands there, what must`, with the unit that the field's name ends with; so a number in
+//! a list has the unit of the list.
 
 use std::ops::Range;
 
@@ -26,6 +36,8 @@ const MOST_LEVELS: usize = 256;
 const MOST_FIELDS_IN_HINT: usize = 12;
 
 /// Everything in which the tree differs from the shape, and every number that is not finite; at most 1000.
+///
+/// In the order of the walk, not of the text: whoever makes `Problems` of them sorts them.
 pub(super) fn all_problems(source: &Source, root: &Node, shapes: &Shapes) -> Vec<Problem> {
     let mut checker = Checker {
         source,
@@ -46,8 +58,10 @@ pub(super) fn all_problems(source: &Source, root: &Node, shapes: &Shapes) -> Vec
     checker.problems
 }
 
-/// Walks the tree and collects.
+/// Walks the tree and collects; one more of them is made for each alternative that is tried, so that its problems stay
+/// apart until the closest is known.
 struct Checker<'a> {
+    /// Shows values as they are written, and places problems.
     source: &'a Source,
     shapes: &'a Shapes,
     problems: Vec<Problem>,
@@ -55,9 +69,11 @@ struct Checker<'a> {
 
 /// Where the check stands: the path in the document, the field it lies in, and how many shapes enclose it.
 struct Place<'a> {
+    /// As problems tell it: `ask[2].x_mm[0]`, empty at the root.
     path: &'a str,
     /// The name that carries the unit: `x_mm` for the path `ask[2].x_mm[0]`.
     field: &'a str,
+    /// Shapes around this one, up to [`MOST_LEVELS`].
     level: usize,
 }
 
@@ -77,6 +93,9 @@ impl Checker<'_> {
     }
 
     /// No number may be nan or infinite, wherever it stands.
+    ///
+    /// A walk of its own, before any shape is looked at: where anything goes, or a value is of the wrong kind and not
+    /// looked into, nobody else would see it.
     fn finite(&mut self, value: &Node, path: &str) {
         match &value.value {
             Value::Real(real) if !real.is_finite() => {
@@ -99,6 +118,9 @@ impl Checker<'_> {
     }
 
     /// Compares a value with its shape, down to its last entry.
+    ///
+    /// `Shape::Any` fits everything. The order of the arms matters: a choice and alternatives judge values of any kind,
+    /// the other shapes only those of their own, and what is left is of the wrong kind.
     fn value(&mut self, value: &Node, shape: &Shape, place: &Place<'_>) {
         if place.level > MOST_LEVELS || self.problems.len() >= MOST_PROBLEMS {
             return;
@@ -205,6 +227,8 @@ impl Checker<'_> {
         );
     }
 
+    /// A list with too few or too many entries is told once; those that it has are compared all the same. Entries
+    /// beyond the shapes of the first have the common one.
     fn list(&mut self, value: &Node, list: &ListShape, entries: &[Node], place: &Place<'_>) {
         let count = entries.len() as u64;
         if count < list.fewest || list.most.is_some_and(|most| count > most) {
@@ -233,6 +257,9 @@ impl Checker<'_> {
     }
 
     /// The fields of a table whose header stands at `span`.
+    ///
+    /// An unknown field goes with the most similar known one that is absent, unit included: `step` for `step_mm`.
+    /// Missing fields are told at the header, with the first line of what the field means.
     fn table(&mut self, span: Range<usize>, table: &Table, shape: &TableShape, place: &Place<'_>) {
         let absent: Vec<&str> = shape
             .fields
@@ -322,12 +349,16 @@ impl Checker<'_> {
     }
 
     /// The problems of the alternative that comes closest; none if one of them fits.
+    ///
+    /// Only alternatives of the value's kind are tried; where there is none, all are named as what was expected. Of
+    /// those with equally many problems the first counts.
     fn one_of(&mut self, value: &Node, alternatives: &[Shape], place: &Place<'_>) {
         let mut closest: Option<Vec<Problem>> = None;
         let fitting = alternatives
             .iter()
             .filter(|shape| self.shapes.resolved(shape).may_hold(&value.value));
         for shape in fitting {
+            // A checker of its own, so that the problems of an alternative that was not meant are forgotten.
             let mut trial = Checker {
                 source: self.source,
                 shapes: self.shapes,
@@ -358,7 +389,7 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a value is this choice; 1 is not 1.0.
+/// Whether a value is this choice; a whole number is none that the schema writes with a point.
 fn same(choice: &Json, given: &Value) -> bool {
     match given {
         Value::Text(text) => choice.as_str() == Some(text),

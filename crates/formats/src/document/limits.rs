@@ -1,7 +1,8 @@
 //! Refuses text that nests so deep that walking it would exhaust the stack.
 //!
 //! The TOML parser bounds brackets (80) and the parts of one key (80), but not their product: tables within dotted keys
-//! reach 6400 levels, and even dropping such a tree overflows a thread's stack. So levels are counted on the tokens first.
+//! reach 6400 levels, and even dropping such a tree overflows a thread's stack. So levels are counted on the tokens
+//! first.
 
 use toml_parser::lexer::TokenKind;
 
@@ -13,6 +14,7 @@ const MOST_LEVELS: usize = 64;
 
 /// The first place that nests deeper than [`MOST_LEVELS`], counted from above: a point in a number counts as a level.
 pub(super) fn too_deep(source: &Source) -> Option<Problem> {
+    // Brackets that are open, each with the dots of the key before it: `a.b = [` makes two levels.
     let mut open: Vec<(TokenKind, usize)> = Vec::new();
     let mut dots = 0_usize;
     let mut levels = 0_usize;
@@ -31,7 +33,9 @@ pub(super) fn too_deep(source: &Source) -> Option<Problem> {
                     dots = outer;
                 }
             }
+            // The next key of an inline table, or the next number of a list, begins its own count.
             TokenKind::Comma => dots = 0,
+            // Outside of brackets a line is a key of its own; inside, a list may go on over lines.
             TokenKind::Newline if open.is_empty() => dots = 0,
             _ => {}
         }
@@ -44,6 +48,7 @@ pub(super) fn too_deep(source: &Source) -> Option<Problem> {
     None
 }
 
+/// Whether a closing bracket fits the one that is open; one that does not is left to the parser, which refuses it.
 fn closes(kind: TokenKind, opening: TokenKind) -> bool {
     match kind {
         TokenKind::RightSquareBracket => opening == TokenKind::LeftSquareBracket,

@@ -2,6 +2,15 @@
 //!
 //! UTF-8 with or without byte order mark, any line ends; a line that is no UTF-8 is taken as Latin-1, which only
 //! comments and names can hold. Zero bytes at the end of a line are dropped.
+//!
+//! | byte | taken as |
+//! |---|---|
+//! | `\n`, `\r`, `\r\n` | end of a line; mixed ends are fine |
+//! | `EF BB BF` at the start of the file | dropped |
+//! | `FF FE`, `FE FF` at the start of the file | UTF-16: refused |
+//! | `00` at the end of a line | dropped |
+//! | tab, `0C` (form feed), `1A` (end of a text in DOS) | kept in the line |
+//! | any other below `20`, and `7F` | refused: the file is no text |
 
 use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
@@ -27,6 +36,9 @@ pub(crate) struct Line {
 
 impl Line {
     /// A problem at a byte range of this line of the file `name`.
+    ///
+    /// The column counts characters; the span of the problem is in bytes of the whole file, as far as the line is
+    /// UTF-8.
     pub fn problem(&self, name: &str, span: Range<usize>, message: impl Into<String>, hint: &str) -> Problem {
         let begin = self.text.floor_char_boundary(span.start);
         let end = self.text.ceil_char_boundary(span.end).max(begin);
@@ -70,6 +82,12 @@ impl<R: BufRead> RawLines<R> {
 
     /// Takes the next line into `bytes`, without its end and without the mark that begins a text in UTF-8; the bytes of
     /// the file before it, `None` behind the last. Of a line of more than `longest` bytes one more than that is kept.
+    ///
+    /// So a caller sees by the length alone that the line is too long, and a file without line ends takes no more
+    /// memory than one line may. A last line without an end counts as one; an empty piece behind the last end does not.
+    ///
+    /// # Errors
+    /// A reader that fails, unless it was merely interrupted.
     pub fn next(&mut self, bytes: &mut Vec<u8>, longest: usize) -> io::Result<Option<usize>> {
         const MARK: &[u8] = b"\xef\xbb\xbf";
         bytes.clear();
@@ -117,8 +135,10 @@ impl<R: BufRead> RawLines<R> {
 /// The lines of a text, one by one.
 #[derive(Debug)]
 pub(crate) struct Lines<R> {
+    /// Where it stands in the file.
     raw: RawLines<R>,
     name: String,
+    /// The line that was read last; kept so that its memory is used again.
     bytes: Vec<u8>,
 }
 
@@ -181,6 +201,8 @@ impl<R: BufRead> Lines<R> {
     }
 
     /// A problem of line `number`, of which no text can be shown.
+    ///
+    /// It stands behind the last line that was read.
     fn nothing_to_show(&self, number: usize, message: impl Into<String>, hint: &str) -> Problems {
         Problems::from(Problem {
             file: self.name.clone(),

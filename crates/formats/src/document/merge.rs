@@ -1,10 +1,17 @@
 //! Shapes put together: alternatives into a choice, and the fields of flattened tables into one table.
+//!
+//! schemars writes an enum as alternatives (`oneOf`, `anyOf`) and serde's `flatten` as fields beside a reference.
+//! Problems are told better of simpler shapes: of names `one of "a", "b"`, of a tagged table the fields of its one
+//! variant, so both are brought together here, where a schema is read, and not where a document is checked.
 
 use std::collections::BTreeSet;
 
 use super::shape::{Others, Shape, TableShape};
 
 /// The simplest shape for a choice: one shape, a list of names, a tagged table, or the alternatives as they are.
+///
+/// Names of all alternatives become one list, which stands first; alternatives within alternatives become their own.
+/// Tables become tagged only where nothing but tables is offered. No shape at all is [`Shape::Any`].
 pub(super) fn one_of(shapes: Vec<Shape>) -> Shape {
     let mut choices = Vec::new();
     let mut rest = Vec::new();
@@ -29,6 +36,9 @@ pub(super) fn one_of(shapes: Vec<Shape>) -> Shape {
 }
 
 /// The tagged table that tables make which all require one field with a text of their own.
+///
+/// `None` where one is no table, or no field that the first requires tells all of them apart. The texts must differ
+/// from table to table: else the tag would not say which one is meant.
 fn tagged(shapes: &[Shape]) -> Option<Shape> {
     let tables: Vec<&TableShape> = shapes
         .iter()
@@ -56,6 +66,8 @@ fn tagged(shapes: &[Shape]) -> Option<Shape> {
 }
 
 /// A table with the fields of another shape besides its own; `None` where that shape is no table.
+///
+/// Of a tagged table every variant gets them.
 pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
     match shape {
         Shape::Table(other) => Some(Shape::Table(union(table, other))),
@@ -70,6 +82,8 @@ pub(super) fn merged(table: &TableShape, shape: &Shape) -> Option<Shape> {
     }
 }
 
+/// Fields and duties of both; a field of the same name is taken from `other`. What else may stand there `table` says,
+/// unless it leaves that open and `other` is a map.
 fn union(table: &TableShape, other: &TableShape) -> TableShape {
     let mut union = table.clone();
     union.fields.extend(other.fields.clone());

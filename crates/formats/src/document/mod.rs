@@ -1,13 +1,13 @@
 //! A TOML document that is checked completely: every problem is told, all at once, at its place.
 //!
-//! Reading has three steps. [`Document::parse`] finds what is not TOML. [`Document::read`] compares the tree with the JSON
-//! schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its plane) the
-//! caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
+//! Reading has three steps. [`Document::parse`] finds what is not TOML. [`Document::read`] compares the tree with the
+//! JSON schema of the wanted type, then lets serde build the value. What no schema can say (a step larger than its
+//! plane) the caller checks, and tells through [`Document::problem`], which finds the place of a value by its path.
 //!
-//! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place), `path`
-//! (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants), `check`
-//! (compares tree and shape), `unit` and `words` (units of names, and how both are said); `lines` (text that is no TOML,
-//! line by line).
+//! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place),
+//! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
+//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); `lines` (text that is
+//! no TOML, line by line).
 //!
 //! ```
 //! use armill_formats::document::Document;
@@ -100,7 +100,8 @@ impl Document {
     /// The value this document describes.
     ///
     /// Understood of the schema: structs, maps, lists, tuples, options, and enums of any tagging.
-    /// Not checked before serde does: `pattern`, `format`, `multipleOf`, `uniqueItems`; serde's `alias` is not known here.
+    /// Not checked before serde does: `pattern`, `format`, `multipleOf`, `uniqueItems`; serde's `alias` is not known
+    /// here.
     ///
     /// # Errors
     /// Every unknown or missing field, wrong type, wrong number of entries, number out of range and number that is not
@@ -167,6 +168,7 @@ fn syntax_problems(source: &Source, errors: &[toml::de::Error]) -> Problems {
     Problems::from(problems)
 }
 
+/// Advice for the two slips that are made most often, by what the parser says of them.
 fn syntax_hint(message: &str) -> Option<String> {
     let hint = if message.contains("string values must be quoted") {
         "write text in quotes, and numbers with a point and without a unit: `step_mm = 2.5`"

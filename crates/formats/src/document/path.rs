@@ -1,4 +1,13 @@
 //! Finds a value by its path: `ask[2].distances_mm[0]`, `material."EN AW-6082".density`.
+//!
+//! ```text
+//! path  = part { "." key | "[" index "]" }      part = key | "[" index "]"
+//! key   = letters, digits, _, -                 or any text in double quotes, with \ before " and \
+//! index = from 0
+//! ```
+//!
+//! The reverse of [`joined`], and lenient: a path comes from our own code, never from a user, and one that finds
+//! nothing costs no more than a problem told at a parent.
 
 use std::ops::Range;
 
@@ -7,7 +16,9 @@ use super::tree::{Node, Value};
 /// One part of a path.
 #[derive(Debug, PartialEq)]
 enum Step {
+    /// A field of a table, as it is called once quotes are taken off.
     Key(String),
+    /// An entry of a list, from 0.
     Entry(usize),
 }
 
@@ -83,6 +94,8 @@ fn steps(path: &str) -> Vec<Step> {
 }
 
 /// A key in double quotes and what follows it.
+///
+/// `None` where no quote begins it, or none ends it. Whatever follows a backslash is taken as it stands.
 fn quoted(path: &str) -> Option<(String, &str)> {
     let body = path.strip_prefix('"')?;
     let mut key = String::new();

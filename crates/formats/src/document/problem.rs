@@ -1,4 +1,16 @@
 //! What is wrong in a file and where, shown as rustc shows it.
+//!
+//! ```text
+//! error: study.toml:10:1: unknown field `plane.step`
+//!   --> study.toml:10:1
+//!    |
+//! 10 | step = 5
+//!    | ^^^^
+//!    |
+//!    = help: lengths carry their unit: write `step_mm`
+//! ```
+//!
+//! The first line alone is what `Display` of one [`Problem`] gives, without the word before it.
 
 use std::fmt;
 use std::ops::Range;
@@ -28,6 +40,7 @@ pub struct Problem {
     pub(super) span: Range<usize>,
     pub(super) message: String,
     pub(super) hint: Option<String>,
+    /// `None` where there is no line to show: a file as a whole, or a line that is too long to be read on a screen.
     #[serde(skip)]
     pub(super) excerpt: Option<Excerpt>,
 }
@@ -90,6 +103,7 @@ impl Problem {
         self.hint.as_deref()
     }
 
+    /// The title, the line with its caret, the hint; where no line can be shown, its place alone.
     fn rendered(&self, renderer: &Renderer) -> String {
         let title = Level::ERROR.primary_title(self.to_string());
         let mut group = match &self.excerpt {
@@ -153,6 +167,7 @@ impl Problems {
         serde_json::to_value(self).expect("strings, numbers and lists of them always serialise")
     }
 
+    /// The first 100 problems with an empty line between, and how many more there are.
     fn rendered(&self, renderer: &Renderer) -> String {
         let renderer = renderer
             .clone()
@@ -180,6 +195,7 @@ impl fmt::Display for Problems {
 impl std::error::Error for Problems {}
 
 impl From<Vec<Problem>> for Problems {
+    /// Sorted by file, then by place; problems at one place keep their order.
     fn from(mut problems: Vec<Problem>) -> Self {
         let place = |problem: &Problem| (problem.file.clone(), problem.span.start, problem.span.end);
         problems.sort_by_cached_key(place);

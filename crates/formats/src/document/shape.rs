@@ -29,6 +29,7 @@ const MOST_MERGES: usize = 32;
 #[derive(Debug)]
 pub(super) struct Shapes {
     pub(super) root: Shape,
+    /// Those of `$defs`, by their key there.
     named: BTreeMap<String, Shape>,
 }
 
@@ -37,13 +38,16 @@ pub(super) struct Shapes {
 pub(super) enum Shape {
     /// Anything.
     Any,
+    /// Written with or without a point.
     Number(Limits),
+    /// Written without a point.
     Integer(Limits),
     /// A text, its length counted in characters.
     Text {
         shortest: u64,
         longest: Option<u64>,
     },
+    /// `true` or `false`.
     Flag,
     /// One of these strings, numbers or flags.
     Choice(Vec<Value>),
@@ -51,7 +55,9 @@ pub(super) enum Shape {
     Table(TableShape),
     /// A table in which the text of one field decides what the others are.
     Tagged {
+        /// Name of the field that decides.
         tag: String,
+        /// Text of the tag, and the table that it stands for, the tag among its fields.
         variants: Vec<(String, TableShape)>,
     },
     /// Any of these.
@@ -63,9 +69,12 @@ pub(super) enum Shape {
 /// A list: the first entries may have their own shapes, all others have one.
 #[derive(Debug, Clone)]
 pub(super) struct ListShape {
+    /// Shapes of the first entries, one each, as of a tuple.
     pub(super) first: Vec<Shape>,
     pub(super) others: Shape,
+    /// Entries that must be there; 0 if the schema does not say.
     pub(super) fewest: u64,
+    /// Entries that may be there; `None`: any number.
     pub(super) most: Option<u64>,
 }
 
@@ -90,7 +99,9 @@ pub(super) struct Field {
 pub(super) enum Others {
     #[default]
     Any,
+    /// There may be none.
     Refused,
+    /// Any name, and every one of this shape: a map.
     Each(Box<Shape>),
 }
 
@@ -138,6 +149,9 @@ impl Shapes {
 
 impl Shape {
     /// Whether this shape is of the same kind as a value, so that its problems are worth telling.
+    ///
+    /// `Any`, `Named` and `OneOf` hold whatever there is. Of names and numbers to choose from the kind counts, not the
+    /// value: a misspelled name is a better match than a table.
     pub(super) fn may_hold(&self, value: &tree::Value) -> bool {
         match self {
             Self::Any | Self::Named(_) | Self::OneOf(_) => true,
@@ -163,6 +177,9 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     /// The shape of any schema, which `merges` others enclose.
+    ///
+    /// Tried in this order: values that are listed; a reference or alternatives without fields of its own; a plain
+    /// type; and whatever has fields of its own beside others, which is `flatten`.
     fn shape(&self, schema: &Value, merges: usize) -> Shape {
         let Some(object) = schema.as_object().filter(|_| merges < MOST_MERGES) else {
             return Shape::Any;
@@ -208,6 +225,8 @@ impl Reader<'_> {
     }
 
     /// A schema that is neither a reference nor a choice among schemas.
+    ///
+    /// Ranges are inclusive for `minimum` and `maximum`, exclusive for those with `exclusive` before the name.
     fn plain(&self, object: &Map<String, Value>, merges: usize) -> Shape {
         let number = |key: &str| object.get(key).and_then(Value::as_f64);
         let count = |key: &str| object.get(key).and_then(Value::as_u64);
@@ -282,6 +301,8 @@ impl Reader<'_> {
 }
 
 /// The type of a schema, leaving out null: TOML has none, a field that is not wanted is not written.
+///
+/// `None` where there are several; a schema with fields and no type is an object.
 fn kind(object: &Map<String, Value>) -> Option<&str> {
     match object.get("type") {
         Some(Value::String(kind)) => Some(kind),
@@ -324,6 +345,8 @@ fn alternatives(object: &Map<String, Value>) -> Option<Vec<&Value>> {
 }
 
 /// The first line of a schema's description.
+///
+/// Without the full stop, since a hint goes on behind it; `None` where it is empty.
 fn meaning(schema: &Value) -> Option<String> {
     let text = schema.get("description")?.as_str()?;
     text.lines()

@@ -1,4 +1,7 @@
 //! A text with the path it came from: turns byte offsets into lines, columns and excerpts.
+//!
+//! Offsets count bytes of the text without a byte order mark; lines and columns count from 1, columns in characters, as
+//! editors show them. A line ends with `\n`; a `\r` before it belongs to the line and is not shown.
 
 use std::ops::Range;
 use std::str::Utf8Error;
@@ -15,6 +18,7 @@ const LONGEST_EXCERPT_BYTES: usize = 8192;
 pub struct Source {
     name: String,
     text: String,
+    /// Offsets at which lines begin, rising: 0 first, then behind every `\n`.
     line_starts: Vec<usize>,
 }
 
@@ -73,6 +77,8 @@ impl Source {
     }
 
     /// The line a span begins on, and the part of the span that lies on it.
+    ///
+    /// `None` for a line of more than 8192 bytes.
     fn excerpt(&self, line: usize, span: Range<usize>) -> Option<Excerpt> {
         let from = self.line_starts[line - 1];
         let to = self.line_starts.get(line).copied().unwrap_or(self.text.len());

@@ -1,4 +1,7 @@
 //! The values of a TOML text, each with its place.
+//!
+//! The values of the crate `toml` in the form in which they are compared: numbers parsed, texts owned, tables sorted by
+//! their keys, so that problems come in one order whatever the parser does. Spans are bytes of the text.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -49,6 +52,8 @@ pub(super) fn root(table: DeTable<'_>) -> Node {
 }
 
 /// Adds every text at or below `node`, which stands at `path`, with its own path.
+///
+/// Paths are as `path` reads them; tables in the order of their keys.
 pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a str)>) {
     match &node.value {
         Value::Text(text) => found.push((path.to_owned(), text)),
@@ -66,6 +71,7 @@ pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a
     }
 }
 
+/// The fields of a table with the places of their keys.
 fn fields(table: DeTable<'_>) -> Table {
     let entry = |(key, value): (Spanned<_>, _)| {
         let key_span = key.span();
@@ -81,6 +87,8 @@ fn fields(table: DeTable<'_>) -> Table {
     table.into_iter().map(entry).collect()
 }
 
+/// A value of the parser with its place. The parser has checked that a number is one, so that what does not parse here
+/// is merely too large to be held.
 fn node(spanned: Spanned<DeValue<'_>>) -> Node {
     let span = spanned.span();
     let value = match spanned.into_inner() {

@@ -1,4 +1,13 @@
 //! The unit a field's name ends with, and the name a misspelled field was meant to be.
+//!
+//! ```text
+//! step_mm                step        mm
+//! feed_mm_per_min        feed        mm/min
+//! compliance_rad_per_n_m compliance  rad/(N m)
+//! per_mm, mm             -           no unit: no name would be left
+//! ```
+//!
+//! Suffixes and their meaning: `docs/notation.md`.
 
 /// A unit as names carry it and as people read it.
 ///
@@ -48,6 +57,9 @@ pub(super) struct Unit {
 }
 
 /// A field's name without its unit, and the unit; `None` if the name ends with no unit.
+///
+/// A quotient has as its lower part the last unit, as its upper one what stands before `_per`, which may be a quotient
+/// itself; a name that ends in `_per_mm` without a unit before it has none.
 pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
     let cut = |suffix: &str| name.strip_suffix(suffix)?.strip_suffix('_');
     let (before, shown, quantity) = ATOMS
@@ -80,6 +92,10 @@ pub(super) fn split(name: &str) -> Option<(&str, Unit)> {
 }
 
 /// What to write instead of an unknown field, if one of the known ones comes close: its name and the advice.
+///
+/// First the same quantity, given without its unit (`step` for `step_mm`) or in another (`step_m`); then a slip of the
+/// keyboard (`stepp_mm`): one change for every three letters of the known name, and one at least. Capitals do not
+/// count, and a hyphen is as good as `_`.
 pub(crate) fn suggestion<'a>(unknown: &str, known: &[&'a str]) -> Option<(&'a str, String)> {
     let plain = |name: &str| name.to_lowercase().replace('-', "_");
     let wanted = plain(unknown);

@@ -1,4 +1,7 @@
 //! How shapes and values are called in a message: `an array of 3 numbers in mm`, `the string "3"`.
+//!
+//! A message reads `expected` [`in_words`], `found` [`found`]. Values are repeated as far as one recognises them, so
+//! that a value as long as its file does not bury what is wrong with it.
 
 use super::shape::{ListShape, Shape, Shapes};
 use super::tree::Value;
@@ -8,6 +11,8 @@ use serde_json::Value as Json;
 const LONGEST_SHOWN: usize = 40;
 
 /// A shape with its article: `a number in mm`, `one of "map", "path"`.
+///
+/// The unit is said of numbers and lists of them, never of texts or tables.
 pub(super) fn in_words(shapes: &Shapes, shape: &Shape, unit: Option<&str>) -> String {
     match shapes.resolved(shape) {
         Shape::Any | Shape::Named(_) => "a value".to_owned(),
@@ -37,6 +42,7 @@ pub(super) fn in_words(shapes: &Shapes, shape: &Shape, unit: Option<&str>) -> St
 }
 
 /// `an array of 3 numbers in mm`, `an array of at least 2 tables`.
+/// The count is that of the schema; what the entries are called is taken from the first.
 fn list_in_words(shapes: &Shapes, list: &ListShape, unit: Option<&str>) -> String {
     let count = match (list.fewest, list.most) {
         (fewest, Some(most)) if fewest == most => format!("{most} "),
@@ -53,6 +59,8 @@ fn list_in_words(shapes: &Shapes, list: &ListShape, unit: Option<&str>) -> Strin
 }
 
 /// What the entries of a list are called.
+///
+/// One list deeper at most: a matrix is `arrays of numbers`, a list of points `arrays of 3 numbers`.
 fn plural(shapes: &Shapes, shape: &Shape) -> &'static str {
     match shapes.resolved(shape) {
         Shape::Number(_) => "numbers",
@@ -68,6 +76,7 @@ fn plural(shapes: &Shapes, shape: &Shape) -> &'static str {
     }
 }
 
+/// What the entries of an inner list are called, where that is said at all.
 fn plural_of_entries(shapes: &Shapes, list: &ListShape) -> &'static str {
     match shapes.resolved(list.first.first().unwrap_or(&list.others)) {
         Shape::Number(_) => "numbers",

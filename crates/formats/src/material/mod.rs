@@ -5,6 +5,14 @@
 //! material are whole, their mean stands for the material and their scatter for its uncertainty.
 //!
 //! `file` is the file as it stands; here it is checked and turned into SI.
+//!
+//! | in the file | here |
+//! |---|---|
+//! | `ktc_n_per_mm2`, `krc_n_per_mm2`, `kac_n_per_mm2` | `Ktc`, `Krc`, `Kac`: force over the section of a chip, Pa |
+//! | `kte_n_per_mm`, `kre_n_per_mm`, `kae_n_per_mm` | `Kte`, `Kre`, `Kae`: force over the length of the edge, N/m |
+//! | `kc1_n_per_mm2`, `mc_exponent` | `kc1` (Pa), `mc`: specific force of a chip 1 mm thick, and how it falls |
+//!
+//! Tangential, radial, axial in this order. All keys: `docs/guide/material-file.md`.
 
 mod file;
 
@@ -65,12 +73,16 @@ pub struct KienzleSet {
 
 impl Material {
     /// The whole sets of mechanistic coefficients together: Ktc, Krc, Kac (Pa), Kte, Kre, Kae (N/m).
+    ///
+    /// `None` where no set is whole.
     pub fn mechanistic(&self) -> Option<Together<6>> {
         let whole = self.mechanistic.iter().filter_map(MechanisticSet::whole);
         Together::of(&whole.collect::<Vec<_>>())
     }
 
     /// The sets of Kienzle values together: `kc1` (Pa) and `mc`.
+    ///
+    /// `None` where there is none. Sets of different groups and conditions are put together all the same.
     pub fn kienzle(&self) -> Option<Together<2>> {
         let sets = self.kienzle.iter();
         let values = sets.map(|set| Vector2::new(set.specific_force, set.exponent));
@@ -90,6 +102,7 @@ impl Material {
         self.sources_called(&keys)
     }
 
+    /// The sources with these keys, once each, in the order of their keys.
     fn sources_called(&self, keys: &[&str]) -> Vec<&Source> {
         let called = |source: &&Source| keys.contains(&source.key.as_str());
         self.sources.iter().filter(called).collect()
@@ -108,6 +121,8 @@ impl MechanisticSet {
 }
 
 /// The material of this file; `path` is what errors show.
+///
+/// In SI. Not checked: whether a coefficient is likely for its material, beyond the range that the schema allows.
 ///
 /// # Errors
 /// Every problem of the file, each with its place.
@@ -142,6 +157,7 @@ fn problems(document: &Document, file: &MaterialFile) -> Vec<Problem> {
     problems
 }
 
+/// A set in SI: the first three coefficients by the section of a chip, the others by the length of the edge.
 fn mechanistic_set(table: MechanisticTable) -> MechanisticSet {
     let mut coefficients = table.coefficients();
     let (shear, edge) = coefficients.split_at_mut(3);
@@ -159,6 +175,7 @@ fn mechanistic_set(table: MechanisticTable) -> MechanisticSet {
     }
 }
 
+/// A set in SI; the exponent is a pure number.
 fn kienzle_set(table: KienzleTable) -> KienzleSet {
     KienzleSet {
         group: table.group,

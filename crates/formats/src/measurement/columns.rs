@@ -1,4 +1,13 @@
 //! Which column holds which channel, in which unit; and the samples of its rows.
+//!
+//! | quantity | names, in any case | units, with their factor to SI |
+//! |---|---|---|
+//! | time | `t`, `time`, `zeit` | s 1, ms 1e-3, us 1e-6 |
+//! | force | `fx`, `fy`, `fz` | N 1, kN 1e3, mN 1e-3 |
+//! | moment | `mx`, `my`, `mz` | N m 1, kN m 1e3, N cm 1e-2, N mm 1e-3 |
+//!
+//! Brackets, points, blanks and `_` in a unit do not count: `[N.m]`, `N m` and `n_m` are one. Newtons may be written
+//! small, but for `mN`.
 
 use armill_core::load::{ActsOn, Record, RecordError};
 use armill_core::nalgebra::Vector3;
@@ -13,15 +22,20 @@ const MOST_SAMPLES: usize = 50_000_000;
 /// What a channel measures; numbers are axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
+    /// When.
     Time,
+    /// Axis of the sensor: 0, 1, 2 for x, y, z.
     Force(usize),
+    /// About this axis of the sensor.
     Moment(usize),
 }
 
 /// A channel and the factor from its unit to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Column {
+    /// What it measures.
     pub quantity: Quantity,
+    /// What one of its unit is in s, N or N m.
     pub factor: f64,
 }
 
@@ -72,6 +86,8 @@ impl Quantity {
 }
 
 /// What is missing among the columns, and what to do; nothing if a record can be made of them.
+///
+/// Three forces must be there, of moments three or none. Whether anything tells the time the readers look after.
 pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static str)> {
     let has = |quantity: Quantity| columns.iter().flatten().any(|column| column.quantity == quantity);
     let absent = |of: fn(usize) -> Quantity, letter: char| -> Vec<String> {
@@ -95,12 +111,17 @@ pub(super) fn missing(columns: &[Option<Column>]) -> Option<(String, &'static st
 /// A column that cannot be taken: its place, and what to say.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unfit {
+    /// From 0.
     pub index: usize,
+    /// What is wrong.
     pub message: String,
+    /// What to do.
     pub hint: String,
 }
 
 /// The columns of a line of names with a line of units below it; `quantity` tells what the name at an index means.
+///
+/// As many as there are names; `None` where a name means nothing, whatever its unit.
 ///
 /// # Errors
 /// Every name whose unit is missing or none of its quantity.
@@ -153,6 +174,9 @@ pub(super) fn doubled(columns: &[Option<Column>]) -> Option<usize> {
 }
 
 /// The number in a cell, if it is one that was measured.
+///
+/// `None` for what is no number and for one beyond 1e12, in whatever unit; `separator` tells whether a comma can be a
+/// decimal mark.
 pub(super) fn measured(text: &str, separator: char) -> Option<f64> {
     number(text, separator).filter(|number| number.abs() <= LARGEST)
 }
@@ -160,11 +184,15 @@ pub(super) fn measured(text: &str, separator: char) -> Option<f64> {
 /// Rows, as far as they were read, in SI.
 #[derive(Clone, Debug)]
 pub(super) struct Samples {
+    /// Of the rows that are pushed.
     columns: Vec<Option<Column>>,
     /// Time between rows, s, where no column tells it.
     step: Option<f64>,
+    /// s, rising.
     time: Vec<f64>,
+    /// N, axes of the sensor.
     force: Vec<Vector3<f64>>,
+    /// N m about the sensor's origin; `None` where no column tells any.
     moment: Option<Vec<Vector3<f64>>>,
 }
 
@@ -195,6 +223,8 @@ impl Samples {
     }
 
     /// Takes a row: the number of each column that means something, in order.
+    ///
+    /// A row that is refused is not kept; the next is compared with the one before it.
     ///
     /// # Errors
     /// What is wrong with it, and what to do.
@@ -233,6 +263,9 @@ impl Samples {
     }
 
     /// The record of these rows.
+    ///
+    /// # Errors
+    /// What the core refuses of a record.
     pub fn record(self, acts_on: ActsOn) -> Result<Record, RecordError> {
         Record::new(self.time, self.force, self.moment, acts_on)
     }

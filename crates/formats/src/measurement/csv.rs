@@ -6,11 +6,17 @@
 //! | `fx_n`, `fy_n`, `fz_n` | force, axes of the sensor | `_n`, `_kn`, `_mN` |
 //! | `mx_n_m`, ... | moment about its origin; all three or none | `_n_m`, `_n_mm`, `_n_cm`, `_kn_m` |
 //!
-//! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other names
-//! are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines
-//! that begin with `#` and empty ones are passed over.
+//! With units in a row of their own the names are `Time`, `Fx`, ... and the row holds `s`, `N`, ... Columns with other
+//! names are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read
+//! too. Lines that begin with `#` and empty ones are passed over.
 //!
 //! A file without names is read with names that are told, in the order of its columns: its first line is a row.
+//!
+//! ```text
+//! time_s,fx_n,fy_n,fz_n             Time;Fx;Fy;Fz
+//! 0.0000,0.12,-0.03,4.51            s;N;N;kN
+//! 0.0001,0.15,-0.02,4.62            0,0000;0,12;-0,03;0,00451
+//! ```
 
 use std::io::BufRead;
 
@@ -22,12 +28,12 @@ use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 
-/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is no
-/// part of a table.
+/// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is
+/// no part of a table.
 ///
 /// # Errors
-/// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that are
-/// no numbers, rows of another length, time that does not go on.
+/// Every problem of the file, at most 200: missing and double columns, units that are missing or unknown, cells that
+/// are no numbers, rows of another length, time that does not go on.
 pub fn read(
     path: &str,
     reader: impl BufRead,
@@ -102,15 +108,23 @@ fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
 
 /// What the columns of a file are.
 struct Table<'a> {
+    /// What problems show.
     path: &'a str,
+    /// What the user tells.
     wanted: &'a Wanted,
+    /// As the first line has it.
     separator: char,
+    /// As they stand in the file, or as they were told.
     names: Vec<String>,
+    /// What each means; `None` is passed over.
     columns: Vec<Option<Column>>,
 }
 
 impl Table<'_> {
     /// Names that the user tells, for the cells of this row.
+    ///
+    /// # Errors
+    /// Another count than that of the cells. A name that means nothing is passed over, units and all.
     fn take_told(&mut self, names: &[String], first: &Line) -> Result<(), Problems> {
         let width = cells(&first.text, self.separator).len();
         if names.len() != width {
@@ -123,6 +137,11 @@ impl Table<'_> {
     }
 
     /// Names with their units, or names and the line of units below.
+    ///
+    /// If one name ends in its unit, all are taken so; the line below is read only where none does.
+    ///
+    /// # Errors
+    /// Names of which none is a channel; units that are missing or unknown; a file that ends here.
     fn take_header(&mut self, first: &Line, lines: &mut Lines<impl BufRead>) -> Result<(), Problems> {
         let heads = cells(&first.text, self.separator);
         self.names = heads.iter().map(|cell| cell.text.to_string()).collect();
@@ -153,6 +172,9 @@ impl Table<'_> {
     }
 
     /// Whether a record can be made of these columns.
+    ///
+    /// # Errors
+    /// Double or missing columns; no time and no rate, or both; a rate that is not above 0.
     fn check(&self, first: &Line) -> Result<(), Problems> {
         if let Some(index) = doubled(&self.columns) {
             let message = format!("`{}` tells what a column before it tells", self.names[index]);
@@ -182,6 +204,9 @@ impl Table<'_> {
     }
 
     /// Takes a row as a sample.
+    ///
+    /// # Errors
+    /// Another count of cells than the header's, a cell that is no number, a time that does not go on.
     fn row(&self, line: &Line, samples: &mut Samples) -> Result<(), Problems> {
         let found = cells(&line.text, self.separator);
         if found.len() != samples.width() {
@@ -201,21 +226,26 @@ impl Table<'_> {
         pushed.map_err(|(message, hint)| self.at(line, message, hint))
     }
 
+    /// A problem of a cell.
     fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problems {
         let message = format!("`{}` is not a number", cell.text);
         let hint = "units stand in the column's name or in the row below the names";
         line.problem(self.path, cell.span.clone(), message, hint).into()
     }
 
+    /// A problem of a whole line.
     fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
         line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 }
 
+/// How a table begins.
 const HEADER_HINT: &str = "the first line names the columns with their units, such as `time_s,fx_n,fy_n,fz_n`; for a file \
                            without header tell its columns (option `columns`)";
 
 /// The channel of a name that ends in its unit.
+///
+/// Name and unit part at the first `_`: `mx_n_m` is `mx` in `n_m`.
 fn named(name: &str) -> Option<Column> {
     let (plain, unit) = name.trim().split_once('_')?;
     let quantity = Quantity::of_name(plain)?;

@@ -1,8 +1,8 @@
 //! The text export of Kistler's DynoWare.
 //!
-//! A header of lines `key:,value` (18 of them in version 3.2), a line of channels that begins with `Time` (`Zeit`), a line of
-//! units, then the samples. Further cycles follow, each again with its last header lines. Lines that begin with `#` and
-//! empty ones are passed over.
+//! A header of lines `key:,value` (18 of them in version 3.2), a line of channels that begins with `Time` (`Zeit`), a
+//! line of units, then the samples. Further cycles follow, each again with its last header lines. Lines that begin with
+//! `#` and empty ones are passed over.
 //!
 //! | line | read as |
 //! |---|---|
@@ -11,10 +11,17 @@
 //! | `s,N,N,N,...` | the unit of each |
 //! | begins with a number | a sample; every other line behind samples ends their cycle |
 //!
-//! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two channels.
-//! Such a row is put together again only if every row has exactly two pieces a channel, each first one whole and each
-//! second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another count holds
-//! a number without fraction, nobody can say which, and the file is refused.
+//! The separator is tab, `;` or `,`. With `,` the decimal mark may be a comma too: `0,000010,-0,0435965` for two
+//! channels. Such a row is put together again only if every row has exactly two pieces a channel, each first one whole
+//! and each second one digits: then every number has its comma, and nothing can be meant otherwise. A row with another
+//! count holds a number without fraction, nobody can say which, and the file is refused.
+//!
+//! ```text
+//! Samples per channel:,3
+//! Time,Fx,Fy,Fz
+//! s,N,N,N
+//! 0.000000,1.25,-0.5,3.0
+//! ```
 //!
 //! Source: exports of version 3.2.5.0 as quoted in public programs that read them.
 
@@ -37,6 +44,8 @@ const MOST_CHANNELS: usize = 1000;
 
 /// Reads the export in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.rate_hz` and
 /// `wanted.columns` are no part of an export.
+///
+/// One record a cycle, in their order; all have the same channels in the same units.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: no line of channels, channels that are missing, names of them that are not
@@ -94,7 +103,9 @@ fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
 
 /// What the three forces are called in a file, and the three moments, which it need not have.
 struct Channels {
+    /// x, y, z of the sensor.
     force: [String; 3],
+    /// The same; a file may lack them.
     moment: [String; 3],
 }
 
@@ -117,6 +128,7 @@ impl Channels {
         Some(Channels { force, moment })
     }
 
+    /// What a channel of this name measures, capitals aside; the time is known by its place, not its name.
     fn quantity(&self, name: &str) -> Option<Quantity> {
         let of = |names: &[String; 3]| names.iter().position(|known| known.eq_ignore_ascii_case(name));
         of(&self.force)
@@ -136,9 +148,11 @@ enum Marks {
 
 /// The lines of channels and units, understood.
 struct Table {
+    /// As the line of channels has it.
     separator: char,
     /// Where commas separate: whether they are decimal marks too, as the first row shows.
     marks: Option<Marks>,
+    /// As many as there are channels; `None` is passed over.
     columns: Vec<Option<Column>>,
     /// Whether rows end in a separator.
     open_end: bool,
@@ -146,25 +160,33 @@ struct Table {
 
 /// Samples since the last header.
 struct Cycle {
+    /// Those that could be read.
     samples: Samples,
+    /// The last of them, for problems of the cycle as a whole.
     last: Line,
     /// Problems of the file before them.
     problems: usize,
 }
 
+/// An export as far as it was read.
 struct Reader<'a> {
     path: &'a str,
     acts_on: ActsOn,
+    /// What forces and moments are called.
     channels: Channels,
     /// Samples of each cycle, as the header tells.
     wanted_samples: Option<usize>,
-    /// Since the last samples.
+    /// Lines since the last samples.
     header_lines: usize,
+    /// Once the channels are known.
     table: Option<Table>,
+    /// Samples that no other line has ended yet.
     cycle: Option<Cycle>,
     /// Cycles that ended.
     cycles: usize,
+    /// One a cycle that has no problem.
     records: Vec<Record>,
+    /// Names of channels that were passed over.
     unused: Vec<String>,
     problems: Vec<Problem>,
 }
@@ -208,6 +230,8 @@ impl Reader<'_> {
     }
 
     /// A line `key:,value`, with whatever separator.
+    ///
+    /// Only the count of samples is taken; what is no whole number counts as not told.
     fn header(&mut self, line: &str) {
         let (key, value) = line.split_once([':', '\t', ';', ',']).unwrap_or((line, ""));
         let no_part = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | '"');
@@ -221,6 +245,10 @@ impl Reader<'_> {
     }
 
     /// The line of channels, and the line of units below it.
+    ///
+    /// # Errors
+    /// A file that ends here, a line of units that is none, units that are missing or unknown, and what `check`
+    /// refuses.
     fn table_of(&mut self, line: &Line, lines: &mut Lines<impl BufRead>) -> Result<Table, Problems> {
         let separator = separator_of(&line.text);
         let mut names = cells(&line.text, separator);
@@ -268,6 +296,9 @@ impl Reader<'_> {
     }
 
     /// Whether a record can be made of these channels.
+    ///
+    /// # Errors
+    /// Two channels of one quantity, forces that are missing, some of the moments without the others.
     fn check(&self, line: &Line, names: &[Cell<'_>], columns: &[Option<Column>]) -> Result<(), Problems> {
         if let Some(index) = doubled(columns) {
             let message = format!("two channels are called `{}`", names[index].text);
@@ -301,6 +332,10 @@ impl Reader<'_> {
     }
 
     /// The numbers of a row: one for each column that means something.
+    ///
+    /// # Errors
+    /// Another count of cells than of channels, commas that can be read in two ways or other than in the rows before, a
+    /// cell that is no number.
     fn numbers(&self, line: &Line, table: &mut Table) -> Result<Vec<f64>, Problems> {
         let mut cells = cells(&line.text, table.separator);
         if table.open_end && cells.last().is_some_and(|cell| cell.text.is_empty()) {
@@ -354,6 +389,10 @@ impl Reader<'_> {
         }
     }
 
+    /// The record of a cycle.
+    ///
+    /// # Errors
+    /// Too many cycles, another count of samples than the header tells, times that do not go in equal steps.
     fn record(&self, Cycle { samples, last, .. }: Cycle) -> Result<Record, Problems> {
         if self.cycles > MOST_CYCLES {
             let message = format!("more than {MOST_CYCLES} cycles");
@@ -377,6 +416,7 @@ impl Reader<'_> {
         Ok(record)
     }
 
+    /// What the file held, or everything that is wrong with it.
     fn finish(mut self) -> Result<Measured, Problems> {
         self.end_cycle();
         if self.records.is_empty() && self.problems.is_empty() {
@@ -393,6 +433,7 @@ impl Reader<'_> {
         })
     }
 
+    /// A row whose commas cannot be told apart.
     fn ambiguous(&self, line: &Line, count: usize, width: usize) -> Problems {
         let message = format!(
             "{count} pieces between commas are neither {width} numbers with points nor {width} numbers with commas"
@@ -402,13 +443,16 @@ impl Reader<'_> {
         self.at(line, message, hint)
     }
 
+    /// A problem of a whole line.
     fn at(&self, line: &Line, message: String, hint: &str) -> Problems {
         line.problem(self.path, 0..line.text.len(), message, hint).into()
     }
 }
 
+/// What is most often behind a row that does not fit.
 const CUT_SHORT: &str = "is the file cut short? export it again";
 
+/// Whether a line is a sample: a digit or point, behind a sign or quote if there is one.
 fn begins_with_number(line: &str) -> bool {
     let line = line.trim_start().trim_start_matches('"');
     let line = line.strip_prefix(['-', '+']).unwrap_or(line);
@@ -424,6 +468,8 @@ pub(super) fn is_channels(line: &str) -> bool {
 }
 
 /// Whether the pieces are halves of numbers: whole, digits, whole, digits.
+///
+/// The whole part may have a sign, the digits an exponent.
 fn all_halves(pieces: &[Cell<'_>]) -> bool {
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     pieces.chunks(2).all(|pair| {

@@ -1,7 +1,8 @@
 //! A force record in either format: which of both a file is in is seen in its first lines.
 //!
-//! An export of DynoWare has a line that begins with the plain word `Time` or `Zeit`, behind its header; the names of a CSV
-//! end in their units. Whoever tells columns or a sampling rate means a CSV, whoever tells names of channels an export.
+//! An export of DynoWare has a line that begins with the plain word `Time` or `Zeit`, behind its header; the names of a
+//! CSV end in their units. Whoever tells columns or a sampling rate means a CSV, whoever tells names of channels an
+//! export.
 
 use std::io::{BufRead, Cursor, Read};
 
@@ -86,6 +87,7 @@ pub fn read(
     }
 }
 
+/// Whether one of these lines is that of an export's channels; any line ends.
 fn has_line_of_channels(head: &[u8]) -> bool {
     let text = String::from_utf8_lossy(head);
     text.split(['\n', '\r']).any(dynoware::is_channels)

@@ -16,6 +16,11 @@
 //!
 //! Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#`
 //! and empty ones are passed over, and so are rows without any reading.
+//!
+//! ```text
+//! test;A1_deg;A2_deg;...;fx_n;fz_n;dx_mm;dy_mm;dz_mm;d_u_mm
+//! 1;0;-90;...;0;-98,1;0,012;;-0,154;0,005
+//! ```
 
 mod columns;
 mod sheet;
@@ -70,6 +75,9 @@ const WEIGHTS: RangeInclusive<f64> = 1e-6..=1e6;
 /// The load tests of `robot` in this text; `path` is what problems show, `tool_point` (m, flange frame) where force and
 /// displacement are unless a row says otherwise.
 ///
+/// A row without reading is counted and gives no test; a row with a problem gives none either, and the others are still
+/// looked at. Joint positions are in SI, in the controller's counting; wrenches act at the force point, base axes.
+///
 /// # Errors
 /// Every problem of the file: missing, unknown and double columns, cells that are no numbers, joint positions that
 /// this robot cannot have, units that cannot be, no test at all.
@@ -119,10 +127,15 @@ pub fn read(
     Ok(found)
 }
 
+/// Reads rows, and keeps what is wrong with them.
 struct Reader<'a> {
+    /// The table.
     sheet: &'a Sheet,
+    /// The arm that was tested: its joints name columns, its limits judge postures.
     robot: &'a Robot,
+    /// Where force and gauge are where no column tells it; flange frame, m.
     tool_point: Vector3<f64>,
+    /// Those found so far.
     problems: Vec<Problem>,
 }
 
@@ -134,26 +147,39 @@ struct Place<'a> {
 
 /// What the cells of one row say, in SI.
 struct Row {
+    /// rad or m, controller's counting.
     joints: Vec<f64>,
+    /// N, base axes.
     force: Vector3<f64>,
+    /// N m about the force point, base axes.
     moment: Vector3<f64>,
+    /// m, flange frame; so is the next.
     force_point: Vector3<f64>,
     gauge_point: Vector3<f64>,
+    /// m, base axes; `None`: not measured.
     displacement: [Option<f64>; 3],
+    /// Its standard uncertainty, m, for all three axes.
     displacement_u: Option<f64>,
+    /// The joint that turned.
     joint: Option<usize>,
+    /// How far, rad, in the controller's sign.
     turn: Option<f64>,
+    /// Its standard uncertainty, rad.
     turn_u: Option<f64>,
+    /// How many ordinary tests it counts for.
     weight: f64,
+    /// What people call it.
     name: Option<String>,
 }
 
 impl Reader<'_> {
+    /// Keeps a problem of a cell.
     fn tell(&mut self, cell: &Place<'_>, message: String, hint: &str) {
         self.problems
             .push(self.sheet.problem(cell.line, cell.cell, message, hint));
     }
 
+    /// Takes a row as a test, if it holds a reading and nothing is wrong with it.
     fn row(&mut self, line: &Line, columns: &Columns, found: &mut LoadTests) {
         let cells = self.sheet.cells(line);
         if cells.len() != columns.columns.len() {
@@ -224,6 +250,7 @@ impl Reader<'_> {
         });
     }
 
+    /// Puts what a cell says into the row; what is wrong with it is kept.
     fn cell(&mut self, cell: &Place<'_>, column: Option<&Column>, row: &mut Row) {
         let Some(column) = column else { return };
         let text = &cell.cell.text;
@@ -313,6 +340,8 @@ impl Reader<'_> {
         None
     }
 
+    /// Keeps a problem if a joint position lies outside the limits of its joint by more than [`OUTSIDE`]: about 1 deg,
+    /// or 17.5 mm. `value` is as the file has it, `scale` its factor to SI.
     fn within_limits(&mut self, cell: &Place<'_>, joint: usize, [value, scale]: [f64; 2]) {
         let position = value * scale;
         let described = &self.robot.joints()[joint];
@@ -344,6 +373,9 @@ impl Reader<'_> {
     }
 
     /// Degrees under a name in radians, and the other way round.
+    ///
+    /// More than two turns in a column of radians are degrees; if no column of degrees goes beyond 6.28 in any row,
+    /// they are radians. Columns of zeros alone are neither.
     fn angles(&mut self, columns: &Columns) {
         let sheet = self.sheet;
         let heads = sheet.heads();
@@ -382,6 +414,9 @@ impl Reader<'_> {
 }
 
 /// The readings of a row, and whether each states its uncertainty.
+///
+/// Displacements first, x, y, z, then the turn, which is counted with the chain: the sign of its joint is taken off. A
+/// test of weight w has standard uncertainties smaller by the root of w.
 fn readings(row: &Row, robot: &Robot) -> (Vec<Reading>, bool) {
     let mut readings = Vec::new();
     let mut stated = true;

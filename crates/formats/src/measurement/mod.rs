@@ -5,8 +5,8 @@
 //! - [`csv`]: any other table with a column for each channel.
 //! - [`load_tests`]: loads on a standing robot, and how far it gave way.
 //!
-//! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the tool
-//! or on the part, and how the sensor stands, no file tells: the caller says it.
+//! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
+//! tool or on the part, and how the sensor stands, no file tells: the caller says it.
 //!
 //! `columns`: what a column holds, in which unit; samples as they come.
 

@@ -1,4 +1,7 @@
 //! A robot with what the core does not need to know: where its numbers come from.
+//!
+//! Each format gives one: our own robot file fills all of it, a foreign one has one source for everything and tells in
+//! `remarks` what it assumed.
 
 use armill_core::robot::Robot;
 
@@ -21,7 +24,7 @@ pub struct RobotDescription {
     pub symbols: Vec<Symbol>,
     /// What else is known of each joint, in the order of the robot's.
     pub joint_notes: Vec<JointNote>,
-    /// Every source, in the order of the file.
+    /// Every source, in the order of their keys.
     pub sources: Vec<Source>,
 }
 
@@ -54,6 +57,8 @@ pub struct OtherLimits {
 
 impl RobotDescription {
     /// A robot read from a foreign file at `place`, which is the one source (`key`) of all its numbers.
+    ///
+    /// Title is the robot's name; nothing is known of payload and symbols.
     pub(super) fn of_one_source(robot: Robot, key: &str, place: &str, what: &str) -> RobotDescription {
         let note = JointNote {
             source: Some(key.to_owned()),

@@ -38,7 +38,8 @@ pub enum Format {
     Chain,
 }
 
-/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends so.
+/// Endings, what their files hold (for people, where the ending does not say it), and the format of a text that ends
+/// so.
 type Known = (&'static [&'static str], &'static str, fn(&str) -> Option<Format>);
 
 /// Every ending, in the order people are told them; the header explains those that several formats share.
@@ -113,6 +114,10 @@ impl Format {
 impl FromStr for Format {
     type Err = String;
 
+    /// The format of this name, as `--format` takes it.
+    ///
+    /// # Errors
+    /// A name that no format has; the message lists those that they have.
     fn from_str(name: &str) -> Result<Format, String> {
         let found = Format::ALL.into_iter().find(|format| format.name() == name);
         found.ok_or_else(|| {
@@ -122,6 +127,7 @@ impl FromStr for Format {
     }
 }
 
+/// The row of [`KNOWN`] for a path; capitals in its ending do not count.
 fn known(path: &Path) -> Option<&'static Known> {
     let ending = ending(path)?;
     KNOWN
@@ -129,6 +135,7 @@ fn known(path: &Path) -> Option<&'static Known> {
         .find(|(endings, ..)| endings.contains(&ending.as_str()))
 }
 
+/// What stands behind the last point of a file's name, in small letters.
 fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_str()?.to_lowercase())
 }
@@ -143,6 +150,8 @@ pub struct Wanted {
 }
 
 /// The robot of a file that was read from `path`; `id` is the robot's name in results.
+///
+/// A format that is said goes before ending and content. Only xacro reads other files: those that it includes.
 ///
 /// # Errors
 /// Bytes that are no text, an empty file, an unknown format, and the problems of the format.
@@ -224,6 +233,8 @@ fn text_of(shown: &str, bytes: &[u8]) -> Result<String, Problems> {
 }
 
 /// UTF-8, or Latin-1 where that cannot be; line ends of old Macs as ours.
+///
+/// A carriage return ends a line only in a text without any line feed; elsewhere it stays, as white space.
 fn decoded(bytes: &[u8]) -> String {
     let text = match std::str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),

@@ -9,8 +9,11 @@
 //! | UR | rotation vector, rad | `exp([r]x)` |
 //! | Staubli | Rx, Ry, Rz deg | `Rx(Rx) Ry(Ry) Rz(Rz)` |
 //!
-//! Positions in mm. Source: programs of one list of poses written for six controllers by the public RoboDK posts,
-//! which agree to their last digit; Staubli from such a post alone.
+//! Positions in mm. The pose is that of whatever the pendant shows (tool or flange), in the frame that it counts from;
+//! which two these are the caller knows.
+//!
+//! Source: programs of one list of poses written for six controllers by the public RoboDK posts, which agree to their
+//! last digit; Staubli from such a post alone.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
@@ -103,6 +106,8 @@ impl Convention {
 
     /// The pose of these numbers, m.
     ///
+    /// Numbers in the order of [`Convention::numbers`]. A quaternion that is not quite of unit length is normalised.
+    ///
     /// # Errors
     /// Another count of numbers; a number beyond any pendant's; a quaternion that is not of unit length.
     pub fn pose(self, numbers: &[f64]) -> Result<Isometry, PendantError> {
@@ -167,6 +172,7 @@ pub fn reading(text: &str, convention: Convention) -> Result<(Vec<f64>, Isometry
     Ok((numbers(joints)?, convention.pose(&numbers(pose)?)?))
 }
 
+/// Numbers between commas; any blanks around them.
 fn numbers(text: &str) -> Result<Vec<f64>, PendantError> {
     let number = |word: &str| {
         let value: Option<f64> = word.trim().parse().ok().filter(|value: &f64| value.is_finite());

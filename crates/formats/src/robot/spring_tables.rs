@@ -1,4 +1,13 @@
 //! Tables that robot files and studies share: springs and masses, told in their own units, checked, turned into SI.
+//!
+//! | table | says | in the core |
+//! |---|---|---|
+//! | `[[spring]]` with `about` | rad/(N m) about an axis of the seat | one spring |
+//! | `[[spring]]` with `along` | um/N along an axis of the seat | one spring, m/N |
+//! | `[[spring]]` with `compliance_matrix` | 6 x 6, SI, in the axes of the seat | up to six springs |
+//! | `[[mass]]` | kg, centre of mass in mm in the frame of the seat | one mass, m |
+//!
+//! A seat is `base`, a joint's name, `flange` or `tool`. A joint of one of these names hides that part of the arm.
 
 use armill_core::nalgebra::{Matrix6, Point3, Vector3};
 use armill_core::robot::spring::springs_of;
@@ -111,6 +120,7 @@ pub struct Fault {
 }
 
 impl Fault {
+    /// What is wrong at `key`, or with the table as a whole.
     fn new(
         key: impl Into<Option<&'static str>>,
         message: impl Into<String>,
@@ -133,6 +143,8 @@ impl Fault {
 }
 
 /// The seat that `at` names on an arm with these joints.
+///
+/// `joints` are the names of the arm's joints, base to flange; capitals count.
 ///
 /// # Errors
 /// A name that is none of them.
@@ -163,6 +175,8 @@ impl SpringTable {
     }
 
     /// The springs of the core: one, or up to six for a matrix.
+    ///
+    /// `joints` are the names of the arm's joints. A standard uncertainty that is not told is zero.
     ///
     /// # Errors
     /// The first thing that is wrong.
@@ -229,6 +243,8 @@ impl SpringTable {
 
 impl MassTable {
     /// The mass of the core.
+    ///
+    /// `joints` are the names of the arm's joints.
     ///
     /// # Errors
     /// A seat that the arm does not have.

@@ -1,4 +1,7 @@
 //! XML with the place of everything that is wrong in it: the ground of URDF and xacro.
+//!
+//! The parser is the crate `roxmltree`; before it runs, and behind it, what would take it or those who walk its tree
+//! too long is refused. Places are bytes of the text.
 
 use std::ops::Range;
 
@@ -47,6 +50,8 @@ pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
 }
 
 /// Where an element begins that has too many attributes, by its quotes: the parser compares each with all others.
+///
+/// Not exact: quotes in the text behind an element count as well, up to the next one.
 fn too_many_attributes(text: &str) -> Option<Range<usize>> {
     let mut at = 0;
     for piece in text.split_inclusive('<') {
@@ -74,6 +79,8 @@ fn too_deep(document: &Document<'_>) -> Option<Range<usize>> {
 }
 
 /// The byte at a line and column, both counted from 1.
+///
+/// Columns count characters; a place past the end of the text counts as its end.
 fn offset(text: &str, row: u32, column: u32) -> usize {
     let before: usize = text
         .split_inclusive('\n')
@@ -95,6 +102,8 @@ pub(super) fn children<'a, 'input: 'a>(
 }
 
 /// Where the start tag of an element stands.
+///
+/// From `<` to the end of its name; it ends early where the name has a prefix.
 pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
     let start = node.range().start;
     start..start + 1 + node.tag_name().name().len()

@@ -14,6 +14,8 @@ use std::io::Write;
 use super::{Column, ColumnData, Table};
 
 /// The table as UTF-8 text, a header and one line for each row.
+///
+/// Lines end with CR LF, the last one too. Not checked: texts that a spreadsheet would take for a formula.
 pub fn write(table: &Table) -> Vec<u8> {
     let columns = table.columns();
     let mut out = Vec::with_capacity((table.row_count() + 1) * columns.len() * BYTES_PER_CELL);
@@ -39,14 +41,17 @@ pub fn write(table: &Table) -> Vec<u8> {
 /// What a cell of a table of deviations takes, about; only the first allocation depends on it.
 const BYTES_PER_CELL: usize = 9;
 
+/// As RFC 4180 has it.
 const END_OF_LINE: &[u8] = b"\r\n";
 
+/// A comma before every cell but the first of a line.
 fn separate(out: &mut Vec<u8>, index: usize) {
     if index > 0 {
         out.push(b',');
     }
 }
 
+/// The value of a column in a row; nothing where it is missing.
 fn cell(out: &mut Vec<u8>, column: &Column, row: usize) {
     let float = |out: &mut Vec<u8>, value| match column.decimals {
         Some(decimals) => rounded(out, value, usize::from(decimals)),
@@ -79,6 +84,8 @@ fn text(out: &mut Vec<u8>, text: &str) {
 }
 
 /// The shortest text that reads back equal, with an exponent where that is shorter.
+///
+/// A whole number has no point: `1`, not `1.0`.
 fn number(out: &mut Vec<u8>, value: f64) {
     let start = out.len();
     formatted(out, format_args!("{value:?}"));
@@ -87,11 +94,14 @@ fn number(out: &mut Vec<u8>, value: f64) {
     }
 }
 
+/// By exponent: with more than nine decimals all digits are written.
 const POWERS_OF_TEN: [f64; 10] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9];
 /// Below this a whole number of the last decimal is exact.
 const EXACT: f64 = 9e15;
 
 /// At most so many decimals, without zeros at the end; numbers that are too large for that in full.
+///
+/// A half is rounded away from zero. A number that rounds to zero is written without sign.
 fn rounded(out: &mut Vec<u8>, value: f64, decimals: usize) {
     let scaled = match POWERS_OF_TEN.get(decimals) {
         Some(power) => (value * power).abs() + 0.5,
@@ -105,6 +115,8 @@ fn rounded(out: &mut Vec<u8>, value: f64, decimals: usize) {
 }
 
 /// So many parts of the last decimal.
+///
+/// `parts` over ten to the power of `decimals`, digit by digit from the last; zeros behind the point are left out.
 fn decimal(out: &mut Vec<u8>, negative: bool, parts: u64, decimals: usize) {
     // Sixteen digits at most, a point, a sign, and zeros after the point.
     let mut digits = [b'0'; 32];
@@ -136,6 +148,7 @@ fn decimal(out: &mut Vec<u8>, negative: bool, parts: u64, decimals: usize) {
     out.extend_from_slice(&digits[first..end]);
 }
 
+/// Puts formatted text behind what is there.
 fn formatted(out: &mut Vec<u8>, arguments: std::fmt::Arguments<'_>) {
     out.write_fmt(arguments).expect("writing to memory does not fail");
 }

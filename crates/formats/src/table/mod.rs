@@ -34,8 +34,11 @@ pub mod vtk;
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
+    /// For people, and for the metadata of a file.
     name: String,
+    /// At least one; all of `row_count` values.
     columns: Vec<Column>,
+    /// Zero for a table without rows.
     row_count: usize,
 }
 
@@ -199,6 +202,10 @@ impl Table {
 }
 
 impl Column {
+    /// Whether every value may stand in the table of this name.
+    ///
+    /// # Errors
+    /// The first number that is not finite, or the first category without a label.
     fn check_values(&self, table: &str) -> Result<(), TableError> {
         let not_finite = |row: usize, value: f64| TableError::NotFinite {
             table: table.to_owned(),

@@ -10,9 +10,9 @@
 //! (1/1024 for three decimals): the bytes that are then zero take no room. Numbers are split into streams of bytes
 //! (`BYTE_STREAM_SPLIT`), except where few differ: there a dictionary is shorter.
 //!
-//! The file's metadata has `table`, what the caller adds, and `columns`: a JSON list with the `name`, `unit`, `description` and
-//! `decimals` of each, and of a category all `labels` in order. Same table, same bytes, for one version of the `parquet`
-//! crate.
+//! The file's metadata has `table`, what the caller adds, and `columns`: a JSON list with the `name`, `unit`,
+//! `description` and `decimals` of each, and of a category all `labels` in order. Same table, same bytes, for one
+//! version of the `parquet` crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
@@ -38,7 +38,9 @@ use super::{Column, ColumnData, Table, TableError};
 /// Rows that a reader must hold at once: a few megabytes for a wide table.
 const ROW_GROUP_ROWS: usize = 65_536;
 
+/// Metadata: the name of the table.
 const TABLE_KEY: &str = "table";
+/// Metadata: what is known of the columns, as JSON.
 const COLUMNS_KEY: &str = "columns";
 
 /// Facts about a whole file, such as the version that made it and the hash of its study.
@@ -51,6 +53,7 @@ struct Facts {
     unit: Option<String>,
     description: String,
     decimals: Option<u8>,
+    /// Of a category all names, those that no row has included.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     labels: Option<Vec<String>>,
 }
@@ -99,6 +102,9 @@ pub enum ParquetError {
 }
 
 /// The table as the bytes of a Parquet file.
+///
+/// Columns of a row group are encoded in parallel and put together in their order, so that the bytes do not depend on
+/// the number of threads. Numbers lose what lies below their last decimal that means something.
 ///
 /// # Errors
 /// [`ParquetError::ReservedKey`] for metadata called `table` or `columns`; the `parquet` crate refuses nothing that a
@@ -157,6 +163,7 @@ fn chunk(
     Ok((sink.into_inner()?, closed))
 }
 
+/// Gives the writer of a column the values of these rows; missing ones are told by a level of 0 in place of a value.
 fn write_values(
     writer: &mut ColumnWriter<'_>,
     column: &Column,
@@ -204,15 +211,20 @@ fn write_values(
     Ok(())
 }
 
+/// A text as the crate takes it.
 fn bytes_of(text: &str) -> ByteArray {
     ByteArray::from(Bytes::copy_from_slice(text.as_bytes()))
 }
 
 /// How many rows are looked at to tell whether a dictionary of numbers is worth it, and how many may differ.
 const LOOKED_AT: usize = 512;
+/// So many different numbers, or fewer, are written by a dictionary.
 const FEW: usize = 128;
 
 /// The properties with the encoding that suits a column.
+///
+/// Decided over the whole column, not the row group, by looking at rows that are equally far apart. Other kinds keep
+/// the dictionary that the crate makes.
 fn encoded(properties: WriterPropertiesBuilder, column: &Column) -> WriterPropertiesBuilder {
     let bits = |row: usize| match &column.data {
         ColumnData::Float(values) => Some(values[row].to_bits()),
@@ -234,6 +246,7 @@ fn encoded(properties: WriterPropertiesBuilder, column: &Column) -> WriterProper
         .set_column_encoding(path, Encoding::BYTE_STREAM_SPLIT)
 }
 
+/// What the metadata says of a column.
 fn facts(column: &Column) -> Facts {
     Facts {
         name: column.name.clone(),
@@ -247,6 +260,7 @@ fn facts(column: &Column) -> Facts {
     }
 }
 
+/// The column of the schema.
 fn field(column: &Column) -> Result<TypePtr, ParquetError> {
     let (kind, repetition) = match &column.data {
         ColumnData::Float(_) => (PhysicalType::DOUBLE, Repetition::REQUIRED),
@@ -264,6 +278,9 @@ fn field(column: &Column) -> Result<TypePtr, ParquetError> {
 
 /// What is kept of a number when so many decimals mean something: multiples of the largest power of two that is not
 /// above the last decimal.
+///
+/// A number is off by half a step at most. Kept whole are numbers of columns that do not say their decimals, or say 12
+/// or more, and numbers so large that hardly a digit of theirs lies below the step.
 fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
     // Adding a number whose last bit is worth the step rounds to it; taking it off again is exact.
     let large = decimals.filter(|decimals| *decimals < 12).map(|decimals| {
@@ -281,13 +298,15 @@ fn kept(decimals: Option<u8>) -> impl Fn(f64) -> f64 {
 /// # Errors
 /// Bytes that are not Parquet, columns of other types than [`write()`] makes, and what [`Table::new`] refuses.
 ///
-/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the `parquet`
-/// crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
+/// Not checked: damage that leaves a readable file; Parquet as written here has no checksums. A panic inside the
+/// `parquet` crate is caught and told as [`ParquetError::Damaged`], but the panic hook of the program hears of it.
 pub fn read(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
-    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half done.
+    // The parquet crate (60.1) panics on some damaged pages. Nothing outlives the closure, so nothing is left half
+    // done.
     std::panic::catch_unwind(|| read_trusting(bytes)).unwrap_or(Err(ParquetError::Damaged))
 }
 
+/// What the file says, if the crate survives it; a column of which the metadata says nothing has no unit.
 fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
     let file = SerializedFileReader::new(Bytes::copy_from_slice(bytes))?;
     let described = file.metadata().file_metadata();
@@ -311,6 +330,9 @@ fn read_trusting(bytes: &[u8]) -> Result<(Table, Metadata), ParquetError> {
 }
 
 /// Column `index` in all row groups.
+///
+/// # Errors
+/// Another type than [`write()`] makes, values that are missing where none may be, texts that are no labels.
 fn read_column(
     file: &SerializedFileReader<Bytes>,
     (index, described): (usize, &ColumnDescPtr),
@@ -366,6 +388,7 @@ fn read_column(
     })
 }
 
+/// A column of another type than expected.
 fn unfit(described: &ColumnDescPtr, found: String) -> ParquetError {
     ParquetError::Type {
         column: described.name().to_owned(),
@@ -408,6 +431,10 @@ impl Values {
     }
 }
 
+/// The texts of a column by their index among its labels.
+///
+/// # Errors
+/// The first text that is none of them.
 fn category(column: &str, texts: &[String], labels: Vec<String>) -> Result<ColumnData, ParquetError> {
     let code = |(row, text): (usize, &String)| {
         let code = labels

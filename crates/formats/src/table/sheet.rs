@@ -1,7 +1,7 @@
 //! Lines of a table that somebody wrote, as cells that know their place: what all readers of tables share.
 //!
-//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`, numbers
-//! may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
+//! Cells are separated by `;`, tab or `,`: the first of these that the line of names holds. Where it is not `,`,
+//! numbers may have a decimal comma. Lines that begin with `#` and empty ones are remarks.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -9,7 +9,9 @@ use std::ops::Range;
 /// One cell: what it says, and where in its line, bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Cell<'a> {
+    /// Without blanks and quotes round it.
     pub text: Cow<'a, str>,
+    /// With its quotes, without the blanks.
     pub span: Range<usize>,
 }
 
@@ -43,6 +45,9 @@ pub(crate) fn number(text: &str, separator: char) -> Option<f64> {
 }
 
 /// The cells of a line; quotes around a cell are taken off, and double ones inside are one.
+///
+/// A separator within quotes separates nothing. A line that ends with a separator has an empty last cell; a quote that
+/// is never closed takes all to the end of the line.
 pub(crate) fn cells(line: &str, separator: char) -> Vec<Cell<'_>> {
     let mut cells = Vec::new();
     let (mut from, mut quoted) = (0, false);
@@ -63,6 +68,7 @@ pub(crate) fn cells(line: &str, separator: char) -> Vec<Cell<'_>> {
     cells
 }
 
+/// A cell as it was meant.
 fn without_quotes(cell: &str) -> Cow<'_, str> {
     if !cell.contains('"') {
         return Cow::Borrowed(cell);

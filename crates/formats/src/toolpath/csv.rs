@@ -11,9 +11,10 @@
 //! | `axial_depth`, `radial_depth` | how deep the cutter is; both or none | `_mm`, `_m`, `_in` |
 //! | `op`, `note` | name of the operation; for people | |
 //!
-//! A new operation begins where its name, the spindle or a depth changes. The columns stand in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
-//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with
-//! `#` and empty ones are passed over.
+//! A new operation begins where its name, the spindle or a depth changes. The columns stand in
+//! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. The first row says where the tip
+//! stands. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin
+//! with `#` and empty ones are passed over.
 
 use std::f64::consts::TAU;
 use std::io::BufRead;
@@ -35,19 +36,26 @@ const MOST_COLUMNS: usize = 100;
 /// What a column tells; numbers are the axis, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Column {
+    /// Coordinate of the tip, to m.
     Point(usize, f64),
+    /// Part of the tool axis.
     Axis(usize),
+    /// To rad.
     Spin(f64),
+    /// To m/s.
     Feed(f64),
     Rapid,
     Spindle,
     AxialDepth(f64),
     RadialDepth(f64),
+    /// Its name.
     Operation,
     Note,
 }
 
+/// Units of lengths by the ending of a name, with their factor to m.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("m", 1.0), ("in", 0.0254)];
+/// Units of feeds, with their factor to m/s.
 const SPEEDS: [(&str, f64); 4] = [
     ("mm_per_min", 1e-3 / 60.0),
     ("mm_per_s", 1e-3),
@@ -157,9 +165,11 @@ pub fn read(path: &str, reader: impl BufRead, out: &mut dyn FnMut(Step)) -> Resu
 
 /// The header, and what the rows so far have told.
 struct Table {
+    /// As the line of names has it.
     separator: char,
     header: Vec<String>,
     columns: Vec<Column>,
+    /// The one that the last row belongs to.
     operation: Option<Operation>,
 }
 
@@ -219,6 +229,7 @@ impl Table {
         (table, problems)
     }
 
+    /// What no column tells though others call for it, and what to do.
     fn missing(&self) -> Vec<(String, &'static str)> {
         let has = |wanted: &dyn Fn(Column) -> bool| self.columns.iter().any(|column| wanted(*column));
         let absent = |names: [&str; 3], of: &dyn Fn(Column) -> Option<usize>| -> Vec<String> {
@@ -286,6 +297,9 @@ impl Table {
     }
 
     /// Gives the move of a row, and before it the operation that it begins.
+    ///
+    /// A row without a name keeps that of the one before; an empty spindle or depth is not known, and so another
+    /// operation than one that was told.
     fn give(&mut self, line: &Line, row: Row, point: Point, out: &mut dyn FnMut(Step)) {
         let Point { end, axis, depths } = point;
         let number = u32::try_from(line.number).unwrap_or(u32::MAX);
@@ -333,6 +347,7 @@ struct Point {
 type Wrong = (String, &'static str);
 
 impl Row {
+    /// Puts what a cell says into the row; an empty cell says nothing.
     fn take(&mut self, cell: &Cell<'_>, column: Column, separator: char) -> Result<(), Wrong> {
         match column {
             Column::Note => {}
@@ -403,8 +418,10 @@ impl Row {
     }
 }
 
+/// What to do with a cell that cannot be filled in.
 const NOT_KNOWN: &str = "leave the cell empty if it is not known";
 
+/// A number from -1e9 to 1e9, in the unit of its column.
 fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match sheet::number(&cell.text, separator) {
         Some(number) if number.abs() <= LARGEST => Ok(number),
@@ -419,6 +436,7 @@ fn number(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     }
 }
 
+/// Such a number above 0.
 fn above_zero(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match number(cell, separator)? {
         // In SI it is smaller, and must still be above 0.
@@ -427,6 +445,7 @@ fn above_zero(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     }
 }
 
+/// Such a number that is not below 0.
 fn zero_or_more(cell: &Cell<'_>, separator: char) -> Result<f64, Wrong> {
     match number(cell, separator)? {
         number if number >= 0.0 => Ok(number),

@@ -9,6 +9,8 @@ const UNIT_SLACK: f64 = 2e-3;
 
 /// The direction of three numbers.
 ///
+/// What is within the slack is brought to length 1.
+///
 /// # Errors
 /// The length of what is none.
 pub(super) fn direction(ijk: [f64; 3]) -> Result<Unit<Vector3<f64>>, f64> {

@@ -8,7 +8,8 @@
 //!
 //! Each reader gives [`Step`](armill_core::path::Step)s one by one, as long as the program is, and a [`Summary`].
 //!
-//! `length_unit`: millimetres or inches; `direction`: tool axes of length 1; `summary`: what all readers tell at the end.
+//! `length_unit`: millimetres or inches; `direction`: tool axes of length 1; `summary`: what all readers tell at the
+//! end.
 
 pub mod apt;
 pub mod csv;

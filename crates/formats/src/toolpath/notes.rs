@@ -1,4 +1,7 @@
 //! What a reader passed over or took for granted: how often, and where first.
+//!
+//! A program of any length may skip the same word a million times: one line of notes says so. Kinds are told in their
+//! own order (`Ord`), not in that of the program, so that the same program gives the same notes.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -24,6 +27,8 @@ impl<K> Default for Notes<K> {
 
 impl<K: Ord + Copy> Notes<K> {
     /// Takes over what another counted behind the first.
+    ///
+    /// The first lines are those of the first where both counted.
     pub(super) fn join(&mut self, other: &Notes<K>) {
         for (key, noted) in other.iter() {
             self.0

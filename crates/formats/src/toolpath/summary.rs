@@ -35,6 +35,8 @@ impl Summary {
     }
 
     /// Counts a step.
+    ///
+    /// An arc counts as an arc and as a move; the first move is no cut, however fast it says that it goes.
     pub(super) fn count(&mut self, step: &Step) {
         match step {
             Step::Operation(_) => self.operations += 1,

@@ -1,4 +1,7 @@
 //! What each column of a table of load tests means.
+//!
+//! Names and units: the header of `load_tests`. Capitals do not count. The usual unit of each quantity stands first in
+//! the lists below, so that a name with a slip is led to it.
 
 use armill_core::robot::Robot;
 
@@ -9,34 +12,55 @@ use crate::document::unit::suggestion;
 /// The meaning of a column; numbers are axis or joint, then the factor to SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Column {
+    /// What people call the test.
     Name,
+    /// Notes, and what a plan expects; passed over.
     ForPeople,
+    /// Position of a joint.
     Joint(usize, f64),
+    /// On the tool, base axes.
     Force(usize, f64),
+    /// About the force point, base axes, N m.
     Moment(usize),
+    /// Of the gauge point, base axes.
     Displacement(usize, f64),
+    /// Its standard uncertainty.
     DisplacementU(f64),
+    /// Where the force acts, flange frame.
     ForcePoint(usize, f64),
+    /// Where the displacement is measured, flange frame.
     GaugePoint(usize, f64),
+    /// Name of the joint that turned.
     TurnedJoint,
+    /// How far it turned.
     Turn(f64),
+    /// Its standard uncertainty.
     TurnU(f64),
+    /// How many ordinary tests it counts for.
     Weight,
 }
 
 /// The columns of a sheet; `None` where a name means nothing.
 #[derive(Clone, Debug)]
 pub(super) struct Columns {
+    /// As many as the header has names.
     pub columns: Vec<Option<Column>>,
 }
 
+/// Units of lengths by the ending of a name, with their factor to m.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1e-3), ("um", 1e-6), ("m", 1.0)];
+/// Units of forces, with their factor to N.
 const FORCES: [(&str, f64); 2] = [("n", 1.0), ("kn", 1e3)];
+/// One degree in rad.
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
+/// Units of joint positions, with their factor to rad.
 const ANGLES: [(&str, f64); 2] = [("deg", DEGREE), ("rad", 1.0)];
+/// Units of turns, which are small, with their factor to rad.
 const TURNS: [(&str, f64); 4] = [("urad", 1e-6), ("mrad", 1e-3), ("rad", 1.0), ("deg", DEGREE)];
 
 /// Every name that means something, the usual unit of each first.
+///
+/// A joint goes by its own name and as `q1`, `q2`, ...; in degrees or radians if it turns, in lengths if it slides.
 fn known(robot: &Robot) -> Vec<(String, Column)> {
     let mut known = vec![
         ("test".to_owned(), Column::Name),
@@ -75,6 +99,8 @@ fn known(robot: &Robot) -> Vec<(String, Column)> {
 
 impl Columns {
     /// The columns of `sheet`; what is unknown, double or missing goes to `problems`.
+    ///
+    /// Every problem stands at the header: an unknown name with the nearest known one, a double one with the first.
     pub fn of(sheet: &Sheet, robot: &Robot, problems: &mut Vec<Problem>) -> Columns {
         let known = known(robot);
         let mut columns: Vec<Option<Column>> = Vec::new();
@@ -113,11 +139,14 @@ impl Columns {
         columns
     }
 
+    /// Whether a column is of this kind.
     fn has(&self, wanted: impl Fn(Column) -> bool) -> bool {
         self.columns.iter().flatten().any(|column| wanted(*column))
     }
 
     /// What no column tells, and what to add.
+    ///
+    /// A table needs every joint, a force or moment, a displacement or turn; a turn needs its joint.
     fn missing(&self, robot: &Robot) -> Vec<(String, String)> {
         let mut missing = Vec::new();
         let without: Vec<String> = robot

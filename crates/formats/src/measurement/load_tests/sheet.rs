@@ -1,4 +1,7 @@
 //! A table as lines: the names, and the rows below them.
+//!
+//! The first line that is no remark names the columns; blank rows and remarks are left out. Cells are cut from a line
+//! when they are asked for, so that a table is kept as its text alone.
 
 use std::io::BufRead;
 
@@ -11,8 +14,11 @@ use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
 pub(super) struct Sheet {
     /// The path that problems show.
     name: String,
+    /// As the header has it.
     pub separator: char,
+    /// The names.
     pub header: Line,
+    /// Those that hold something.
     pub rows: Vec<Line>,
 }
 

@@ -1,8 +1,15 @@
 //! What no schema can say of a robot file, and its numbers in SI.
 //!
-//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as if
-//! it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every source
-//! is named and known is checked for all parts at once, by [`sources`](crate::sources).
+//! Each part of the file becomes its part of the robot; what is wrong goes into the problems, and the part is then as
+//! if it had not been told, so that the rest is still looked at. Nothing is used of a file with problems. That every
+//! source is named and known is checked for all parts at once, by [`sources`](crate::sources).
+//!
+//! - The chain names every joint once, in the order of `[[joint]]`; names differ.
+//! - A motion is `along` or `about` an axis, by exactly one of length, angle and joint.
+//! - What turns is told in degrees, what slides in mm; a coupling names an earlier joint.
+//! - All joints have a compliance, or none has: one left out is not taken for rigid. A compliance has a source.
+//!
+//! In SI: m, rad, rad/(N m), m/N; speeds in m/s and rad/s.
 
 use armill_core::robot::joint::{Coupling, Sign};
 use armill_core::robot::{Amount, BranchPattern, Joint, JointCompliance, Limits, Motion, TorqueCurve};
@@ -12,7 +19,9 @@ use crate::document::{Document, Problem};
 
 /// The file, and what was wrong with it so far.
 pub(super) struct Checks<'a> {
+    /// Finds places by path.
     pub document: &'a Document,
+    /// In the order in which they were found.
     pub problems: Vec<Problem>,
 }
 
@@ -24,6 +33,9 @@ impl Checks<'_> {
     }
 
     /// The chain, base to flange; every joint moves once, in the order of the tables.
+    ///
+    /// That a joint never moves is told only where nothing else is wrong: a motion that was refused may have been its
+    /// own.
     pub(super) fn motions(&mut self, file: &RobotFile) -> Vec<Motion> {
         let mut motions = Vec::new();
         let mut used = 0;
@@ -43,6 +55,8 @@ impl Checks<'_> {
     }
 
     /// One motion of the chain; `used` joints have moved before it.
+    ///
+    /// `None` where it is refused; the problem then stands at `path`.
     fn motion(
         &mut self,
         path: &str,
@@ -101,6 +115,9 @@ impl Checks<'_> {
     }
 
     /// The joints as their controller counts them.
+    ///
+    /// Always as many as there are tables, so that indices stay right: a joint whose part is wrong stands there without
+    /// it.
     pub(super) fn joints(&mut self, file: &RobotFile) -> Vec<Joint> {
         if file.joint.is_empty() {
             self.problem(
@@ -152,6 +169,8 @@ impl Checks<'_> {
     }
 
     /// A turning joint is told in degrees, a sliding one in millimetres.
+    ///
+    /// Decided by the motion that names the joint; a joint that no motion names is told as such elsewhere.
     fn units(&mut self, path: &str, entry: &JointEntry, motions: &[MotionEntry]) {
         let motion = motions
             .iter()
@@ -254,6 +273,9 @@ impl Checks<'_> {
     }
 
     /// The compliance of every joint's drive, or `None` where the file tells none at all.
+    ///
+    /// rad/(N m), or m/N for a joint that slides. Standard uncertainties that are not told are zero. `None` also where
+    /// some joints have one and others have none, which is a problem of its own.
     pub(super) fn compliance(&mut self, file: &RobotFile) -> Option<Vec<JointCompliance>> {
         let mut known = Vec::new();
         for (index, entry) in file.joint.iter().enumerate() {
@@ -290,6 +312,8 @@ impl Checks<'_> {
     }
 
     /// The branch that stands for the robot where none is asked for.
+    ///
+    /// Front and elbow up where the file does not say.
     pub(super) fn nominal(&mut self, file: &RobotFile) -> BranchPattern {
         let named = file.nominal_branch.as_deref().map(str::parse::<BranchPattern>);
         match named {

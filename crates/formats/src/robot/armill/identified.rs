@@ -39,17 +39,22 @@ pub struct IdentifiedSpring {
 }
 
 impl IdentifiedSpring {
+    /// Whether its compliance is in rad/(N m), else m/N.
     fn turns(&self) -> bool {
         matches!(self.yields, Yields::Drive | Yields::About(_))
     }
 }
 
-/// Key of the source of identified numbers.
+/// Key of the source of identified numbers, in `[sources]` and wherever they stand.
 const KEY: &str = "identified";
 /// Digits kept of a compliance: far more than any test gives.
 const DIGITS: usize = 7;
 
 /// The robot file `text` (at `path`) with these compliances in place of its own.
+///
+/// A drive goes into the table of its joint and takes the place of a torque curve as well; a drive that is not among
+/// `identified` keeps what the file has. All other springs become tables `[[spring]]`. The file that comes out has been
+/// read once more, so that it is one that `read` takes.
 ///
 /// # Errors
 /// A text that is not TOML; what no robot file may say once the compliances stand in it, as when some joints have one
@@ -115,6 +120,8 @@ fn set_sources(document: &mut DocumentMut, identified: &Identified) -> Result<()
     Ok(())
 }
 
+/// The drive that was identified into the table of its joint, in place of whatever the table says of compliance; a
+/// joint without one stays as it is.
 fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
     let name = joint
         .get("name")
@@ -142,6 +149,7 @@ fn set_drive(joint: &mut Table, springs: &[IdentifiedSpring]) {
     joint.insert("compliance_source", value(KEY));
 }
 
+/// Compliance and standard uncertainty under the names of their unit: rad/(N m), or um/N, which is 1e-6 m/N.
 fn set_compliance(table: &mut Table, spring: &IdentifiedSpring) {
     let (keys, scale) = if spring.turns() {
         (["compliance_rad_per_n_m", "compliance_u_rad_per_n_m"], 1.0)
@@ -152,6 +160,7 @@ fn set_compliance(table: &mut Table, spring: &IdentifiedSpring) {
     table.insert(keys[1], Item::Value(number(spring.standard_uncertainty * scale)));
 }
 
+/// A table `[[spring]]`; `word` is `about` or `along`.
 fn spring_table(spring: &IdentifiedSpring, word: &str, axis: Axis) -> Table {
     let mut table = Table::new();
     table.insert("at", value(spring.at.as_str()));
@@ -161,6 +170,7 @@ fn spring_table(spring: &IdentifiedSpring, word: &str, axis: Axis) -> Table {
     table
 }
 
+/// The table `[covariance]`: `of` names the springs that turn as the file does elsewhere, then a row a line.
 fn covariance_table<'a>(
     springs: impl Iterator<Item = &'a IdentifiedSpring>,
     covariance: &[Vec<f64>],

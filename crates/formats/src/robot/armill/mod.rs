@@ -1,10 +1,21 @@
 //! armill's own robot file, format 1: TOML, the chain as ordered elementary motions, a source for every number.
 //!
-//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields and
-//! weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
+//! Lengths in mm, angles in degrees, compliances in rad/(N m); a sliding joint uses mm and um/N instead. What yields
+//! and weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
 //!
 //! In reading order: `file` (the file as it stands), `checks` (what no schema can say, and SI), `structure`; `write` (a
 //! robot of another format as such a file), `identified` (such a file with compliances that were identified).
+//!
+//! ```text
+//! format = 1
+//! name = "Maker Type"
+//! [chain]       source, motions = [{ about = "z", joint = "S" }, { along = "z", length_mm = 450 }, ...]
+//! [[joint]]     name, sign, zero_offset_deg, limits_deg, max_speed_deg_per_s, compliance_rad_per_n_m, ...
+//! [[frame]] [[spring]] [[mass]] [compensator] [covariance] [payload]        each may be left out
+//! [sources.KEY] what, where, licence: every KEY that a `source` names, and no other
+//! ```
+//!
+//! All keys with their meaning: `docs/guide/robot-file.md`.
 
 mod checks;
 mod file;
@@ -27,6 +38,9 @@ use crate::sources;
 pub use self::identified::{Identified, IdentifiedSpring, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.
+///
+/// First what the schema refuses; then, of a file that it takes, all that only the whole can show; then what the core
+/// refuses of the chain. Nothing is assumed, so `remarks` stay empty.
 ///
 /// # Errors
 /// Every problem of the file, each with its place.
@@ -74,6 +88,7 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
     })
 }
 
+/// A frame of the file, m and rad; its angles turn about the fixed axes x, y, z in that order.
 fn named_frame(entry: &FrameEntry) -> NamedFrame {
     let rotation = Vector3::from(entry.rotation_deg).map(f64::to_radians);
     let base_from_frame: Isometry =
@@ -84,6 +99,7 @@ fn named_frame(entry: &FrameEntry) -> NamedFrame {
     }
 }
 
+/// What a joint's table says beside numbers; its uncertainty has the source of its compliance where it names none.
 fn joint_note(entry: JointEntry) -> JointNote {
     JointNote {
         source: Some(entry.source),

@@ -1,8 +1,8 @@
 //! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
 //!
-//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the order
-//! of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all others stay
-//! independent, with their own standard uncertainty.
+//! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
+//! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
+//! others stay independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};
@@ -13,6 +13,8 @@ use crate::robot::spring_tables::Fault;
 
 impl Checks<'_> {
     /// The structure of the arm; what is wrong goes into the problems.
+    ///
+    /// Not checked: signs of the covariance as a whole; the core refuses a negative eigenvalue when the robot takes it.
     pub(super) fn structure(&mut self, file: &RobotFile) -> Structure {
         let joints: Vec<&str> = file.joint.iter().map(|joint| joint.name.as_str()).collect();
         let mut structure = Structure::EMPTY;
@@ -51,6 +53,9 @@ impl Checks<'_> {
     }
 
     /// Angle over torque (rad, N m) of a joint, if the file tells it.
+    ///
+    /// A curve alone holds while the load raises the torque and while it lowers it; with a second one the two make a
+    /// loop.
     fn curve(&mut self, file: &RobotFile, joint: usize) -> Option<JointCurve> {
         let entry = &file.joint[joint];
         let falling = "torque_curve_falling_n_m_rad";
@@ -78,6 +83,8 @@ impl Checks<'_> {
     }
 
     /// The spring against gravity, in m, rad and N/m.
+    ///
+    /// `None` also where it is refused: no such joint, or radii so alike that the two ends of the spring could meet.
     fn compensator(&mut self, file: &RobotFile, joints: &[&str]) -> Option<Compensator> {
         let table = file.compensator.as_ref()?;
         let Some(joint) = joints.iter().position(|name| *name == table.joint) else {
@@ -112,6 +119,9 @@ impl Checks<'_> {
     }
 
     /// The covariance over all compliances, drives first; those that it does not name stay independent.
+    ///
+    /// Square in the number of compliances, rad^2/(N m)^2. Standard uncertainties of those that the matrix names are
+    /// read off the matrix, not off their own keys. `None` where it is refused.
     fn covariance(
         &mut self,
         table: &CovarianceTable,
@@ -161,6 +171,7 @@ impl Checks<'_> {
                 .iter()
                 .map(|spring| spring.compliance.standard_uncertainty),
         );
+        // Own variances on the diagonal; the matrix then takes the places of those that it names.
         let squares: Vec<f64> = own.map(|u| u * u).collect();
         let mut covariance = DMatrix::from_diagonal(&squares.into());
         for (i, row) in places.iter().enumerate() {

@@ -2,6 +2,9 @@
 //!
 //! Numbers are the shortest decimals that come back as the same motion: lengths and angles of the chain within
 //! 1e-15 m and rad, limits and speeds within 1e-9.
+//!
+//! Order: comments on origin, what was assumed and what is missing; `format`, `name`, `nominal_branch`, `note`;
+//! `[chain]`; a `[[joint]]` each; a `[[frame]]` each; `[sources]`. Keys that a user has to fill in stand in comments.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::robot::{Amount, Joint, Motion};
@@ -16,6 +19,9 @@ const RANGE: f64 = 1e-9;
 /// The text of a robot file, format 1, for a robot that came from one foreign source.
 ///
 /// Not written: compliance, payload and limits by other sources, which no foreign format has.
+///
+/// Every number names the first source of `found`. Not checked: that `read` takes the text back, which the
+/// tests show for every foreign format.
 pub fn write(found: &RobotDescription) -> String {
     let mut text = String::new();
     head(&mut text, found);
@@ -47,6 +53,8 @@ fn line(text: &mut String, content: &str) {
 }
 
 /// Comments on what was assumed and what is missing, and the fields of the file as a whole.
+///
+/// What a foreign file says may hold any character, so it is brought onto one line before it goes into a comment.
 fn head(text: &mut String, found: &RobotDescription) {
     let robot = &found.robot;
     let place = found.sources.first().map_or("", |source| source.place.as_str());
@@ -213,7 +221,11 @@ fn degrees(rad: f64, within: f64) -> String {
 }
 
 /// The shortest decimal of `shown` that `to_si` takes back to `si`.
+///
+/// Up to 15 digits behind the point; where none of these is near enough, all digits that tell the number from its
+/// neighbours.
 fn shortest(si: f64, shown: f64, within: f64, to_si: fn(f64) -> f64) -> String {
+    // Of the decimals that come back near enough the shortest has the fewest digits.
     let decimals = (0..=15).map(|digits| format!("{shown:.digits$}"));
     let found = decimals
         .filter(|text| {

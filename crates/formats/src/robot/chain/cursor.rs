@@ -1,4 +1,7 @@
 //! Walks over a text character by character and knows where it is.
+//!
+//! Offsets are bytes of the whole text, so that a range between two of them is the place of a problem. It never passes
+//! the end of its range, and whoever finds nothing leaves it where it was.
 
 use std::ops::Range;
 
@@ -59,6 +62,8 @@ impl<'a> Cursor<'a> {
     }
 
     /// A number without sign: digits, point, exponent.
+    ///
+    /// `None` if none stands here, or one that is not finite.
     pub fn number(&mut self) -> Option<f64> {
         let rest = self.rest();
         let mut length = 0;

@@ -1,4 +1,13 @@
 //! The factors of a chain and the symbols they use.
+//!
+//! ```text
+//! line     = [ name "=" ] product | name "=" number        # a comment goes to the line's end
+//! product  = factor { blank | "*" | "·" | "," factor }
+//! factor   = word "(" argument ")"                         word: Tx Ty Tz Rx Ry Rz, A1 to A6, A^{1}
+//! argument = [ sign ] term { sign term }                   term: number, symbol, joint (one at most)
+//! ```
+//!
+//! Definitions count for the whole text, wherever they stand; of two of one symbol the last holds.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -48,8 +57,11 @@ impl Kind {
 /// One factor: a motion, and how far.
 #[derive(Debug)]
 pub(super) struct Factor {
+    /// Along or about which axis.
     pub kind: Kind,
+    /// How far.
     pub argument: Argument,
+    /// From its word to its closing bracket, in bytes of the text.
     pub place: Range<usize>,
 }
 
@@ -77,7 +89,8 @@ type Symbols<'a> = BTreeMap<&'a str, f64>;
 /// Every factor, in order.
 ///
 /// # Errors
-/// What is neither factor nor definition, lengths without value, numbers that are none.
+/// What is neither factor nor definition, lengths without value, numbers that are none; at most 20: behind a factor
+/// that is refused it goes on with the next.
 pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
     let text = file.text();
     let mut symbols = Symbols::new();
@@ -131,6 +144,8 @@ pub(super) fn read(file: &Source) -> Result<Vec<Factor>, Problems> {
 }
 
 /// Name and value of a line such as `H = 450`.
+///
+/// The number may have a sign; `None` where the name is none, or the value no finite number.
 fn definition<'a>(name: &'a str, value: &str) -> Option<(&'a str, f64)> {
     let name = name.trim();
     let mut cursor = Cursor::over(name, 0..name.len());
@@ -175,6 +190,8 @@ fn factor(file: &Source, cursor: &mut Cursor<'_>, symbols: &Symbols<'_>) -> Resu
 }
 
 /// Which motion a word names.
+///
+/// Capitals do not count, nor do the `^{}` of a formula that was copied.
 fn kind(word: &str) -> Option<Kind> {
     Some(
         match word.to_ascii_lowercase().replace(['^', '{', '}'], "").as_str() {
@@ -190,6 +207,12 @@ fn kind(word: &str) -> Option<Kind> {
 }
 
 /// A sum of numbers, symbols and at most one joint.
+///
+/// A name with a value is a symbol. Any other is a joint: about an axis whatever it is called, along one only `q1`,
+/// `q2`, ... The constant is then the chain position at the joint's zero.
+///
+/// # Errors
+/// A length without value, a second joint, a term that is none, a constant beyond 1000 m or 360 deg.
 fn argument(
     file: &Source,
     cursor: &mut Cursor<'_>,

@@ -28,6 +28,8 @@ use crate::document::{Problems, Source};
 
 /// The robot of this chain; `path` is what errors show, `id` the robot's name in results.
 ///
+/// Joints are in the order of the chain; they have no limits, no speeds and no compliance, which no chain tells.
+///
 /// # Errors
 /// What is no factor, a length without value, a joint that moves twice, no joint at all.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {

@@ -34,6 +34,8 @@ use crate::document::{Problems, Source};
 
 /// The robot of this table; `path` is what errors show, `id` the robot's name in results.
 ///
+/// A row of type `fixed` moves nothing and gives constant motions alone. The flange is the frame behind the last row.
+///
 /// # Errors
 /// No convention, columns that are missing, unknown or without unit, cells that are no number.
 pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Problems> {
@@ -91,6 +93,7 @@ fn motions_of(row: &Row, convention: Convention, joint: usize) -> Vec<Motion> {
     motions.into_iter().filter(moves).collect()
 }
 
+/// The joint of a row, its zero offset in rad or m; `None` for a row that is fixed.
 fn joint_of(row: &Row) -> Option<Joint> {
     let zero_offset = match row.moves {
         Moves::Turns => row.theta,

@@ -1,4 +1,13 @@
 //! The rows of a table in SI, each column with the unit of its name.
+//!
+//! | column | unit in its name | needed |
+//! |---|---|---|
+//! | `a`, `d` | `_mm`, `_m` | yes |
+//! | `alpha`, `theta` | `_deg`, `_rad` | yes |
+//! | `lower`, `upper` | any of the four, as the joint moves; empty: no limit | both or none |
+//! | `joint`, `type`, `sign` | - | no: `joint_1`, ...; revolute; 1 |
+//!
+//! Capitals do not count. Lengths up to 1000 m, angles up to two turns: more is a number under the wrong unit.
 
 use std::collections::BTreeSet;
 
@@ -25,6 +34,7 @@ pub(super) enum Moves {
 pub(super) struct Row {
     /// Name of the joint.
     pub joint: String,
+    /// Of a joint that turns `theta` is the value at the controller's zero, of one that slides `d`.
     pub moves: Moves,
     pub a: f64,
     pub alpha: f64,
@@ -169,6 +179,8 @@ struct RowReader<'a> {
 impl RowReader<'_> {
     /// The row, which is the one with this index from 0: a joint without name is called by it.
     ///
+    /// Of a row that is fixed the columns of the joint are not looked at.
+    ///
     /// # Errors
     /// The first word or limit that is wrong, else all numbers that are.
     fn row(&self, index: usize) -> Result<Row, Problems> {
@@ -253,6 +265,9 @@ impl RowReader<'_> {
     }
 
     /// A limit in SI; `None` where the column or the cell is empty.
+    ///
+    /// # Errors
+    /// An angle for a joint that slides, a length for one that turns, a cell that holds no number.
     fn limit(&self, of: &str, moves: Moves) -> Result<Option<(f64, &Cell)>, Problems> {
         let Some((name, cell)) = self.cell(of).filter(|(_, cell)| !cell.text.is_empty()) else {
             return Ok(None);
@@ -271,6 +286,9 @@ impl RowReader<'_> {
     }
 
     /// The number in a cell, m or rad by the unit in the column's name.
+    ///
+    /// # Errors
+    /// No finite number, an angle beyond two turns, a length beyond 1000 m.
     fn si(&self, name: &Cell, cell: &Cell) -> Result<f64, Problems> {
         let text = match self.table.decimal_comma {
             true => cell.text.replace(',', "."),

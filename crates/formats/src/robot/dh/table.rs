@@ -1,4 +1,7 @@
 //! The lines of a table: settings, header, cells; each with its place.
+//!
+//! Cells are separated by the first of `;`, `,` and tab that the header holds, else by blanks; with `;` a comma is a
+//! decimal sign. Quotes round a cell are taken off. Settings may stand anywhere, also below the header.
 
 use std::ops::Range;
 
@@ -24,6 +27,7 @@ pub(super) struct Cell {
 /// The file as a table.
 #[derive(Debug)]
 pub(super) struct Table {
+    /// What `convention = ` says; never assumed.
     pub convention: Convention,
     /// What the table calls the arm.
     pub name: Option<String>,
@@ -117,6 +121,7 @@ fn uneven(file: &Source, line: &Cell, found: usize, wanted: usize) -> Problem {
     file.problem(line.place.clone(), message, Some(hint))
 }
 
+/// The convention that a word names, capitals aside.
 fn convention_of(word: &str) -> Option<Convention> {
     match word.to_lowercase().as_str() {
         "standard" => Some(Convention::Standard),

@@ -15,6 +15,17 @@
 //!
 //! `yaml` finds keys and values, each with its place; here they become an arm.
 //!
+//! ```text
+//! opw_kinematics_geometric_parameters:
+//!   a1: 0.155
+//!   ...
+//! opw_kinematics_joint_offsets: [0.0, 0.0, deg(-90.0), 0.0, 0.0, 0.0]
+//! opw_kinematics_joint_sign_corrections: [1, 1, -1, -1, -1, -1]
+//! ```
+//!
+//! Lengths up to 100 m, angles up to two turns: more is a number under the wrong unit. The offset of a file is
+//! `sign q` at chain zero; ours is the chain position at the controller's zero: `-offset`.
+//!
 //! Source: Brandstoetter, Angerer, Hofbaur 2014; the YAML keys of ROS-Industrial's support packages.
 
 mod yaml;
@@ -32,11 +43,16 @@ use crate::document::{Problem, Problems, Source};
 /// Longest link of an arm, m: a file in mm has one beyond.
 const LONGEST_LINK: f64 = 100.0;
 
+/// Keys of the lengths, one number each.
 const LENGTHS: [&str; 7] = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
+/// Key of the joint offsets, six numbers.
 const OFFSETS: &str = "opw_kinematics_joint_offsets";
+/// Key of the signs, six numbers.
 const SIGNS: &str = "opw_kinematics_joint_sign_corrections";
 
 /// The robot of these OPW parameters; `path` is what errors show, `id` the robot's name in results.
+///
+/// Six joints, `joint_1` to `joint_6`; each length is a motion of its own, with its key as symbol.
 ///
 /// # Errors
 /// A YAML file of another kind, keys that are missing or double, what is no number, length, angle or sign.
@@ -103,8 +119,11 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
 
 /// The keys of a file, and what was wrong with those that were asked for.
 struct Keys<'a> {
+    /// Finds places.
     file: &'a Source,
+    /// In the order of the file.
     entries: Vec<Entry<'a>>,
+    /// Of the keys that were asked for so far.
     problems: Vec<Problem>,
 }
 
@@ -133,6 +152,8 @@ impl<'a> Keys<'a> {
     }
 
     /// The values of a key, each judged by `of`; where there are not `N`, or one is refused, a problem is kept.
+    ///
+    /// Where the key stands does not matter: below which other key, or how far indented.
     fn values<T, const N: usize>(
         &mut self,
         key: &str,
@@ -172,6 +193,7 @@ impl<'a> Keys<'a> {
     }
 }
 
+/// A length in m; refused is what is no number, or beyond [`LONGEST_LINK`].
 fn length(text: &str) -> Result<f64, &'static str> {
     let value = text.parse::<f64>().ok();
     value
@@ -179,6 +201,7 @@ fn length(text: &str) -> Result<f64, &'static str> {
         .ok_or("a length within 100 m (lengths of an OPW file are in m)")
 }
 
+/// An angle in rad, from `-1.57`, `rad(-1.57)` or `deg(-90.0)`.
 fn angle(text: &str) -> Result<f64, &'static str> {
     let inside = |name: &str| {
         text.strip_prefix(name)?
@@ -195,6 +218,7 @@ fn angle(text: &str) -> Result<f64, &'static str> {
     value.ok_or("an angle within two turns, such as -1.5708 (rad) or deg(-90.0)")
 }
 
+/// 1 or -1, also as `1.0`.
 fn sign(text: &str) -> Result<Sign, &'static str> {
     match text.parse::<f64>() {
         Ok(1.0) => Ok(Sign::Positive),

@@ -2,25 +2,42 @@
 //!
 //! No YAML reader would do: `deg(-90.0)` is text to them, and its place is lost. Indentation, and keys that only
 //! hold other keys, do not matter here.
+//!
+//! ```text
+//! key: 1.5                      one value
+//! key: [1, 2,                   values up to the bracket, over any number of lines
+//!       3]
+//! key:                          values a line each
+//!   - 1
+//!   - 2
+//! # comment                     to the end of its line; a `#` behind a letter is none
+//! ```
 
 use std::ops::Range;
 
 /// A key with its values.
 #[derive(Debug, PartialEq)]
 pub(super) struct Entry<'a> {
+    /// Without quotes round it.
     pub key: &'a str,
+    /// Of the key, in bytes of the text.
     pub place: Range<usize>,
+    /// In order; empty for a key that only holds others.
     pub values: Vec<Scalar<'a>>,
 }
 
 /// A value as it is written.
 #[derive(Debug, PartialEq)]
 pub(super) struct Scalar<'a> {
+    /// Without blanks, brackets and commas round it; quotes stay.
     pub text: &'a str,
+    /// Bytes of the text.
     pub place: Range<usize>,
 }
 
 /// Every key of the text, in order.
+///
+/// Nothing is refused: a text of another kind has no key that anybody asks for. A key that stands twice is there twice.
 pub(super) fn entries(text: &str) -> Vec<Entry<'_>> {
     let mut entries: Vec<Entry<'_>> = Vec::new();
     let mut in_brackets = false;
@@ -79,6 +96,7 @@ fn scalars(item: &str, start: usize) -> impl Iterator<Item = Scalar<'_>> {
     })
 }
 
+/// A line up to its comment: a `#` at its start, or behind a blank or tab.
 fn without_comment(line: &str) -> &str {
     let starts = line.char_indices().find(|(at, c)| {
         *c == '#'

@@ -29,6 +29,7 @@ const LARGEST_AXIS: f64 = 1e6;
 /// How a joint moves.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Kind {
+    /// `fixed`.
     Fixed,
     /// `revolute` and `continuous`.
     Turning,
@@ -43,10 +44,15 @@ pub(super) enum Kind {
 pub(super) struct JointElement {
     pub name: String,
     pub kind: Kind,
+    /// Name of the link it is fixed to.
     pub parent: String,
+    /// Name of the link that it moves.
     pub child: String,
+    /// Where it stands in its parent link, m.
     pub xyz: [f64; 3],
+    /// Turns about the fixed axes x, y, z of its parent link, rad.
     pub rpy: [f64; 3],
+    /// Direction in its own frame, of any length, zero included.
     pub axis: [f64; 3],
     /// Lower and upper end as they are told, infinite where open; `None` where there are none.
     pub limits: Option<[f64; 2]>,
@@ -56,6 +62,7 @@ pub(super) struct JointElement {
     pub mimics: Option<String>,
     /// Its start tag, or what of it will be complained of.
     pub place: Range<usize>,
+    /// The name of its child link.
     pub child_place: Range<usize>,
 }
 
@@ -83,6 +90,10 @@ pub(super) fn read(file: &Source, root: Node<'_, '_>) -> Result<Vec<JointElement
 }
 
 /// One `<joint>` element.
+///
+/// # Errors
+/// The first thing that is missing or no number. An axis of length zero is told later, and only of a joint of the
+/// chain.
 fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
     let name = required(file, node, "name")?.to_owned();
     let kind = match required(file, node, "type")? {
@@ -140,6 +151,9 @@ fn joint(file: &Source, node: Node<'_, '_>) -> Result<JointElement, Problems> {
 }
 
 /// The direction of an axis, of any length up to [`LARGEST_AXIS`].
+///
+/// # Errors
+/// Components that are no numbers, or beyond it.
 fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
     let xyz = numbers(file, axis, "xyz", [1.0, 0.0, 0.0])?;
     match xyz.iter().find(|part| part.abs() > LARGEST_AXIS) {
@@ -153,6 +167,9 @@ fn axis_of(file: &Source, axis: Node<'_, '_>) -> Result<[f64; 3], Problems> {
 }
 
 /// A number of `<limit>`, infinite where it stands for an open end; zero where it is left out.
+///
+/// # Errors
+/// What is no number; `inf` and `-inf` are two.
 fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result<f64, Problems> {
     let Some(limit) = limit else { return Ok(0.0) };
     match limit.attribute(attribute).map(str::trim) {
@@ -167,6 +184,9 @@ fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result
 }
 
 /// Position (m) and turns about the fixed axes x, y, z (rad).
+///
+/// # Errors
+/// Positions beyond 1000 m, turns beyond two, a quaternion of length zero.
 fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
     let xyz = numbers(file, origin, "xyz", [0.0; 3])?;
     if let Some(far) = xyz.iter().find(|value| value.abs() > LONGEST) {

@@ -9,6 +9,15 @@
 //!
 //! In reading order: `joints` (the elements as they stand), `tree` (links, joints and the chain to a tip), and here the
 //! motions of that chain.
+//!
+//! | element | motions |
+//! |---|---|
+//! | `origin xyz`, `rpy` | `Tx(x) Ty(y) Tz(z) Rz(yaw) Ry(pitch) Rx(roll)`, those that are not zero |
+//! | `axis` along a coordinate axis | `Rx`, `Ry`, `Rz` (sliding: `Tx`, `Ty`, `Tz`) of the joint, sign as the axis |
+//! | any other `axis` | `Rz(yaw) Ry(pitch)`, the joint about or along z, `Ry(-pitch) Rz(-yaw)` |
+//! | `limit` | lower and upper, greatest speed; rad or m |
+//!
+//! Source: the XML specification of URDF (wiki.ros.org/urdf/XML).
 
 mod joints;
 mod tree;
@@ -40,6 +49,8 @@ pub fn read(path: &str, id: &str, text: &str) -> Result<RobotDescription, Proble
 }
 
 /// The robot of this URDF text with its flange at the link `tip`.
+///
+/// Without `tip` the one that the header tells. Joints have the names of the file, zero at its zero.
 ///
 /// # Errors
 /// What is not XML or not a URDF, a tree with a loop, a tip that is not there, joints of kinds that no serial arm
@@ -85,7 +96,9 @@ pub fn read_to_tip(
 /// A chain in the words of the core, and the names of joints that were not taken as they stand.
 #[derive(Default)]
 struct Arm {
+    /// Base to tip.
     motions: Vec<Motion>,
+    /// Those that move, in the order of the chain.
     joints: Vec<Joint>,
     /// Their axis lies nearly along a coordinate axis, and is taken as that.
     aligned: Vec<String>,
@@ -94,6 +107,8 @@ struct Arm {
 }
 
 /// The motions and joints of a chain.
+///
+/// A fixed joint gives its displacement alone.
 ///
 /// # Errors
 /// All joints that no serial arm has, or that share a name; more joints than any arm has.
@@ -130,6 +145,8 @@ fn arm(file: &document::Source, chain: &[&JointElement]) -> Result<Arm, Problems
 }
 
 /// The link `base`, if it hangs rigidly on the root link and is not the root itself.
+///
+/// One frame or none; its pose is in the root link.
 fn controller_frame(tree: &tree::Tree<'_>) -> Vec<NamedFrame> {
     let Some(path) = tree.path_from_root("base") else {
         return Vec::new();
@@ -148,6 +165,8 @@ fn controller_frame(tree: &tree::Tree<'_>) -> Vec<NamedFrame> {
 }
 
 /// What a reader should know of the arm.
+///
+/// Side branches, axes and limits that were not taken as they stand are named with their joints.
 fn remarks(tree: &tree::Tree<'_>, chain: &tree::Chain<'_>, arm: &Arm, frames: &[NamedFrame]) -> Vec<String> {
     let mut remarks = vec![format!(
         "the base is link `{}`, the flange link `{}`",
@@ -213,6 +232,9 @@ fn motion(joint: &JointElement) -> Result<Option<Moving>, (String, &'static str)
 
 impl Arm {
     /// Adds a joint that moves, turned so that its axis is a coordinate axis.
+    ///
+    /// Limits that are no range are left out and named in `unlimited`. An axis along a coordinate axis but for the
+    /// digits of a print is taken as that and named in `aligned`, unless it is exact.
     fn add(&mut self, joint: &JointElement, Moving { motion, axis }: Moving) {
         let amount = Amount::Joint(self.joints.len());
         let nearest = Axis::ALL[axis.iamax()];
@@ -258,6 +280,7 @@ fn origin(joint: &JointElement) -> Isometry {
     from_xyz_and_fixed_angles(joint.xyz.into(), joint.rpy.into())
 }
 
+/// From the parent link to the joint, constants that are zero left out.
 fn displacement(joint: &JointElement) -> Vec<Motion> {
     let ([x, y, z], [roll, pitch, yaw]) = (joint.xyz, joint.rpy);
     [

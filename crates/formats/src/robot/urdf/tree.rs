@@ -1,4 +1,7 @@
 //! The links and joints of a URDF as a tree, and the chain from its root to a tip.
+//!
+//! Every link but one is the child of exactly one joint, and every link is reached from that one, the root. A joint is
+//! known by its child, so that the way from a tip back to the root is one look-up a step.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -13,15 +16,21 @@ const MOST_LISTED: usize = 30;
 
 /// Links joined without a loop, from one root.
 pub(super) struct Tree<'a> {
+    /// The link without a parent.
     pub root: &'a str,
+    /// All, in the order of the file.
     links: Vec<&'a str>,
+    /// The joint that leads to a link.
     by_child: BTreeMap<&'a str, &'a JointElement>,
+    /// Of the element `<robot>`, for problems of the whole.
     place: std::ops::Range<usize>,
 }
 
 /// The way from the root to a tip.
 pub(super) struct Chain<'a> {
+    /// Root to tip, fixed ones included.
     pub joints: Vec<&'a JointElement>,
+    /// The last link.
     pub tip: &'a str,
     /// Names of moving joints that are not on it.
     pub left_out: Vec<&'a str>,
@@ -93,6 +102,8 @@ impl<'a> Tree<'a> {
     }
 
     /// The joints from the root to a link; `None` if there is no such way.
+    ///
+    /// In the order root to link; empty for the root itself.
     pub fn path_from_root(&self, link: &str) -> Option<Vec<&'a JointElement>> {
         let mut chain = Vec::new();
         let mut link = link;
@@ -108,6 +119,9 @@ impl<'a> Tree<'a> {
     }
 
     /// The chain to the link `tip`, or to the one with the most moving joints.
+    ///
+    /// Without `tip` the ends of all branches are looked at: most moving joints first, then the link `tool0`, then most
+    /// joints of any kind, then the last in the file.
     ///
     /// # Errors
     /// No such link, or none that the root leads to.
@@ -149,6 +163,8 @@ impl<'a> Tree<'a> {
 }
 
 /// The links that no way from the root leads to.
+///
+/// Such links stand in a loop or hang on one: each has a parent, or it would be a root.
 fn unreached<'a>(root: &'a str, joints: &'a [JointElement], links: &BTreeSet<&'a str>) -> Vec<&'a str> {
     let mut below: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for joint in joints {

@@ -1,4 +1,8 @@
 //! Properties, macros and expressions worked out by the crate `xacro-rs`, its errors told at their place.
+//!
+//! The text is bounded before (`growth`, and the constants below), the work is done in a thread of its own, and a panic
+//! there is a problem of the file. Messages of the crate have no places, so the words that they quote are looked for in
+//! the files.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -68,9 +72,12 @@ pub(super) fn expand(
 }
 
 /// `$(find package)`, by the folders around the file.
+///
+/// The folder is that of the main file.
 struct Find(PathBuf);
 
 impl ExtensionHandler for Find {
+    /// The home of the package; nothing for any other command.
     fn resolve(&self, command: &str, arguments: &str) -> Result<Option<String>, Box<dyn Error>> {
         if command != "find" {
             return Ok(None);
@@ -88,6 +95,8 @@ impl ExtensionHandler for Find {
 }
 
 /// An error in one line, with the macro it came up in.
+///
+/// Line ends become blanks, and what the crate repeats of its own message is cut off.
 fn told(error: &XacroError) -> String {
     let (error, place) = match error {
         XacroError::WithContext { source, context } => (
@@ -120,6 +129,9 @@ fn told(error: &XacroError) -> String {
 }
 
 /// The problem at the first text that the message quotes and a file holds.
+///
+/// Words in quotes are tried in their order, each in the main file first; where none is found, the problem stands at
+/// the start of the main file.
 fn placed(main: &Source, included: &[Source], message: &str) -> Problem {
     let hint = "mend the expression, give the file that defines what is missing, or expand it with ROS (`xacro FILE > x.urdf`)";
     let quoted = message
@@ -138,6 +150,8 @@ fn placed(main: &Source, included: &[Source], message: &str) -> Problem {
 }
 
 /// The first expression whose brackets go too deep.
+///
+/// Any bracket counts, whether it stands in an expression or not.
 fn too_deep(source: &Source) -> Option<Problem> {
     let text = source.text();
     let mut depth = 0_usize;

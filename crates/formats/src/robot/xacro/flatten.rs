@@ -1,5 +1,15 @@
 //! One XML text from a xacro file and all it includes, without what no chain needs, and with a call of its macro if
 //! nothing else calls one.
+//!
+//! | in a file | in the text |
+//! |---|---|
+//! | `<xacro:include>` | the contents of that file, or nothing where it is not needed |
+//! | any other `xacro:` element | itself, with the prefix `xacro` |
+//! | `<link>` | its name alone |
+//! | `<joint>` | itself, with origin, parent, child, axis, limit and mimic |
+//! | `<material>`, `<gazebo>`, `<transmission>`, `<ros2_control>`, `<sensor>` | nothing |
+//! | comments, attributes with a namespace | nothing |
+//! | any other element, text | itself |
 
 use std::path::{Path, PathBuf};
 
@@ -42,13 +52,18 @@ pub(super) struct Flat {
 
 /// Writes one text while it walks through all files.
 struct Writer<'a> {
+    /// The file that was asked for.
     main: &'a Source,
+    /// What was written so far, without the root element.
     xml: String,
+    /// The files included so far.
     sources: Vec<Source>,
     remarks: Vec<String>,
+    /// Of all files; the walk goes on behind each.
     problems: Vec<Problem>,
     /// The files that include the one at hand, outermost first.
     inside: Vec<PathBuf>,
+    /// In the order of the text.
     macros: Vec<Macro>,
     /// How many definitions of macros enclose the element at hand.
     macros_around: usize,
@@ -59,13 +74,18 @@ struct Writer<'a> {
 /// A macro with joints in it.
 struct Macro {
     name: String,
+    /// As the file has it: words between blanks, with `:=` or `=` where there is a default.
     params: String,
+    /// Where its name stands in its file.
     place: std::ops::Range<usize>,
     /// Whether `place` is in the main file.
     of_main: bool,
 }
 
 /// The text of `main`, read from `path`, and of all it includes.
+///
+/// Reads the included files from the disk. If nothing but macros is defined and one of them holds joints, a call of it
+/// stands at the end.
 ///
 /// # Errors
 /// What is not XML, files that are missing, no robot or several.
@@ -112,6 +132,8 @@ pub(super) fn flatten(main: &Source, path: &Path) -> Result<Flat, Problems> {
 
 impl Writer<'_> {
     /// Any node of a file: text, an element of URDF that chains need, or one of xacro.
+    ///
+    /// Whether an element makes joints is seen on the way: a joint or a call of a macro outside all macros.
     fn node(&mut self, file: &Source, node: Node<'_, '_>) {
         if node.is_text() {
             self.xml.push_str(&escaped(node.text().unwrap_or_default()));
@@ -176,6 +198,9 @@ impl Writer<'_> {
     }
 
     /// The contents of an included file in place of the element.
+    ///
+    /// A file that is missing is a problem, unless it is marked as optional or its name says that it holds colours or
+    /// the like: then it is a remark. Files that include one another in a circle are refused, as are more than 100.
     fn include(&mut self, file: &Source, node: Node<'_, '_>) {
         let place = xml::value_place(node, "filename");
         let Some(filename) = node.attribute("filename") else {
@@ -242,6 +267,9 @@ impl Writer<'_> {
     }
 
     /// The call of the one robot macro with an empty prefix.
+    ///
+    /// # Errors
+    /// No macro with joints, several of them, or one with a parameter other than `prefix` that has no default.
     fn call(&self, root: Node<'_, '_>) -> Result<String, Problems> {
         let refused =
             |message: &str, hint: String| Err(self.main.problem(xml::tag(root), message, Some(hint)).into());

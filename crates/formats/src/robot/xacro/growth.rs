@@ -7,9 +7,17 @@
 //! ```
 //!
 //! Both are followed as deep as the evaluator goes, with every condition taken as true, and the greatest where a name
-//! has several values. What recurs once a level grows by its own size a level; what recurs twice doubles, and is refused.
+//! has several values. What recurs once a level grows by its own size a level; what recurs twice doubles, and is
+//! refused.
 //!
 //! Expressions that make much of little (`lambda`, comprehensions, padding) are refused: no robot needs them.
+//!
+//! | bound | most |
+//! |---|---|
+//! | bytes of one expression | 2000 |
+//! | bytes of one value | 64 KiB |
+//! | bytes that the file, or one macro of it, may come to | 1 MiB |
+//! | levels that are followed | 100, or until nothing grows any more |
 
 use std::collections::BTreeMap;
 
@@ -84,6 +92,8 @@ fn refused_expression(text: &str) -> Option<String> {
 }
 
 /// Refuses values and macros that could grow beyond all need.
+///
+/// Sizes are followed level by level until they stay as they are, at most 100 deep.
 fn too_long(root: Node<'_, '_>) -> Result<(), String> {
     let lengths = Lengths::of(root)?;
     let mut sizes = Sizes::default();
@@ -105,6 +115,7 @@ fn too_long(root: Node<'_, '_>) -> Result<(), String> {
     }
 }
 
+/// The bound as messages tell it.
 fn megabytes() -> String {
     format!("{} MiB of joints", MOST_BYTES >> 20)
 }
@@ -119,6 +130,8 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
 struct Lengths<'a>(BTreeMap<&'a str, u64>);
 
 impl<'a> Lengths<'a> {
+    /// The greatest length of each name, followed level by level until none grows.
+    ///
     /// # Errors
     /// The name whose value may grow too long.
     fn of(root: Node<'a, '_>) -> Result<Lengths<'a>, String> {
@@ -172,6 +185,9 @@ impl<'a> Lengths<'a> {
     }
 
     /// How long a text can get: any name in it may stand for its value.
+    ///
+    /// Without a `$` its own letters. With one, every word is taken as a name that may be one of the file's, and every
+    /// `$` as a number besides.
     fn of_text(&self, text: &str) -> u64 {
         let own = text.len() as u64;
         if !text.contains('$') {
@@ -184,6 +200,9 @@ impl<'a> Lengths<'a> {
 }
 
 /// Each parameter of a macro with its default.
+///
+/// Separated by blanks outside of quotes and brackets: `a b:=1 *block c:='x y'`. The default is empty where there is
+/// none.
 fn parameters(text: &str) -> Vec<(&str, &str)> {
     let mut quote = None;
     let mut depth = 0_usize;
@@ -209,11 +228,15 @@ fn parameters(text: &str) -> Vec<(&str, &str)> {
 /// How many bytes macros and blocks can come to, by name, as far as levels have been followed.
 #[derive(Default)]
 struct Sizes<'a> {
+    /// Of macros, as a call of them gives.
     bodies: BTreeMap<&'a str, u64>,
+    /// Of properties and parameters that hold elements, as `insert_block` gives.
     blocks: BTreeMap<&'a str, u64>,
 }
 
 impl<'a> Sizes<'a> {
+    /// The sizes with calls and blocks counted as `self` has them: one level more than `self` has followed. Of several
+    /// of one name the greatest counts.
     fn one_level_deeper(&self, root: Node<'a, '_>, lengths: &Lengths<'_>) -> Sizes<'a> {
         let mut next = Sizes::default();
         let mut given: BTreeMap<&str, u64> = BTreeMap::new();
@@ -242,12 +265,14 @@ impl<'a> Sizes<'a> {
         next
     }
 
+    /// What the contents of an element can come to.
     fn of_children(&self, node: Node<'_, '_>, lengths: &Lengths<'_>) -> u64 {
         node.children()
             .map(|child| self.of(child, lengths))
             .fold(0, u64::saturating_add)
     }
 
+    /// What a node can come to; definitions come to nothing where they stand.
     fn of(&self, node: Node<'_, '_>, lengths: &Lengths<'_>) -> u64 {
         if !node.is_element() {
             return lengths.of_text(node.text().unwrap_or_default());

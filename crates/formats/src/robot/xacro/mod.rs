@@ -37,6 +37,9 @@ const DIRECTIVES: [&str; 9] = [
 /// The robot of this xacro text, which was read from `path`, with its flange at the link `tip`, or at the end of the
 /// longest chain; `id` is the robot's name in results.
 ///
+/// Problems of the expanded text stand in `PATH (expanded)`: no line of it is in a file. The one source is called
+/// `xacro`.
+///
 /// # Errors
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be
 /// worked out; then what [`urdf::read_to_tip`] finds in the expanded text.
@@ -74,6 +77,8 @@ pub struct Expanded {
 }
 
 /// The URDF that this xacro text, which was read from `path`, stands for.
+///
+/// Reads the files that it includes from the disk.
 ///
 /// # Errors
 /// What is not XML, a file that is missing, a file without robot or with several, an expression that cannot be

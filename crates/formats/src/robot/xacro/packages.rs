@@ -1,4 +1,10 @@
 //! Where the file is that `$(find package)/urdf/x.xacro` means: ROS is not asked, the folders around are.
+//!
+//! ```text
+//! FOLDER/my_support/urdf/arm.xacro includes
+//!   $(find my_support)/urdf/macro.xacro   FOLDER/my_support/urdf/macro.xacro
+//!   $(find other)/urdf/x.xacro            FOLDER/other/urdf/x.xacro, else x.xacro beside arm.xacro
+//! ```
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,7 @@
 //! A regular grid in three dimensions as VTK image data, `.vti`.
+//!
+//! The geometry is in the element itself, as origin, spacing and counts (`WholeExtent`, which names the last point, not
+//! their number); the file holds no positions.
 
 use super::{PointArray, VtkError, check_arrays, check_positions, file, point_data};
 
@@ -7,9 +10,13 @@ use super::{PointArray, VtkError, check_arrays, check_positions, file, point_dat
 /// Checked when it is made: counts, spacing, finite numbers, and lengths and names of the arrays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image {
+    /// Where point (0, 0, 0) is.
     origin_mm: [f64; 3],
+    /// Distances of neighbours in x, y, z; above 0.
     spacing_mm: [f64; 3],
+    /// In x, y, z; each at least 1.
     point_counts: [usize; 3],
+    /// One value a point in each.
     arrays: Vec<PointArray>,
 }
 
@@ -19,8 +26,8 @@ impl Image {
     /// Point (i, j, k) has the index i + nx (j + ny k) in every array. A direction of one point still needs a spacing.
     ///
     /// # Errors
-    /// A direction without points, a spacing not above 0 mm, an origin that is not finite, and arrays of the wrong length,
-    /// of the same name or with numbers that are not finite.
+    /// A direction without points, a spacing not above 0 mm, an origin that is not finite, and arrays of the wrong
+    /// length, of the same name or with numbers that are not finite.
     pub fn new(
         origin_mm: [f64; 3],
         spacing_mm: [f64; 3],

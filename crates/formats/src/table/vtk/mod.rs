@@ -9,7 +9,16 @@
 //! seven digits: more cannot be seen. VTK has no missing values: they are written as NaN, and a second array
 //! `<name>_valid` is 1 where there is a value and 0 where there is none.
 //!
-//! Source: VTK file formats, section "XML file formats", <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
+//! ```text
+//! <VTKFile type="ImageData" or "PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64">
+//!   geometry
+//!   <PointData Scalars="first scalar array">
+//!     <DataArray type="Float32" Name="in_plane_um" ...>       base64 of: count of bytes (UInt64), bytes
+//!     <DataArray type="UInt8" Name="in_plane_um_valid" ...>
+//! ```
+//!
+//! Source: VTK file formats, section "XML file formats",
+//! <https://docs.vtk.org/en/latest/vtk_file_formats/vtkxml_file_format.html>.
 
 mod image;
 mod poly_data;
@@ -115,6 +124,7 @@ pub enum VtkError {
 }
 
 impl PointValues {
+    /// Points with or without a value.
     fn len(&self) -> usize {
         match self {
             Self::Scalar(values) => values.len(),
@@ -143,6 +153,8 @@ impl PointValues {
 }
 
 /// Refuses arrays of the wrong length, of one name, or with values that are not finite.
+///
+/// The names of masks count as well, so that an array `a_valid` beside `a` is refused.
 fn check_arrays(arrays: &[PointArray], points: usize) -> Result<(), VtkError> {
     let mut names = BTreeSet::new();
     for PointArray { name, values } in arrays {
@@ -166,6 +178,7 @@ fn check_arrays(arrays: &[PointArray], points: usize) -> Result<(), VtkError> {
     Ok(())
 }
 
+/// Refuses positions that are not finite.
 fn check_positions(points_mm: &[[f64; 3]]) -> Result<(), VtkError> {
     let strange = |at: &[f64; 3]| at.iter().any(|value| !value.is_finite());
     match points_mm.iter().position(strange) {
@@ -177,6 +190,7 @@ fn check_positions(points_mm: &[[f64; 3]]) -> Result<(), VtkError> {
     }
 }
 
+/// Name of the array that says where there are values.
 fn mask_name(name: &str) -> String {
     format!("{name}_valid")
 }
@@ -216,6 +230,7 @@ fn point_data(out: &mut String, arrays: &[PointArray]) {
     *out += "</PointData>\n";
 }
 
+/// An array of numbers, rounded to 32 bits; one beyond their range is infinite.
 fn floats(out: &mut String, name: &str, components: usize, values: impl Iterator<Item = f64>) {
     let bytes = values.map(|value| (value as f32).to_le_bytes());
     data_array(out, ("Float32", name, components), bytes);

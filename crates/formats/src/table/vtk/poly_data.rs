@@ -1,4 +1,10 @@
 //! Points joined to quadrilaterals and lines as VTK poly data, `.vtp`.
+//!
+//! | element | holds |
+//! |---|---|
+//! | `Points` | positions, mm, 64 bits |
+//! | `Lines`, `Polys` | `connectivity`: points of all cells in a row; `offsets`: where in that row each cell ends |
+//! | `PointData` | the arrays |
 
 use super::{PointArray, VtkError, check_arrays, check_positions, data_array, file, point_data};
 
@@ -8,9 +14,13 @@ use super::{PointArray, VtkError, check_arrays, check_positions, data_array, fil
 /// Not checked: whether quadrilaterals are flat.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolyData {
+    /// In any one frame, which the file does not name.
     points_mm: Vec<[f64; 3]>,
+    /// Each joins its points in order.
     lines: Vec<Vec<usize>>,
+    /// Corners, once round.
     quads: Vec<[usize; 4]>,
+    /// One value a point in each.
     arrays: Vec<PointArray>,
 }
 
@@ -18,8 +28,8 @@ impl PolyData {
     /// Any points, lines and quadrilaterals; cells name their points by index, from 0.
     ///
     /// # Errors
-    /// Positions that are not finite, indices of no point, lines of fewer than two points, and arrays of the wrong length,
-    /// of the same name or with numbers that are not finite.
+    /// Positions that are not finite, indices of no point, lines of fewer than two points, and arrays of the wrong
+    /// length, of the same name or with numbers that are not finite.
     pub fn new(
         points_mm: Vec<[f64; 3]>,
         lines: Vec<Vec<usize>>,
@@ -56,6 +66,9 @@ impl PolyData {
 
     /// A surface through the points of each grid, one grid after the other; `counts` are its points along its first and
     /// second direction, and the first runs fastest.
+    ///
+    /// Quadrilaterals go from corner (i, j) over (i + 1, j) and (i + 1, j + 1) to (i, j + 1). A grid of one row of
+    /// points has none.
     ///
     /// # Errors
     /// A number of points that does not fit `counts`, and those of [`PolyData::new`].
@@ -124,6 +137,8 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
 }
 
 /// The points of all cells in a row, and where in that row each cell ends.
+///
+/// As 32 bits where the last offset fits into them, else as 64.
 fn cells<'a>(out: &mut String, element: &str, cells: impl Iterator<Item = &'a [usize]> + Clone) {
     *out += &format!("<{element}>\n");
     let ends = cells.clone().scan(0, |end, cell| {

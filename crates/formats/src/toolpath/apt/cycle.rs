@@ -1,4 +1,4 @@
-//! Drilling cycles as moves: each GOTO between CYCLE/... and CYCLE/OFF is the top of a hole `p` under the tool axis `a`.
+//! Drilling cycles as moves: each GOTO between CYCLE/... and CYCLE/OFF is the top of a hole `p`, tool axis `a`.
 //!
 //! | parameter | meaning |
 //! |---|---|
@@ -11,8 +11,8 @@
 //! | `DWELL,t` | wait at the bottom: no move |
 //!
 //! Pecks count from RAPTO; after each the tip goes back there and down again in rapid. What is cut is the same if a
-//! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2, and BORE, REAM and TAP, which cut on the way down as DRILL does; others are
-//! refused, since what they do depends on the machine.
+//! machine only breaks the chip. The cycles are DRILL, DEEP and DEEP2, and BORE, REAM and TAP, which cut on the way
+//! down as DRILL does; others are refused, since what they do depends on the machine.
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
 use armill_core::path::{Course, Move, Pace};
@@ -27,9 +27,13 @@ const MOST_PECKS: f64 = 1000.0;
 /// A cycle that holds until CYCLE/OFF; lengths in m.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cycle {
+    /// Below the point, against the tool axis; not negative.
     depth: f64,
+    /// Above the point: from here on it cuts.
     rapid_to: f64,
+    /// Above the point: here it goes from hole to hole; not below `rapid_to`.
     retract_to: f64,
+    /// `None`: that of FEDRAT.
     feed: Option<Feed>,
     /// First peck and those that follow.
     pecks: Option<[f64; 2]>,
@@ -38,16 +42,21 @@ pub(super) struct Cycle {
 /// What the parameters of a CYCLE tell, in its own units.
 #[derive(Default)]
 struct Parameters {
+    /// FEDTO.
     depth: Option<f64>,
     rapid_to: Option<f64>,
     retract_to: Option<f64>,
+    /// INCR or 1STPECK.
     first_peck: Option<f64>,
+    /// SUBPECK.
     next_peck: Option<f64>,
     feed: Option<Feed>,
 }
 
 impl Interpreter<'_> {
     /// CYCLE/...
+    ///
+    /// A cycle that is refused ends the one before, so that its points are not drilled as that.
     pub fn cycle(&mut self, statement: &Statement) {
         let kind = statement.word_at(0);
         match kind.as_str() {
@@ -74,6 +83,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// A cycle of the kind DRILL, DEEP or DEEP2: pairs of a word and its number.
     fn drill(&mut self, statement: &Statement, kind: &str) {
         let metres = self.metres(statement);
         let before = self.problems.len();
@@ -122,6 +132,9 @@ impl Interpreter<'_> {
     }
 
     /// The moves of a hole whose top is `top`.
+    ///
+    /// In rapid to the retract height and the height where it begins to cut, then pecks or one cut down, then back in
+    /// rapid.
     pub fn hole(
         &mut self,
         statement: &Statement,
@@ -180,6 +193,9 @@ impl Interpreter<'_> {
 }
 
 /// The cycle that was told, or what is wrong with it and what to do.
+///
+/// Refused are: no depth or height, nothing to cut below the point, a retract height below that where it begins to cut,
+/// more than 1000 pecks.
 fn made(told: &Parameters, kind: &str, dialect: Option<Dialect>) -> Result<Cycle, (String, &'static str)> {
     let missing = |name: &str| {
         let hint = "a cycle tells how deep (FEDTO) and from which height above the point (RAPTO) it cuts";

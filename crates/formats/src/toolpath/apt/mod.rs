@@ -1,15 +1,15 @@
 //! Cutter locations: APT-CL or CLDATA as SolidWorks CAM writes it, and the CLSF of Siemens NX.
 //!
-//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries
-//! each.
+//! Which words are followed, passed over and refused stands in `docs/guide/tool-path-words.md`;
+//! `tests/toolpath/words.rs` tries each.
 //!
 //! The two dialects differ where a GOTO leaves the tool axis out: SolidWorks means 0,0,1, NX the one before. They are
 //! known by `CSYS`, `TRNTYP` and by `TOOL PATH`, `TLDATA`, `MSYS`. The path is in world coordinates (SolidWorks), in
 //! those of the first MSYS (NX), in the only ones there are otherwise. Cutter compensation is passed over: the points
 //! are taken as they stand.
 //!
-//! In reading order: `statement` takes lines apart; `modal` holds what lasts; `words` says what each word does, `systems`
-//! and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
+//! In reading order: `statement` takes lines apart; `modal` holds what lasts; `words` says what each word does,
+//! `systems` and `tool` do so for frames and cutters, `motion` and `cycle` for what moves.
 //!
 //! Source: ISO 4343, ISO 3592; how both programs write, read in their files.
 

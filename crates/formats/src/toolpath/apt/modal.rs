@@ -1,4 +1,14 @@
 //! What holds until something else is said: unit, dialect, frame, axis, feed, spindle, tool, cycle.
+//!
+//! | what | held | given to the core in |
+//! |---|---|---|
+//! | cutter, last MSYS | in the unit of the file, until a move needs it: UNITS may come later | m |
+//! | points, heights of cycles | m, in the frame of the path | m |
+//! | feed | m/s, or m a turn until the spindle is known | m/s |
+//! | spindle | rad/s, below 0 counterclockwise | rad/s |
+//!
+//! An operation is begun by a word (`begin_operation`) and given before the next move, so that several words about one
+//! tool make one operation.
 
 use std::ops::Range;
 
@@ -30,9 +40,13 @@ pub(super) enum Feed {
 
 /// Follows a program word by word.
 pub(super) struct Interpreter<'a> {
+    /// The path that problems show.
     pub name: &'a str,
+    /// What the user says where the file is silent.
     pub wanted: &'a Wanted,
+    /// Takes the steps.
     out: &'a mut dyn FnMut(Step),
+    /// Those found so far.
     pub problems: Vec<Problem>,
     /// Words that say nothing about the path.
     ignored: Notes<String>,
@@ -42,11 +56,13 @@ pub(super) struct Interpreter<'a> {
     pub points: u64,
     /// The unit of length, where it was told or needed.
     pub unit: Option<LengthUnit>,
+    /// As it was wanted, or as the first word shows that one of them alone writes.
     pub dialect: Option<Dialect>,
     /// Whether the missing unit has been told already.
     unit_asked: bool,
     /// Cutter in the unit of the file, until a move needs it: the unit may be told later.
     pub cutter: [Option<f64>; 2],
+    /// The one at hand, its cutter aside; line 0 until a word begins it.
     pub operation: Operation,
     /// Whether the next move begins an operation.
     begins: bool,
@@ -54,10 +70,15 @@ pub(super) struct Interpreter<'a> {
     pub inserted: Option<String>,
     /// Speed that SPINDL/ON comes back to, rad/s.
     pub told_spindle: Option<f64>,
+    /// Of moves that are no rapids, until another is told.
     pub feed: Option<Feed>,
+    /// Unit of a FEDRAT that tells none.
     pub feed_mode: Option<&'static str>,
+    /// Whether the next GOTO is a rapid.
     pub rapid: bool,
+    /// A CIRCLE whose GOTO has not come yet.
     pub circle: Option<Circle>,
+    /// What every GOTO drills at present.
     pub cycle: Option<Cycle>,
     /// What was told of the tool axis, in the frame of the path.
     pub axis: Option<Unit<Vector3<f64>>>,
@@ -69,11 +90,14 @@ pub(super) struct Interpreter<'a> {
     pub world_from_path: Option<Isometry>,
     /// Path from the system that GOTO counts in.
     pub path_from_here: Isometry,
+    /// Whether TRNTYP said that points are in the world.
     pub world_told: bool,
+    /// Whether FINI came.
     pub ended: bool,
 }
 
 impl<'a> Interpreter<'a> {
+    /// Before the first statement.
     pub fn new(name: &'a str, wanted: &'a Wanted, out: &'a mut dyn FnMut(Step)) -> Interpreter<'a> {
         Interpreter {
             name,
@@ -107,6 +131,9 @@ impl<'a> Interpreter<'a> {
     }
 
     /// What is to be noted, or every problem.
+    ///
+    /// # Errors
+    /// All problems, among them a CIRCLE without end and a file without a point.
     pub fn finish(mut self) -> Result<Vec<String>, Problems> {
         if let Some(circle) = &self.circle {
             self.problems.push(circle.without_end.clone());
@@ -180,6 +207,8 @@ impl<'a> Interpreter<'a> {
     }
 
     /// Metres of the unit of length; asks for it once if nobody told it.
+    ///
+    /// Where nobody did, a file has a problem, and mm stand in so that the rest is looked at.
     pub fn metres(&mut self, statement: &Statement) -> f64 {
         self.unit = self.unit.or(self.wanted.unit);
         if self.unit.is_none() && !self.unit_asked {
@@ -192,6 +221,8 @@ impl<'a> Interpreter<'a> {
     }
 
     /// What a word tells of whose file this is.
+    ///
+    /// Words of both are a problem, unless the user has said whose it is.
     pub fn evidence(&mut self, statement: &Statement, dialect: Dialect) {
         match self.dialect {
             None => self.dialect = Some(dialect),
@@ -258,6 +289,7 @@ impl<'a> Interpreter<'a> {
     }
 }
 
+/// Counts a word or sentence, cut to [`LONGEST_WORD`]; beyond [`MOST_WORDS`] different ones all are `other words`.
 fn note(words: &mut Notes<String>, word: &str, line: u32) {
     let word: String = word.chars().take(LONGEST_WORD).collect();
     match words.len() < MOST_WORDS || words.has(&word) {

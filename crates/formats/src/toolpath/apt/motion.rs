@@ -17,8 +17,8 @@ use crate::toolpath::direction::direction;
 
 /// Points no farther apart are the same, m: programs write six decimals of mm, old ones four.
 const SAME_POINT: f64 = 1e-7;
-/// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse rounding
-/// of the centre gives, and far below any radius that was mistaken.
+/// The radii at both ends of an arc differ by no more than this part of them, and this many metres: what coarse
+/// rounding of the centre gives, and far below any radius that was mistaken.
 const RADIUS_SLACK: [f64; 2] = [1e-3, 1e-5];
 /// A helix ends at the angle that its number of turns says, within this, rad.
 const TURN_SLACK: f64 = 1e-3;
@@ -31,7 +31,9 @@ type ToldAxis = Option<Unit<Vector3<f64>>>;
 /// What a CIRCLE says, until the GOTO that ends it.
 #[derive(Clone, Debug)]
 pub(super) struct Circle {
+    /// In the frame of the path, m; any point of the axis will do.
     centre: Point3<f64>,
+    /// The arc turns by the right hand about it; frame of the path.
     axis: Unit<Vector3<f64>>,
     /// m, where it is written.
     radius: Option<f64>,
@@ -43,6 +45,8 @@ pub(super) struct Circle {
 
 impl Interpreter<'_> {
     /// GOTO, FROM and GOHOME; the latter two in rapid.
+    ///
+    /// Within a cycle it is a hole. A point that is refused gives no move, and what follows is still looked at.
     pub fn goto(&mut self, statement: &Statement) {
         let rapid = std::mem::take(&mut self.rapid) || statement.word != "GOTO";
         let circle = self.circle.take();
@@ -94,6 +98,8 @@ impl Interpreter<'_> {
 
     /// CIRCLE: three numbers of the centre, three of the axis; NX adds the radius, two tolerances, diameter and corner
     /// of the tool, and for a helix `TIMES,n`.
+    ///
+    /// A CIRCLE before it that no GOTO has ended is a problem.
     pub fn circle(&mut self, statement: &Statement) {
         let without_end = statement.problem(
             self.name,
@@ -160,6 +166,8 @@ impl Interpreter<'_> {
     }
 
     /// How fast a GOTO that is no rapid goes.
+    ///
+    /// Feed a turn is taken with the spindle as it turns here; without one it is a problem.
     pub fn pace(&mut self, statement: &Statement) -> Pace {
         match self.feed {
             None => Pace::Untold,
@@ -179,6 +187,8 @@ impl Interpreter<'_> {
     }
 
     /// The point of a GOTO in the frame of the path, m, and the axis it writes.
+    ///
+    /// Refused are other counts than three and six, and a direction that has not length 1.
     fn point_and_axis(&mut self, statement: &Statement) -> Option<(Point3<f64>, ToldAxis)> {
         let numbers = self.numbers(statement)?;
         let (point, axis) = match numbers.as_slice() {
@@ -196,6 +206,8 @@ impl Interpreter<'_> {
     }
 
     /// The tool axis at a point that writes `told`, as the dialect has it.
+    ///
+    /// Where the dialect is not known, leaving out an axis that was written before is a problem: each means another.
     fn axis_of(&mut self, statement: &Statement, told: ToldAxis) -> Option<Unit<Vector3<f64>>> {
         match (told, self.dialect) {
             (Some(axis), _) => self.axis = Some(axis),
@@ -227,6 +239,9 @@ impl Interpreter<'_> {
     }
 
     /// The arc from where the tip stands to `end`.
+    ///
+    /// Refused are an arc from nowhere, ends and written radius that differ by more than [`RADIUS_SLACK`], and a helix
+    /// whose turns do not end where it ends. What a helix climbs is the distance of both ends along its axis.
     fn arc(&mut self, statement: &Statement, circle: &Circle, end: Point3<f64>) -> Option<Arc> {
         let Some(from) = self.at else {
             let message = "an arc from nowhere: no GOTO before it says where the tip stands";

@@ -1,4 +1,13 @@
 //! Lines as statements: `WORD/parameter,parameter`, continued behind `$`, with remarks behind `$$`.
+//!
+//! ```text
+//! GOTO/10.0,20.0,$        $$ a remark
+//!      -5.0,0,0,1                              word GOTO, six parameters
+//! PARTNO bracket, 2nd side                     word PARTNO, one free text
+//! ```
+//!
+//! Blanks round words and parameters do not count, nor do capitals of words. Places are kept through continued lines: a
+//! statement knows where in its text each of its lines begins.
 
 use std::io::BufRead;
 use std::ops::Range;
@@ -19,7 +28,9 @@ pub(super) struct Statement {
     pub word: String,
     /// What stands behind it, as one text.
     text: String,
+    /// Its place in the text.
     word_span: Range<usize>,
+    /// Places in the text, blanks left out; an empty one between two commas is kept.
     parameters: Vec<Range<usize>>,
     /// The lines it stands on, and where each begins in the text.
     pieces: Vec<(usize, Line)>,
@@ -28,7 +39,9 @@ pub(super) struct Statement {
 /// One parameter.
 #[derive(Clone, Debug)]
 pub(super) struct Parameter<'a> {
+    /// As it is written, without blanks round it.
     pub text: &'a str,
+    /// Its place in the text of its statement.
     pub span: Range<usize>,
 }
 
@@ -77,6 +90,8 @@ impl Statement {
     }
 
     /// A problem at a place of this statement.
+    ///
+    /// It stands on the line on which `span` begins, and ends there.
     pub fn problem(&self, name: &str, span: Range<usize>, message: impl Into<String>, hint: &str) -> Problem {
         let after = self.pieces.partition_point(|(start, _)| *start <= span.start);
         // The first piece begins at 0, so that one always begins before.
@@ -96,6 +111,7 @@ pub(super) struct Statements<R> {
 }
 
 impl<R: BufRead> Statements<R> {
+    /// Before the first line of the file `name`.
     pub fn new(name: &str, reader: R) -> Statements<R> {
         Statements {
             lines: Lines::new(name, reader),
@@ -103,6 +119,8 @@ impl<R: BufRead> Statements<R> {
     }
 
     /// The next statement; `None` behind the last.
+    ///
+    /// Lines without anything but blanks and remarks are passed over.
     ///
     /// # Errors
     /// What is no text, and a statement without end.
@@ -134,6 +152,7 @@ impl<R: BufRead> Statements<R> {
     }
 }
 
+/// A statement that goes on and does not end, at its first line.
 fn unended(name: &str, pieces: &[(usize, Line)]) -> Problem {
     let (_, first) = &pieces[0];
     let message = match pieces.len() {
@@ -160,6 +179,7 @@ fn said(line: &str) -> (&str, bool) {
         .map_or((line, false), |(said, _)| (said, true))
 }
 
+/// Whether a line begins with a word of [`FREE_TEXT`], and not merely with its letters.
 fn free_text(line: &str) -> bool {
     let line = line.trim_start();
     FREE_TEXT.iter().any(|word| {

@@ -1,7 +1,13 @@
 //! The systems that points are counted in: CSYS and TRNTYP of SolidWorks, MSYS of NX.
 //!
-//! `path_from_here = world_from_path^-1 world_from_here`: the path is in the first MSYS, and later ones are brought into
-//! it. Points of SolidWorks are in the world, or refused.
+//! `path_from_here = world_from_path^-1 world_from_here`: the path is in the first MSYS, and later ones are brought
+//! into it. Points of SolidWorks are in the world, or refused.
+//!
+//! | word | numbers | meaning |
+//! |---|---|---|
+//! | `CSYS` | twelve, row by row: three of a turn, one of the origin | checked; points are where TRNTYP says |
+//! | `TRNTYP` | a word | `WORLD`, or refused |
+//! | `MSYS` | nine: origin, x axis, y axis | where the points that follow are counted |
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Matrix3, Rotation3, Translation3, UnitQuaternion, Vector3};
@@ -15,6 +21,8 @@ const AXES_SLACK: f64 = 1e-3;
 
 impl Interpreter<'_> {
     /// TRNTYP: whether points are in the world.
+    ///
+    /// A word of SolidWorks alone.
     pub fn trntyp(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::SolidWorks);
         self.world_told = statement.word_at(0) == "WORLD";
@@ -30,6 +38,9 @@ impl Interpreter<'_> {
     }
 
     /// The local system: twelve numbers, row by row, each row ending in a coordinate of its origin.
+    ///
+    /// Nothing is moved by it: a system other than the world is a problem unless the points were said to be in the
+    /// world.
     pub fn csys(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::SolidWorks);
         let Some(numbers) = self.numbers(statement) else {
@@ -65,6 +76,8 @@ impl Interpreter<'_> {
     }
 
     /// The system of the points: its origin, x axis and y axis.
+    ///
+    /// Kept until the next point, since the unit may come behind it. What was told of the tool axis is forgotten.
     pub fn msys(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::Nx);
         let Some(numbers) = self.numbers(statement) else {
@@ -100,6 +113,8 @@ impl Interpreter<'_> {
     }
 
     /// Takes the last MSYS as the system of what follows; its unit may have been told behind it.
+    ///
+    /// The first one is the frame of the path: there `path_from_here` is the identity.
     pub fn settle_system(&mut self, statement: &Statement) {
         let Some((origin, turn)) = self.system.take() else {
             return;
@@ -111,7 +126,9 @@ impl Interpreter<'_> {
     }
 }
 
+/// What is wrong with axes that make no turn.
 const SKEW: &str = "these axes are not perpendicular and of length 1";
+/// How an MSYS is written.
 const MSYS_HINT: &str = "nine numbers: origin, x axis, y axis";
 
 /// The turn of three axes; `None` if they are not perpendicular, of length 1 and right-handed.

@@ -1,4 +1,13 @@
 //! The tool: its number by LOAD and LOADTL, its diameter and corner radius by CUTTER and TLDATA.
+//!
+//! | word | parameters |
+//! |---|---|
+//! | `LOAD/TOOL,n`, `LOADTL/n` | number of the tool; other kinds of LOAD are passed over |
+//! | `CUTTER/d,r` | diameter, corner radius; in the unit of the file |
+//! | `TLDATA/MILL,d,r` | the same (NX) |
+//! | `TLDATA/DRILL,d` or `DRILL,kind,d` | diameter alone (NX); what follows is passed over |
+//!
+//! Each begins an operation. Lengths stay in the unit of the file until a move needs them.
 
 use super::Dialect;
 use super::modal::Interpreter;
@@ -33,6 +42,8 @@ impl Interpreter<'_> {
     }
 
     /// Diameter and corner radius, from parameter `first` on.
+    ///
+    /// A corner radius that is left out is not known, and not zero.
     pub fn cutter(&mut self, statement: &Statement, first: usize) {
         let before = self.problems.len();
         let mut lengths = [None; 2];
@@ -67,6 +78,8 @@ impl Interpreter<'_> {
     }
 
     /// TLDATA: the tool of an NX path.
+    ///
+    /// Of a kind other than MILL and DRILL no diameter is taken, and that is noted.
     pub fn tldata(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::Nx);
         match statement.word_at(0).as_str() {

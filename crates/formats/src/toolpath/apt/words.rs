@@ -37,6 +37,9 @@ const FASTEST_SPINDLE_RPM: f64 = 1e6;
 
 impl Interpreter<'_> {
     /// Takes the next statement.
+    ///
+    /// What is wrong is kept, and the next is taken as if this one had not been. Words that are not known are counted
+    /// as such, not refused.
     pub fn take(&mut self, statement: &Statement) {
         if self.ended {
             let message = format!("`{}` behind FINI", statement.word);
@@ -101,6 +104,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// UNITS: mm or inch, from here on.
     fn unit(&mut self, statement: &Statement) {
         let word = statement.word_at(0);
         self.unit = match word.as_str() {
@@ -120,6 +124,8 @@ impl Interpreter<'_> {
     }
 
     /// A number and its mode, in either order; without mode as the one before.
+    ///
+    /// FEDRAT; the unit of the feed is in its mode and has nothing to do with UNITS.
     fn fedrat(&mut self, statement: &Statement) {
         let (mut mode, mut value) = (self.feed_mode, None);
         for parameter in statement.parameters() {
@@ -191,6 +197,8 @@ impl Interpreter<'_> {
         })
     }
 
+    /// SPINDL: turns a minute, CLW or CCLW; clockwise where neither stands. ON goes back to the last speed above 0. A
+    /// speed in other units than RPM is not known, and noted.
     fn spindl(&mut self, statement: &Statement) {
         let (mut speed_rpm, mut sign, mut on_surface) = (None, 1.0, false);
         for parameter in statement.parameters() {
@@ -218,6 +226,7 @@ impl Interpreter<'_> {
             );
             return;
         }
+        // ON without a number has set the speed already.
         let Some(speed_rpm) = speed_rpm else { return };
         if !(0.0..=FASTEST_SPINDLE_RPM).contains(&speed_rpm) {
             let message = format!("{speed_rpm} RPM is not between 0 and {FASTEST_SPINDLE_RPM}");
@@ -235,6 +244,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// TOOL PATH of NX: another operation, whose name is the first parameter.
     fn tool_path(&mut self, statement: &Statement) {
         self.evidence(statement, Dialect::Nx);
         let mut words = statement.parameters().map(|parameter| parameter.text);

@@ -1,4 +1,7 @@
 //! What a line is known by: the words that only one format begins its lines with.
+//!
+//! Lines come without blanks round them; capitals do not count. Many lines of a program are known by none of the tests;
+//! one line that is known decides.
 
 use crate::table::sheet::{cells, separator_of};
 
@@ -62,6 +65,8 @@ const APT_WORDS: &[&str] = &[
 ];
 
 /// The language of robots that a line belongs to.
+///
+/// By its first 24 characters.
 pub(super) fn robot_language(line: &str) -> Option<&'static str> {
     let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
     // VAL3 keeps what a move returns: `nTraj=movel(...)`.
@@ -76,6 +81,8 @@ pub(super) fn robot_language(line: &str) -> Option<&'static str> {
 }
 
 /// A line that begins with a word of cutter locations.
+///
+/// `GOTO/1,2,3`, `PARTNO ...`, or `FINI` alone.
 pub(super) fn is_apt(line: &str) -> bool {
     let upper = line.chars().take(12).collect::<String>().to_uppercase();
     if upper.starts_with("PARTNO")
@@ -90,6 +97,8 @@ pub(super) fn is_apt(line: &str) -> bool {
 }
 
 /// A line of names, three of which are those of a point.
+///
+/// `x`, `x_mm`, `x [mm]` and `x(mm)` are all x.
 pub(super) fn is_header(line: &str) -> bool {
     let cells = cells(line, separator_of(line)).into_iter();
     let names: Vec<String> = cells.map(|cell| cell.text.to_lowercase()).collect();
@@ -102,6 +111,9 @@ pub(super) fn is_header(line: &str) -> bool {
 }
 
 /// A line that begins with a word of G-code, or the tape mark.
+///
+/// Behind a slash for an optional block and a line number: `G1`, `X-5`, `#1=2`, `O<name>`. A line of a number alone, or
+/// of words, is none.
 pub(super) fn is_gcode(line: &str) -> bool {
     if line == "%" {
         return true;

@@ -106,6 +106,9 @@ impl Format {
 
     /// The format of the file `path` that begins with `text`: its first 256 KiB, or all of it.
     ///
+    /// Looked for in this order: a line of any robot language, a word of cutter locations, a line of names, a line of
+    /// G-code; then the ending.
+    ///
     /// # Errors
     /// A program of a robot, and a file of which neither content nor name tells what it is.
     pub fn of(path: &Path, text: &str) -> Result<Format, Problems> {

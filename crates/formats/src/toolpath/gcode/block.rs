@@ -3,6 +3,14 @@
 //! Blanks and capitals mean nothing outside comments. Values are computed while the line is read; parameters set in a
 //! line get their values after it, as the standard wants it.
 //!
+//! ```text
+//! /N10 G1 (fast) X[#1+2] #2=5 M8 ; rest
+//! n10g1x[#1+2]#2=5m8                     the clean text; each of its bytes knows its place in the line
+//! ```
+//!
+//! Codes G and M go by their group, other letters stand once each. A letter that no code of the block has taken by the
+//! end is refused, so that no word is passed over in silence.
+//!
 //! Source: NISTIR 6556, sections 3.3 and 3.4.
 
 use super::expression::{Name, Reader, Values};
@@ -28,6 +36,9 @@ pub(super) struct Clean {
 
 impl Clean {
     /// Reads a line anew.
+    ///
+    /// # Errors
+    /// A line that is too long, a comment that is not closed.
     pub fn read(&mut self, line: &[u8]) -> Result<(), Refused> {
         self.text.clear();
         self.at.clear();
@@ -68,6 +79,8 @@ impl Clean {
     }
 
     /// The bytes of the line that a range of the text came from.
+    ///
+    /// A range past the end of the text is told at its end.
     pub fn place(&self, range: std::ops::Range<usize>) -> std::ops::Range<usize> {
         let last = self.at.last().map_or(0, |at| usize::from(*at) + 1);
         let of = |index: usize| self.at.get(index).map(|at| usize::from(*at));
@@ -83,9 +96,13 @@ pub(super) type Codes = [Option<(u16, (u16, u16))>; GROUPS];
 /// The words of a line.
 #[derive(Clone, Debug)]
 pub(super) struct Block {
+    /// By letter, a to z; of meaning only where `present` has its bit.
     values: [f64; 26],
+    /// By letter: from and to in the clean text.
     places: [(u16, u16); 26],
+    /// A bit for each letter that stands in the block; a is bit 0.
     present: u32,
+    /// The same for letters that some code has taken.
     used: u32,
     /// Codes G by group, in tenths: 921 is G92.1; and where they stand.
     pub g: Codes,
@@ -99,6 +116,7 @@ pub(super) struct Block {
 const WHOLE_WORDS: [(&[u8], u16); 2] = [(b"traori", groups::TRAORI), (b"trafoof", groups::TRAFOOF)];
 
 impl Block {
+    /// Without any word; the same block is filled for every line.
     pub fn new() -> Block {
         Block {
             values: [0.0; 26],
@@ -112,6 +130,10 @@ impl Block {
     }
 
     /// Reads the words of a clean line from this byte on.
+    ///
+    /// # Errors
+    /// The first word that is none, stands twice, is beyond 1e9, or is a code that is unknown, not read, or of a group
+    /// that is taken.
     pub fn read(&mut self, clean: &Clean, from: usize, values: &dyn Values) -> Result<(), Refused> {
         self.present = 0;
         self.used = 0;
@@ -132,6 +154,7 @@ impl Block {
         Ok(())
     }
 
+    /// The next word: a setting `#n=value`, a word of its own such as TRAORI, or a letter with its value.
     fn word(&mut self, reader: &mut Reader<'_>) -> Result<(), Refusal> {
         let start = reader.at;
         let Some(letter) = reader.peek() else {
@@ -190,6 +213,7 @@ impl Block {
         }
     }
 
+    /// Keeps a code under its group.
     fn code(&mut self, letter: u8, code: u16, place: (u16, u16)) -> Result<(), Refusal> {
         let (group, codes) = match letter {
             b'g' => (groups::of_g(code), &mut self.g),
@@ -219,10 +243,12 @@ impl Block {
         }
     }
 
+    /// The bit of a small letter.
     fn bit(letter: u8) -> u32 {
         1 << u32::from(letter.wrapping_sub(b'a') % 26)
     }
 
+    /// Whether a letter stands in the block, taken or not.
     pub fn has(&self, letter: u8) -> bool {
         self.present & Block::bit(letter) != 0
     }
@@ -234,12 +260,15 @@ impl Block {
         Some(value)
     }
 
+    /// The value of a word, which is not used with that.
     pub fn peek(&self, letter: u8) -> Option<f64> {
         self.has(letter)
             .then(|| self.values[usize::from(letter.wrapping_sub(b'a') % 26)])
     }
 
     /// Values of X, Y, Z, A, B, C.
+    ///
+    /// All of them are used with that.
     pub fn axes(&mut self) -> [Option<f64>; 6] {
         b"xyzabc".map(|letter| self.take(letter))
     }
@@ -255,6 +284,8 @@ impl Block {
     }
 
     /// A word that nothing asked for.
+    ///
+    /// The first in the alphabet.
     pub fn unused(&self) -> Option<u8> {
         let left = self.present & !self.used;
         // At most bit 25 is set.
@@ -268,6 +299,8 @@ impl Block {
     }
 
     /// Where in the clean text what a refusal names stands.
+    ///
+    /// The word or code that it speaks of; else the code of cutter compensation, or that of motion.
     pub fn place_of(&self, refusal: &Refusal) -> Option<std::ops::Range<usize>> {
         let letter = match refusal {
             Refusal::WordTwice(word)
@@ -311,6 +344,7 @@ impl Block {
         place.map(|(start, end)| usize::from(start)..usize::from(end))
     }
 
+    /// Whether a G code stands in the block, in tenths: 640 is G64.
     pub fn has_g(&self, code: u16) -> bool {
         groups::of_g(code).is_some_and(|group| self.g[group].is_some_and(|(found, _)| found == code))
     }
@@ -325,15 +359,19 @@ pub(super) fn within(word: char, value: f64) -> Result<(), Refusal> {
     Err(Refusal::WordValue { word, value, wanted })
 }
 
+/// A letter as people write it.
 pub(super) fn shown(letter: u8) -> char {
     char::from(letter.to_ascii_uppercase())
 }
 
+/// What to say of a code that is no code in tenths.
 fn unknown(letter: char, value: f64) -> Refusal {
     Refusal::UnknownCode(format!("{letter}{value}"))
 }
 
 /// A code in tenths: 92.1 as 921.
+///
+/// `None` for what has more decimals, is below zero or above 6553.4.
 fn tenths(value: f64) -> Option<u16> {
     let code = (value * 10.0).round();
     // Codes may be computed: as far as rounding goes.

@@ -96,15 +96,21 @@ impl ArcFeed {
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
 pub enum Canonical {
+    /// A rapid to this place.
     StraightTraverse(Axes),
+    /// A cut along a line to this place.
     StraightFeed(Axes),
+    /// A cut along an arc or helix.
     ArcFeed(ArcFeed),
+    /// G20, G21: what lengths count in from here on.
     UseLengthUnits(LengthUnit),
     /// Number of the coordinate system, 1 for G54, and its zero in machine coordinates.
     SetG5xOffset(u8, Axes),
+    /// Offset of G92 or G52 in force.
     SetG92Offset(Axes),
     /// Turn of the coordinate system about Z, deg.
     SetXyRotation(f64),
+    /// G17 to G19.
     SelectPlane(Plane),
     /// Whether feeds are per revolution of the spindle.
     SetFeedMode {
@@ -115,26 +121,37 @@ pub enum Canonical {
     /// The feed of this block, told before its new unit, counts in the new one. Not a call of NISTIR 6556.
     FeedRateInNewUnit(f64),
     SetMotionControlMode(PathControl),
+    /// Q of G64: how far points nearly on a line may be joined.
     SetNaivecamTolerance(f64),
+    /// G43 to G49: the offset of the tip in force.
     UseToolLengthOffset(Axes),
+    /// G10 L1, L10, L11: offset and diameter of a tool, in the unit of the program.
     SetToolTableEntry {
         tool: u32,
         offset: Axes,
         diameter: f64,
     },
+    /// T: the tool that the next change takes.
     SelectTool(u32),
     /// Number of the tool that is in the spindle from here on.
     ChangeTool(u32),
     /// Revolutions per minute.
     SetSpindleSpeed(f64),
+    /// M3.
     StartSpindleClockwise,
+    /// M4.
     StartSpindleCounterclockwise,
+    /// M5; also part of M6, G86, G88 and the end.
     StopSpindleTurning,
+    /// G97: turns a minute; also part of the end.
     SetSpindleMode,
     /// Seconds.
     Dwell(f64),
+    /// What a comment says to the operator.
     Message(String),
+    /// M0, M1, M60, G88: the operator goes on.
     ProgramStop,
+    /// M2, M30.
     ProgramEnd,
     /// Tool-centre control: from here on X, Y, Z tell the tip in the frame of the part.
     ToolCentreControl {
@@ -146,6 +163,7 @@ pub enum Canonical {
     MachineCoordinates,
 }
 
+/// Numbers with four decimals, and what stands between them.
 struct Listed<'a>(&'a [f64], &'a str);
 
 impl fmt::Display for Listed<'_> {

@@ -24,7 +24,8 @@ use super::refusal::Refusal;
 
 /// Directions closer than this, rad, go on straight: the gap or overlap is `r` times that, below a thousandth of `r`.
 const TANGENT: f64 = 1e-3;
-/// Directions nearer to opposite than this, rad, turn back: there bends of the radius of the cutter outweigh the corner.
+/// Directions nearer to opposite than this, rad, turn back: there bends of the radius of the cutter outweigh the
+/// corner.
 const TURNING_BACK: f64 = 0.05;
 /// Calls that may wait for the next piece.
 const MOST_WAITING: usize = 10_000;
@@ -34,6 +35,7 @@ const OUTSIDE: f64 = 1e-6;
 /// What receives canonical calls, each with its line of the program.
 pub(super) type Out<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
+/// What a moved piece lies on, in the plane.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
     Line {
@@ -70,11 +72,13 @@ pub(super) enum Contour {
     Arc { centre: Point2<f64>, sense: Sense },
 }
 
+/// Compensation that is on: the plane, the cutter, and where its centre stands.
 #[derive(Clone, Copy, Debug)]
 struct Active {
     side: f64,
     radius: f64,
     plane: Plane,
+    /// Whether no piece was moved yet.
     entering: bool,
     /// Where the centre of the cutter stands.
     at: Point2<f64>,
@@ -84,8 +88,11 @@ struct Active {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cutter {
     active: Option<Active>,
+    /// The last move, which the next may shorten.
     piece: Option<Piece>,
+    /// Calls behind it, in order, with their lines.
     waiting: Vec<(Canonical, u32)>,
+    /// Whether it was ended and no move has come since.
     leaving: bool,
     /// Line of the program being read.
     pub line: u32,
@@ -113,11 +120,13 @@ impl Piece {
     }
 }
 
+/// A vector turned by 90 deg to the left.
 fn left_of(t: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(-t.y, t.x)
 }
 
 impl Cutter {
+    /// Whether moves are moved aside; a cutter without radius moves nothing.
     pub fn is_on(&self) -> bool {
         self.active.is_some()
     }
@@ -149,6 +158,9 @@ impl Cutter {
     }
 
     /// Gives a call on, or keeps it behind the piece that waits.
+    ///
+    /// # Errors
+    /// Too many calls between two moves.
     pub fn pass(&mut self, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
         if self.piece.is_none() {
             return out(call, self.line);
@@ -172,6 +184,12 @@ impl Cutter {
     }
 
     /// A move of the contour `from` a point of the plane; its call ends where the contour does.
+    ///
+    /// It waits until the next one shows where it ends; the piece that waited is given out. A rapid is moved as a cut
+    /// is.
+    ///
+    /// # Errors
+    /// An arc inside which the cutter does not fit, a corner that it does not reach, an arc right after the end.
     pub fn follow(
         &mut self,
         contour: Contour,
@@ -388,6 +406,7 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
     };
     match (last.shape, next.shape) {
         (Shape::Line { towards: t1 }, Shape::Line { towards: t2 }) => {
+            // How far along the first line the second is met; not finite where they are parallel.
             let along = (next.start - last.end).perp(&t2) / t1.perp(&t2);
             along.is_finite().then(|| last.end + t1 * along)
         }
@@ -409,6 +428,8 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
                 ..
             },
         ) => {
+            // The chord that both circles share crosses the line of their centres at `along`, half of it is
+            // `height.sqrt()`.
             let between = c2 - c1;
             let d = between.norm();
             let along = (d * d + r1 * r1 - r2 * r2) / (2.0 * d);
@@ -423,6 +444,7 @@ fn crossing(last: &Piece, next: &Piece, arrives: Vector2<f64>) -> Option<Point2<
     }
 }
 
+/// Where a line meets a circle; `None` where it passes beside it.
 fn line_and_circle(
     through: Point2<f64>,
     towards: Vector2<f64>,
@@ -434,6 +456,7 @@ fn line_and_circle(
     (height >= 0.0).then(|| [foot + towards * height.sqrt(), foot - towards * height.sqrt()])
 }
 
+/// Where a move ends in the plane.
 fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
     let [first, second, _] = plane.axes();
     match call {
@@ -445,6 +468,7 @@ fn end_in(call: &Canonical, plane: Plane) -> Point2<f64> {
     }
 }
 
+/// Lets a move end elsewhere in the plane.
 fn end_at(call: &mut Canonical, plane: Plane, at: Point2<f64>) {
     let [first, second, _] = plane.axes();
     match call {
@@ -457,6 +481,7 @@ fn end_at(call: &mut Canonical, plane: Plane, at: Point2<f64>) {
     }
 }
 
+/// A, B, C at the end of a move.
 fn rotary_of(call: &Canonical) -> [f64; 3] {
     match call {
         Canonical::StraightFeed([.., a, b, c]) | Canonical::StraightTraverse([.., a, b, c]) => [*a, *b, *c],

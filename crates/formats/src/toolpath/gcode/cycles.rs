@@ -10,6 +10,14 @@
 //!
 //! G98 goes back to where the axis stood before the cycle, G99 to R.
 //!
+//! ```text
+//! G81 X_ Y_ Z_ R_ L_      Z bottom, R where it begins to cut, L holes
+//! X_ Y_                   another hole of the same cycle: words stay until the code changes
+//! ```
+//!
+//! Z and R stand for the axis across the plane. Under G91 R counts from where the axis stands and Z from R, and L holes
+//! go on by the same step.
+//!
 //! Source: NISTIR 6556, section 3.5.16; G73: LinuxCNC documentation.
 
 use super::block::{Block, shown};
@@ -30,13 +38,18 @@ const MOST_PECKS: f64 = 100_000.0;
 /// Words that later blocks of a cycle need not repeat, as they were written.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Cycle {
+    /// R.
     clear: f64,
+    /// X, Y or Z across the plane.
     bottom: f64,
+    /// Q of G73 and G83.
     step: Option<f64>,
+    /// P, s.
     dwell: Option<f64>,
 }
 
 impl Cycle {
+    /// Counts lengths in another unit, of which `by` make one of the old.
     pub fn scale(&mut self, by: f64) {
         self.clear *= by;
         self.bottom *= by;
@@ -46,19 +59,30 @@ impl Cycle {
 
 /// How a stroke is made.
 type Straight = fn(Axes) -> Canonical;
+/// G0.
 const FAST: Straight = Canonical::StraightTraverse;
+/// G1.
 const CUTTING: Straight = Canonical::StraightFeed;
 
 /// A hole.
 #[derive(Clone, Copy)]
 struct Hole {
+    /// Along the first and second axis of the plane.
     at: [f64; 2],
+    /// Where it begins to cut, along the axis across.
     clear: f64,
+    /// Where it ends.
     bottom: f64,
+    /// Where it goes back to: R under G99, else the height before the cycle, or R where that is higher.
     back: f64,
 }
 
 impl Machine {
+    /// Does a block of a cycle, code in tenths: up to R if the axis stands below, then hole by hole. Corners are
+    /// followed exactly meanwhile.
+    ///
+    /// # Errors
+    /// What `may_drill` and `keep` refuse, L that is no count of holes, R below the bottom, more than 100000 steps.
     pub(super) fn cycle(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.may_drill(code, block)?;
         let [first, second, across] = self.plane.axes();
@@ -118,6 +142,10 @@ impl Machine {
         Ok(())
     }
 
+    /// Whether a hole may be drilled here and now.
+    ///
+    /// # Errors
+    /// Rotary words, cutter compensation, no axis word, inverse time, no feed.
     fn may_drill(&self, code: u16, block: &Block) -> Result<(), Refusal> {
         let name = groups::name(b'g', code);
         if let Some(letter) = b"abc".iter().find(|letter| block.has(**letter)) {
@@ -139,6 +167,8 @@ impl Machine {
     }
 
     /// Takes the words of the cycle, or those of its block before.
+    ///
+    /// Words of the block before count only where the code is the same.
     fn keep(&mut self, code: u16, bottom: Option<f64>, block: &mut Block) -> Result<(), Refusal> {
         let missing = |word| Refusal::WordMissing(groups::name(b'g', code), word);
         let again = self.motion == code;
@@ -180,6 +210,7 @@ impl Machine {
         Ok(())
     }
 
+    /// Moves along the axis across alone.
     fn across_to(&mut self, to: f64, how: Straight, out: Out<'_>) -> Result<(), Refusal> {
         let [.., across] = self.plane.axes();
         let mut end = self.at;
@@ -187,11 +218,14 @@ impl Machine {
         self.to(end, how, out)
     }
 
+    /// Moves, and stands there.
     fn to(&mut self, end: Axes, how: Straight, out: Out<'_>) -> Result<(), Refusal> {
         self.at = end;
         self.call(how(end), out)
     }
 
+    /// The moves of one hole: above it, down to R, the strokes, and back. Behind G86 and G88 the spindle turns
+    /// clockwise, whichever way it did before.
     fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let mut above = self.at;

@@ -1,5 +1,16 @@
 //! What a block does, in the order of the standard: modes first, then offsets, then motion, then stopping.
 //!
+//! | step | words |
+//! |---|---|
+//! | `feed_and_spindle` | G93 to G95, F, S, T |
+//! | `machine_codes` | M6, M61, M3 to M5, M19, M48 to M53, M62 to M68, M100 on, tool-centre control |
+//! | `modes` | G4, plane, unit, cutter and length compensation, coordinate system, G61, G64, G90, G91, G97 to G99 |
+//! | `moves` | G10, G28, G30, G52, G92, then motion |
+//! | `stopping` | M98, M99; M0, M1, M2, M30, M60 |
+//!
+//! Codes G are in tenths: 921 is G92.1. Each step takes the words that its codes want; a word that nobody took is
+//! refused.
+//!
 //! Source: NISTIR 6556, section 3.8, order of execution.
 
 use super::block::{Block, shown};
@@ -19,6 +30,7 @@ pub(super) enum Outcome {
     Next,
     /// M2 or M30.
     End,
+    /// M98.
     Call(NumberedCall),
     /// M99.
     Return,
@@ -27,7 +39,9 @@ pub(super) enum Outcome {
 /// M98: a subroutine, so many times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct NumberedCall {
+    /// Of the subroutine.
     pub number: u32,
+    /// Rounds, 0 to 9999.
     pub times: u32,
 }
 
@@ -36,6 +50,9 @@ const MOST_CALLS: f64 = 9999.0;
 
 impl Machine {
     /// Does what a block says.
+    ///
+    /// # Errors
+    /// The first thing that is refused; what was done until then stays done.
     pub(super) fn execute(&mut self, block: &mut Block, out: Out<'_>) -> Result<Outcome, Refusal> {
         if block.has_g(640) && block.m[groups::SPINDLE].is_some_and(|(code, _)| code == 19) && block.has(b'r')
         {
@@ -52,6 +69,8 @@ impl Machine {
         }
     }
 
+    /// Feed and its mode, speed, choice of the tool. Under inverse time F belongs to its block alone and is left to the
+    /// move.
     fn feed_and_spindle(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if let Some((code, _)) = block.g[groups::FEED_MODE] {
             self.feed_mode = match code {
@@ -61,6 +80,7 @@ impl Machine {
             };
             let per_revolution = self.feed_mode == FeedMode::PerRevolution;
             self.call(Canonical::SetFeedMode { per_revolution }, out)?;
+            // A mode that is told forgets the feed, whose number could mean something else.
             if self.feed_mode != FeedMode::InverseTime {
                 self.feed = 0.0;
                 self.call(Canonical::SetFeedRate(0.0), out)?;
@@ -98,11 +118,14 @@ impl Machine {
         Ok(())
     }
 
+    /// Codes M that move nothing: tool change, spindle, and those of the machine, which are passed over with their
+    /// words.
     fn machine_codes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if let Some((code, _)) = block.m[groups::TOOL] {
             if self.cutter.is_on() {
                 return Err(Refusal::NotUnderCompensation(groups::name(b'm', code)));
             }
+            // M61 tells which tool is in the spindle; M6 puts in the one that T chose, with the spindle standing.
             if code == 61 {
                 let number = block
                     .take(b'q')
@@ -119,6 +142,7 @@ impl Machine {
             Some((3, _)) => self.call(Canonical::StartSpindleClockwise, out)?,
             Some((4, _)) => self.call(Canonical::StartSpindleCounterclockwise, out)?,
             Some((5, _)) => self.call(Canonical::StopSpindleTurning, out)?,
+            // M19 turns the spindle to an angle, which is not followed.
             Some(_) => [b'r', b'p', b'q'].iter().for_each(|letter| {
                 block.take(*letter);
             }),
@@ -146,6 +170,7 @@ impl Machine {
         Ok(())
     }
 
+    /// Modes in the order of the standard. Those that cutter compensation rests on may not change while it is on.
     fn modes(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if block.has_g(40) {
             let seconds = block
@@ -218,6 +243,7 @@ impl Machine {
         Ok(())
     }
 
+    /// G40 to G42.1: the cutter of the tool, or of D; a diameter in D itself under G41.1 and G42.1.
     fn compensate(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if code == 400 {
             return self.cutter.end(out);
@@ -242,6 +268,7 @@ impl Machine {
         self.cutter.begin(self.plane, left * diameter)
     }
 
+    /// What takes axis words: codes that hold for one block, then motion, told here or by a block before.
     fn moves(&mut self, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let once = block.g[groups::ONCE]
             .map(|(code, _)| code)
@@ -264,6 +291,7 @@ impl Machine {
             Some(code) => self.shift(code, block, out)?,
             None => {}
         }
+        // Axis words that no other code has taken move the tip, by the code told here or by the one in force.
         let moving = takes_axes.is_none()
             && !block.has_g(431)
             && (block.has_axes() || self.vector && block.has_vector());
@@ -291,10 +319,12 @@ impl Machine {
             800 => Ok(()),
             _ => self.cycle(code, block, out),
         };
+        // In force from here on even where this block was refused, so that later ones are read as they were meant.
         self.motion = code;
         result
     }
 
+    /// Calls and ends. What M0, M1 and M60 wait for has no part in the path.
     fn stopping(&mut self, block: &mut Block, out: Out<'_>) -> Result<Outcome, Refusal> {
         if let Some((code, _)) = block.m[groups::CALL] {
             if code == 99 {

@@ -11,6 +11,14 @@
 //! Functions: `ABS ACOS ASIN ATAN[y]/[x] COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN`; angles in degrees. The text has
 //! neither blanks nor capitals.
 //!
+//! ```text
+//! value    = number | "#" parameter | "[" sum "]" | function "[" sum "]" | ("+" | "-") value
+//! sum      = value { operator value }                    operators of one line of the table bind from the left
+//! function ATAN has two brackets: atan[y]/[x]
+//! ```
+//!
+//! `FIX` rounds down and `FUP` up. What has no finite value is refused where it comes up.
+//!
 //! Source: NISTIR 6556, section 3.3.2; EXISTS and named parameters: LinuxCNC documentation.
 
 use super::refusal::Refusal;
@@ -20,28 +28,38 @@ pub(super) const DEEPEST: usize = 100;
 
 /// What an expression may ask for.
 pub(super) trait Values {
+    /// The value of a parameter `#number`, which may be computed; zero where it was never set.
     fn numbered(&self, number: f64) -> Result<f64, Refusal>;
+    /// The value of `#<name>`; `None` where it was never set.
     fn named(&self, name: &[u8]) -> Option<f64>;
 }
 
 /// Walks over a text without blanks.
 pub(super) struct Reader<'a> {
+    /// In small letters, without blanks.
     pub text: &'a [u8],
+    /// The byte it stands at.
     pub at: usize,
+    /// What parameters are asked of.
     pub values: &'a dyn Values,
+    /// Levels around it.
     depth: usize,
 }
 
 /// A parameter on the left of `=` or inside EXISTS.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Name {
+    /// `#5221`; not yet known to exist.
     Numbered(f64),
+    /// `#<depth>`, in small letters.
     Named(Vec<u8>),
 }
 
+/// What was read, or why it cannot be.
 type Read<T> = Result<T, Refusal>;
 
 impl<'a> Reader<'a> {
+    /// From this byte on.
     pub fn new(text: &'a [u8], at: usize, values: &'a dyn Values) -> Reader<'a> {
         Reader {
             text,
@@ -51,16 +69,19 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The byte it stands at; `None` at the end.
     pub fn peek(&self) -> Option<u8> {
         self.text.get(self.at).copied()
     }
 
+    /// Steps over `wanted` if it stands here.
     pub fn take(&mut self, wanted: u8) -> bool {
         let here = self.peek() == Some(wanted);
         self.at += usize::from(here);
         here
     }
 
+    /// Steps over `wanted`, which must stand here.
     fn expect(&mut self, wanted: u8) -> Read<()> {
         if self.take(wanted) {
             return Ok(());
@@ -68,10 +89,12 @@ impl<'a> Reader<'a> {
         Err(Refusal::Expected(char::from(wanted)))
     }
 
+    /// What lies before it.
     fn rest(&self) -> &'a [u8] {
         self.text.get(self.at..).unwrap_or_default()
     }
 
+    /// Reads what stands inside something else, no more than [`DEEPEST`] deep: the reader calls itself for each.
     fn deeper<T>(&mut self, read: impl FnOnce(&mut Self) -> Read<T>) -> Read<T> {
         self.depth += 1;
         if self.depth > DEEPEST {
@@ -133,6 +156,9 @@ impl<'a> Reader<'a> {
     }
 
     /// Operators that bind at least so strongly.
+    ///
+    /// Ends before `]`, before an operator that binds less, and before any sign that is none; letters that are none are
+    /// refused.
     fn operation(&mut self, weakest: u8) -> Read<f64> {
         let mut left = self.value()?;
         while self.peek().is_some_and(|byte| byte != b']') {
@@ -167,6 +193,10 @@ impl<'a> Reader<'a> {
         Ok(Name::Numbered(self.deeper(Reader::value)?))
     }
 
+    /// The value of a parameter whose name was read.
+    ///
+    /// # Errors
+    /// A number that is none of a parameter, a name that was never set.
     fn parameter_value(&self, name: &Name) -> Read<f64> {
         match name {
             Name::Numbered(number) => self.values.numbered(*number),
@@ -177,11 +207,13 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The letters here as what is no function.
     fn unknown(&self) -> Refusal {
         let letters = self.rest().iter().take_while(|byte| byte.is_ascii_lowercase());
         Refusal::UnknownFunction(letters.map(|byte| char::from(*byte)).collect())
     }
 
+    /// A function and its bracket; the name is the first that fits, since no blanks part it from others.
     fn function(&mut self) -> Read<f64> {
         let rest = self.rest();
         let Some(name) = FUNCTIONS.iter().find(|name| rest.starts_with(name.as_bytes())) else {
@@ -214,6 +246,7 @@ impl<'a> Reader<'a> {
         finite(value, what)
     }
 
+    /// 1 for a name that was set, else 0; 1 for any number that a parameter may have, while others are refused.
     fn exists(&mut self) -> Read<f64> {
         self.expect(b'[')?;
         if self.peek() != Some(b'#') {
@@ -231,10 +264,12 @@ impl<'a> Reader<'a> {
     }
 }
 
+/// Names of the functions; none begins another.
 const FUNCTIONS: [&str; 14] = [
     "abs", "acos", "asin", "atan", "cos", "exists", "exp", "fix", "fup", "ln", "round", "sin", "sqrt", "tan",
 ];
 
+/// Refuses what is infinite or no number; `what` says where it came from.
 fn finite(value: f64, what: &'static str) -> Read<f64> {
     if value.is_finite() {
         return Ok(value);
@@ -242,6 +277,7 @@ fn finite(value: f64, what: &'static str) -> Read<f64> {
     Err(Refusal::NoValue(what))
 }
 
+/// What stands between two values.
 #[derive(Clone, Copy)]
 enum Operator {
     Power,
@@ -289,6 +325,7 @@ fn operator(text: &[u8]) -> Option<(Operator, usize, u8)> {
 /// Computed numbers that differ by less are equal, as the interpreter of LinuxCNC takes them.
 const EQUAL: f64 = 1e-6;
 
+/// The value of an operation; comparisons give 1 or 0. MOD is never below zero.
 fn applied(operator: Operator, left: f64, right: f64) -> Read<f64> {
     let truth = |truth: bool| f64::from(u8::from(truth));
     let value = match operator {

@@ -20,9 +20,13 @@ use super::refusal::Refusal;
 /// What an o-word does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Keyword {
+    /// Begins a subroutine, which is kept and not done.
     Sub,
+    /// Ends it.
     EndSub,
+    /// Does a subroutine, with its arguments.
     Call,
+    /// Leaves it, with a value where one stands behind.
     Return,
     If,
     ElseIf,
@@ -41,6 +45,7 @@ pub(super) enum Keyword {
     Label,
 }
 
+/// Words behind the label.
 const KEYWORDS: [(&str, Keyword); 15] = [
     ("endsub", Keyword::EndSub),
     ("sub", Keyword::Sub),
@@ -64,12 +69,19 @@ const KEYWORDS: [(&str, Keyword); 15] = [
 pub(super) struct OWord {
     /// Number or name.
     pub label: String,
+    /// What it does.
     pub keyword: Keyword,
     /// Where in the clean text its values begin.
     pub rest: usize,
 }
 
 /// The o-word that a line is, if it is one.
+///
+/// A label may be a number, a value that is computed (`o#1 call`) or a name (`o<drill> sub`); numbers are compared as
+/// they are written without needless digits.
+///
+/// # Errors
+/// A name that is not closed, a number that is none, a word that is no keyword.
 pub(super) fn o_word(clean: &Clean, values: &dyn Values) -> Result<Option<OWord>, Refusal> {
     let text = clean.text.as_slice();
     let mut at = 0;
@@ -116,7 +128,9 @@ pub(super) fn o_word(clean: &Clean, values: &dyn Values) -> Result<Option<OWord>
 /// A line kept, with its o-word.
 #[derive(Clone, Debug)]
 pub(super) struct Kept {
+    /// The line as it came.
     pub line: Line,
+    /// `None` for a line of words.
     pub word: Option<OWord>,
     /// Where a loop or branch goes on: the line that ends or begins it, or its next branch.
     pub partner: usize,
@@ -127,10 +141,12 @@ pub(super) struct Kept {
 /// Lines kept to be gone through more than once.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Body {
+    /// In the order of the text.
     pub lines: Vec<Kept>,
 }
 
 impl Body {
+    /// Keeps a line; until it is linked it belongs to itself.
     pub fn push(&mut self, line: Line, word: Option<OWord>) {
         let at = self.lines.len();
         self.lines.push(Kept {
@@ -142,6 +158,9 @@ impl Body {
     }
 
     /// Finds what belongs together; gives the line and reason where something does not.
+    ///
+    /// A loop or branch ends with its own label, and what is opened last is closed first. `while` is the end of a `do`
+    /// where the innermost open one is a `do` of its label.
     pub fn link(&mut self) -> Result<(), (usize, Refusal)> {
         // Open branches and loops, with the lines of their branches so far.
         let mut open: Vec<(String, Keyword, Vec<usize>)> = Vec::new();

@@ -1,5 +1,8 @@
 //! Codes by their modal groups: of each group a block may have one.
 //!
+//! Codes G are in tenths, so that G92.1 is 921; codes M are whole. Groups of G and of M have the same numbers for other
+//! things, and stand in lists of their own.
+//!
 //! Source: LinuxCNC documentation, G-code overview, table of modal groups; the codes of other controls for tool-centre
 //! control: FANUC G43.4 and G43.5, Heidenhain M128 and M129, Siemens TRAORI and TRAFOOF, LinuxCNC remaps M428 and M429.
 
@@ -8,29 +11,50 @@ pub(super) const GROUPS: usize = 16;
 
 /// Not modal: dwell, offsets, homes.
 pub(super) const ONCE: usize = 0;
+/// G0 to G3, G38, canned cycles, G80.
 pub(super) const MOTION: usize = 1;
+/// G17 to G19.
 pub(super) const PLANE: usize = 2;
+/// G90, G91.
 pub(super) const DISTANCE: usize = 3;
+/// G90.1, G91.1.
 pub(super) const ARC_DISTANCE: usize = 4;
+/// G93 to G95.
 pub(super) const FEED_MODE: usize = 5;
+/// G20, G21.
 pub(super) const UNITS: usize = 6;
+/// G40 to G42.1.
 pub(super) const CUTTER: usize = 7;
+/// G43 to G49.
 pub(super) const LENGTH: usize = 8;
+/// G98, G99.
 pub(super) const RETRACT: usize = 10;
+/// G54 to G59.3.
 pub(super) const SYSTEM: usize = 12;
+/// G61, G61.1, G64.
 pub(super) const PATH: usize = 13;
+/// G97.
 pub(super) const SPINDLE_MODE: usize = 14;
 /// G53 stands beside G0 and G1.
 pub(super) const MACHINE: usize = 15;
 
+/// From here on groups of M: M0, M1, M2, M30, M60.
 pub(super) const STOPPING: usize = 4;
+/// M62 to M68.
 pub(super) const OUTPUTS: usize = 5;
+/// M6, M61.
 pub(super) const TOOL: usize = 6;
+/// M3, M4, M5, M19.
 pub(super) const SPINDLE: usize = 7;
+/// M7 to M9.
 pub(super) const COOLANT: usize = 8;
+/// M48 to M53.
 pub(super) const OVERRIDE: usize = 9;
+/// M100 to M999 but for those of tool-centre control.
 pub(super) const USER: usize = 10;
+/// Tool-centre control: M128, M129, M428, M429, TRAORI, TRAFOOF.
 pub(super) const CENTRE: usize = 11;
+/// M98, M99.
 pub(super) const CALL: usize = 12;
 
 /// Siemens words, as M beyond all that is written so.
@@ -75,6 +99,8 @@ pub(super) fn of_m(code: u16) -> Option<usize> {
 }
 
 /// Why a code that is known is not read.
+///
+/// `None` for codes that are read, and for those that nobody here knows.
 pub(super) fn unsupported(letter: u8, code: u16) -> Option<&'static str> {
     if letter != b'g' {
         return match code {

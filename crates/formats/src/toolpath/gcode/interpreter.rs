@@ -1,6 +1,14 @@
 //! The modal interpreter: lines in, canonical calls out, with all that is refused.
 //!
 //! Lines are done as they come. Only subroutines and loops are kept, within [`MOST_KEPT_BYTES`].
+//!
+//! ```text
+//! line -> Clean -> o-word?  yes: kept to its end, gone through or called (`flow`, `walk`)
+//!                           no:  comments, words (`block`), settings, execute (`execute`) -> canonical calls
+//! ```
+//!
+//! A line that is refused is left out as a whole or from that word on; the next is done with the state as it then is,
+//! and no line is told twice. After [`MOST_FAULTS`] faults, and after what may never end, the rest is not looked at.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::BufRead;
@@ -46,6 +54,8 @@ pub struct Interpreted {
 pub type Receiver<'a> = &'a mut dyn FnMut(Canonical, u32) -> Result<(), Refusal>;
 
 /// Interprets a program; the calls go to `out` while it is read.
+///
+/// Ends at M2 or M30, at a return outside of subroutines, at a second `%` or at the end of the text.
 pub fn interpret(reader: &mut dyn BufRead, wanted: &Wanted<'_>, out: Receiver<'_>) -> Interpreted {
     let mut interpreter = Interpreter {
         machine: Machine::new(wanted),
@@ -70,15 +80,23 @@ pub fn interpret(reader: &mut dyn BufRead, wanted: &Wanted<'_>, out: Receiver<'_
     }
 }
 
+/// A program as far as it was followed.
 pub(super) struct Interpreter<'a> {
+    /// Modes, offsets, position.
     pub machine: Machine,
     pub wanted: &'a Wanted<'a>,
+    /// Takes the calls.
     out: Receiver<'a>,
+    /// The words of the line at hand.
     block: Block,
+    /// The text of the line that was cleaned last.
     pub clean: Clean,
+    /// Those that are known, by label or name.
     pub subroutines: BTreeMap<String, Rc<Body>>,
     pub labels: Labels,
+    /// Of lines kept so far.
     kept_bytes: usize,
+    /// Kept lines that were done, each round counted.
     pub repeated: usize,
     /// The same when the first line was refused.
     pub repeated_until_fault: usize,
@@ -87,6 +105,7 @@ pub(super) struct Interpreter<'a> {
     pub faults: Vec<Fault>,
     /// Lines refused once are not told again in the next round of their loop.
     refused: BTreeSet<(Option<Rc<str>>, u32)>,
+    /// Whether nothing more is looked at.
     pub stopped: bool,
 }
 
@@ -102,6 +121,7 @@ pub(super) enum Flow {
 }
 
 impl Interpreter<'_> {
+    /// Goes through the program itself, from its first line.
     fn program(&mut self, lines: &mut Lines<'_>) {
         let mut line = Line::default();
         let mut begun = false;
@@ -143,6 +163,8 @@ impl Interpreter<'_> {
     }
 
     /// Cleans a line; its o-word, if it is one.
+    ///
+    /// What is wrong is told here; `Err` says that it was. A line that is left out (`/`) is empty.
     pub fn o_word_of(&mut self, line: &Line) -> Result<Option<OWord>, ()> {
         if let Err(refused) = self.clean.read(&line.text) {
             self.fault(line, refused.refusal, refused.place);
@@ -161,6 +183,8 @@ impl Interpreter<'_> {
     }
 
     /// An o-word outside of what is kept.
+    ///
+    /// Branches and loops are kept to their end and gone through at once, subroutines kept for their calls.
     fn open(&mut self, word: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Flow {
         match word.keyword {
             Keyword::Sub | Keyword::If | Keyword::While | Keyword::Do | Keyword::Repeat => {
@@ -200,6 +224,9 @@ impl Interpreter<'_> {
     }
 
     /// Keeps lines from one that begins a subroutine, branch or loop to the one that ends it.
+    ///
+    /// Lines between are checked for their o-words alone. `None` where something is wrong, which was told; of a
+    /// subroutine its first line is not kept.
     pub fn collect(&mut self, first: OWord, line: &mut Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
         let begins = first.keyword;
         let label = first.label.clone();
@@ -249,6 +276,7 @@ impl Interpreter<'_> {
         self.linked(body).filter(|_| sound)
     }
 
+    /// Kept lines that know where they go on; what does not belong together is told.
     pub fn linked(&mut self, mut body: Body) -> Option<Rc<Body>> {
         if let Err((index, refusal)) = body.link() {
             let line = body
@@ -264,6 +292,8 @@ impl Interpreter<'_> {
     }
 
     /// A line kept, cleaned anew.
+    ///
+    /// Told faults are not told again.
     pub fn execute_kept(&mut self, line: &Line) -> Flow {
         if self.clean.read(&line.text).is_err() {
             // Told when it was kept.
@@ -276,6 +306,9 @@ impl Interpreter<'_> {
     }
 
     /// Does the line that was cleaned last.
+    ///
+    /// Comments speak first, then parameters are set, then the block is done. `lines` are those still to come, where
+    /// M98 may find its subroutine.
     fn execute_cleaned(&mut self, line: &Line, lines: Option<&mut Lines<'_>>) -> Flow {
         self.machine.line = line.number;
         self.machine.cutter.line = line.number;
@@ -331,6 +364,8 @@ impl Interpreter<'_> {
         }
     }
 
+    /// Keeps what is refused, at bytes of its line; what has been refused in an earlier round of a loop is not told
+    /// again.
     pub fn fault(&mut self, line: &Line, refusal: Refusal, place: std::ops::Range<usize>) {
         let never_ends = matches!(refusal, Refusal::TooMuch { .. });
         self.stopped |= never_ends;
@@ -352,6 +387,9 @@ impl Interpreter<'_> {
 }
 
 /// Sets the parameters of a block.
+///
+/// # Errors
+/// A parameter that is none, one that only tells the state, too many names.
 fn settings(machine: &mut Machine, block: &Block) -> Result<(), Refusal> {
     for (name, value) in &block.settings {
         match name {

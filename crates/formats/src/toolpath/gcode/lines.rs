@@ -30,10 +30,11 @@ impl Line {
 /// The lines of a program still to come.
 pub(super) struct Lines<'r> {
     raw: RawLines<&'r mut dyn BufRead>,
-    /// Read already while something was looked for.
+    /// Read already while something was looked for, in order.
     ahead: VecDeque<Line>,
     /// Bytes that these take.
     ahead_bytes: usize,
+    /// Of the line that was read last.
     number: u32,
     file: Option<Rc<str>>,
 }
@@ -60,6 +61,7 @@ impl<'r> Lines<'r> {
         self.read(line)
     }
 
+    /// The next line of the text, whatever was read ahead.
     fn read(&mut self, line: &mut Line) -> io::Result<bool> {
         line.file.clone_from(&self.file);
         let Some(offset) = self.raw.next(&mut line.text, LONGEST_LINE)? else {
@@ -71,6 +73,8 @@ impl<'r> Lines<'r> {
     }
 
     /// All lines still to come, at most so many bytes; they still come.
+    ///
+    /// They are kept, and `next` gives them before anything else is read.
     pub fn look_ahead(&mut self, most_bytes: usize) -> io::Result<&VecDeque<Line>> {
         let mut line = Line::default();
         while self.ahead_bytes < most_bytes && self.read(&mut line)? {

@@ -25,10 +25,14 @@ use crate::toolpath::LengthUnit;
 use crate::toolpath::direction::LARGEST;
 use crate::toolpath::notes::Notes;
 
+/// What F means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FeedMode {
+    /// G93: one over the minutes of its move.
     InverseTime,
+    /// G94: units a minute.
     PerMinute,
+    /// G95: units a turn of the spindle.
     PerRevolution,
 }
 
@@ -95,6 +99,7 @@ fn plus(first: Axes, by: f64, second: Axes) -> Axes {
     std::array::from_fn(|axis| first[axis] + by * second[axis])
 }
 
+/// Turns X and Y by this angle about Z.
 fn turned(mut of: Axes, degrees: f64) -> Axes {
     if degrees != 0.0 {
         let (sine, cosine) = degrees.to_radians().sin_cos();
@@ -110,6 +115,7 @@ pub(super) fn scaled(mut of: Axes, by: f64) -> Axes {
 }
 
 impl Machine {
+    /// Before the first block: G17, G90, G91.1, G94, G98, G64 and no motion, with the parameters that were told.
     pub fn new(wanted: &Wanted<'_>) -> Machine {
         let mut parameters = Parameters::new();
         for (number, value) in &wanted.parameters {
@@ -178,21 +184,26 @@ impl Machine {
         self.cutter.pass(call, out)
     }
 
+    /// Counts something for the notes, at the line being read.
     pub fn warn(&mut self, warning: Warning) {
         self.notes.count(warning, self.line);
     }
 
+    /// Machine coordinates of a place of the program; see the equation above.
     pub fn in_machine(&self, program: Axes) -> Axes {
         let offset = turned(plus(program, 1.0, self.g92), self.turn);
         plus(plus(offset, 1.0, self.g5x), 1.0, self.length)
     }
 
+    /// The reverse of `in_machine`.
     pub fn in_program(&self, machine: Axes) -> Axes {
         let offset = plus(plus(machine, -1.0, self.g5x), -1.0, self.length);
         plus(turned(offset, -self.turn), -1.0, self.g92)
     }
 
     /// Changes offsets: the machine stands still, the position counts anew.
+    ///
+    /// What the program calls this place is then another.
     pub fn recount(&mut self, change: impl FnOnce(&mut Machine)) {
         let machine = self.in_machine(self.at);
         change(self);
@@ -217,6 +228,7 @@ impl Machine {
         }
     }
 
+    /// Sets six parameters from this one on; values are in the unit of the program.
     pub fn store(&mut self, first: usize, values: Axes) {
         let values = scaled(values, self.unit.in_units_of(self.tools.unit));
         for (axis, value) in values.into_iter().enumerate() {
@@ -231,6 +243,11 @@ impl Machine {
     }
 
     /// A tool of the table; without a table any tool, with nothing told of it.
+    ///
+    /// Number 0 is no tool at all, without length and diameter, unless the table has it.
+    ///
+    /// # Errors
+    /// A number that the table does not have.
     pub fn tool(&self, number: u32) -> Result<Option<Tool>, Refusal> {
         match self.tools.tools.get(&number) {
             Some(tool) => Ok(Some(*tool)),
@@ -246,6 +263,7 @@ impl Machine {
         Ok(scaled(offset, self.tools.unit.in_units_of(self.unit)))
     }
 
+    /// G20 and G21: lengths of the state count in the new unit. The feed does not.
     pub fn use_unit(&mut self, unit: LengthUnit) {
         let by = self.unit.in_units_of(unit);
         for of in [&mut self.at, &mut self.g5x, &mut self.g92, &mut self.length] {
@@ -268,6 +286,7 @@ impl Machine {
         }
     }
 
+    /// What a name that begins with `_` tells of the state, as LinuxCNC calls it.
     fn named_state(&self, name: &[u8]) -> Option<f64> {
         let flag = |flag: bool| Some(f64::from(u8::from(flag)));
         let axis = |of: Axes, letter: u8| {

@@ -1,4 +1,12 @@
 //! Comments that speak: `(MSG,text)` and `(DEBUG,text #5420)`, in which parameters become their values.
+//!
+//! | comment | told |
+//! |---|---|
+//! | `(MSG, text)` | the text as it stands |
+//! | `(DEBUG, x is #5420)` | parameters as numbers with six decimals, `######` where they have no value |
+//! | any other | nothing |
+//!
+//! Source: LinuxCNC documentation, G-code overview, messages.
 
 use super::expression::{Reader, Values};
 
@@ -41,6 +49,8 @@ pub(super) fn message(comment: &[u8], values: &dyn Values) -> Option<String> {
 }
 
 /// How long the parameter at the start is: `#5420`, `#<name>`.
+///
+/// A name that is not closed goes to the end.
 fn name_length(text: &[u8]) -> usize {
     match text.get(1) {
         Some(b'<') => text

@@ -1,14 +1,14 @@
 //! G-code, ISO 6983 and RS-274/NGC as LinuxCNC speaks it: a modal interpreter, and what it gives as steps of a path.
 //!
 //! Which words are followed, passed over and refused, and what is taken for granted, stands in
-//! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. What moves the tool and is not understood refuses the
-//! program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame of the part, and
-//! a table carries that frame with it.
+//! `docs/guide/tool-path-words.md`; `tests/toolpath/words.rs` tries each. What moves the tool and is not understood
+//! refuses the program. Rotary words need tool-centre control and [`Rotaries`]: X, Y, Z are then the tip in the frame
+//! of the part, and a table carries that frame with it.
 //!
 //! In reading order: `lines` and `block` take a program apart (`expression`, `groups`, `messages`); `interpreter` goes
 //! through it (`flow`, `walk`, `subroutines`); `execute` does a block upon the `machine` (`parameters`, `offsets`,
-//! `motion`, `cycles`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the path of them, by [`rotaries`]. [`tools`] and [`wanted`]
-//! come with a program.
+//! `motion`, `cycles`, `cutter`) as [`canonical`] calls, or says its [`refusal`]; `steps` makes the path of them, by
+//! [`rotaries`]. [`tools`] and [`wanted`] come with a program.
 //!
 //! Source: LinuxCNC documentation, G codes and O codes; Kramer, Proctor, Messina, The NIST RS274NGC Interpreter,
 //! NISTIR 6556 (2000). Witness: the interpreter tests of LinuxCNC.
@@ -98,6 +98,7 @@ pub fn read(
     Ok(summary)
 }
 
+/// A fault at its place: in the program, or in the file of a subroutine.
 fn problem(path: &str, fault: &Fault) -> Problem {
     let source = Source::new(fault.file.as_deref().unwrap_or(path), &fault.text);
     source

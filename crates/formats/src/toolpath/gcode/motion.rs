@@ -39,6 +39,8 @@ const SAME_END: f64 = 1e-9;
 
 impl Machine {
     /// Where the axis words of a block lead.
+    ///
+    /// Counted from the program's zero under G90, from the tip under G91; an axis without word stays.
     pub(super) fn target(&self, words: [Option<f64>; 6]) -> Axes {
         std::array::from_fn(|axis| match words[axis] {
             Some(value) if self.absolute => value,
@@ -48,6 +50,11 @@ impl Machine {
     }
 
     /// G0 and G1.
+    ///
+    /// With G53 the words are machine coordinates, and always absolute.
+    ///
+    /// # Errors
+    /// A cut without feed, G53 under cutter compensation, an end beyond 1e9.
     pub(super) fn straight(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let vector = self.vector_words(block, out)?;
         if !block.has_axes() && !vector {
@@ -82,6 +89,7 @@ impl Machine {
         Ok(())
     }
 
+    /// Gives a move to cutter compensation, which gives it on.
     fn follow(&mut self, contour: Contour, call: Canonical, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let from = Point2::new(self.at[first], self.at[second]);
@@ -89,6 +97,8 @@ impl Machine {
     }
 
     /// I, J, K under G43.5.
+    ///
+    /// Whether they stand in the block; the tool axis goes out as a call of its own.
     fn vector_words(&mut self, block: &mut Block, out: Out<'_>) -> Result<bool, Refusal> {
         if !self.vector || !block.has_vector() {
             return Ok(false);
@@ -103,6 +113,8 @@ impl Machine {
     }
 
     /// Whether a cut of this length has a feed, and under inverse time which.
+    ///
+    /// `length` is what F counts along, see below.
     fn feed_for(&mut self, code: u16, block: &Block, length: f64, out: Out<'_>) -> Result<(), Refusal> {
         if self.feed_mode == FeedMode::InverseTime {
             return match block.peek(b'f') {
@@ -117,6 +129,11 @@ impl Machine {
     }
 
     /// G2 and G3.
+    ///
+    /// Turns about the axis across the plane; words of that axis make a helix, P its turns, begun ones counted.
+    ///
+    /// # Errors
+    /// No centre or two, radii that differ, P that is no count of turns, no feed.
     pub(super) fn arc(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let end = self.target(block.axes());
@@ -158,6 +175,8 @@ impl Machine {
     }
 
     /// The centre that I, J, K or R tell of an arc.
+    ///
+    /// I, J, K count from the start, or are the centre itself under G90.1; one that is left out is that of the start.
     fn centre(
         &self,
         block: &mut Block,
@@ -188,6 +207,8 @@ impl Machine {
         }
     }
 
+    /// Radii at start and end: they may differ by a thousandth of the larger, but by no less than 0.028 mm (0.0028
+    /// inch) and no more than a hundred times that.
     fn check_radii(&self, radius: f64, end_radius: f64) -> Result<(), Refusal> {
         if radius == 0.0 {
             return Err(Refusal::ArcPoint);
@@ -206,6 +227,8 @@ impl Machine {
     }
 
     /// G28 and G30: by a point of the program to the stored place of the machine.
+    ///
+    /// Both are rapids. Only axes with words go to the stored place; all where no axis has one.
     pub(super) fn home(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         if self.cutter.is_on() {
             return Err(Refusal::NotUnderCompensation(groups::name(b'g', code)));
@@ -261,6 +284,10 @@ pub(super) fn sweep(from: Vector2<f64>, to: Vector2<f64>, sense: Sense) -> f64 {
     }
 }
 
+/// The centre of an arc by its radius; see the equation above.
+///
+/// # Errors
+/// Ends at one point, ends farther apart than twice the radius, but for a thousandth.
 fn centre_by_radius(
     start: Point2<f64>,
     stop: Point2<f64>,

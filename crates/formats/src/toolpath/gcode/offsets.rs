@@ -26,11 +26,14 @@ use super::wanted::Warning;
 /// G59.3, which G10 L11 counts from.
 const FIXTURE: u8 = 9;
 
+/// The words where they stand, else the base.
 fn over(words: [Option<f64>; 6], base: Axes) -> Axes {
     std::array::from_fn(|axis| words[axis].unwrap_or(base[axis]))
 }
 
 /// A word as a whole number of a range.
+///
+/// Within 1e-6 of one: it may be computed.
 fn whole(
     word: char,
     value: f64,
@@ -51,6 +54,7 @@ pub(super) fn tool_number(word: char, value: f64) -> Result<u32, Refusal> {
 }
 
 impl Machine {
+    /// Refuses a code while cutter compensation is on.
     fn not_compensating(&self, code: &str) -> Result<(), Refusal> {
         if self.cutter.is_on() {
             return Err(Refusal::NotUnderCompensation(code.to_owned()));
@@ -82,6 +86,9 @@ impl Machine {
     }
 
     /// G10 L2 and L20.
+    ///
+    /// What the words do not name stays; under a turn X and Y are found together. Of the system in force the change
+    /// holds at once.
     fn set_system(&mut self, system: u8, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let (zero, turn) = self.stored_system(system)?;
@@ -114,6 +121,8 @@ impl Machine {
     }
 
     /// What another coordinate system would give.
+    ///
+    /// Offsets are as they were afterwards.
     fn with_system<T>(&mut self, zero: Axes, turn: f64, of: impl FnOnce(&mut Machine) -> T) -> T {
         let kept = (self.g5x, self.turn, self.g92, self.length);
         (self.g5x, self.turn) = (zero, turn);
@@ -123,6 +132,8 @@ impl Machine {
     }
 
     /// G10 L1, L10 and L11.
+    ///
+    /// The table changes, not the offset in force. I and J, angles of turning tools, are passed over.
     fn set_tool(&mut self, number: u32, kind: u32, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating("G10")?;
         let mut tool = self.tool(number)?.unwrap_or_default();
@@ -166,6 +177,7 @@ impl Machine {
         )
     }
 
+    /// The offset with which the tip at `machine` would stand at the words; axes without word keep `offset`.
     fn offset_for(&mut self, machine: Axes, offset: Axes, words: [Option<f64>; 6]) -> Axes {
         self.length = offset;
         let at = over(words, self.in_program(machine));
@@ -175,6 +187,8 @@ impl Machine {
     }
 
     /// G54 to G59.3.
+    ///
+    /// The tip stays where it is and counts anew.
     pub(super) fn use_system(&mut self, code: u16, out: Out<'_>) -> Result<(), Refusal> {
         let system = match code {
             540 => 1,
@@ -201,6 +215,8 @@ impl Machine {
     }
 
     /// G52 and G92 to G92.3.
+    ///
+    /// G92.1 forgets the offset, G92.2 puts it aside, G92.3 takes it up again.
     pub(super) fn shift(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         let name = groups::name(b'g', code);
         self.not_compensating(&name)?;
@@ -231,12 +247,17 @@ impl Machine {
     }
 
     /// G28.1 and G30.1.
+    ///
+    /// Where the tip stands, in machine coordinates.
     pub(super) fn store_home(&mut self, code: u16) {
         let machine = self.in_machine(self.at);
         self.store(parameters::home_of(code), machine);
     }
 
     /// G43 to G49: length of the tool, and tool-centre control.
+    ///
+    /// G43 by H or the tool in the spindle, G43.1 by the words, G43.2 adds, G49 takes off; G43.4 and G43.5 turn
+    /// tool-centre control on.
     pub(super) fn tool_length(&mut self, code: u16, block: &mut Block, out: Out<'_>) -> Result<(), Refusal> {
         self.not_compensating(&groups::name(b'g', code))?;
         let offset = match code {

@@ -54,6 +54,7 @@ pub(super) fn turn_of(system: u8) -> usize {
     zero_of(system) + 9
 }
 
+/// Parameters of one call of a subroutine.
 #[derive(Clone, Debug)]
 struct Locals {
     numbered: [f64; LOCALS],
@@ -80,6 +81,7 @@ pub(super) struct Parameters {
 }
 
 impl Parameters {
+    /// All zero, G54 in force, outside of any subroutine.
     pub fn new() -> Parameters {
         let mut numbered = vec![0.0; LAST + 1];
         numbered[SYSTEM] = 1.0;
@@ -91,11 +93,15 @@ impl Parameters {
         }
     }
 
+    /// Those of the innermost call, or of the program.
     fn locals(&self) -> Option<&Locals> {
         self.calls.last()
     }
 
     /// The number of a parameter.
+    ///
+    /// # Errors
+    /// A number that is not whole within 1e-4, or not from 1 to 5602.
     pub fn index(number: f64) -> Result<usize, Refusal> {
         let index = number.round();
         // As far as rounding of a computed number goes.
@@ -105,6 +111,7 @@ impl Parameters {
         Ok(index as usize)
     }
 
+    /// The value of a parameter; zero where it was never set.
     pub fn numbered(&self, index: usize) -> f64 {
         match (index, self.locals()) {
             (1..=LOCALS, Some(locals)) => locals.numbered[index - 1],
@@ -120,6 +127,7 @@ impl Parameters {
         }
     }
 
+    /// The value of a name; `None` where it was never set.
     pub fn named(&self, name: &[u8]) -> Option<f64> {
         match name.first() {
             Some(b'_') => self.named.get(name).copied(),

@@ -1,4 +1,7 @@
 //! Why a block is refused: one variant for each situation, so that tests can tell one reason from another.
+//!
+//! Messages name the word or code, its value and the limit. Lengths in them are in the unit of the program, which they
+//! do not name. Limits stand in the variants, so that a message tells the one that was crossed.
 
 use std::fmt;
 
@@ -153,6 +156,8 @@ pub enum Refusal {
 
 impl Refusal {
     /// What to do about it, where that is known.
+    ///
+    /// `None` where the message says it.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Refusal::WordTwice(_) | Refusal::SameGroup(..) => "write them in blocks of their own",
@@ -236,6 +241,8 @@ impl fmt::Display for Excess {
 }
 
 /// A refusal and the bytes of its line.
+///
+/// Of the line as the file has it, blanks and comments included.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refused {
     /// Why.
@@ -245,6 +252,8 @@ pub struct Refused {
 }
 
 /// A refusal and where it stands in its file.
+///
+/// One a line: a line that goes wrong in every round of a loop has one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fault {
     /// Why.

@@ -30,6 +30,7 @@ pub enum Rotary {
 }
 
 impl Rotary {
+    /// Its place among A, B, C.
     fn index(self) -> usize {
         match self {
             Rotary::A => 0,
@@ -38,6 +39,7 @@ impl Rotary {
         }
     }
 
+    /// Its turn, by the right hand about its axis of the machine.
     fn turn(self, degrees: [f64; 3]) -> Rotation3<f64> {
         let axis = match self {
             Rotary::A => Vector3::x_axis(),
@@ -96,6 +98,8 @@ impl Rotaries {
     }
 
     /// The tool axis in the frame of the part at these A, B, C in degrees.
+    ///
+    /// In the order A, B, C; those that the machine does not have are not looked at.
     pub fn tool_axis(&self, degrees: [f64; 3]) -> Unit<Vector3<f64>> {
         let product = |rotaries: &[Rotary]| {
             rotaries

@@ -35,21 +35,28 @@ const SYSTEMS: [&str; 10] = [
 /// Where the coordinates of the program lie, m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Frame {
+    /// 1 for G54.
     system: u8,
+    /// `g5x`, m.
     zero: Vector3<f64>,
+    /// Of X and Y about Z, rad.
     turn: f64,
+    /// `g92`, m.
     shift: Vector3<f64>,
 }
 
 impl Frame {
+    /// From the turned system to the machine.
     fn rotation(&self) -> Rotation3<f64> {
         Rotation3::from_axis_angle(&Vector3::z_axis(), self.turn)
     }
 
+    /// `m` of `p`.
     fn in_machine(&self, p: Point3<f64>) -> Point3<f64> {
         self.rotation() * (p + self.shift) + self.zero
     }
 
+    /// `p` of `m`.
     fn in_program(&self, m: Point3<f64>) -> Point3<f64> {
         self.rotation().inverse() * (m - self.zero) - self.shift
     }
@@ -58,8 +65,11 @@ impl Frame {
 /// Where a move ends: the tip in coordinates of the program and of the path, and the tool there.
 #[derive(Clone, Copy)]
 struct Tip {
+    /// m.
     p: Point3<f64>,
+    /// m.
     q: Point3<f64>,
+    /// Towards the spindle, in the frame of the path; `None` without tool-centre control.
     axis: Option<Unit<Vector3<f64>>>,
 }
 
@@ -69,17 +79,25 @@ pub(super) struct Tracer<'a> {
     rotaries: Option<&'a Rotaries>,
     /// Which systems somebody has measured: their zeros were told.
     systems_measured: [bool; 10],
+    /// Of tools by number, m.
     diameters: BTreeMap<u32, f64>,
+    /// What lengths of calls count in.
     unit: LengthUnit,
+    /// That in force.
     frame: Frame,
     /// That of the first cut, or of the last move before.
     path: Option<Frame>,
+    /// Whether a cut has come, after which the frame of the path stays.
     cut: bool,
     /// The tip in coordinates of the program and of the path.
     at: Option<(Point3<f64>, Point3<f64>)>,
+    /// The tool at the last move.
     axis: Option<Unit<Vector3<f64>>>,
+    /// Whether tool-centre control is on.
     centre: bool,
+    /// Tool axis that was told as a vector, of any length.
     vector: Option<Vector3<f64>>,
+    /// Whether the next move is counted in machine coordinates.
     in_machine: bool,
     /// m/min, or m per revolution.
     feed: f64,
@@ -88,12 +106,15 @@ pub(super) struct Tracer<'a> {
     speed: f64,
     /// 1 clockwise, -1 counterclockwise, 0 standing; none before it was told.
     sense: Option<f64>,
+    /// In the spindle.
     tool: Option<u32>,
+    /// Tool and spindle (rad/s) of the one at hand.
     operation: Option<(Option<u32>, Option<f64>)>,
     pub notes: Notes<Warning>,
 }
 
 impl<'a> Tracer<'a> {
+    /// Before the first call; a system counts as measured where a parameter of it was told.
     pub fn new(wanted: &'a Wanted<'_>, out: &'a mut dyn FnMut(Step)) -> Tracer<'a> {
         let mut systems_measured = [false; 10];
         for (system, measured) in (0_u8..).zip(&mut systems_measured).skip(1) {
@@ -138,6 +159,10 @@ impl<'a> Tracer<'a> {
     }
 
     /// The next call and its line.
+    ///
+    /// # Errors
+    /// A cut whose place is not told: between systems that nobody measured, in machine coordinates, with a rotary axis
+    /// away from zero and no tool-centre control; rotary axes that are not described.
     pub fn take(&mut self, call: Canonical, line: u32) -> Result<(), Refusal> {
         match call {
             Canonical::StraightTraverse(end) => {
@@ -183,10 +208,12 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
+    /// X, Y, Z in m.
     fn lengths(&self, of: &Axes) -> Vector3<f64> {
         Vector3::new(of[0], of[1], of[2]) * self.unit.metres()
     }
 
+    /// How fast a cut goes; not told where the feed is zero, or a turn of a standing spindle.
     fn pace(&mut self, line: u32) -> Pace {
         const MINUTE: f64 = 60.0;
         let per_minute = if self.per_revolution {
@@ -213,6 +240,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
+    /// A direction of the program's frame in that of the path: offsets do not move it, turns do.
     fn direction_in_path(&self, of: Unit<Vector3<f64>>) -> Unit<Vector3<f64>> {
         match self.path {
             Some(path) if path.turn != self.frame.turn => {
@@ -224,6 +252,8 @@ impl<'a> Tracer<'a> {
     }
 
     /// Before every move: in which frame it is, and whether that is told.
+    ///
+    /// Until the first cut the frame of the path follows that of the program.
     fn settle(&mut self, pace: Pace, rotary: [f64; 3], line: u32) -> Result<(), Refusal> {
         let measured = |system: u8| {
             let index = usize::from(system);
@@ -266,6 +296,8 @@ impl<'a> Tracer<'a> {
     }
 
     /// The tool in the frame of the path.
+    ///
+    /// A vector goes before rotary axes; with all of them at zero the tool stands along Z, whatever the machine.
     fn tool_axis(&mut self, rotary: [f64; 3]) -> Result<Option<Unit<Vector3<f64>>>, Refusal> {
         if !self.centre {
             return Ok(None);
@@ -294,12 +326,14 @@ impl<'a> Tracer<'a> {
         Ok(Some(self.direction_in_path(axis)))
     }
 
+    /// A line; one that neither moves nor turns the tool gives no step.
     fn straight(&mut self, end: Axes, pace: Pace, line: u32) -> Result<(), Refusal> {
         let rotary = [end[3], end[4], end[5]];
         self.settle(pace, rotary, line)?;
         let axis = self.tool_axis(rotary)?;
         let p = Point3::from(self.lengths(&end));
         let q = self.in_path(p);
+        // Nothing moves, but what the program calls this place may have changed.
         if self.at.is_some_and(|(_, before)| before == q) && axis == self.axis {
             self.at = Some((p, q));
             return Ok(());
@@ -308,6 +342,7 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
+    /// An arc; without a move before it one from the program's zero is assumed, and noted.
     fn arc(&mut self, arc: &ArcFeed, line: u32) -> Result<(), Refusal> {
         let pace = self.pace(line);
         self.settle(pace, arc.rotary, line)?;
@@ -319,6 +354,8 @@ impl<'a> Tracer<'a> {
             let q = self.in_path(p);
             self.step(Pace::Rapid, Tip { p, q, axis }, Course::Line, line);
         }
+        // The start in the coordinates now in force: as the program told it, or found anew where these have changed
+        // since.
         let from = match (self.at, self.path) {
             (Some((p, q)), Some(path)) if path != self.frame => {
                 let again = self.frame.in_program(path.in_machine(q));
@@ -329,6 +366,7 @@ impl<'a> Tracer<'a> {
         let unit = self.unit.metres();
         let mut end = Vector3::zeros();
         (end[first], end[second], end[across]) = (arc.end[0] * unit, arc.end[1] * unit, arc.across * unit);
+        // The centre is told at no height: it is put at that of the start, from which a helix climbs.
         let mut centre = Point3::origin();
         (centre[first], centre[second], centre[across]) =
             (arc.centre[0] * unit, arc.centre[1] * unit, from[across]);

@@ -1,4 +1,8 @@
 //! Subroutines: of the program, of other files, and those of M98 behind the end of the program.
+//!
+//! A name is looked for among those that the program has defined so far, then in a file of that name (`Wanted`), then,
+//! for M98, among labels in the lines still to come. A file may hold `o<name> sub` as a program does, or be the body
+//! itself.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -27,6 +31,8 @@ impl Labels {
 
 impl Interpreter<'_> {
     /// A subroutine of the program or of another file.
+    ///
+    /// `None` where there is none, or where what there is has been refused; all that a file defines is kept.
     pub(super) fn subroutine(&mut self, name: &str) -> Option<Rc<Body>> {
         if let Some(body) = self.subroutines.get(name) {
             return Some(body.clone());
@@ -55,6 +61,8 @@ impl Interpreter<'_> {
     }
 
     /// A subroutine of M98 that stands farther on, behind the end of the program; `call` is the line that wants it.
+    ///
+    /// From the line behind its label `O1234` to the first M99, or to the end of the text.
     fn ahead(&mut self, name: &str, call: &Line, lines: &mut Lines<'_>) -> Option<Rc<Body>> {
         let coming = lines.look_ahead(MOST_KEPT_BYTES).ok()?;
         let next = coming.front()?.number;
@@ -88,6 +96,8 @@ impl Interpreter<'_> {
     }
 
     /// M98.
+    ///
+    /// It works on the parameters of its caller.
     pub(super) fn call_numbered(
         &mut self,
         call: NumberedCall,

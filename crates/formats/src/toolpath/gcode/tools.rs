@@ -44,6 +44,8 @@ const MOST_TOOLS: usize = 10_000;
 impl ToolTable {
     /// The table in this text; `path` is what problems show.
     ///
+    /// Of two lines with one number the last counts; empty lines and remarks (`;`) are passed over.
+    ///
     /// # Errors
     /// A line without `T`, a word that no table has, what is no number, more than 10000 tools.
     pub fn read(path: &str, text: &str, unit: LengthUnit) -> Result<ToolTable, Problems> {
@@ -79,8 +81,10 @@ impl ToolTable {
     }
 }
 
+/// Bytes of the line, and what is wrong with them.
 type Misread = (std::ops::Range<usize>, String);
 
+/// Number and tool of a line; pocket, angles and axes U, V, W are passed over.
 fn tool(line: &str) -> Result<(u32, Tool), Misread> {
     let mut number = None;
     let mut tool = Tool::default();

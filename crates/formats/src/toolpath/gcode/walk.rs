@@ -24,7 +24,9 @@ use super::refusal::{Excess, Refusal};
 
 /// A `repeat` that is open: its line, and the rounds still to go.
 struct Repeat {
+    /// Index in the body.
     at: usize,
+    /// The one at hand included.
     rounds: u64,
 }
 
@@ -61,6 +63,8 @@ impl Interpreter<'_> {
     }
 
     /// Counts a line that is done; false where there were too many, told there, or where the program has stopped.
+    ///
+    /// After a fault only 10000 lines more are done, so that a loop whose end was refused ends.
     fn may_go_on(&mut self, line: &Line) -> bool {
         self.repeated += 1;
         let limit = if self.faults.is_empty() {
@@ -118,10 +122,12 @@ impl Interpreter<'_> {
                 }
             },
             Keyword::Break => {
+                // The loop itself is left, and every `repeat` inside of it.
                 repeats.retain(|open| open.at < partner);
                 body.lines.get(partner).map_or(at, |first| first.end) + 1
             }
             Keyword::Continue => {
+                // The loop stays open; every `repeat` inside of it is left.
                 repeats.retain(|open| open.at <= partner);
                 body.lines.get(partner).map_or(at, |first| {
                     match first.word.as_ref().map(|word| word.keyword) {
@@ -135,6 +141,8 @@ impl Interpreter<'_> {
     }
 
     /// The branch that holds after a condition that does not.
+    ///
+    /// `at` is the next branch; the line behind the one that holds, or behind `endif`.
     fn branch(&mut self, body: &Rc<Body>, mut at: usize) -> usize {
         while let Some(kept) = body.lines.get(at) {
             match &kept.word {
@@ -147,6 +155,7 @@ impl Interpreter<'_> {
         at + 1
     }
 
+    /// Whether a condition is other than zero; one that is refused does not hold.
     fn holds(&mut self, line: &Line, word: &OWord) -> bool {
         self.value(line, word).is_some_and(|value| value != 0.0)
     }
@@ -195,6 +204,7 @@ impl Interpreter<'_> {
         Some(values)
     }
 
+    /// `return` and `endsub`: their value goes to `#<_value>`, and whether there is one to `#<_value_returned>`.
     fn returns(&mut self, line: &Line, word: &OWord) {
         let value = self
             .values_behind(line, word)
@@ -210,6 +220,7 @@ impl Interpreter<'_> {
         }
     }
 
+    /// `o1 call [1] [2]`: arguments are #1, #2, ... of the subroutine, its other locals are zero.
     pub(super) fn call(&mut self, word: &OWord, line: &Line) -> Flow {
         let Some(arguments) = self.values_behind(line, word) else {
             return Flow::Next;
@@ -228,6 +239,7 @@ impl Interpreter<'_> {
         left
     }
 
+    /// Goes through a subroutine; what calls itself without end stops the program.
     pub(super) fn called(&mut self, body: &Rc<Body>, line: &Line) -> Flow {
         if self.depth >= MOST_CALLS_DEEP {
             self.fault(

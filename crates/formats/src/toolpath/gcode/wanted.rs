@@ -14,7 +14,8 @@ pub type Lookup<'a> = &'a dyn Fn(&str) -> Option<String>;
 pub struct Wanted<'a> {
     /// The unit before the first G20 or G21.
     pub unit: LengthUnit,
-    /// The unit of the parameters 5161 to 5386; that of the tool table is in the table.
+    /// The unit of the parameters 5161 to 5386. With a tool table it is not looked at: then they have the unit of the
+    /// table.
     pub machine_unit: LengthUnit,
     /// Parameters as the machine holds them before the program, such as work offsets from 5221 on.
     pub parameters: BTreeMap<u16, f64>,
@@ -55,6 +56,8 @@ pub enum Warning {
 
 impl Warning {
     /// What it means for the path.
+    ///
+    /// A sentence without its end: where it came first is put behind it.
     pub fn meaning(self) -> &'static str {
         match self {
             Warning::UnitAssumed => "no G20 or G21: the unit is assumed",
