@@ -1,7 +1,7 @@
 //! Deviation along a tool path program against the plain model, one point at a time.
 //!
-//! `plain_model`: every point against it; `path_answers`: one branch, parts, wrenches of each point; `cuts`: forces of the
-//! cut and what a program permits.
+//! `plain_model`: every point against it; `path_answers`: one branch, parts, wrenches of each point; `cuts`: forces of
+//! the cut and what a program permits.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]

@@ -1,7 +1,8 @@
-//! The full stiffness model against independent witnesses: closed forms, energies, finite differences, the simple model.
+//! The full stiffness model against independent witnesses: closed forms, energies, finite differences, the simple
+//! model.
 //!
-//! `added_springs`: those beside the drives; `gravity`: masses; `compensator_and_curves`: joints that are no plain spring;
-//! `under_load`: the equilibrium of the arm as it yields; `at_points`: the same model behind the kernel.
+//! `added_springs`: those beside the drives; `gravity`: masses; `compensator_and_curves`: joints that are no plain
+//! spring; `under_load`: the equilibrium of the arm as it yields; `at_points`: the same model behind the kernel.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]

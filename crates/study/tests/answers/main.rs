@@ -1,7 +1,7 @@
 //! Small studies through the library: answers against each other, against counting, and against what must hold.
 //!
-//! `counts`: points and what holds; `same_points`: one point asked in two ways; `paths`: shapes; `deviations`: what moves
-//! them; `told`: sentences, sources, warnings; `running`: reading, progress, files.
+//! `counts`: points and what holds; `same_points`: one point asked in two ways; `paths`: shapes; `deviations`: what
+//! moves them; `told`: sentences, sources, warnings; `running`: reading, progress, files.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
