@@ -10,8 +10,8 @@ use armill_core::workpiece::Split;
 
 use crate::{NEAR_SINGULAR, arms, ask, batch, cases, poses_of, some};
 
-/// Largest difference of envelopes from `predict`, against the whole deviation, away from singularities; every difference
-/// near them is below `near`.
+/// Largest difference of envelopes from `predict`, against the whole deviation, away from singularities; every
+/// difference near them is below `near`.
 fn worst_difference<T: Precision>(
     robot: &Robot,
     postures: &[Posture],
