@@ -3,6 +3,14 @@
 //! Its table is a frame that coordinates count from, and what it yields under the cut adds to what the arm yields: the
 //! part gives way to `-w` where the tool gives way to `w`, so each of its joints is a spring under the arm, at its own
 //! axis in base.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `base_from_root` | where the positioner stands, `base_from_root_mm_deg` | m, rad |
+//! | `q` | how it stands, `joints_deg`; the same all study long | rad (m) |
+//! | `S_k`, `c_k` | screw of its joint k about the origin of base, its compliance | -, rad/(N m) |
+//!
+//! Its own springs, masses and gravity are left out: only the compliances of its joints count.
 
 use std::path::Path;
 

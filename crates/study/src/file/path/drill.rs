@@ -1,4 +1,7 @@
 //! The drill of a program: its size, the material, and what the program does not tell.
+//!
+//! Thrust and torque come from the lips alone, by Kienzle's law of the material and a ratio of the force normal to a
+//! lip. The chisel edge is left out, and every answer says so.
 
 use std::f64::consts::TAU;
 

@@ -122,6 +122,7 @@ pub struct MeasuredForces {
 const LOW_CONFIDENCE: f64 = 0.1;
 /// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end count.
 const MARGIN: f64 = 0.25;
+/// 1 mm/min in m/s.
 const M_S_PER_MM_MIN: f64 = 1e-3 / 60.0;
 
 impl MeasuredForces {
@@ -179,6 +180,8 @@ pub(super) fn along(
         .ok())
 }
 
+/// Turns the record to the tool and its frame, treats it, finds where the program begins in it, and takes the forces at
+/// its points.
 fn forces(
     table: &MeasuredTable,
     measured: Measured,
@@ -233,6 +236,7 @@ fn forces(
     Ok((load, forces))
 }
 
+/// Where drift is seen: told, to be found, or nowhere.
 fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     match (&table.air_s, table.drift) {
         (Some(_), Some(false)) => Err(Refusal::new(
@@ -246,6 +250,7 @@ fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     }
 }
 
+/// When the tip is at each point, from the begin of the first cut.
 fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
     let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
@@ -263,6 +268,8 @@ fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
 }
 
 /// When the first cut begins in the record, s.
+///
+/// With it the lag, where a prediction found it; exactly one of `start_s` and `synchronise` must tell.
 fn start(
     table: &MeasuredTable,
     record: &Record,
@@ -344,6 +351,9 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
 }
 
 /// The forces at the points, and the largest of each case, N.
+///
+/// Mean of the turn about each point where turns are counted, else the force at that instant; with `peak` the strongest
+/// of the turn as a second case.
 fn at_points(
     table: &MeasuredTable,
     treated: &Treated,
