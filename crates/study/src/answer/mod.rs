@@ -4,8 +4,7 @@
 //! max_in_plane_um, roundness_um` are a public contract.
 //!
 //! Every key tells its unit, and `_u_` in it a standard uncertainty. Positions count from the frame `setting.base`,
-//! deviations are in base axes or in the parts that their keys name. What was not found or not asked is `null`, never a
-//! number that stands for it.
+//! deviations are in base axes or in the parts that their keys name. What was not found or not asked is `null`.
 //!
 //! ```text
 //! robot         joints with what they yield
@@ -192,7 +191,8 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     }
 }
 
-/// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind `material:`.
+/// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind
+/// `material:`.
 pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
     told_by(match cut.cutting.law {
         CuttingLaw::Mechanistic(_) => cut.material.mechanistic_sources(),

@@ -35,8 +35,8 @@ use crate::robots;
 /// What its table is called where coordinates count from it.
 pub const TABLE: &str = "table";
 
-/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where something
-/// is wrong.
+/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where
+/// something is wrong.
 ///
 /// # Errors
 /// The problems of the positioner's file.

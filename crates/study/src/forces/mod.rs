@@ -1,7 +1,11 @@
 //! Which force was measured, and what is left of it? A dynamometer's file from its text to the force that a study uses.
 //!
-//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle. [`answer`](mod@answer): what
-//! came of it, in numbers. [`output`]: tables and pictures of it.
+//! ```text
+//! file -> Measured (axes of the sensor) -> treat: drift off, low-pass, turns -> ForcesAnswer, tables, picture
+//! ```
+//!
+//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle.
+//! [`answer`](mod@answer): what came of it, in numbers. [`output`]: tables and pictures of it.
 
 pub mod answer;
 pub mod output;

@@ -32,8 +32,8 @@ pub struct FeatureAnswer {
     pub radius_mm: Option<f64>,
     /// Circle: what it became larger by.
     pub radius_change_um: Option<f64>,
-    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along the
-    /// tool.
+    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along
+    /// the tool.
     pub shift_um: Option<[f64; 3]>,
     /// Circle: peak to valley about the least-squares circle.
     pub roundness_um: Option<f64>,

@@ -64,8 +64,8 @@ pub struct PathAnswer {
     pub max_axial_um: Option<f64>,
     /// Points within the limit over all points.
     pub fraction_within: f64,
-    /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to valley
-    /// about the least-squares circle).
+    /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to
+    /// valley about the least-squares circle).
     pub roundness_um: Option<f64>,
     /// On a circle: each case.
     pub circle_cases: Vec<CircleCase>,

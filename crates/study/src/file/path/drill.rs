@@ -51,8 +51,8 @@ pub struct DrillCut {
 
 /// The common twist drill, deg.
 const POINT_DEG: f64 = 118.0;
-/// Normal over cutting force on a lip where nobody tells it, with its standard uncertainty: wide, since it follows rake,
-/// point and wear.
+/// Normal over cutting force on a lip where nobody tells it, with its standard uncertainty: wide, since it follows
+/// rake, point and wear.
 const NORMAL_RATIO: [f64; 2] = [0.5, 0.2];
 
 /// The drill of this table; `None` where it has problems.

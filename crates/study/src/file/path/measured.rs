@@ -1,4 +1,5 @@
-//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in it.
+//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in
+//! it.
 //!
 //! A point that the tip reaches at the time `t` of the program gets the force at `start + t` of the record, as the tool
 //! feels it. Moments are left out: they count from the origin of the sensor, wherever that is.
@@ -120,7 +121,8 @@ pub struct MeasuredForces {
 
 /// A lag that stands out from the second best by less than this may be the wrong one.
 const LOW_CONFIDENCE: f64 = 0.1;
-/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end count.
+/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end
+/// count.
 const MARGIN: f64 = 0.25;
 /// 1 mm/min in m/s.
 const M_S_PER_MM_MIN: f64 = 1e-3 / 60.0;

@@ -25,8 +25,8 @@ pub(super) fn count(table: &AskTable) -> usize {
     given.into_iter().filter(|given| *given).count()
 }
 
-/// The shape of an ask, which has one, cut into points; `None` where it has problems. A point every `step_mm` where the ask
-/// says nothing.
+/// The shape of an ask, which has one, cut into points; `None` where it has problems. `step_mm` is the pitch of the
+/// plane.
 pub(super) fn resolve(
     places: &mut Places<'_>,
     table: &AskTable,
