@@ -120,6 +120,7 @@ pub fn check(
     };
     let (verdict, explanations, unseen) = match &found.verdict {
         Verdict::Explained { explanation, unseen } => {
+            // An explanation without changes says that the file is right.
             let verdict = if explanation.changes.is_empty() {
                 "agrees"
             } else {

@@ -195,6 +195,7 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
+            // Only where joints may be chosen does home count.
             let home = question.home_deg.as_deref();
             let home = home.map(|home| joint_positions(described, home)).transpose()?;
             let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));

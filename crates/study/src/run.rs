@@ -193,6 +193,7 @@ impl Runner<'_> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
         let along = along_path(&question, &ask.track, load, self.watch)?;
+        // What follows is asked in the branch that was chosen for the whole path.
         let question = Question {
             choice: along.choice,
             ..question

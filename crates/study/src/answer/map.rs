@@ -152,6 +152,7 @@ pub struct Remark {
 /// What became of one plane; `name` is that of the ask, with the label of a section.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
     let counts = Counts::of(&map.answers, setting.limit);
+    // The TCP is the point of the plane, however the tool is turned.
     let at = |index: usize| {
         map.plane
             .base_from_tool(map.grid.point(index), 0.0)

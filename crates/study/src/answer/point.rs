@@ -142,6 +142,7 @@ impl PointAnswer {
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
+        // A case that is a moment alone has no direction.
         let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
             .map(|f| permissible_force(&compliance, normal, f, setting.limit));
         let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;

@@ -117,6 +117,7 @@ fn given(
     values: &[f64],
     joints: usize,
 ) -> Option<Vec<JointCompliance>> {
+    // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
     if table.source.is_none() {
         let hint = "add source = \"...\": who measured them, or that they are a guess";

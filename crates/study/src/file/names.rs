@@ -45,6 +45,7 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
         _ => Vec::new(),
     };
     let sections: Vec<String> = asks.iter().flat_map(sections).collect();
+    // A study without asks has one that it does not write.
     let all_asks_known = asks.len() == file.ask.len().max(1);
     for (index, statement) in file.statement.iter().enumerate() {
         for (k, name) in statement.of.iter().enumerate() {

@@ -93,6 +93,7 @@ pub(super) fn beside(
     });
     let mut structure = robot.structure().clone();
     if let Some(compliances) = positioner.compliance() {
+        // Screws about the origin of base, first in axes of the positioner's root.
         let origin: Point3<f64> = base_from_root.inverse_transform_point(&Point3::origin());
         let screws = screws_at(positioner, &frames, &origin);
         structure

@@ -25,6 +25,7 @@ pub(super) fn model(
     tool: Option<&ToolTable>,
     robot: &Robot,
 ) -> Option<StiffnessModel> {
+    // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
     let mut structure = robot.structure().clone();
     if let Some(tool) = tool {

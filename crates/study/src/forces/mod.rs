@@ -65,6 +65,7 @@ pub fn read(
     let known = format::read(shown, BufReader::new(file), acts_on, wanted);
     let mut known = known.map_err(|problems| Unread::File(problems.into()))?;
     let count = known.records.len();
+    // One cycle needs no choice; of several none is taken by chance.
     let chosen = match (cycle, count) {
         (None, 1) => 1,
         (Some(cycle), _) if (1..=count).contains(&cycle) => cycle,

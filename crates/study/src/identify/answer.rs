@@ -188,6 +188,7 @@ fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     } else {
         return Ok(());
     };
+    // Told as a factor above 1, whichever way it is.
     let times = if ratio > 1.0 { ratio } else { 1.0 / ratio };
     let message =
         format!("readings are {times:.0} times {word} than those of a typical arm under these loads");
@@ -246,6 +247,7 @@ fn told(
         }
         let turns = unknown.turns();
         let (value, u) = (estimate.value, estimate.standard_uncertainty);
+        // A spring that came out rigid has no finite stiffness.
         let stiffness = (value > 0.0).then(|| 1.0 / value);
         springs.push(SpringAnswer {
             name: name.clone(),

@@ -111,6 +111,7 @@ pub fn plan(
         })
         .collect();
     let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
+    // Tests in one posture stand next to each other.
     postures.dedup();
     let springs = unknowns
         .iter()

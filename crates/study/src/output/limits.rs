@@ -110,6 +110,7 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
         }),
     ];
     let told = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
+    // Parts of the cut that no point tells get no column.
     for (name, description, part) in parts
         .into_iter()
         .filter(|(.., part)| points.iter().any(|p| told(*part)(p).is_some()))

@@ -108,6 +108,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
             continue;
         }
         let of_path = &path.setting;
+        // The same plane counted from the same frame.
         let apart =
             of_path.plane.base_from_part.to_homogeneous() - setting.plane.base_from_part.to_homogeneous();
         if apart.norm() > 1e-9 || of_path.base_name != setting.base_name {

@@ -230,10 +230,12 @@ pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, frac
 pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let [nx, ny, nz] = volume.grid.counts;
     let count = nx.min(SLICES);
+    // Spread over the box, both ends among them.
     let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
     let origin = setting.counted(&volume.grid.corner()) * 1e3;
     let step = volume.grid.step * 1e3;
     let panels = chosen.map(|i| {
+        // Rows upwards, y from right to left: as seen from the robot.
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
         let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
         let within = points

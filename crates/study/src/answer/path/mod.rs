@@ -205,6 +205,7 @@ fn jumps(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<String> {
             ask.track.path.points[jump.index].line
         )
     });
+    // One more was looked for than is told.
     let more = (found.jumps.len() > MOST_JUMPS).then(|| "more jumps follow".to_owned());
     told.chain(more).collect()
 }

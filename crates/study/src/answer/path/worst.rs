@@ -71,6 +71,7 @@ fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &Po
     let joints = study.robot.robot.joints();
     let names = ask.setting.model.sharer_names(joints);
     let shares = names.iter().zip(&point.joint_share_um);
+    // A share may work against the others: its size counts.
     let largest = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let mut parts: Vec<String> = largest
         .filter(|_| point.in_plane_um > 0.0)

@@ -354,8 +354,8 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
 
 /// The forces at the points, and the largest of each case, N.
 ///
-/// Mean of the turn about each point where turns are counted, else the force at that instant; with `peak` the strongest
-/// of the turn as a second case.
+/// Where turns are counted their mean, on a line between the middles of two, else the force at that instant; with `peak`
+/// the strongest of the turn as a second case.
 fn at_points(
     table: &MeasuredTable,
     treated: &Treated,

@@ -146,6 +146,7 @@ fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     ];
     let row = |(what, limit): (&str, &Option<LimitAnswer>)| {
         let limit = limit.as_ref()?;
+        // A verdict of nothing has no number.
         let value = match limit.verdict {
             "nothing" => NONE.to_owned(),
             _ => format!("{:.3}", limit.value),

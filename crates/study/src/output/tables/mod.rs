@@ -81,6 +81,9 @@ fn has_csv(ask: &Ask, csv: Csv) -> bool {
 type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 
 /// Hands the files of one ask to `save`, extension and bytes.
+///
+/// # Errors
+/// That of `save`; a table or field that cannot be made, which would be a fault of armill.
 pub(super) fn files(
     study: &Study,
     (ask, done): (&Ask, &Done<'_>),
@@ -274,6 +277,7 @@ fn filled(numbers: &[Numbers<'_>], series: &[Rows<'_>]) -> Vec<Column> {
             .map(|(numbers, values)| numbers.column(values))
             .collect()
     };
+    // Each thread fills some columns, all of them point after point: what a point needs is then near.
     let share = numbers.len().div_ceil(rayon::current_num_threads());
     numbers.par_chunks(share).flat_map_iter(fill).collect()
 }
@@ -306,6 +310,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         series,
         |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
+    // All series of an ask have the same columns.
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
         let mut columns = rows
