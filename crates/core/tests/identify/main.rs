@@ -44,6 +44,7 @@ impl Random {
     }
 }
 
+/// Least squares without anything known beforehand.
 fn plain() -> Method {
     Method {
         prior: Prior::None,
@@ -53,6 +54,7 @@ fn plain() -> Method {
     }
 }
 
+/// Robust weights, and what is known of any arm.
 fn usual() -> Method {
     Method {
         prior: Prior::Typical,

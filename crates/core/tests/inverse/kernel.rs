@@ -50,6 +50,7 @@ fn along<T>(robot: &Robot, choice: BranchChoice, then: impl FnOnce(&Question<'_>
     then(&question, &poses)
 }
 
+/// Arms of different inverses: closed form, polished, on a rail, searched, with a joint that stands.
 fn kinds() -> [Robot; 5] {
     [
         other::ur10(),

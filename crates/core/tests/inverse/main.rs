@@ -27,6 +27,7 @@ use armill_core::robot::inverse::{ToolAt, posture_at, postures};
 use arms::Stream;
 use arms::other::DhRow;
 
+/// The tool on its flange, with no posture to be near and no home.
 fn at(tool: &Isometry) -> ToolAt<'_> {
     ToolAt::on(tool)
 }

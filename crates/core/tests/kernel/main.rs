@@ -98,8 +98,10 @@ impl<T: Precision> Soa<T> {
     }
 }
 
+/// Where these postures hold the tool.
 fn poses_of<T: Precision>(postures: &[Posture]) -> Soa<T> {
     Soa::of(postures.iter().map(|posture| &posture.base_from_tool))
 }
 
+/// Near any singularity.
 const NEAR_SINGULAR: u32 = flag::NEAR_WRIST | flag::NEAR_ELBOW | flag::NEAR_SHOULDER;

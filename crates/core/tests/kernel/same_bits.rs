@@ -40,10 +40,12 @@ fn everything<T: Precision>(
     all
 }
 
+/// Numbers as they are stored, so that 0 and -0 differ.
 fn bits(values: &[f64]) -> Vec<u64> {
     values.iter().map(|x| x.to_bits()).collect()
 }
 
+/// All that lanes can tell, on every back end of this machine: two sets of bits, with and without fused products.
 fn same_bits_wherever_product_and_sum_are_fused<T: Precision + Debug>() {
     for robot in arms::all() {
         let soa = poses_of::<T>(&some(&robot, 1_000));

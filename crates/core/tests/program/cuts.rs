@@ -16,6 +16,7 @@ use armill_core::watch::Watch;
 
 use crate::{arms, followed, question, track};
 
+/// A flat end mill of 10 mm with two flutes, 1 mm deep and 3 mm wide.
 fn cutting() -> Cutting {
     let law = Mechanistic::new(Vector3::new(796e6, 168e6, 222e6), Vector3::new(27e3, 30e3, 5e3)).unwrap();
     Cutting {
@@ -29,8 +30,10 @@ fn cutting() -> Cutting {
     }
 }
 
+/// rad/s
 const SPINDLE: f64 = 8000.0 * TAU / 60.0;
 
+/// Its forces along a track, the engagement the same everywhere.
 fn cut_along(cutting: &Cutting, track: &Track) -> PathLoad {
     let forces = cutting.along(&track.path, &track.placing, None, Watch::NONE);
     PathLoad::Cuts(forces.unwrap().cuts)

@@ -25,6 +25,7 @@ use armill_core::source::{Arm, StiffnessModel};
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
+/// A rapid, a plunge, a full circle, and a line up to a tool that leans.
 fn moves() -> Vec<Move> {
     let to = |x: f64, y: f64, z: f64, pace| Move {
         end: Point3::new(x, y, z),
@@ -54,6 +55,7 @@ fn moves() -> Vec<Move> {
     ]
 }
 
+/// The moves on a part that leans, the tool turned with the feed.
 fn track() -> Track {
     let sampling = Sampling {
         chord_error: 1e-5,
@@ -76,6 +78,7 @@ fn track() -> Track {
     }
 }
 
+/// Two cases, the first with a moment, told in this frame.
 fn cases(frame: LoadFrame) -> PathLoad {
     let wrench = |f: [f64; 3], m: [f64; 3]| Wrench {
         force: f.into(),
@@ -90,6 +93,7 @@ fn cases(frame: LoadFrame) -> PathLoad {
     })
 }
 
+/// What is asked of an arm along a path: cases and normal come with the path.
 fn question<'a>(
     robot: &'a Robot,
     model: &'a StiffnessModel,
@@ -111,6 +115,7 @@ fn question<'a>(
     }
 }
 
+/// The track under this load.
 fn followed(robot: &Robot, model: &StiffnessModel, choice: BranchChoice, load: PathLoad) -> AlongPath {
     let tool = arms::bent_tool();
     let question = question(robot, model, &tool, choice);

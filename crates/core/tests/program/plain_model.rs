@@ -62,6 +62,7 @@ fn agrees(robot: &Robot, model: &StiffnessModel, frame: LoadFrame, tolerance: f6
     assert_eq!(found.answers.held().count(), found.answers.points.len());
 }
 
+/// Springs in the arm and at the tool, and a mass behind the last joint.
 fn heavy(robot: &Robot) -> Structure {
     let yields = |value| JointCompliance {
         value,

@@ -23,8 +23,10 @@ use armill_core::source::{Arm, Gravity, StiffnessModel};
 use armill_core::spatial::Wrench;
 use proptest::prelude::*;
 
+/// Acceleration of free fall, base.
 const DOWN: Vector3<f64> = Vector3::new(0.0, 0.0, -FREE_FALL);
 
+/// A compliance known to a tenth.
 fn spring(value: f64) -> JointCompliance {
     JointCompliance {
         value,
@@ -56,6 +58,7 @@ const FANUC: [(f64, [f64; 3]); 6] = [
 /// `d` of the rows: a link's frame stands behind it, a seat before it.
 const FANUC_D: [f64; 6] = [0.670, 0.0, 0.0, 1.280, 0.0, 0.215];
 
+/// Its masses at the seats of its joints.
 fn fanuc_masses() -> Vec<Mass> {
     let mass = |(joint, ((mass, [x, y, z]), d)): (usize, (&(f64, [f64; 3]), f64))| Mass {
         seat: Seat::Joint(joint),
@@ -65,6 +68,7 @@ fn fanuc_masses() -> Vec<Mass> {
     FANUC.iter().zip(FANUC_D).enumerate().map(mass).collect()
 }
 
+/// A model with this structure under gravity, the tool set at the joint zeros.
 fn weighing(structure: Structure) -> StiffnessModel {
     StiffnessModel {
         structure,
@@ -76,6 +80,7 @@ fn weighing(structure: Structure) -> StiffnessModel {
     }
 }
 
+/// The arm with the compliances of its file, this model and this tool.
 fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
@@ -85,10 +90,12 @@ fn held<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> 
     }
 }
 
+/// One of `arms::ALL`, and parts of the ranges of its joints.
 fn arm() -> impl Strategy<Value = (usize, [f64; 6])> {
     (0..arms::ALL.len(), prop::array::uniform6(0.0..1.0_f64))
 }
 
+/// Up to 500 N and 100 N m along each axis.
 fn wrench() -> impl Strategy<Value = Wrench> {
     prop::array::uniform6(-1.0..1.0_f64).prop_map(|[a, b, c, d, e, f]| Wrench {
         force: Vector3::new(a, b, c) * 500.0,

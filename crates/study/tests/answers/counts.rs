@@ -4,6 +4,7 @@ use armill_study::answer::MapAnswer;
 
 use crate::{answered, map, plate_with};
 
+/// All points that the counts of a map speak of.
 fn points(map: &MapAnswer) -> usize {
     let c = map.counts;
     let missed = c.out_of_reach + c.no_posture_inside_limits + c.not_found;

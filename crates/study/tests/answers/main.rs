@@ -32,22 +32,27 @@ load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
 /// Two ways of computing the same point: 1e-15 of a metre in the pose, times some 1e2 um/m of slope; in m.
 const SAME: f64 = 1e-15;
 
+/// The study in this text, which has no problem.
 fn study(text: &str) -> Study {
     read("study.toml", Path::new("."), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The plate with these asks, or whatever else its file shall say.
 fn plate_with(asks: &str) -> Study {
     study(&format!("{PLATE}{asks}"))
 }
 
+/// What came out of each ask.
 fn found(study: &Study) -> Vec<Done<'_>> {
     run(study, Watch::NONE).unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The answer of a study.
 fn answered(study: &Study) -> StudyAnswer {
     answer(study, &found(study))
 }
 
+/// The map or section of this name.
 fn map<'a>(answer: &'a StudyAnswer, name: &str) -> &'a MapAnswer {
     answer
         .maps

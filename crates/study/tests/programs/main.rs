@@ -26,7 +26,9 @@ plane = { centre_mm = [1000, 50, 500], tilt_deg = 90, half_size_mm = 100, step_m
 tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
 posture = { branch = "front elbow-up no-flip" }
 "#;
+/// Two cases in base axes.
 const LOAD: &str = "load = { cases_n = [[3, -5, 5], [3, 5, 5]] }\n";
+/// A cut of which one set of coefficients is known.
 const CUT: &str = r#"
 [cut]
 material = "aluminium-6082-t6"
@@ -40,6 +42,7 @@ spindle_rpm = 9000
 /// A full circle of radius 40 mm about the zero, and a rapid to its start.
 const RING: &str = "G21 G90 G17\nS9000 M3\nG0 X40 Y0 Z10\nG0 Z0\nG3 X40 Y0 I-40 J0 F600\nG0 Z10\nM2\n";
 
+/// The answer of a study with these files beside it, or its problems in words.
 fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
     let folder = tempfile::tempdir().unwrap();
     for (name, text) in files {
@@ -50,6 +53,7 @@ fn told(study: &str, files: &[(&str, &str)]) -> Result<StudyAnswer, String> {
     Ok(answer(&study, &found))
 }
 
+/// An ask for a path with this table of its program.
 fn ask(program: &str) -> String {
     format!("\n[[ask]]\nkind = \"path\"\nname = \"part\"\n[ask.program]\n{program}\n")
 }
@@ -59,6 +63,7 @@ const STEP_OVER: &str =
     "G21 G90 G17\nS9000 M3\nG0 X-60 Y0 Z10\nG0 Z-1\nG1 X30 F600\nG1 Y3\nG1 X-60\nG0 Z10\nM2\n";
 const STOCK: &str = "\nstock = { from_mm = [-40, -40, -20], to_mm = [40, 40, 0] }";
 
+/// The path of the step-over under this cut.
 fn of_cut(cut: &str) -> armill_study::answer::PathAnswer {
     let study = format!("{CELL}{cut}{}", ask("file = \"step.ngc\""));
     told(&study, &[("step.ngc", STEP_OVER)]).unwrap().paths[0].clone()
