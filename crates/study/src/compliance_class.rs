@@ -35,7 +35,9 @@ pub enum ComplianceClass {
 /// differs by as much, and an arm that nobody measured may lie beyond them.
 pub const LEAST_FACTOR: f64 = 2.0;
 
+/// Arms that the light class is made of.
 const LIGHT: &[&str] = &["yaskawa/mh12"];
+/// Arms that the heavy class is made of.
 const HEAVY: &[&str] = &["fanuc/r2000ic", "kuka/kr210r2700extra", "staubli/tx200"];
 
 /// Where the numbers of a class come from, for the report.
@@ -186,10 +188,15 @@ fn mean_and_spread(arms: &[&str]) -> Result<[ClassValue; 6], StudyError> {
     }))
 }
 
+/// How far one is from the other, as a factor of at least 1.
 fn factor_between(a: f64, b: f64) -> f64 {
     (a / b).max(b / a)
 }
 
+/// The six drive compliances of a library robot, rad/(N m).
+///
+/// # Errors
+/// It is not there, does not read, or has not six of them above 0: a defect of the library.
 fn compliances(arm: &str) -> Result<Vec<f64>, StudyError> {
     let missing = || {
         StudyError::value(

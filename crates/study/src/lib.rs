@@ -5,8 +5,8 @@
 //! [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
-//! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and [`number`]
-//! are how numbers are told.
+//! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and
+//! [`number`] are how numbers are told.
 //!
 //! Everything here is the same whatever the surface: command, Python and web return these bytes.
 

@@ -1,4 +1,7 @@
 //! The robot and material libraries and the example studies, embedded: every command works from an empty folder.
+//!
+//! The robot `yaskawa/mh12` is `robots/yaskawa/mh12.toml`, the material `brass` is `materials/brass.toml`. A file that
+//! is not listed here is not in the program; `cargo xtask tidy` tells one that was forgotten.
 
 use armill_formats::document::Problems;
 use armill_formats::material::{self, Material};
@@ -17,6 +20,7 @@ pub struct Embedded {
     pub text: &'static str,
 }
 
+/// Pairs of name and path in the repository, with the texts of the files.
 macro_rules! embedded {
     ($($name:literal in $path:literal),+ $(,)?) => {
         &[$(Embedded { name: $name, path: $path, text: include_str!(concat!("../../../", $path)) }),+]
@@ -150,6 +154,8 @@ pub(crate) fn hint_of_material(name: &str) -> String {
 }
 
 /// The name of the robot library that is most like `name`, if any is.
+///
+/// The type without its maker finds it; else spelling decides.
 pub fn most_like(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
     let part = ROBOTS

@@ -178,6 +178,7 @@ impl KnownMaterial {
 }
 
 impl KnownMechanistic {
+    /// A set as its file tells it.
     fn of(set: &MechanisticSet) -> KnownMechanistic {
         let told = |i: usize| set.coefficients[i].map(|value| without_rounding(value / MECHANISTIC[i]));
         KnownMechanistic {
@@ -207,6 +208,7 @@ impl KnownMechanistic {
 }
 
 impl KnownKienzle {
+    /// A set as its file tells it.
     fn of(set: &KienzleSet) -> KnownKienzle {
         KnownKienzle {
             kc1_n_per_mm2: without_rounding(set.specific_force / KIENZLE[0]),
@@ -219,6 +221,7 @@ impl KnownKienzle {
 }
 
 impl UsedMechanistic {
+    /// `None` where no set is whole.
     fn of(found: &Material) -> Option<UsedMechanistic> {
         let together = found.mechanistic()?;
         let mean = |i: usize| without_rounding(together.mean[i] / MECHANISTIC[i]);
@@ -257,6 +260,7 @@ impl UsedMechanistic {
 }
 
 impl UsedKienzle {
+    /// `None` where there is no set.
     fn of(found: &Material) -> Option<UsedKienzle> {
         let together = found.kienzle()?;
         let mean = |i: usize| without_rounding(together.mean[i] / KIENZLE[i]);

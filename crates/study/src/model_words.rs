@@ -1,4 +1,11 @@
 //! Which parts of the stiffness model were on, in words.
+//!
+//! ```text
+//! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
+//! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances
+//! ```
+//!
+//! An answer has those of its own model, in this order.
 
 use armill_core::robot::Robot;
 use armill_core::source::StiffnessModel;
@@ -36,6 +43,8 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
 }
 
 /// What the model leaves out although the robot file would have it.
+///
+/// A warning for people: masses are known, but nothing says where the tool was set.
 pub fn left_out(model: &StiffnessModel) -> Option<String> {
     let masses = model.structure.masses.len();
     (model.gravity.is_none() && masses > 0).then(|| {

@@ -37,7 +37,8 @@ pub(crate) fn branch_choice(words: &str, nominal: BranchPattern) -> Result<Branc
     }
 }
 
-/// The posture that `words` ask of `robot`: a branch completed by the nominal one, `nominal`, or `best`; where its branches have no names, only `nominal` and `best` say something.
+/// The posture that `words` ask of `robot`: a branch completed by the nominal one, `nominal`, or `best`; where its
+/// branches have no names, only `nominal` and `best` say something.
 ///
 /// # Errors
 /// The word that names no branch; any word where none has a name.

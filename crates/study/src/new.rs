@@ -1,4 +1,7 @@
 //! A commented study that runs, for a robot: its plate lies where the arm gets to, and what is not known is asked for.
+//!
+//! The template fits a Yaskawa MH12. For another arm lengths grow with its reach, the height of the plate with reach
+//! and shoulder; where the arm does not hold the tool at its corners the plate comes nearer, step by step.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Point3;
@@ -12,7 +15,9 @@ use crate::compliance_class::ComplianceClass;
 use crate::error::StudyError;
 use crate::{ENOUGH_JOINTS, library, robots};
 
+/// The study of an MH12; words in capitals are filled in.
 const TEMPLATE: &str = include_str!("new.toml");
+/// What is filled in where a class of assumed compliances fits the robot.
 const COMPLIANCE: &str = "
 # No joint compliance is known for this robot. These are values of a class of arms, assumed and wide: light (up to
 # 20 kg payload), medium (to 100 kg), heavy (to 300 kg); every result says so. Once you know yours from load tests:
@@ -20,6 +25,7 @@ const COMPLIANCE: &str = "
 [compliance]
 class = \"CLASS\"
 ";
+/// What is filled in where none does: the user must bring them.
 const COMPLIANCE_OPEN: &str = "
 # No joint compliance is known for this robot, and no class of assumed values fits its joints. Nothing can be predicted
 # before you bring yours, one a joint, base to flange: `armill identify` finds them from load tests.
@@ -122,6 +128,7 @@ fn scaled(robot: &Robot) -> String {
 }
 
 impl Plate {
+    /// The plate of the template, its lengths times `factor`, rounded to numbers that people write.
     fn scaled(robot: &Robot, factor: f64) -> Plate {
         let scaled = |mm: f64, step: f64| (mm * factor / step).round().max(1.0) * step;
         let shoulder = forward(robot, &vec![0.0; robot.joints().len()]).origin(1).z * 1e3;

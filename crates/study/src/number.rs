@@ -14,6 +14,8 @@ pub fn decimals(value: f64, places: i32) -> f64 {
 }
 
 /// `value` to so many significant digits.
+///
+/// Zero stays zero.
 pub fn digits(value: f64, digits: i32) -> f64 {
     let unit = 10_f64.powf(value.abs().log10().floor() - f64::from(digits - 1));
     without_minus(if unit > 0.0 {
@@ -23,6 +25,7 @@ pub fn digits(value: f64, digits: i32) -> f64 {
     })
 }
 
+/// 0 in place of -0.
 fn without_minus(value: f64) -> f64 {
     if value == 0.0 { 0.0 } else { value }
 }

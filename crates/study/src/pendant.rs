@@ -1,4 +1,13 @@
 //! A robot file beside its pendant: what disagrees, in the words of the file.
+//!
+//! | verdict | meaning |
+//! |---|---|
+//! | `agrees` | every reading lies within the bound of what the file makes of its joints |
+//! | `explained` | one explanation is simpler than any other that brings all readings within it |
+//! | `undecided` | several are equally simple: more readings tell them apart |
+//! | `unexplained` | no change that is looked for explains the readings |
+//!
+//! What is looked for, and how simple it is, says `armill_core::robot::convention`.
 
 use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::nalgebra::Vector3;
@@ -111,6 +120,7 @@ pub fn check(
     };
     let (verdict, explanations, unseen) = match &found.verdict {
         Verdict::Explained { explanation, unseen } => {
+            // An explanation without changes says that the file is right.
             let verdict = if explanation.changes.is_empty() {
                 "agrees"
             } else {
@@ -131,6 +141,7 @@ pub fn check(
     })
 }
 
+/// One reading in SI; `index` counts from 0, errors from 1.
 fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Result<Reading, StudyError> {
     let names: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     if joints.len() != names.len() {
@@ -159,6 +170,7 @@ fn reading(robot: &Robot, index: usize, joints: &[f64], pose: &Isometry) -> Resu
     })
 }
 
+/// In mm and deg.
 fn apart(apart: Apart) -> ApartAnswer {
     ApartAnswer {
         apart_mm: apart.metres * 1e3,
@@ -175,6 +187,7 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
+    /// One explanation, each change in a sentence.
     fn explanation(&self, explanation: &Explanation) -> ExplanationAnswer {
         ExplanationAnswer {
             changes: explanation.changes.iter().map(|c| self.change(c)).collect(),
@@ -182,6 +195,7 @@ impl Words<'_> {
         }
     }
 
+    /// What the file would have to say, with the keys of the file.
     fn change(&self, change: &Change) -> String {
         let joints = self.robot.joints();
         match *change {
@@ -231,6 +245,7 @@ impl Words<'_> {
         }
     }
 
+    /// What the file would have to say of the coupling of `joint` to `other`, which is `more` than it has now.
     fn coupling(&self, joint: usize, other: usize, more: f64) -> String {
         let joints = self.robot.joints();
         let (name, other_name) = (&joints[joint].name, &joints[other].name);

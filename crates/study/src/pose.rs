@@ -1,4 +1,12 @@
 //! One pose: every posture there, its compliance, and what a load does to it.
+//!
+//! | part of the answer | frame and point |
+//! |---|---|
+//! | `tool` | TCP in the frame `base` |
+//! | `jacobian`, `compliance`, `stiffness` | at the TCP, base axes, translation first, SI |
+//! | `deviation_um`, `rotation_urad`, `joint_share_um` | of the TCP, base axes |
+//!
+//! Joints are in deg, sliding ones in mm, as the robot file counts them.
 
 use armill_core::compliance::{
     by_force, permissible_force_in_worst_direction, principal_compliances, stiffness_at_tool,
@@ -187,6 +195,7 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
+            // Only where joints may be chosen does home count.
             let home = question.home_deg.as_deref();
             let home = home.map(|home| joint_positions(described, home)).transpose()?;
             let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
@@ -262,6 +271,7 @@ struct Yielding {
     unstable: Option<Unstable>,
 }
 
+/// What the arm says of this posture: its compliance, and under a load what that does, or that the arm finds no rest.
 fn yielding(standing: &mut Standing<'_>, posture: &Posture, wrench: Option<Wrench>) -> Yielding {
     standing.stand(&posture.joints);
     let mut found = Yielding {
@@ -308,6 +318,7 @@ pub(crate) fn joint_positions(described: &RobotDescription, given: &[f64]) -> Re
     Ok(given.iter().enumerate().map(to_si).collect())
 }
 
+/// One posture in the units of the answer; without `yielding` no joint compliance is known.
 fn posture_answer(
     robot: &Robot,
     yielding: Option<Yielding>,
@@ -367,6 +378,7 @@ fn posture_answer(
     }
 }
 
+/// What follows from a compliance; `axis` is the tool axis in base.
 fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> StiffnessAnswer {
     let stiffness = stiffness_at_tool(compliance, WEIGHING_LENGTH);
     let by_force = by_force(compliance);
@@ -384,6 +396,7 @@ fn stiffness_answer(compliance: &Matrix6<f64>, axis: Unit<Vector3<f64>>) -> Stif
     }
 }
 
+/// Why there is no posture, in word and numbers.
 fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     let turned = match miss {
         Unreachable::NotFound { turned, .. } => Some(turned.to_degrees()),
@@ -398,6 +411,7 @@ fn unreachable_answer(miss: Unreachable) -> UnreachableAnswer {
     }
 }
 
+/// Caution first, then the note of the robot file, masses without gravity, and compliances that nobody knows.
 fn notes(described: &RobotDescription, question: &PoseQuestion, model: &StiffnessModel) -> Vec<String> {
     let said = question.caution.iter().chain(&described.note).cloned();
     let mut notes: Vec<String> = said.chain(left_out(model)).collect();
@@ -407,6 +421,7 @@ fn notes(described: &RobotDescription, question: &PoseQuestion, model: &Stiffnes
     notes
 }
 
+/// A matrix row by row.
 fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
     matrix
         .row_iter()
@@ -414,6 +429,7 @@ fn rows(matrix: &DMatrix<f64>) -> Vec<Vec<f64>> {
         .collect()
 }
 
+/// A 6 x 6 matrix row by row.
 fn six_rows(matrix: &Matrix6<f64>) -> [[f64; 6]; 6] {
     std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
 }

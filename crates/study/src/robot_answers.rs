@@ -284,6 +284,7 @@ impl KnownRobot {
 }
 
 impl KnownJoint {
+    /// Joint `index`, in the units of its kind.
     fn of(found: &RobotDescription, index: usize) -> KnownJoint {
         let robot = &found.robot;
         let (joint, note) = (&robot.joints()[index], &found.joint_notes[index]);
@@ -326,6 +327,7 @@ impl KnownJoint {
 }
 
 impl KnownStructure {
+    /// What its file tells beside the drives, in the units of such files.
     fn of(robot: &Robot) -> KnownStructure {
         let structure = robot.structure();
         let name = |joint: usize| robot.joints()[joint].name.clone();
@@ -389,7 +391,8 @@ pub fn seat_name(robot: &Robot, seat: Seat) -> String {
     }
 }
 
-/// The chain in words, one elementary motion each: `along z 450 mm (H)`, `about y by U, counted against the right hand`.
+/// The chain in words, one elementary motion each: `along z 450 mm (H)`,
+/// `about y by U, counted against the right hand`.
 pub fn chain(found: &RobotDescription) -> Vec<String> {
     let motions = found.robot.chain().motions().iter();
     let words = motions.zip(&found.symbols).map(|(motion, symbol)| {

@@ -1,4 +1,13 @@
 //! Runs a study: every ask through the core.
+//!
+//! | ask | door of the core | what comes out |
+//! |---|---|---|
+//! | map, sections | `plane_map`, once a plane | a `PlaneMap` each |
+//! | volume | `volume_map` | a `VolumeMap` |
+//! | path | `along_path`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` | a [`PathFound`] |
+//!
+//! Asks are done one after the other, the points of each on all threads. What comes out keeps hold of what was asked,
+//! so that answers and pictures need nothing else.
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Question, evaluate};
@@ -86,6 +95,9 @@ const WORST: usize = 5;
 pub(crate) const MOST_JUMPS: usize = 10;
 
 /// How many points the study asks for.
+///
+/// The points that the progress of `run` ends at: those of a path in a stock count twice, since the stock is cut in a
+/// pass of its own.
 pub fn point_count(study: &Study) -> usize {
     let of = |ask: &Ask| match &ask.subject {
         Subject::Map(sheet) => sheet.grid.len(),
@@ -101,6 +113,8 @@ pub fn point_count(study: &Study) -> usize {
 ///
 /// # Errors
 /// Cancelled by the watch; a robot without compliance; a path that misses its stock.
+///
+/// `watch` hears of every point and may cancel. The same study gives the same values on any number of threads.
 pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, StudyError> {
     let robot = &study.robot.robot;
     let compliance = robot.compliance().ok_or_else(|| {
@@ -122,6 +136,7 @@ pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, Stud
     study.asks.iter().map(done).collect()
 }
 
+/// What to ask oneself where a path and its stock do not meet.
 const BESIDE_STOCK: &str = "is the stock where the program cuts?";
 
 /// A path that misses its stock would hold any tolerance.
@@ -140,6 +155,7 @@ fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
     StudyError::value(message, BESIDE_STOCK)
 }
 
+/// The robot of the study, and who watches.
 struct Runner<'a> {
     robot: &'a Robot,
     compliance: &'a [JointCompliance],
@@ -147,6 +163,7 @@ struct Runner<'a> {
 }
 
 impl Runner<'_> {
+    /// What comes out of one ask.
     fn find<'s>(&self, ask: &'s Ask) -> Result<Found<'s>, StudyError> {
         Ok(match &ask.subject {
             Subject::Map(sheet) => Found::Map(sheet, self.map(sheet)?),
@@ -165,15 +182,18 @@ impl Runner<'_> {
         })
     }
 
+    /// The answers over one plane.
     fn map(&self, sheet: &Sheet) -> Result<PlaneMap, StudyError> {
         let question = self.question(&sheet.setting);
         Ok(plane_map(&question, sheet.setting.plane, sheet.grid, self.watch)?)
     }
 
+    /// The answers along a path, and all that follows from them in the branch that was followed.
     fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
         let along = along_path(&question, &ask.track, load, self.watch)?;
+        // What follows is asked in the branch that was chosen for the whole path.
         let question = Question {
             choice: along.choice,
             ..question
@@ -219,6 +239,8 @@ impl Runner<'_> {
         Ok((PathLoad::Cuts(found.cuts), Some(found.told)))
     }
 
+    /// One point of a path asked by itself: under the forces found there, in the branch that was followed, on a plane
+    /// through the TCP across the tool, so that shares and uncertainty are told.
     fn in_full(&self, ask: &PathAsk, along: &AlongPath, index: usize) -> Result<InFull, Cancelled> {
         let mut cases = vec![Wrench::ZERO; along.answers.case_count];
         ask.track.wrenches(&along.load, index, &mut cases);
@@ -246,6 +268,7 @@ impl Runner<'_> {
         })
     }
 
+    /// What the core is asked under this setting.
     fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
         Question {
             arm: Arm {

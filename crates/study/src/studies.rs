@@ -1,4 +1,6 @@
 //! Finding the study that a user means: a folder, a file, or an example by name.
+//!
+//! A folder means the `study.toml` in it. What is on disk comes before an example of the same name.
 
 use std::path::{Path, PathBuf};
 

@@ -1,8 +1,13 @@
-//! Warnings of a path: out of reach, jumps of the arm, points without force.
+//! Warnings of a path: out of reach, outside joint limits, jumps of the arm, points without force.
+//!
+//! Each is a sentence that begins with the name of the path; none stops the answer.
 
 use super::path::PathAnswer;
 
 /// What a user should know before trusting the result of a path.
+///
+/// In this order: points out of reach with what may be the reason, points outside joint limits, jumps, points whose
+/// deviation is zero only because no force is known there.
 pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let name = &path.name;
     let mut warnings = Vec::new();

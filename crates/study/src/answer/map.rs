@@ -1,4 +1,7 @@
-//! A map in the answer.
+//! A map in the answer: what of a plane holds the limit, how sure that is, and every point.
+//!
+//! In-plane coordinates are y' and z', mm from the centre of the plane: `y' = -x`, `z' = y` of the part frame. On a
+//! plane that is told by its tilt y' runs along base y.
 
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
@@ -64,6 +67,7 @@ pub struct CountsAnswer {
 }
 
 impl CountsAnswer {
+    /// The counts of the core under the names of the answer.
     pub(super) fn of(counts: &Counts) -> CountsAnswer {
         CountsAnswer {
             within: counts.within,
@@ -145,8 +149,10 @@ pub struct Remark {
     pub points: Vec<usize>,
 }
 
+/// What became of one plane; `name` is that of the ask, with the label of a section.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMap) -> MapAnswer {
     let counts = Counts::of(&map.answers, setting.limit);
+    // The TCP is the point of the plane, however the tool is turned.
     let at = |index: usize| {
         map.plane
             .base_from_tool(map.grid.point(index), 0.0)
@@ -175,6 +181,7 @@ pub(super) fn answer(study: &Study, name: &str, setting: &Setting, map: &PlaneMa
     }
 }
 
+/// Area, boundary and shapes inside, in mm.
 fn region_answer(region: &Region) -> RegionAnswer {
     RegionAnswer {
         area_mm2: region.area * 1e6,
@@ -185,6 +192,7 @@ fn region_answer(region: &Region) -> RegionAnswer {
     }
 }
 
+/// The region with [`COVERAGE`] standard uncertainties to spare, and with as many taken away.
 fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
     CertaintyAnswer {
         coverage_factor: COVERAGE,
@@ -198,6 +206,7 @@ fn certainty_answer(certainty: &Certainty) -> CertaintyAnswer {
     }
 }
 
+/// The lines of a boundary, in mm.
 fn boundary(region: &Region) -> Vec<Vec<[f64; 2]>> {
     let lines = region.boundary.iter();
     lines.map(|line| line.iter().map(in_plane).collect()).collect()
@@ -208,6 +217,7 @@ fn in_plane(at: &Point2<f64>) -> [f64; 2] {
     [without_rounding(-at.x * 1e3), without_rounding(at.y * 1e3)]
 }
 
+/// Every point, row by row; deviations rounded to 1e-4 um, probabilities to as many decimals.
 fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
     let grid = &map.grid;
     let four_decimals = |value: f64| (value * 1e4).round() / 1e4;
@@ -235,6 +245,8 @@ fn grid_answer(map: &PlaneMap, limit: f64) -> GridAnswer {
     }
 }
 
+/// Points that are not simply fine, by reason, in the order in which reasons first turn up. A point may have two:
+/// outside joint limits and near a singularity.
 fn remarks(map: &PlaneMap) -> Vec<Remark> {
     let mut remarks: Vec<Remark> = Vec::new();
     let mut add = |reason: &str, index: usize| match remarks.iter_mut().find(|r| r.reason == reason) {

@@ -3,8 +3,19 @@
 //! `maps[]` with `name, branch, fraction_within, max_in_plane_um, counts` and `paths[]` with `name, branch,
 //! max_in_plane_um, roundness_um` are a public contract.
 //!
-//! A file for each part: `map`, `volume`, `path`, `program` with `limits` and `measured`, `point`; `statement`, `cautions` and
-//! `sentence` say what they mean.
+//! Every key tells its unit, and `_u_` in it a standard uncertainty. Positions count from the frame `setting.base`,
+//! deviations are in base axes or in the parts that their keys name. What was not found or not asked is `null`.
+//!
+//! ```text
+//! robot         joints with what they yield
+//! maps[]        setting, counts, region, certainty, worst and best point, grid of all points
+//! paths[]       setting, worst_points, features, cut or measured, limits, program, joint ranges
+//! volumes[]     setting, counts, worst and best point
+//! statements[]  what others state, with a reading for each map or path it may speak of
+//! warnings[]    what to know before trusting it; sources[]: where its numbers come from
+//! ```
+//!
+//! A file for each part: `map`, `volume`, `path`, `point`; `statement`, `cautions` and `sentence` say what they mean.
 
 mod cautions;
 mod map;
@@ -78,6 +89,9 @@ pub struct RobotAnswer {
 }
 
 /// What a joint yields.
+///
+/// Of the two pairs of compliance and uncertainty the one of its kind has numbers, the other is `null`; both are where
+/// nothing is known.
 #[derive(Clone, Debug, Serialize)]
 pub struct JointAnswer {
     /// Its name.
@@ -102,6 +116,8 @@ enum Told {
 }
 
 /// The answer to `study` from what was done.
+///
+/// `done` is what `run` gave for this study, in the order of its asks; the answer has that order whatever the threads.
 pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
     let told = |done: &Done<'_>| match &done.found {
         Found::Map(sheet, map) => Told::Maps(vec![map::answer(study, done.name, &sheet.setting, map)]),
@@ -142,6 +158,7 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
     }
 }
 
+/// The robot as the study has it: with the compliances of the study and their source, where it brings some.
 fn robot_answer(study: &Study) -> RobotAnswer {
     let robot = &study.robot.robot;
     let own = study.own_compliance.as_ref().map(|own| own.source.clone());
@@ -174,7 +191,8 @@ fn robot_answer(study: &Study) -> RobotAnswer {
     }
 }
 
-/// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind `material:`.
+/// Sources of the coefficients that the forces of a cut are computed with; each key is the material's, behind
+/// `material:`.
 pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
     told_by(match cut.cutting.law {
         CuttingLaw::Mechanistic(_) => cut.material.mechanistic_sources(),
@@ -182,6 +200,7 @@ pub(crate) fn sources_of_cut(cut: &Cut) -> Vec<Source> {
     })
 }
 
+/// These sources of a material, their keys kept apart from those of the robot.
 fn told_by(sources: Vec<&Source>) -> Vec<Source> {
     let of_material = |source: &Source| Source {
         key: format!("material:{}", source.key),
@@ -190,6 +209,8 @@ fn told_by(sources: Vec<&Source>) -> Vec<Source> {
     sources.into_iter().map(of_material).collect()
 }
 
+/// Where the numbers of the study come from: the robot and what the study brings for it, then loads and tools, then
+/// materials of cuts and drills, each of these once.
 fn sources(study: &Study) -> Vec<Source> {
     let own = |key: &str, place: &str| Source {
         key: key.to_owned(),
@@ -234,6 +255,9 @@ fn sources(study: &Study) -> Vec<Source> {
     sources
 }
 
+/// What a user should know before trusting the answer, from the robot to its points: assumed compliances, limits that
+/// sources disagree about, what is out of reach or outside joint limits, a record whose begin is unsure, masses without
+/// gravity, the note of the robot file.
 fn warnings(
     study: &Study,
     maps: &[MapAnswer],
@@ -289,6 +313,8 @@ fn warnings(
 
 impl StudyAnswer {
     /// Whether every point of every map, path and box holds the limit.
+    ///
+    /// A point that is not reached does not hold it; one that is reached outside joint limits may.
     pub fn holds_everywhere(&self) -> bool {
         let maps = self.maps.iter().map(|map| map.fraction_within);
         let paths = self.paths.iter().map(|path| path.fraction_within);

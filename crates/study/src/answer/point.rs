@@ -1,4 +1,12 @@
 //! One point of an answer, and the setting that all points of an ask share.
+//!
+//! | part of the deviation | meaning |
+//! |---|---|
+//! | in-plane | across the normal of the plane: largest length of all load cases, what the limit is held against |
+//! | normal | along the outward normal, with its sign, of the case where it is largest by size |
+//! | full | largest length of all cases |
+//!
+//! Along a path the normal is the axis of the tool.
 
 use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::kernel::{Answers, Held};
@@ -47,6 +55,7 @@ pub struct SettingAnswer {
 }
 
 impl SettingAnswer {
+    /// The setting told in the frame that the study counts from; a load that turns with the feed in axes of the feed.
     pub(super) fn of(study: &Study, setting: &Setting) -> SettingAnswer {
         let robot = &study.robot.robot;
         let turns = setting.load.frame == LoadFrame::Feed;
@@ -120,6 +129,8 @@ impl PointAnswer {
         ]
     }
 
+    /// The point `at`: index among `answers`, what was held there, TCP (m, base). Permitted forces follow from the
+    /// compliance of the unloaded arm there.
     pub(super) fn of(
         study: &Study,
         setting: &Setting,
@@ -131,6 +142,7 @@ impl PointAnswer {
         let position = |(i, q): (usize, &f64)| if robot.slides(i) { q * 1e3 } else { q.to_degrees() };
         let compliance = by_force(&setting.compliance_at(robot, answers.joints_at(index)));
         let normal = setting.plane.normal();
+        // A case that is a moment alone has no direction.
         let along = Unit::try_new(setting.cases[held.deciding_case].force, 1e-12)
             .map(|f| permissible_force(&compliance, normal, f, setting.limit));
         let any = permissible_force_in_worst_direction(&compliance, normal, setting.limit).0;
@@ -158,6 +170,7 @@ impl PointAnswer {
     }
 }
 
+/// Three numbers as they were meant, without what changes of frame leave behind.
 fn clean(values: [f64; 3]) -> [f64; 3] {
     values.map(without_rounding)
 }

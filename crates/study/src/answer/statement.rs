@@ -1,4 +1,7 @@
 //! What others state, beside what was found here: consistent or not, never confirmed.
+//!
+//! A reading is consistent where its largest in-plane deviation is at most the stated bound. A source may leave tool,
+//! plane or branch open: then several readings can be.
 
 use serde::Serialize;
 
@@ -34,6 +37,7 @@ pub struct Reading {
     pub consistent: bool,
 }
 
+/// Every statement with a reading for each name it gives: of the path that is called so, else of the map or section.
 pub(super) fn answers(study: &Study, maps: &[MapAnswer], paths: &[PathAnswer]) -> Vec<StatementAnswer> {
     let of_map = |map: &MapAnswer| {
         (

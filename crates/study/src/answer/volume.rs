@@ -1,4 +1,7 @@
-//! A volume in the answer.
+//! A volume in the answer: what of a box holds the limit.
+//!
+//! Its points are counted, not listed: the tables have them all. The tool points as on the plane of the setting, whose
+//! normal tells in-plane from normal deviation.
 
 use armill_core::map::VolumeMap;
 use serde::Serialize;
@@ -36,6 +39,7 @@ pub struct VolumeAnswer {
     pub setting: SettingAnswer,
 }
 
+/// What became of the box that the ask called `name` asks for.
 pub(super) fn answer(study: &Study, name: &str, setting: &Setting, volume: &VolumeMap) -> VolumeAnswer {
     let counts = volume.counts(setting.limit);
     let point = |(index, held)| {

@@ -1,4 +1,12 @@
 //! One ask against its study: what it does not say it takes from there.
+//!
+//! | of the ask | against the study's |
+//! |---|---|
+//! | `plane`, `posture` | key by key; one way of telling the rotation of a plane replaces the other |
+//! | `tool`, `load`, `cut`, `base`, `limit_um` | in place of it, whole |
+//!
+//! Every part is checked whether the others are fine or not, so that all problems of an ask are told at once. Along a
+//! path the study's cut comes before its load.
 
 use std::path::Path;
 
@@ -80,6 +88,8 @@ impl Resolver<'_> {
         })
     }
 
+    /// Tells keys that mean nothing to this kind of ask, and a load that turns with a feed where nothing feeds: no key
+    /// is passed over in silence.
     fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {
         let t = self.table;
         let given = [
@@ -109,6 +119,7 @@ impl Resolver<'_> {
         }
     }
 
+    /// The plane of the study with what the ask changes of it.
     fn plane_table(&self) -> PlaneTable {
         let mut plane = self.file.plane.clone();
         if let Some(change) = &self.table.plane {
@@ -122,6 +133,8 @@ impl Resolver<'_> {
         plane
     }
 
+    /// What all points of the ask share; `None` where something of it is wrong, told at its place. Forces that come
+    /// with a path leave the cases empty.
     fn setting(
         &self,
         places: &mut Places<'_>,
@@ -195,6 +208,7 @@ impl Resolver<'_> {
         })
     }
 
+    /// The frame that coordinates count from, in base.
     fn base_from_counted(&self, places: &mut Places<'_>, name: &str) -> Option<Isometry> {
         let robot = &self.robot?.robot;
         let found = crate::base_from_counted(robot, name);
@@ -211,6 +225,7 @@ impl Resolver<'_> {
         own.or_else(|| self.file.posture.as_ref().and_then(&get))
     }
 
+    /// The posture asked for, of this robot where it is known.
     fn choice(&self, places: &mut Places<'_>) -> Option<BranchChoice> {
         let words = self.of_posture(|posture| posture.branch.as_ref());
         let words = words.map_or("nominal", String::as_str);
@@ -235,12 +250,14 @@ impl Resolver<'_> {
         }
     }
 
+    /// The plane with its grid, if its answers fit into memory.
     fn sheet(&self, places: &mut Places<'_>, setting: Setting, grid: Grid) -> Option<Sheet> {
         let points = grid.columns as f64 * grid.rows as f64;
         self.enough_memory(places, "plane.step_mm", points, &setting)?;
         Some(Sheet { setting, grid })
     }
 
+    /// The planes of a series, each with its label: the centre at each distance, or the plane at each tilt.
     fn sections(
         &self,
         places: &mut Places<'_>,
@@ -296,6 +313,7 @@ impl Resolver<'_> {
         Some(Subject::Sections(sections))
     }
 
+    /// The points of a box along the axes that its centre is told in.
     fn volume(&self, places: &mut Places<'_>, setting: Option<Setting>) -> Option<Subject> {
         let Some(table) = &self.table.in_box else {
             let hint = "box = { half_size_mm = [400, 400, 400], step_mm = 20 }";
@@ -321,6 +339,7 @@ impl Resolver<'_> {
         Some(Subject::Volume(setting, grid))
     }
 
+    /// `None`, and a problem at `path`, where so many points take more memory than a study may.
     fn enough_memory(
         &self,
         places: &mut Places<'_>,

@@ -1,4 +1,10 @@
 //! The joint compliances that a study brings: its own numbers, or those of a class.
+//!
+//! | `[compliance]` | what the joints yield | assumed |
+//! |---|---|---|
+//! | `rad_per_n_m`, `u_rad_per_n_m`, `source` | these numbers, one a joint, base to flange | where `assumed = true` |
+//! | `class` | mean and spread of published arms of that payload | always |
+//! | left out | what the robot file says; a problem where it says nothing | - |
 
 use armill_core::robot::{JointCompliance, Robot};
 
@@ -20,6 +26,10 @@ pub struct OwnCompliance {
 }
 
 impl OwnCompliance {
+    /// Source and caution of `[compliance]`.
+    ///
+    /// # Errors
+    /// A class whose robots do not read: a defect of the library.
     pub(super) fn of(table: &ComplianceTable) -> Result<OwnCompliance, StudyError> {
         let given = table.source.clone();
         Ok(match table.class {
@@ -39,6 +49,9 @@ impl OwnCompliance {
 
 /// The compliances of `[compliance]` for `robot`, if there are any and they are sound; none are needed where the
 /// robot has its own.
+///
+/// # Errors
+/// A class whose robots do not read: a defect of the library.
 pub(super) fn of_study(
     places: &mut Places<'_>,
     file: &StudyFile,
@@ -96,12 +109,15 @@ pub(super) fn of_study(
 }
 
 /// Compliances given one by one, checked.
+///
+/// `None` where something of them is wrong; an uncertainty that is left out is zero.
 fn given(
     places: &mut Places<'_>,
     table: &ComplianceTable,
     values: &[f64],
     joints: usize,
 ) -> Option<Vec<JointCompliance>> {
+    // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
     if table.source.is_none() {
         let hint = "add source = \"...\": who measured them, or that they are a guess";

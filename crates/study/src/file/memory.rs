@@ -1,4 +1,8 @@
 //! What the answers of a study take in memory: known, and refused where it is too much, before anything is allocated.
+//!
+//! `bytes = sum over asks of points (answers of a point + 256)`, at most 4 GiB for each plane, box or path, and for all
+//! together. The answers of a point grow with joints, shares and load cases. Points are counted in floating point: a
+//! grid that is too large may overflow an index.
 
 use armill_core::kernel::Answers;
 use armill_formats::robot::RobotDescription;
@@ -13,6 +17,7 @@ pub(super) const MOST_BYTES: f64 = 4.0 * GIB;
 /// What tables and pictures take beside the answers, bytes a point.
 pub(super) const BYTES_BESIDE: usize = 256;
 
+/// What to do where one ask is too large.
 const HINT: &str = "a larger step, or a smaller plane";
 
 /// Whether `points` of this setting under so many load cases fit; a problem at `path` if not.
@@ -55,6 +60,7 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
     }
 }
 
+/// What one point takes: its answers in the core, and tables and pictures beside them.
 fn bytes_per_point(robot: &RobotDescription, setting: &Setting, cases: usize) -> f64 {
     let joints = robot.robot.joints().len();
     let shares = setting.model.sharers(joints).len();

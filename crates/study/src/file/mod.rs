@@ -1,5 +1,9 @@
 //! What a user writes: the study file, format 1.
 //!
+//! ```text
+//! text -> Document -> StudyFile (schema walked, all slips told) -> Study: asks in SI, in base, checked
+//! ```
+//!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
 //! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
 //! [`positioner`]; `places` tells problems where they stand.

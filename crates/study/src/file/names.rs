@@ -1,4 +1,7 @@
 //! Names of asks: fit to name files by, told apart, and found by the statements that speak of them.
+//!
+//! A name becomes a part of file names by its letters and digits alone (`output::slug`). There must be at least one of
+//! them and not more than systems take; and no two asks, nor one ask and a picture of another, may give the same file.
 
 use armill_formats::document::{Document, Problem};
 
@@ -19,6 +22,9 @@ pub(super) fn name_of(table: &AskTable, index: usize) -> String {
 }
 
 /// Problems of statements that speak of no map, section or path.
+///
+/// A section is spoken of as `NAME: LABEL`; the labels of an ask with problems are not known, so names like that pass
+/// then.
 pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: &[Ask]) {
     let named = |kinds: &[AskKind], name: &str| {
         let of_kind = file
@@ -39,6 +45,7 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
         _ => Vec::new(),
     };
     let sections: Vec<String> = asks.iter().flat_map(sections).collect();
+    // A study without asks has one that it does not write.
     let all_asks_known = asks.len() == file.ask.len().max(1);
     for (index, statement) in file.statement.iter().enumerate() {
         for (k, name) in statement.of.iter().enumerate() {

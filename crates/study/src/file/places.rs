@@ -1,4 +1,7 @@
 //! Where a value of an ask stands in the file: in the ask itself, or in the study it takes it from.
+//!
+//! The value `limit_um` of the second ask is `ask[1].limit_um` where that ask writes it, else the study's `limit_um`;
+//! where neither does, it is missing in the ask.
 
 use armill_formats::document::{Document, Problem};
 
@@ -11,6 +14,7 @@ pub(super) struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
+    /// Problems of the ask with this index; of the study itself where there is none.
     pub(super) fn new(document: &'a Document, ask: Option<usize>) -> Places<'a> {
         Places {
             document,
@@ -33,6 +37,7 @@ impl<'a> Places<'a> {
             .push(self.document.problem(&place, message, Some(hint)));
     }
 
+    /// The path in the document of the value `path` of this ask.
     fn place(&self, path: &str) -> String {
         match self.ask.map(|index| format!("ask[{index}].{path}")) {
             Some(own) if self.document.contains(&own) || !self.document.contains(path) => own,

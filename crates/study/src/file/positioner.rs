@@ -3,6 +3,14 @@
 //! Its table is a frame that coordinates count from, and what it yields under the cut adds to what the arm yields: the
 //! part gives way to `-w` where the tool gives way to `w`, so each of its joints is a spring under the arm, at its own
 //! axis in base.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `base_from_root` | where the positioner stands, `base_from_root_mm_deg` | m, rad |
+//! | `q` | how it stands, `joints_deg`; the same all study long | rad (m) |
+//! | `S_k`, `c_k` | screw of its joint k about the origin of base, its compliance | -, rad/(N m) |
+//!
+//! Its own springs, masses and gravity are left out: only the compliances of its joints count.
 
 use std::path::Path;
 
@@ -27,8 +35,8 @@ use crate::robots;
 /// What its table is called where coordinates count from it.
 pub const TABLE: &str = "table";
 
-/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where something
-/// is wrong.
+/// The robot with the table of this positioner as a frame, its joints as springs, and its sources; unchanged where
+/// something is wrong.
 ///
 /// # Errors
 /// The problems of the positioner's file.
@@ -85,6 +93,7 @@ pub(super) fn beside(
     });
     let mut structure = robot.structure().clone();
     if let Some(compliances) = positioner.compliance() {
+        // Screws about the origin of base, first in axes of the positioner's root.
         let origin: Point3<f64> = base_from_root.inverse_transform_point(&Point3::origin());
         let screws = screws_at(positioner, &frames, &origin);
         structure

@@ -1,4 +1,7 @@
 //! Quantities of a study file, checked and told in SI.
+//!
+//! Millimetres become metres, degrees radians. A function that finds a problem tells it at the key `path` of the value
+//! and gives `None`.
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::load::{LoadCases, LoadFrame};
@@ -40,6 +43,9 @@ pub(super) fn sizes(places: &mut Places<'_>, path: &str, half_size_mm: &[f64]) -
 }
 
 /// The grid of a plane.
+///
+/// Points lie at whole steps from its centre, as far as the half sizes go; a problem where they are more than memory
+/// holds.
 pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> {
     let step = positive(places, "plane.step_mm", plane.step_mm);
     let half_mm = match plane.half_size_mm {
@@ -66,6 +72,9 @@ pub(super) fn grid(places: &mut Places<'_>, plane: &PlaneTable) -> Option<Grid> 
 }
 
 /// The plane in base, and its tilt (rad) where it was given by one.
+///
+/// `base_from_counted` is the frame that the table counts from. Without tilt and rotation the plane is vertical and
+/// faces the robot.
 pub(super) fn plane_at(
     places: &mut Places<'_>,
     table: &PlaneTable,
@@ -99,6 +108,8 @@ pub(super) fn plane_at(
 }
 
 /// The load cases in their own frame.
+///
+/// `None` where it has no case, or not one moment a case; moments that are left out are zero.
 pub(super) fn load_cases(places: &mut Places<'_>, table: &LoadTable) -> Option<LoadCases> {
     if table.cases_n.is_empty() {
         places.problem(

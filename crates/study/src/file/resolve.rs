@@ -1,4 +1,7 @@
 //! From the study file to what each ask means: in SI, in the robot's base, checked.
+//!
+//! Everything of the file is looked at before anything is refused: a value that is wrong for one ask does not hide
+//! those of the next, and a value of the study that several asks take is told once.
 
 use std::path::Path;
 
@@ -51,6 +54,8 @@ impl Study {
     }
 
     /// What the points of each ask share, ask by ask.
+    ///
+    /// Of sections the first stands for all: they differ in the plane alone.
     pub fn settings(&self) -> impl Iterator<Item = &Setting> {
         self.asks.iter().filter_map(|ask| match &ask.subject {
             Subject::Map(sheet) => Some(&sheet.setting),
@@ -157,6 +162,8 @@ impl Setting {
 ///
 /// # Errors
 /// Every problem of the file, each with its place.
+///
+/// A study without asks means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
     let document = Document::from_bytes(shown, bytes)?;
     let file: StudyFile = document.read()?;
@@ -229,6 +236,11 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
+/// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not
+/// found, told at its place.
+///
+/// # Errors
+/// The problems of a robot file; compliances or a positioner that the robot refuses.
 fn find_robot(
     places: &mut Places<'_>,
     file: &StudyFile,

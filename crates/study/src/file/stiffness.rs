@@ -1,4 +1,12 @@
 //! The stiffness model of an ask: what the robot file holds, and what the study adds to it.
+//!
+//! | from | what |
+//! |---|---|
+//! | robot file | springs, masses, compensator, torque curves, covariance |
+//! | `[[tool.spring]]`, `[[tool.mass]]` | what yields and weighs in holder, spindle and tool |
+//! | `tool.stick_out_mm` and what goes with it | a cutter that bends like a clamped bar, two springs |
+//! | `[gravity]` | where the tool was set, and where down is |
+//! | `load_dependent` | whether the load acts on the arm as it has yielded |
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::spring::cutter_springs;
@@ -17,6 +25,7 @@ pub(super) fn model(
     tool: Option<&ToolTable>,
     robot: &Robot,
 ) -> Option<StiffnessModel> {
+    // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
     let mut structure = robot.structure().clone();
     if let Some(tool) = tool {
@@ -48,6 +57,7 @@ impl ToolTable {
     }
 }
 
+/// Adds springs and masses of the tool, and the cutter where its stick-out is told.
 fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure: &mut Structure) {
     let joints: Vec<&str> = robot.joints().iter().map(|joint| joint.name.as_str()).collect();
     let mut tell = |table: String, fault: Fault| {
@@ -88,6 +98,7 @@ fn add_tool(places: &mut Places<'_>, tool: &ToolTable, robot: &Robot, structure:
     }
 }
 
+/// The two springs of a cutter, from mm and GPa.
 fn cutter(length_mm: f64, diameter_mm: f64, modulus_gpa: f64) -> [armill_core::robot::Spring; 2] {
     cutter_springs(length_mm * 1e-3, diameter_mm * 1e-3, modulus_gpa * 1e9)
 }
@@ -100,6 +111,8 @@ fn modulus(material: CutterMaterial) -> f64 {
     }
 }
 
+/// The gravity of `[gravity]`, in base; a problem where it would move nothing, has no direction, or counts joints
+/// wrongly.
 fn gravity(
     places: &mut Places<'_>,
     table: &GravityTable,
@@ -137,6 +150,8 @@ fn gravity(
 }
 
 /// Joint positions in SI from degrees (mm for sliding joints).
+///
+/// Not checked: that there is one a joint; what is missing or too much is left out.
 pub fn positions(robot: &Robot, given: &[f64]) -> Vec<f64> {
     let joints = 0..robot.joints().len();
     let si = |(joint, value): (usize, &f64)| {

@@ -1,4 +1,7 @@
 //! What is in a record, in numbers: before and after it was treated.
+//!
+//! Forces are in N along the axes of the sensor, times are those of the record. The size of a force
+//! is taken sample by sample, so its mean is not that of the components.
 
 use armill_core::load::Record;
 use armill_core::load::record::drift::Drift;
@@ -96,6 +99,7 @@ pub struct RevolutionsAnswer {
 }
 
 impl DriftAnswer {
+    /// What was taken off, and whether `air` had to be found.
     pub(crate) fn of(drift: &Drift, air: &Air) -> DriftAnswer {
         DriftAnswer {
             offset_n: drift.offset.into(),
@@ -108,6 +112,7 @@ impl DriftAnswer {
 }
 
 impl SummaryAnswer {
+    /// Over all samples of the record.
     fn of(record: &Record) -> SummaryAnswer {
         let axis = |axis: usize| RangeAnswer::of(record, |force| force[axis]);
         SummaryAnswer {
@@ -120,6 +125,7 @@ impl SummaryAnswer {
 }
 
 impl RangeAnswer {
+    /// Of one number a sample.
     fn of(record: &Record, value: impl Fn(&Vector3<f64>) -> f64) -> RangeAnswer {
         let (mut sum, mut least, mut greatest) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
         for force in record.force() {

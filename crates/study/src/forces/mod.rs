@@ -1,7 +1,11 @@
 //! Which force was measured, and what is left of it? A dynamometer's file from its text to the force that a study uses.
 //!
-//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle. [`answer`](mod@answer): what
-//! came of it, in numbers. [`output`]: tables and pictures of it.
+//! ```text
+//! file -> Measured (axes of the sensor) -> treat: drift off, low-pass, turns -> ForcesAnswer, tables, picture
+//! ```
+//!
+//! [`treat`](mod@treat): what is done to a record: drift taken off, low-pass, revolutions of the spindle.
+//! [`answer`](mod@answer): what came of it, in numbers. [`output`]: tables and pictures of it.
 
 pub mod answer;
 pub mod output;
@@ -61,6 +65,7 @@ pub fn read(
     let known = format::read(shown, BufReader::new(file), acts_on, wanted);
     let mut known = known.map_err(|problems| Unread::File(problems.into()))?;
     let count = known.records.len();
+    // One cycle needs no choice; of several none is taken by chance.
     let chosen = match (cycle, count) {
         (None, 1) => 1,
         (Some(cycle), _) if (1..=count).contains(&cycle) => cycle,

@@ -1,4 +1,10 @@
 //! Tables and pictures of a record.
+//!
+//! ```text
+//! forces.csv        time_s, fx_n, fy_n, fz_n, fx_before_n, fy_before_n, fz_before_n
+//! revolutions.csv   start_s, fx_mean_n, ... fz_mean_n, then least, most, strongest; where turns were counted
+//! forces.svg        each component and the size over time, before and after; forces.png is the same
+//! ```
 
 use std::path::{Path, PathBuf};
 
@@ -73,6 +79,8 @@ impl std::fmt::Display for Short {
 }
 
 /// The picture of a record.
+///
+/// Where turns were counted, the treated traces are their means.
 pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> ForcePlot {
     let before = &treated.before;
     let span_s = [before.begin(), before.end()];
@@ -110,6 +118,7 @@ pub(crate) fn plot((title, subtitle): (String, String), treated: &Treated) -> Fo
     }
 }
 
+/// A row a sample: the force as it was treated, and as it was measured.
 fn forces(treated: &Treated) -> Result<Table, StudyError> {
     let mut columns = vec![time("time_s", "instant", treated.before.time().to_vec())];
     for (suffix, what, record) in [
@@ -130,6 +139,7 @@ fn forces(treated: &Treated) -> Result<Table, StudyError> {
 /// A force of a turn.
 type OfTurn = fn(&Revolution) -> Vector3<f64>;
 
+/// A row a turn of the spindle.
 fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
     let starts = turns.iter().map(|turn| turn.start).collect();
     let mut columns = vec![time("start_s", "when the turn begins", starts)];
@@ -153,14 +163,17 @@ fn turns_table(turns: &[Revolution]) -> Result<Table, StudyError> {
     Ok(Table::new("revolutions", columns)?)
 }
 
+/// A column of instants, s.
 fn time(name: &str, description: &str, values: Vec<f64>) -> Column {
     column(name, "s", description, (TIME_DECIMALS, values))
 }
 
+/// A column of forces, N.
 fn force(name: &str, description: &str, values: Vec<f64>) -> Column {
     column(name, "N", description, (FORCE_DECIMALS, values))
 }
 
+/// A column whose every row has a number.
 fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
     Column {
         name: name.to_owned(),

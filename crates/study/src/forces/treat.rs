@@ -1,4 +1,5 @@
-//! What is done to a record: first the drift is taken off, then it is low-passed; turns of the spindle are of what is left.
+//! What is done to a record: first the drift is taken off, then it is low-passed; turns of the spindle are of what is
+//! left.
 
 use std::f64::consts::TAU;
 
@@ -54,6 +55,7 @@ pub struct Refusal {
 }
 
 impl Refusal {
+    /// A value that cannot be, by its key.
     pub(crate) fn new(key: &'static str, message: impl Into<String>, hint: impl Into<String>) -> Refusal {
         Refusal {
             key,
@@ -97,6 +99,7 @@ pub fn treat(record: Record, treatment: &Treatment) -> Result<Treated, Refusal> 
     })
 }
 
+/// The record without its drift, and the drift; `None` where it is to stay.
 fn without_drift(record: &Record, air: &Air) -> Result<Option<(Record, Drift)>, Refusal> {
     let found = match air {
         Air::Kept => return Ok(None),

@@ -1,4 +1,7 @@
 //! Springs with uncertainties, residuals, prediction of tests left out, outliers, what stays open: one JSON value.
+//!
+//! With a prior the fit weighs readings far off less (Huber), without one it is plain least squares. Residuals are
+//! predicted minus measured. How springs are found, and what the numbers mean: `docs/theory/identification.md`.
 
 use armill_core::identify::fit::Scatter;
 use armill_core::identify::{
@@ -135,6 +138,7 @@ pub struct TestAnswer {
 
 /// Measured displacements this much larger or smaller than those of a typical arm are of another unit.
 const TOO_LARGE: f64 = 300.0;
+/// The same to the other side.
 const TOO_SMALL: f64 = 0.01;
 /// Springs of which the tests tell less than this are named.
 const HARDLY_KNOWN: f64 = 0.5;
@@ -166,6 +170,7 @@ pub fn answer(robot: &Robot, tests: &LoadTests, question: &Question) -> Result<A
     Ok(told(robot, tests, question, unknowns, identified))
 }
 
+/// Refuses readings so far from those of a typical arm that a unit must be wrong.
 fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     let Some(ratio) = measured_over_typical(robot, tests) else {
         return Ok(());
@@ -183,6 +188,7 @@ fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     } else {
         return Ok(());
     };
+    // Told as a factor above 1, whichever way it is.
     let times = if ratio > 1.0 { ratio } else { 1.0 / ratio };
     let message =
         format!("readings are {times:.0} times {word} than those of a typical arm under these loads");
@@ -192,6 +198,7 @@ fn check_units(robot: &Robot, tests: &[LoadTest]) -> Result<(), StudyError> {
     ))
 }
 
+/// A refusal of the core, with what the user can do about it.
 fn refused(refusal: &Refusal, question: &Question) -> StudyError {
     let hint = match refusal {
         Refusal::TooFewReadings { .. } => {
@@ -212,6 +219,7 @@ fn refused(refusal: &Refusal, question: &Question) -> StudyError {
     StudyError::value(refusal.to_string(), hint)
 }
 
+/// What was found, in the units and names of the answer.
 fn told(
     robot: &Robot,
     tests: &LoadTests,
@@ -239,6 +247,7 @@ fn told(
         }
         let turns = unknown.turns();
         let (value, u) = (estimate.value, estimate.standard_uncertainty);
+        // A spring that came out rigid has no finite stiffness.
         let stiffness = (value > 0.0).then(|| 1.0 / value);
         springs.push(SpringAnswer {
             name: name.clone(),
@@ -308,6 +317,7 @@ fn told(
     }
 }
 
+/// One test, by axes of base; what was not measured stays empty.
 fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer {
     let mut answer = TestAnswer {
         name: name.to_owned(),
@@ -330,6 +340,8 @@ fn test_answer(name: &str, test: &LoadTest, outcome: &TestOutcome) -> TestAnswer
     answer
 }
 
+/// What a user should know: rows without a reading, springs that the tests hardly tell, residuals far beyond the stated
+/// uncertainties.
 fn notes(tests: &LoadTests, names: &[String], identified: &Identified) -> Vec<String> {
     let mut notes = Vec::new();
     if tests.empty_rows > 0 {

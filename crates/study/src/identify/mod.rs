@@ -1,5 +1,10 @@
 //! Load tests in, springs of the arm out: what `armill identify` answers.
 //!
+//! ```text
+//! robot + tests.csv + Question -> Answer -> robot file with the new compliances
+//! robot + Question + count     -> PlanAnswer: tests to do, as a table to fill in
+//! ```
+//!
 //! [`question`] (what is asked for, in the words of the command), [`answer`](mod@answer) (springs, uncertainties,
 //! residuals, as one JSON value), [`robot_file`] (the robot with its new compliances), [`plan`](mod@plan) (tests to do,
 //! as a table to fill in).

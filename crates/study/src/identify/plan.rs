@@ -1,4 +1,11 @@
 //! Tests to do: postures and pulls as a table to fill in.
+//!
+//! ```text
+//! test,A1_deg,...,A6_deg,fx_n,fy_n,fz_n,dx_mm,dy_mm,dz_mm,expected_dx_mm,expected_dy_mm,expected_dz_mm
+//! ```
+//!
+//! A row a test. `dx_mm` to `dz_mm` are empty, for what the gauge will show: loaded minus unloaded, base axes. Expected
+//! displacements are those of a typical arm. Sliding joints are in mm, and their columns say so.
 
 use armill_core::identify::{Floor, PlanQuestion, plan as core_plan};
 use armill_core::nalgebra::Vector3;
@@ -104,6 +111,7 @@ pub fn plan(
         })
         .collect();
     let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
+    // Tests in one posture stand next to each other.
     postures.dedup();
     let springs = unknowns
         .iter()

@@ -1,4 +1,11 @@
 //! What is asked for: which unknowns, which points, what is known beforehand.
+//!
+//! | group | unknowns |
+//! |---|---|
+//! | `drives` | the spring of every joint; always asked for |
+//! | `bending` | bearings and links: turns across the axes of turning joints |
+//! | `base`, `tool` | the floor: turns about axes of base; holder and tool: slides along axes of the flange |
+//! | `lost-motion` | the gap in every drive that turns |
 
 use armill_core::identify::effect::Effects;
 use armill_core::identify::unknown::{base, bending, drives, lost_motion, tool};

@@ -1,4 +1,7 @@
 //! The robot file with identified compliances: what later predictions use.
+//!
+//! It takes springs with their uncertainties, the covariance of those that turn, and a source that names the tests.
+//! Lost motion is left out.
 
 use armill_core::identify::Role;
 use armill_core::robot::Robot;

@@ -1,4 +1,7 @@
 //! The arm as the pictures need it: joint axes, flange and tool as points.
+//!
+//! Joint positions come in rad (m), points go out in mm, both in base; an axis is a unit vector from the origin of its
+//! joint.
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, Vector3};

@@ -25,6 +25,9 @@ pub(super) struct Folder<'a> {
 
 impl Folder<'_> {
     /// Writes a file beside its place; it takes its name soon after.
+    ///
+    /// # Errors
+    /// The file cannot be written; one that cannot take its name is told by [`write_together`].
     pub(super) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = PartFile::write(self.out.join(name), bytes)?;
         // The other end is open as long as this one.

@@ -1,4 +1,14 @@
 //! What keeps the tolerance along a path: a table of its points, and a picture of depth over feed.
+//!
+//! | column | unit | meaning |
+//! |---|---|---|
+//! | `line`, `distance_mm`, `in_plane_um` | -, mm, um | which point, and its deviation as the study cuts |
+//! | `permitted_along_n`, `_cross_n`, `_axial_n` | N | force along the feed, across it, along the tool, each alone |
+//! | `permitted_any_direction_n` | N | force in the direction that permits least |
+//! | `permitted_axial_depth_mm`, `_radial_depth_mm`, `_feed_per_tooth_mm` | mm | of the cut, all else as it is |
+//! | these with `_verdict` for `_mm` | - | `up to`, `at least` (more was not looked at), `nothing` |
+//!
+//! Columns of the cut are there only where some point has them.
 
 use armill_core::load::PathLoad;
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
@@ -15,6 +25,7 @@ use crate::run::PathFound;
 pub(super) const EXTENSION: &str = "limits.csv";
 /// Digits that a force (N) and a length (mm) of the table keep after the point.
 const N_DECIMALS: u8 = 2;
+/// Of lengths; the deviation has them too, in um.
 const MM_DECIMALS: u8 = 4;
 
 /// One row for each point that was asked; `None` where it was not.
@@ -99,6 +110,7 @@ pub(super) fn table(name: &str, ask: &PathAsk, found: &PathFound) -> Result<Opti
         }),
     ];
     let told = |part: Part| move |point: &PointLimits| point.cut.as_ref().and_then(part);
+    // Parts of the cut that no point tells get no column.
     for (name, description, part) in parts
         .into_iter()
         .filter(|(.., part)| points.iter().any(|p| told(*part)(p).is_some()))

@@ -1,10 +1,20 @@
 //! What a study leaves behind: `result.json`, tables, pictures and a report in one folder.
 //!
-//! Every file is written beside its place and renamed, and `result.json` comes last: a study that was killed
-//! leaves no half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does
-//! not write are removed.
+//! Every file is written beside its place and renamed, and `result.json` comes last: a study that was killed leaves no
+//! half file, and a folder without `result.json` is not finished. Files of an earlier run that this one does not write
+//! are removed.
 //!
-//! `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`, `path`, `limits`, `arm`, `report`: what they show.
+//! ```text
+//! result.json             the answer
+//! report.html             question, answer, inputs with sources, tables, pictures, warnings
+//! ASK.parquet, ASK.csv    a row a point; ASK.limits.csv: what a program permits
+//! ASK.vtp, ASK.vti        for ParaView: planes and paths, boxes
+//! ASK.svg, ASK-WHAT.svg   pictures, each as .png too
+//! .armill-files           the names of all these, for the next run
+//! ```
+//!
+//! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
+//! `path`, `limits`, `arm`, `report`: what they show.
 
 mod arm;
 mod folder;
@@ -87,6 +97,8 @@ pub(crate) fn is_picture_of(slug: &str, ask: &str) -> bool {
 }
 
 /// A part of a file name that every system takes: letters (of any script), digits and hyphens.
+///
+/// Different names may give the same; a name without letters and digits gives nothing.
 pub fn slug(name: &str) -> String {
     let mut slug = String::new();
     for c in name.chars() {
@@ -167,6 +179,7 @@ pub fn write(
 
 /// The answer, written last.
 const RESULT: &str = "result.json";
+/// The report, where pictures are drawn.
 const REPORT: &str = "report.html";
 
 /// The names of all files, the answer last.
@@ -188,6 +201,7 @@ fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
         .collect()
 }
 
+/// Writes every picture, and the report that holds them.
 fn save_pictures(
     study: &Study,
     answer: &StudyAnswer,

@@ -1,4 +1,15 @@
 //! Pictures of a path: where it deviates, how far along it, which joint is to blame, what a circle becomes, the arm.
+//!
+//! | file name ends in | shows | of |
+//! |---|---|---|
+//! | `vectors` | arrows of the deviation under each case | a shape under loads that are the same everywhere |
+//! | `track` | the path from above, coloured | every other path |
+//! | `along` | deviation over distance | every path |
+//! | `polar` | the circle that comes out, magnified | a circle |
+//! | `shares` | shares of the joints at the worst points | a path that is reached |
+//! | `process` | largest deviation over depth and feed per tooth | a cut |
+//! | `forces` | the record before and after treatment | measured forces |
+//! | `arm` | the arm at the worst point, faintly elsewhere | a path that is reached |
 
 use std::fmt::Write;
 
@@ -57,6 +68,7 @@ struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
+    /// A picture of this path: `what` ends its file name, `caption` follows the name of the path.
     fn picture(&self, what: &str, caption: &str, svg: String) -> Picture {
         Picture {
             name: format!("{}-{what}", super::slug(&self.told.name)),
@@ -78,6 +90,7 @@ impl Drawing<'_> {
         subtitle(&self.setting())
     }
 
+    /// NaN where the point is not reached: the drawing leaves a gap there.
     fn in_plane_um(&self, index: usize) -> f64 {
         let point = &self.found.along.answers.points[index];
         point.as_ref().map_or(f64::NAN, |held| held.in_plane * 1e6)
@@ -110,6 +123,7 @@ impl Drawing<'_> {
         self.picture("track", caption, self.track())
     }
 
+    /// The path seen along its z, stretch by stretch, with the worst points numbered.
     fn track(&self) -> String {
         let points = &self.ask.track.path.points;
         let at = |i: usize| [points[i].at.x * 1e3, points[i].at.y * 1e3];
@@ -154,6 +168,7 @@ impl Drawing<'_> {
         picture.to_svg()
     }
 
+    /// The shape on its plane with arrows at some of its points, drawn as seen from the tool side: y' to the left.
     fn vectors(&self) -> String {
         let (track, answers) = (&self.ask.track, &self.found.along.answers);
         let points = &track.path.points;

@@ -1,4 +1,13 @@
 //! Every picture of a study.
+//!
+//! | ask | pictures |
+//! |---|---|
+//! | map | the deviation over the plane, `region`; at the worst point `shares` (and at the best), `ellipse`, `arm` |
+//! | sections | one sheet with a panel a section |
+//! | volume | one sheet with slices of the box |
+//! | path | those of `path` |
+//!
+//! Asks are drawn on all threads, their pictures stand in the order of the asks.
 
 use armill_core::kernel::Answers;
 use armill_core::map::PlaneMap;
@@ -48,6 +57,7 @@ pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Ve
         .collect()
 }
 
+/// The pictures of one ask; `maps` and `path` are what the answer says of it.
 fn pictures_of(
     study: &Study,
     done: &Done<'_>,
@@ -98,6 +108,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
             continue;
         }
         let of_path = &path.setting;
+        // The same plane counted from the same frame.
         let apart =
             of_path.plane.base_from_part.to_homogeneous() - setting.plane.base_from_part.to_homogeneous();
         if apart.norm() > 1e-9 || of_path.base_name != setting.base_name {
@@ -159,6 +170,7 @@ fn worst_point(study: &Study, setting: &Setting, told: &MapAnswer, map: &PlaneMa
     ]
 }
 
+/// The bar of a point: shares of joints, whole deviation, its standard uncertainty.
 pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     ShareBar {
         label: label.to_owned(),
@@ -168,6 +180,7 @@ pub(super) fn share_bar(label: &str, point: &PointAnswer) -> ShareBar {
     }
 }
 
+/// Bars of several points under each other.
 pub(super) fn shares(
     study: &Study,
     title: &str,
@@ -184,6 +197,8 @@ pub(super) fn shares(
     picture.to_svg()
 }
 
+/// How far 1 N in the plane moves the tool in the plane: the compliance of the unloaded arm at this point, on base y
+/// (or y') and z'.
 fn ellipse(study: &Study, setting: &Setting, slug: &str, answers: &Answers, index: usize) -> Picture {
     let robot = &study.robot.robot;
     let compliance = setting.compliance_at(robot, answers.joints_at(index));
@@ -208,6 +223,7 @@ fn ellipse(study: &Study, setting: &Setting, slug: &str, answers: &Answers, inde
     }
 }
 
+/// The corners of the grid of a map, mm, base, in order round it.
 fn plate_corners(map: &PlaneMap) -> [[f64; 3]; 4] {
     let half = |count: usize| 0.5 * (count as f64 - 1.0) * map.grid.step;
     let (x, y) = (half(map.grid.columns), half(map.grid.rows));
@@ -223,6 +239,7 @@ fn plate_corners(map: &PlaneMap) -> [[f64; 3]; 4] {
     ]
 }
 
+/// The arm at these joint positions (rad, m), with the plate, from two sides.
 fn arm(study: &Study, setting: &Setting, (title, joints): (&str, &[f64]), plate_mm: [[f64; 3]; 4]) -> String {
     let drawing = ArmDrawing {
         title: title.to_owned(),

@@ -18,8 +18,10 @@ use crate::file::resolve::Setting;
 const SLICES: usize = 8;
 /// Panels in a row at most.
 const COLUMNS: usize = 4;
+/// What the colours mean.
 const QUANTITY: &str = "in-plane deviation (µm)";
 
+/// The axes of a plane: base y where it is told by a tilt, else its own y'.
 pub(super) fn axes(setting: &Setting) -> AxisLabels {
     let along_base_y = setting.tilt.is_some();
     AxisLabels {
@@ -56,6 +58,7 @@ pub(super) fn subtitle(setting: &Setting) -> String {
     )
 }
 
+/// The points of a map as a picture takes them: row by row, mm.
 pub(super) fn grid(map: &PlaneMap, setting: &Setting) -> Grid {
     let y0 = base_y(setting);
     Grid {
@@ -87,6 +90,7 @@ pub(super) fn base_y(setting: &Setting) -> f64 {
     }
 }
 
+/// What a point shows: its deviation, told apart outside joint limits, or that it is not reached.
 fn state(point: &Result<Held, Unreachable>) -> PointState {
     match point {
         Ok(held) if held.within_limits() => PointState::Reached(held.in_plane * 1e6),
@@ -95,6 +99,7 @@ fn state(point: &Result<Held, Unreachable>) -> PointState {
     }
 }
 
+/// The map of a plane with its best and worst point, and the region within the limit with what fits inside.
 pub(super) fn map_pictures(
     answer: &MapAnswer,
     setting: &Setting,
@@ -202,6 +207,7 @@ pub(super) fn sheet(name: &str, panels: Vec<Panel>, setting: &Setting, axes: Axi
     }
 }
 
+/// For a series, whose panels name their tilt.
 fn subtitle_without_tilt(setting: &Setting) -> String {
     subtitle(&Setting {
         tilt: None,
@@ -209,6 +215,7 @@ fn subtitle_without_tilt(setting: &Setting) -> String {
     })
 }
 
+/// One panel of a series; `fraction` of its points is within the limit.
 pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, fraction: f64) -> Panel {
     Panel {
         title: label.replace('-', "−"),
@@ -218,13 +225,17 @@ pub(super) fn section_panel(label: &str, map: &PlaneMap, setting: &Setting, frac
 }
 
 /// Slices of a box across base x, as seen from the robot.
+///
+/// At most [`SLICES`] of them, the first and the last among them; y grows to the left.
 pub(super) fn slices(name: &str, volume: &VolumeMap, setting: &Setting) -> Picture {
     let [nx, ny, nz] = volume.grid.counts;
     let count = nx.min(SLICES);
+    // Spread over the box, both ends among them.
     let chosen = (0..count).map(|k| if count == 1 { 0 } else { k * (nx - 1) / (count - 1) });
     let origin = setting.counted(&volume.grid.corner()) * 1e3;
     let step = volume.grid.step * 1e3;
     let panels = chosen.map(|i| {
+        // Rows upwards, y from right to left: as seen from the robot.
         let points = (0..nz).flat_map(|k| (0..ny).rev().map(move |j| i + nx * (j + ny * k)));
         let points: Vec<PointState> = points.map(|index| state(&volume.answers.points[index])).collect();
         let within = points

@@ -1,4 +1,8 @@
 //! The points of an ask, one after the other, as every table and picture needs them.
+//!
+//! A map, a volume and a path are one series, sections one each. Positions are in the frame that the study counts from;
+//! the order of the points is that of the answers: planes row by row, boxes x first, then y, then z, paths along the
+//! track.
 
 use std::ops::Range;
 

@@ -1,4 +1,7 @@
 //! What cuts along a path, what it met in the stock, and how its force gave way, in the answer.
+//!
+//! Largest forces are those of the cut as drawn, the tool where the program has it; deviations are those of the force
+//! at rest. Notes tell what was taken for granted on the way.
 
 use armill_core::map::Rested;
 use armill_core::path::Met;
@@ -57,6 +60,7 @@ pub struct RestAnswer {
 const MATTERS: f64 = 0.05;
 
 impl CutAnswer {
+    /// `None` where the study tells neither cut nor drill.
     pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<CutAnswer> {
         let of_cut = ask.cut.as_ref().map(|cut| &cut.material);
         let material = of_cut.or(ask.drill.as_ref().map(|drill| &drill.material))?;
@@ -73,6 +77,7 @@ impl CutAnswer {
 }
 
 impl StockAnswer {
+    /// What was met, in mm.
     pub(super) fn of(met: &Met) -> StockAnswer {
         StockAnswer {
             points_in_air: met.in_air,
@@ -86,6 +91,7 @@ impl StockAnswer {
 }
 
 impl RestAnswer {
+    /// How forces and tool rested, with the line where they first do not.
     pub(super) fn of(ask: &PathAsk, rested: &Rested) -> RestAnswer {
         RestAnswer {
             max_in_plane_if_drawn_um: rested.largest_if_drawn * 1e6,

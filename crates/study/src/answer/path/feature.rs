@@ -1,4 +1,13 @@
 //! What became of the features that a study marks in its program.
+//!
+//! | kind | what is told |
+//! |---|---|
+//! | `circle` | radius as programmed and its change, shift of the centre, roundness |
+//! | `line` | straightness across and along the tool, shift without the part along the line |
+//! | `plane` | flatness, shift along the tool |
+//! | `hole` | shift |
+//!
+//! Form errors are peak to valley; shifts are in the axes of the program.
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Became, Strayed, became};
@@ -23,8 +32,8 @@ pub struct FeatureAnswer {
     pub radius_mm: Option<f64>,
     /// Circle: what it became larger by.
     pub radius_change_um: Option<f64>,
-    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along the
-    /// tool.
+    /// How far its centre, axis or middle was moved; path axes. Of a line without the part along it, of a plane along
+    /// the tool.
     pub shift_um: Option<[f64; 3]>,
     /// Circle: peak to valley about the least-squares circle.
     pub roundness_um: Option<f64>,
@@ -38,6 +47,7 @@ pub struct FeatureAnswer {
     pub missing: Option<&'static str>,
 }
 
+/// Every feature under every load case, feature by feature, of the points whose lines it names.
 pub(super) fn features(ask: &PathAsk, found: &PathFound) -> Vec<FeatureAnswer> {
     let of = |feature: &FeatureTable| {
         let [first, last] = feature.lines;
@@ -52,6 +62,8 @@ pub(super) fn features(ask: &PathAsk, found: &PathFound) -> Vec<FeatureAnswer> {
     ask.features.iter().flat_map(of).collect()
 }
 
+/// One feature under one case. Without a result, and with the reason, where a point of it is not reached or its points
+/// make no such feature.
 fn of_case(
     (feature, case): (&FeatureTable, usize),
     points: &[usize],

@@ -1,4 +1,7 @@
-//! What a path permits, in the answer.
+//! What a path permits, in the answer: the least over its points, each with the line it comes from.
+//!
+//! A force is permitted by itself, in place of what the study has push; a depth or feed with all else as the study
+//! cuts. Lengths are in mm, forces in N, as told beside each value.
 
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
 use serde::Serialize;
@@ -43,6 +46,7 @@ pub struct LimitAnswer {
 }
 
 impl LimitsAnswer {
+    /// `None` where it was not asked, or cannot be told: of a model that changes with the load.
     pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<LimitsAnswer> {
         let limits = found.limits.as_ref()?;
         let line = |point: &PointLimits| ask.track.path.points[point.index].line;

@@ -47,6 +47,7 @@ pub struct MeasuredAnswer {
 }
 
 impl MeasuredAnswer {
+    /// The record as the study names and treats it, and the stretch of it that the program takes.
     pub(super) fn of(measured: &MeasuredForces) -> MeasuredAnswer {
         let (table, treated) = (&measured.table, &measured.treated);
         MeasuredAnswer {

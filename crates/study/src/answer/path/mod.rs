@@ -1,7 +1,13 @@
 //! A path in the answer: how far the tool deviates along it, where and why, and what became of what it makes.
 //!
-//! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what keeps
-//! the tolerance; `program`: what a program tells of it.
+//! | part of the deviation | meaning |
+//! |---|---|
+//! | in-plane | across the tool, of a shape in its plane: the largest of all cases, what the limit is held against |
+//! | along, cross | its parts forwards on the track and to the left of it: what is hardly seen, and what walls get |
+//! | axial | along the tool, from the part towards the spindle: what floors get |
+//!
+//! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what
+//! keeps the tolerance; `program`: what a program tells of it.
 
 mod cut;
 mod feature;
@@ -58,8 +64,8 @@ pub struct PathAnswer {
     pub max_axial_um: Option<f64>,
     /// Points within the limit over all points.
     pub fraction_within: f64,
-    /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to valley
-    /// about the least-squares circle).
+    /// Of circles reached everywhere, the path itself or its features: the largest roundness of all cases (peak to
+    /// valley about the least-squares circle).
     pub roundness_um: Option<f64>,
     /// On a circle: each case.
     pub circle_cases: Vec<CircleCase>,
@@ -102,6 +108,7 @@ pub struct CircleCase {
     pub roundness_um: f64,
 }
 
+/// What became of the path that the ask called `name` asks for.
 pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound) -> PathAnswer {
     let (setting, answers) = (&ask.setting, &found.along.answers);
     let held = || answers.held().map(|(_, held)| held);
@@ -174,6 +181,7 @@ fn largest_parts(ask: &PathAsk, found: &PathFound) -> [Option<f64>; 3] {
     std::array::from_fn(|i| largest.map(|largest| largest[i] * 1e6))
 }
 
+/// Each case of a circle that is a shape; none of other paths, nor of a circle that is not reached everywhere.
 fn circle_cases(found: &PathFound) -> Vec<CircleCase> {
     let um = |value: f64| value * 1e6;
     let of_case = |(case, radial): (usize, &armill_core::map::RadialDeviation)| CircleCase {
@@ -197,6 +205,7 @@ fn jumps(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<String> {
             ask.track.path.points[jump.index].line
         )
     });
+    // One more was looked for than is told.
     let more = (found.jumps.len() > MOST_JUMPS).then(|| "more jumps follow".to_owned());
     told.chain(more).collect()
 }
@@ -216,6 +225,7 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
     ranges.unwrap_or_default()
 }
 
+/// What was passed over or taken for granted: in the program, in the cut, in the record.
 fn notes(ask: &PathAsk, found: &PathFound) -> Vec<String> {
     let mut notes = program::notes(ask);
     notes.extend(cut::notes(ask, found));

@@ -37,6 +37,7 @@ pub struct OperationAnswer {
 }
 
 impl ProgramAnswer {
+    /// `None` of a shape.
     pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<ProgramAnswer> {
         let PathSource::Program { file, summary } = &ask.source else {
             return None;
@@ -51,6 +52,7 @@ impl ProgramAnswer {
     }
 }
 
+/// Each operation from its first point to the first of the next; those without a point are left out.
 fn operations(ask: &PathAsk, found: &PathFound) -> Vec<OperationAnswer> {
     let (all, points) = (&ask.track.path.operations, &found.along.answers.points);
     let of = |(i, (first, operation)): (usize, &(usize, Operation))| {

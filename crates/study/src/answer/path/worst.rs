@@ -1,4 +1,8 @@
 //! Where a path is worst, and why.
+//!
+//! The points are those that were asked once more by themselves, with shares and uncertainty, on a plane across the
+//! tool. Parts of the deviation are of the deciding case: `along` forwards on the track, `cross` to its left, `axial`
+//! from the part towards the spindle.
 
 use armill_core::kernel::Held;
 use serde::Serialize;
@@ -32,11 +36,13 @@ const SHARP: f64 = 0.5;
 /// A joint nearer to its limit than this is told, rad.
 const NEAR_LIMIT: f64 = 0.087;
 
+/// Worst first; a point that was not held when asked by itself is left out.
 pub(super) fn worst_points(study: &Study, ask: &PathAsk, found: &PathFound) -> Vec<WorstPoint> {
     let told = |worst: &InFull| of_point(study, ask, worst);
     found.worst.iter().filter_map(told).collect()
 }
 
+/// One point; its in-plane coordinates are on the plane of the study, not on the one across the tool.
 fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> {
     let held = *worst.answers.points.first()?.as_ref().ok()?;
     let here = &ask.track.path.points[worst.index];
@@ -59,10 +65,13 @@ fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> 
     })
 }
 
+/// In words, as far as they hold: whose share is largest, a singularity, a joint near its limit, a feed that turns
+/// sharply.
 fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &PointAnswer) -> String {
     let joints = study.robot.robot.joints();
     let names = ask.setting.model.sharer_names(joints);
     let shares = names.iter().zip(&point.joint_share_um);
+    // A share may work against the others: its size counts.
     let largest = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
     let mut parts: Vec<String> = largest
         .filter(|_| point.in_plane_um > 0.0)

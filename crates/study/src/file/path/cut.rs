@@ -1,4 +1,12 @@
 //! The cut of a study: cutter, material and depths, from which forces along a program come.
+//!
+//! | of the table | in the core |
+//! |---|---|
+//! | `law`, `material` | mechanistic: mean of the whole sets of the material; Kienzle: of its values, with ratios |
+//! | `side`, `radial_depth_mm` | on which side of the feed the part stands, and how far the cutter reaches into it |
+//! | `feed_mm_per_min`, `spindle_rpm` | m/s and rad/s, where the program tells none |
+//! | `u_percent` | standard uncertainty of all coefficients together, in place of the scatter of the sets |
+//! | `stock` | a box; the engagement is then what the tool meets there |
 
 use std::f64::consts::TAU;
 
@@ -121,6 +129,7 @@ const HELIX_DEG: f64 = 30.0;
 /// Ratios of radial and axial to cutting force where nobody tells them, each with its standard uncertainty: wide, since
 /// they follow edge, rake and helix.
 const RADIAL_RATIO: [f64; 2] = [0.3, 0.1];
+/// The same of the axial force.
 const AXIAL_RATIO: [f64; 2] = [0.2, 0.1];
 /// Standard uncertainty of coefficients that one set alone tells: half the scatter among sets of one alloy, whose
 /// Ktc differ by a factor of 2.2.
@@ -212,6 +221,7 @@ fn stock(places: &mut Places<'_>, table: &CutTable) -> Option<Option<Stock>> {
         .map(Some)
 }
 
+/// The library material called `name`; a problem at `key`, with the name most like it, where there is none.
 pub(super) fn material(places: &mut Places<'_>, key: &str, name: &str) -> Option<Material> {
     // Those of the library are read by its tests.
     match library::material(name) {
@@ -224,6 +234,7 @@ pub(super) fn material(places: &mut Places<'_>, key: &str, name: &str) -> Option
     }
 }
 
+/// The end mill of the table: flat without a corner radius, else with rounded corners.
 fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
     let diameter = table.diameter_mm * 1e-3;
     let corner = table.corner_radius_mm.unwrap_or(0.0) * 1e-3;
@@ -244,6 +255,7 @@ fn cutter(table: &CutterTable) -> Result<Cutter, CuttingError> {
         .with_runout(runout)
 }
 
+/// How the cutter stands in the part; only a slot needs no radial depth.
 fn immersion(places: &mut Places<'_>, table: &CutTable) -> Option<Immersion> {
     if table.side == SideName::Slot {
         return Some(Immersion::Slot);
@@ -261,6 +273,7 @@ fn immersion(places: &mut Places<'_>, table: &CutTable) -> Option<Immersion> {
     })
 }
 
+/// The law asked for, else the mechanistic one where the material has a whole set. `remarks` hears what was assumed.
 fn law(
     places: &mut Places<'_>,
     table: &CutTable,
@@ -349,6 +362,7 @@ pub(super) fn kienzle(
     })
 }
 
+/// Says what stands for the scatter where a material has a single set.
 pub(super) fn one_set_remark(material: &str) -> String {
     format!(
         "{material}: one set of coefficients alone is known; {:.0} % is taken as its standard uncertainty.",

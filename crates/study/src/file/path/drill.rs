@@ -1,4 +1,7 @@
 //! The drill of a program: its size, the material, and what the program does not tell.
+//!
+//! Thrust and torque come from the lips alone, by Kienzle's law of the material and a ratio of the force normal to a
+//! lip. The chisel edge is left out, and every answer says so.
 
 use std::f64::consts::TAU;
 
@@ -48,8 +51,8 @@ pub struct DrillCut {
 
 /// The common twist drill, deg.
 const POINT_DEG: f64 = 118.0;
-/// Normal over cutting force on a lip where nobody tells it, with its standard uncertainty: wide, since it follows rake,
-/// point and wear.
+/// Normal over cutting force on a lip where nobody tells it, with its standard uncertainty: wide, since it follows
+/// rake, point and wear.
 const NORMAL_RATIO: [f64; 2] = [0.5, 0.2];
 
 /// The drill of this table; `None` where it has problems.

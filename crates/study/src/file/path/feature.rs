@@ -56,6 +56,8 @@ impl FeatureName {
 }
 
 /// Whether every feature has points of the program; tells those that have none.
+///
+/// Lines are those of the program, counted from 1, both ends included.
 pub(super) fn features_have_points(
     places: &mut Places<'_>,
     table: &ProgramTable,

@@ -1,4 +1,17 @@
 //! What pushes on the tool along a path: given cases, a cut, a drill, or what was measured.
+//!
+//! The first of these that there is:
+//!
+//! | order | what pushes | told by |
+//! |---|---|---|
+//! | 1 | measured forces | `program.measured` of the ask |
+//! | 2 | a drill | `program.drill` of the ask |
+//! | 3 | a cut | `cut` of the ask |
+//! | 4 | given cases | `load` of the ask |
+//! | 5 | a cut, then given cases | `cut`, then `load` of the study |
+//!
+//! An ask that is no path has given cases alone. Two things of one ask are refused, but a cut that only predicts where
+//! a record begins.
 
 use std::path::Path;
 
@@ -101,6 +114,7 @@ pub(super) fn put_on(
     Ok(found.is_some())
 }
 
+/// Puts on the forces of a cut whose engagement is the same everywhere; a stock is cut when the study runs.
 fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<()> {
     let (path, placing) = (&ask.track.path, &ask.track.placing);
     let found = cut.cutting.along(path, placing, None, Watch::NONE);
@@ -111,6 +125,7 @@ fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<
     Some(())
 }
 
+/// Puts on thrust and torque of a drill.
 fn put_drill(places: &mut Places<'_>, drill: drill::DrillCut, ask: &mut PathAsk) -> Option<()> {
     let (path, placing) = (&ask.track.path, &ask.track.placing);
     let found = drill.drill.along(path, placing);

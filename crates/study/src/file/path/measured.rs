@@ -1,4 +1,5 @@
-//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in it.
+//! A measured force as the load of a program: its record, how it is turned and treated, and when the program begins in
+//! it.
 //!
 //! A point that the tip reaches at the time `t` of the program gets the force at `start + t` of the record, as the tool
 //! feels it. Moments are left out: they count from the origin of the sensor, wherever that is.
@@ -120,8 +121,10 @@ pub struct MeasuredForces {
 
 /// A lag that stands out from the second best by less than this may be the wrong one.
 const LOW_CONFIDENCE: f64 = 0.1;
-/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end count.
+/// A prediction is laid upon the record with so much of its time on either side without force, so that begin and end
+/// count.
 const MARGIN: f64 = 0.25;
+/// 1 mm/min in m/s.
 const M_S_PER_MM_MIN: f64 = 1e-3 / 60.0;
 
 impl MeasuredForces {
@@ -179,6 +182,8 @@ pub(super) fn along(
         .ok())
 }
 
+/// Turns the record to the tool and its frame, treats it, finds where the program begins in it, and takes the forces at
+/// its points.
 fn forces(
     table: &MeasuredTable,
     measured: Measured,
@@ -233,6 +238,7 @@ fn forces(
     Ok((load, forces))
 }
 
+/// Where drift is seen: told, to be found, or nowhere.
 fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     match (&table.air_s, table.drift) {
         (Some(_), Some(false)) => Err(Refusal::new(
@@ -246,6 +252,7 @@ fn air(table: &MeasuredTable) -> Result<Air, Refusal> {
     }
 }
 
+/// When the tip is at each point, from the begin of the first cut.
 fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
     let speed = |told: Option<f64>| told.filter(|v| *v > 0.0).map(|v| v * M_S_PER_MM_MIN);
     let speeds = Speeds {
@@ -263,6 +270,8 @@ fn clock(table: &MeasuredTable, track: &Track) -> Result<Clock, Refusal> {
 }
 
 /// When the first cut begins in the record, s.
+///
+/// With it the lag, where a prediction found it; exactly one of `start_s` and `synchronise` must tell.
 fn start(
     table: &MeasuredTable,
     record: &Record,
@@ -344,6 +353,9 @@ fn predicted(table: &MeasuredTable, track: &Track, cut: &Cut) -> Result<Vec<Vect
 }
 
 /// The forces at the points, and the largest of each case, N.
+///
+/// Where turns are counted their mean, on a line between the middles of two, else the force at that instant; with `peak`
+/// the strongest of the turn as a second case.
 fn at_points(
     table: &MeasuredTable,
     treated: &Treated,

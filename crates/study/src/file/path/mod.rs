@@ -1,7 +1,12 @@
 //! A path of an ask: a shape on the plane or a program, where it lies in the cell, and what pushes along it.
 //!
-//! `shape` and [`program`] give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given cases, a
-//! [`cut`], a [`drill`], or [`measured`] forces.
+//! ```text
+//! circle | line | polyline_mm | rectangle   part x, y on the plane, tool against its normal
+//! program.file                              part_from_path_mm_deg, tool_axis, spin
+//! ```
+//!
+//! `shape` and [`program`] give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given
+//! cases, a [`cut`], a [`drill`], or [`measured`] forces.
 
 pub mod cut;
 pub mod drill;
@@ -69,6 +74,8 @@ pub enum PathSource {
 
 impl PathAsk {
     /// Whether what keeps the tolerance is asked and can be told.
+    ///
+    /// A model in which the load changes the arm permits no limits.
     pub fn tells_limits(&self) -> bool {
         self.wants_limits && self.setting.model.is_affine()
     }

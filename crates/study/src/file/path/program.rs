@@ -1,4 +1,12 @@
 //! A tool path program: its file, where it lies on the part, how the tool is turned, how finely it is cut into points.
+//!
+//! | frame | what it is |
+//! |---|---|
+//! | `path` | what the program counts from, moved by `part_from_path_mm_deg` |
+//! | `part` | origin at the centre of the plane, z its outward normal |
+//!
+//! Lines become points at most `step_mm` apart, arcs so many that no chord leaves them by more than `chord_error_mm`.
+//! The reader hands its steps on one by one; at most `MOST_POINTS` points are made of them.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -98,6 +106,7 @@ pub enum RotariesName {
 }
 
 impl RotariesName {
+    /// As the reader of G-code knows them.
     fn rotaries(self) -> Rotaries {
         match self {
             RotariesName::TableAc => Rotaries::table_ac(),
@@ -132,6 +141,7 @@ pub enum SpinName {
 
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
+/// What to do where a file is not found.
 const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
@@ -249,6 +259,8 @@ pub(super) fn read(
 }
 
 /// Where the program lies, and how the tool is turned on it.
+///
+/// Without `tool_axis` and `spin` the tool points where the program says, and keeps one turn about its axis.
 pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry) -> Placing {
     let part_from_path = table
         .part_from_path_mm_deg

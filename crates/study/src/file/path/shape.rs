@@ -1,4 +1,7 @@
 //! A shape on the plane as points.
+//!
+//! Files tell points as (y', z') in mm from the centre of the plane; the core takes part axes, `x = -y'`, `y = z'`, in
+//! metres. Where `step_mm` is left out a circle has 360 points, any other shape the pitch of the plane.
 
 use armill_core::nalgebra::{Point2, Vector2};
 use armill_core::path::{SampledPath, Shape};
@@ -22,8 +25,8 @@ pub(super) fn count(table: &AskTable) -> usize {
     given.into_iter().filter(|given| *given).count()
 }
 
-/// The shape of an ask, which has one, cut into points; `None` where it has problems. A point every `step_mm` where the ask
-/// says nothing.
+/// The shape of an ask, which has one, cut into points; `None` where it has problems. `step_mm` is the pitch of the
+/// plane.
 pub(super) fn resolve(
     places: &mut Places<'_>,
     table: &AskTable,
@@ -53,6 +56,7 @@ pub(super) fn resolve(
     Some((shape.sampled(step), shape))
 }
 
+/// The shape of the table in part axes; `None` where it has none.
 fn shape(table: &AskTable) -> Option<Shape> {
     // The study's y' runs against x of the part.
     let at = |[y, z]: [f64; 2]| Point2::new(-y * 1e-3, z * 1e-3);

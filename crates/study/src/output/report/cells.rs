@@ -1,4 +1,7 @@
 //! How words and numbers stand in the tables of a report.
+//!
+//! A column with a unit holds numbers and is aligned by their ends; the first column names the row. A dash stands where
+//! there is no number.
 
 use armill_report::html::{Align, Column, Input, Table};
 

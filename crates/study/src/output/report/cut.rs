@@ -1,4 +1,7 @@
 //! The cut that forces come from: material with its coefficients, cutter, depths, feed and spindle, largest forces.
+//!
+//! Coefficients are told as catalogues do, N/mm² of the chip and N/mm of the edge, each with its standard uncertainty;
+//! lengths in mm, feed in mm/min, speed in rev/min.
 
 use std::f64::consts::TAU;
 
@@ -37,6 +40,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     told.into_iter().flat_map(of).collect()
 }
 
+/// The rows of one cut, from the material to the forces that came of it.
 fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Vec<Input> {
     let sources = sources_of_cut(cut);
     let places: Vec<String> = sources.iter().map(|source| place(answer, &source.key)).collect();
@@ -94,6 +98,7 @@ fn of_cut(answer: &StudyAnswer, (name, path): (&str, &PathAsk), cut: &Cut) -> Ve
     rows
 }
 
+/// The coefficients of the law with their source; ratios of Kienzle's law come from the study or are assumed.
 fn coefficients(law: &CuttingLaw, source: &str) -> Vec<Input> {
     let row = |name: &str, estimate: Estimate, per: f64, unit: &str| {
         let value = format!(
@@ -144,6 +149,7 @@ const MECHANISTIC: [&str; 6] = [
 /// No source of a material tells these.
 const THE_STUDY_OR_ASSUMED: &str = "the study; assumed by armill where it says nothing";
 
+/// A cutter as a catalogue tells it; what it does not have is left out.
 fn cutter(cutter: &Cutter) -> String {
     let mut parts = vec![format!("{} mm", plain(cutter.diameter() * 1e3))];
     let corner = cutter.corner_radius();

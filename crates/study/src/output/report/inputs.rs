@@ -1,4 +1,7 @@
 //! The numbers that went into the result, each with its source.
+//!
+//! Load, tool and tolerance are those of the first map of the answer, else of the first path, else of the first box. A
+//! long source that repeats from row to row is told once.
 
 use armill_report::html::Input;
 
@@ -31,6 +34,7 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
 
 /// A source longer than this stands once, not in every row below each other.
 const LONG: usize = 40;
+/// What stands in its place.
 const AS_ABOVE: &str = "as above";
 
 /// What and where a source is, by its key; the key itself where nobody lists it.
@@ -42,6 +46,7 @@ pub(super) fn place(answer: &StudyAnswer, key: &str) -> String {
     )
 }
 
+/// Robot and chain, then the compliance of each joint with its uncertainty.
 fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     let first = study.robot.joint_notes.first();
     let chain = first.and_then(|joint| joint.source.clone()).unwrap_or_default();
@@ -73,6 +78,7 @@ fn robot(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
     inputs
 }
 
+/// The given cases; none where forces come with a path.
 fn forces(setting: &SettingAnswer) -> Vec<Input> {
     let source = setting.load_source.as_deref().unwrap_or(THE_STUDY);
     let force = |(i, force): (usize, &[f64; 3])| {
@@ -85,6 +91,7 @@ fn forces(setting: &SettingAnswer) -> Vec<Input> {
 /// Source of what the user says.
 pub(super) const THE_STUDY: &str = "the study";
 
+/// Tolerance, tool, stiffness model and frame.
 fn others(answer: &StudyAnswer, setting: &SettingAnswer) -> Vec<Input> {
     let programs_alone = answer.maps.is_empty() && answer.paths.iter().all(|path| path.program.is_some());
     let tolerance = if programs_alone {

@@ -1,6 +1,9 @@
 //! The report: question, answer, tables, pictures, warnings, inputs with their sources; one HTML file.
 //!
-//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `program` with `cut`, `inputs`; `cells`: numbers in tables.
+//! It holds its pictures and needs no file beside it.
+//!
+//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `inputs` with `cut`; `cells`: numbers in
+//! tables.
 
 mod cells;
 mod cut;
@@ -16,6 +19,7 @@ use super::pictures::Picture;
 use crate::answer::StudyAnswer;
 use crate::file::resolve::Study;
 
+/// The whole page: a chapter only where the study asked for it, pictures in the order given.
 pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) -> String {
     let mut report = Report::new(&answer.title).answer(&answer.answer);
     if let Some(question) = &answer.question {

@@ -1,4 +1,7 @@
 //! Paths: how far the tool deviates, where and why, what became of features and operations.
+//!
+//! Two tables tell all paths, a row a path: deviations, and what was followed. Then each path has its own: worst
+//! points, features, what it permits, operations, notes. Columns that would be empty are left out.
 
 use armill_report::html::{Report, Table};
 
@@ -45,6 +48,7 @@ pub(super) fn tell(report: Report, paths: &[PathAnswer]) -> Report {
     report
 }
 
+/// How far the tool deviates: a row a path.
 fn deviations(paths: &[PathAnswer]) -> Table {
     let row = |path: &PathAnswer| {
         vec![
@@ -81,6 +85,7 @@ fn deviations(paths: &[PathAnswer]) -> Table {
     })
 }
 
+/// What was followed: files, lengths, times, and points that have no posture or no force.
 fn followed(paths: &[PathAnswer]) -> Table {
     let count = |points: usize| match points {
         0 => NONE.to_owned(),
@@ -141,6 +146,7 @@ fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     ];
     let row = |(what, limit): (&str, &Option<LimitAnswer>)| {
         let limit = limit.as_ref()?;
+        // A verdict of nothing has no number.
         let value = match limit.verdict {
             "nothing" => NONE.to_owned(),
             _ => format!("{:.3}", limit.value),
@@ -170,6 +176,7 @@ fn permitted(name: &str, limits: &LimitsAnswer) -> Table {
     }
 }
 
+/// Where one path is worst; the numbers are those of its pictures.
 fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
     let row = |(i, worst): (usize, &WorstPoint)| {
         let [along, cross, axial] =
@@ -210,6 +217,7 @@ fn worst_points(name: &str, points: &[WorstPoint]) -> Table {
     }
 }
 
+/// What became of the features of one path; the case is told where there are several.
 fn features(name: &str, features: &[FeatureAnswer]) -> Table {
     let several = features.iter().any(|feature| feature.case > 1);
     let row = |feature: &FeatureAnswer| {
@@ -266,6 +274,7 @@ fn tenths(value: f64) -> String {
     format!("{:.1}", if rounded == 0.0 { 0.0 } else { rounded })
 }
 
+/// The stretches of one program with the same tool and spindle speed.
 fn operations_table(name: &str, operations: &[OperationAnswer]) -> Table {
     let row = |operation: &OperationAnswer| {
         vec![

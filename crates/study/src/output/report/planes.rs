@@ -5,6 +5,7 @@ use armill_report::html::Table;
 use super::cells::{COUNT, columns, percent, um};
 use crate::answer::StudyAnswer;
 
+/// Every map and section, with what fraction holds the limit and how sure that is.
 pub(super) fn table(answer: &StudyAnswer) -> Table {
     Table {
         caption: "Fractions are of all points; named branches are judged whether their joints stand inside their limits or not. Surely and possibly: with twice the standard uncertainty added and taken away.".to_owned(),

@@ -5,6 +5,7 @@ use armill_report::html::Table;
 use super::cells::columns;
 use crate::answer::{StatementAnswer, StudyAnswer};
 
+/// A row a reading: its range of deviations against the stated bound.
 pub(super) fn tables(answer: &StudyAnswer) -> Vec<Table> {
     let table = |statement: &StatementAnswer| Table {
         caption: format!(

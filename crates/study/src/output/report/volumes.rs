@@ -5,6 +5,7 @@ use armill_report::html::Table;
 use super::cells::{COUNT, columns, percent};
 use crate::answer::StudyAnswer;
 
+/// Every box, with the volume that holds the limit.
 pub(super) fn table(answer: &StudyAnswer) -> Table {
     Table {
         caption: "Each point within stands for one cell of the pitch.".to_owned(),

@@ -1,7 +1,25 @@
 //! Tables of an ask: Parquet and CSV with one row a point, VTK for planes, paths and boxes.
 //!
-//! Positions count from the frame that the study names; deviations are in base axes, micrometres. `track`: what only
-//! paths have.
+//! Positions count from the frame that the study names; deviations are in base axes, micrometres.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `section` | label, of sections only |
+//! | `x_mm`, `y_mm`, `z_mm` | TCP |
+//! | `state` | `within`, `over_limit`, or why there is no posture |
+//! | `branch`, `singularity` | how the arm stands, and near what |
+//! | `line` to `axial_um` | of paths only: see `track` |
+//! | `limit_margin_deg` | least distance of a joint to its limit, deg (mm) |
+//! | `deciding_case` | the case with the largest in-plane deviation, from 1 |
+//! | `in_plane_um`, `in_plane_u_um`, `probability_within` | its deviation, u, chance to hold the limit |
+//! | `normal_um`, `full_um` | along the normal, whole length |
+//! | `joint_NAME_deg` (`_mm`) | joint positions as the robot file counts them |
+//! | `share_NAME_um` | shares of joints, base, flange, tool in the in-plane deviation |
+//! | `deviation_x_case_1_um`, ... | the deviation under each case |
+//!
+//! A point without posture has its place and state alone. Uncertainty, probability and shares are left out where the
+//! core tells none: along a path whose load differs from point to point, or whose tool leans. VTK has the envelopes,
+//! and the deviation of each case as an array of vectors.
 
 mod track;
 
@@ -22,6 +40,7 @@ use crate::run::{Done, Found};
 
 /// The file of an ask for ParaView.
 const IMAGE: &str = "vti";
+/// Likewise of a plane or path.
 const POLY_DATA: &str = "vtp";
 
 /// What the files of an ask end in.
@@ -62,6 +81,9 @@ fn has_csv(ask: &Ask, csv: Csv) -> bool {
 type Save<'a> = dyn Fn(&str, &[u8]) -> Result<(), StudyError> + Sync + 'a;
 
 /// Hands the files of one ask to `save`, extension and bytes.
+///
+/// # Errors
+/// That of `save`; a table or field that cannot be made, which would be a fault of armill.
 pub(super) fn files(
     study: &Study,
     (ask, done): (&Ask, &Done<'_>),
@@ -111,6 +133,7 @@ pub(super) fn files(
     of_table.and(of_field)
 }
 
+/// What a Parquet file says of itself: version, study, ask, robot.
 #[cfg(feature = "parquet")]
 fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadata {
     let entries = [
@@ -175,6 +198,7 @@ fn arrays(series: &[Rows<'_>]) -> Vec<PointArray> {
 /// Decimals that mean something: a nanometre of deviation, a degree of 1e-6 (some 0.02 um at an arm's length), a
 /// position as it was asked.
 const UM_DECIMALS: u8 = 3;
+/// Of angles.
 const DEG_DECIMALS: u8 = 6;
 
 /// A column of numbers that is yet to be filled.
@@ -187,9 +211,11 @@ struct Numbers<'a> {
     fill: Fill<'a>,
 }
 
+/// Takes a series, a range of its points, and the list to append to: `None` for a point without posture.
 type Fill<'a> = Box<dyn Fn(&Rows<'_>, Range<usize>, &mut Vec<Option<f64>>) + Send + Sync + 'a>;
 
 impl<'a> Numbers<'a> {
+    /// A column of micrometres: `um` gives the value of a point that is held.
     fn um(
         name: String,
         description: &'static str,
@@ -204,6 +230,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
+    /// The same of degrees.
     fn deg(
         name: String,
         description: &'static str,
@@ -216,6 +243,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
+    /// The column with its values.
     fn column(&self, values: Vec<Option<f64>>) -> Column {
         Column {
             name: self.name.clone(),
@@ -249,6 +277,7 @@ fn filled(numbers: &[Numbers<'_>], series: &[Rows<'_>]) -> Vec<Column> {
             .map(|(numbers, values)| numbers.column(values))
             .collect()
     };
+    // Each thread fills some columns, all of them point after point: what a point needs is then near.
     let share = numbers.len().div_ceil(rayon::current_num_threads());
     numbers.par_chunks(share).flat_map_iter(fill).collect()
 }
@@ -281,6 +310,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         series,
         |rows, i| Some(rows.answers.points[i].as_ref().ok()?.singularity?.word()),
     ));
+    // All series of an ask have the same columns.
     let numbers = series.first().map_or_else(Vec::new, |rows| {
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
         let mut columns = rows
@@ -296,6 +326,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
 /// Columns whose values are not told at every point where shares are not.
 const WITH_SHARES: [&str; 2] = ["in_plane_u_um", "probability_within"];
 
+/// The columns of numbers that every ask has; `sharers` are those that have shares.
 fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec<Numbers<'a>> {
     let (cases, shared) = (answers.case_count, answers.share_count > 0);
     let mut columns = vec![
@@ -390,6 +421,7 @@ fn numbers<'a>(study: &'a Study, sharers: Vec<String>, answers: &Answers) -> Vec
     columns
 }
 
+/// The column that tells to which section a point belongs.
 fn section(series: &[Rows<'_>]) -> Column {
     let codes = series
         .iter()

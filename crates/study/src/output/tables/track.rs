@@ -1,4 +1,11 @@
 //! Columns that only a path has.
+//!
+//! | column | unit | meaning |
+//! |---|---|---|
+//! | `line` | - | line of the program, or piece of the shape |
+//! | `distance_mm` | mm | along all cuts before |
+//! | `feed_mm_per_s` | mm/s | speed of the tip; empty where the program tells none |
+//! | `along_um`, `cross_um`, `axial_um` | um | parts of the deviation of the deciding case, seen from the track |
 
 use armill_core::path::{Pace, Parts, Track};
 

@@ -1,0 +1,127 @@
+//! The full model at many points: maps and known joints say what `predict` says.
+
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::kernel::{BranchChoice, Question, at_joints, evaluate};
+use armill_core::load::Doubt;
+use armill_core::nalgebra::{DMatrix, Unit, Vector3};
+use armill_core::robot::Structure;
+use armill_core::source::{Arm, StiffnessModel};
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+
+use crate::{arms, fanuc_masses, held, springs, weighing};
+
+#[test]
+fn maps_and_known_joints_say_what_predict_says_on_any_number_of_threads() {
+    let (robot, tool) = (arms::mh12(), arms::bent_tool());
+    let mut structure = Structure {
+        springs: springs(),
+        masses: fanuc_masses(),
+        ..Structure::EMPTY
+    };
+    structure.covariance = Some(DMatrix::identity(12, 12) * 1e-14);
+    let mut model = weighing(structure);
+    model.load_dependent = true;
+    let cases = [
+        Wrench::from_force(Vector3::new(3.0, 20.0, 5.0)),
+        Wrench {
+            force: Vector3::new(-20.0, 4.0, 1.0),
+            moment: Vector3::new(0.4, -1.5, 2.0),
+        },
+        Wrench::from_force(Vector3::new(3.0, -5.0, 1.0)),
+    ];
+    let arm = held(&robot, &model, &tool);
+    for choice in [
+        BranchChoice::Best,
+        BranchChoice::Of("front elbow-up".parse().unwrap()),
+    ] {
+        let question = Question {
+            arm: Arm {
+                robot: &robot,
+                compliance: robot.compliance().unwrap(),
+                model: &model,
+                flange_from_tool: &tool,
+            },
+            home: None,
+            doubt: Doubt::NONE,
+            cases: &cases,
+            normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
+            choice,
+        };
+        let pose = |i: usize| {
+            let at = Vector3::new(0.8, 0.01 * i as f64 - 0.5, 0.7);
+            from_xyz_and_fixed_angles(at, Vector3::new(0.3, 1.2, -0.4))
+        };
+        let all = evaluate(&question, 100, pose, Watch::NONE).unwrap();
+        let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let again = one.install(|| evaluate(&question, 100, pose, Watch::NONE).unwrap());
+        assert_eq!(all.deviations, again.deviations);
+        assert_eq!(all.shares, again.shares);
+        assert!(all.held().count() > 50);
+        for (i, point) in all.held() {
+            let q = all.joints_at(i);
+            for (deviation, wrench) in all.deviations_at(i).iter().zip(&cases) {
+                let witness = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
+                assert!((deviation - witness).norm() < 1e-13, "{deviation} {witness}");
+            }
+            // Shares add up to first order of a load-dependent model: its turns are some 1e-3 rad.
+            let sum: f64 = all.shares_at(i).iter().sum();
+            assert_eq!(all.shares_at(i).len(), 9);
+            assert!(
+                (sum - point.in_plane).abs() < 2e-2 * point.in_plane + 1e-6,
+                "{sum} {}",
+                point.in_plane
+            );
+            assert!(point.in_plane_uncertainty > 0.0);
+        }
+        let held = Arm {
+            robot: &robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let known = at_joints(&held, &cases, &all.joints, Watch::NONE).unwrap();
+        assert_eq!(known.screws.len(), 12 * 100);
+        for (i, _) in all.held() {
+            assert!(known.rests[i]);
+            for case in 0..3 {
+                assert!((known.deviations[3 * i + case] - all.deviations_at(i)[case]).norm() < 1e-13);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_load_that_no_arm_stands_is_a_state_of_its_points() {
+    let (robot, tool) = (arms::mh12(), Isometry::identity());
+    let model = StiffnessModel {
+        load_dependent: true,
+        ..StiffnessModel::DRIVES.clone()
+    };
+    let cases = [Wrench::from_force(Vector3::new(0.0, 0.0, -1e6))];
+    let question = Question {
+        arm: Arm {
+            robot: &robot,
+            compliance: robot.compliance().unwrap(),
+            model: &model,
+            flange_from_tool: &tool,
+        },
+        home: None,
+        doubt: Doubt::NONE,
+        cases: &cases,
+        normal: Vector3::z_axis(),
+        choice: BranchChoice::Of("front elbow-up".parse().unwrap()),
+    };
+    let pose = |_| from_xyz_and_fixed_angles(Vector3::new(0.9, 0.1, 0.8), Vector3::new(0.0, 1.5, 0.0));
+    let found = evaluate(&question, 1, pose, Watch::NONE).unwrap();
+    assert_eq!(found.points[0].as_ref().unwrap_err().word(), "unstable");
+    assert!(found.deviations.iter().all(|d| *d == Vector3::zeros()));
+    let held = Arm {
+        robot: &robot,
+        compliance: robot.compliance().unwrap(),
+        model: &model,
+        flange_from_tool: &tool,
+    };
+    let known = at_joints(&held, &cases, &[0.1; 6], Watch::NONE).unwrap();
+    assert_eq!((known.rests[0], known.deviations[0]), (false, Vector3::zeros()));
+}

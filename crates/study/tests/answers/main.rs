@@ -1,0 +1,62 @@
+//! Small studies through the library: answers against each other, against counting, and against what must hold.
+//!
+//! `counts`: points and what holds; `same_points`: one point asked in two ways; `paths`: shapes; `deviations`: what
+//! moves them; `told`: sentences, sources, warnings; `running`: reading, progress, files.
+
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+mod counts;
+mod deviations;
+mod paths;
+mod running;
+mod same_points;
+mod told;
+
+use std::path::Path;
+
+use armill_core::watch::Watch;
+use armill_study::answer::{MapAnswer, StudyAnswer, answer};
+use armill_study::file::resolve::{Study, read};
+use armill_study::run::{Done, run};
+
+/// 9 x 9 points in front of an MH12; tables can be appended.
+const PLATE: &str = r#"format = 1
+title = "Plate"
+robot = "yaskawa/mh12"
+limit_um = 60
+plane = { centre_mm = [900, 0, 800], tilt_deg = 0, half_size_mm = 200, step_mm = 50 }
+load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
+"#;
+
+/// Two ways of computing the same point: 1e-15 of a metre in the pose, times some 1e2 um/m of slope; in m.
+const SAME: f64 = 1e-15;
+
+/// The study in this text, which has no problem.
+fn study(text: &str) -> Study {
+    read("study.toml", Path::new("."), text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The plate with these asks, or whatever else its file shall say.
+fn plate_with(asks: &str) -> Study {
+    study(&format!("{PLATE}{asks}"))
+}
+
+/// What came out of each ask.
+fn found(study: &Study) -> Vec<Done<'_>> {
+    run(study, Watch::NONE).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The answer of a study.
+fn answered(study: &Study) -> StudyAnswer {
+    answer(study, &found(study))
+}
+
+/// The map or section of this name.
+fn map<'a>(answer: &'a StudyAnswer, name: &str) -> &'a MapAnswer {
+    answer
+        .maps
+        .iter()
+        .find(|map| map.name == name)
+        .unwrap_or_else(|| panic!("no map `{name}`"))
+}

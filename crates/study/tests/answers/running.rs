@@ -1,0 +1,108 @@
+//! A study as it is read and run: what is asked of it, progress, cancelling, files.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use armill_core::watch::Watch;
+use armill_study::answer::answer;
+use armill_study::file::resolve::read;
+use armill_study::output::{Wanted, write};
+use armill_study::run::{point_count, run};
+use armill_study::{ErrorKind, StudyError, library};
+
+use crate::{answered, found, plate_with};
+
+#[test]
+fn a_study_without_asks_maps_its_plane() {
+    let answer = answered(&plate_with(""));
+    assert_eq!((answer.maps.len(), answer.maps[0].name.as_str()), (1, "map"));
+    let statement = "[[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = 5\nof = [\"map\"]\n";
+    assert_eq!(answered(&plate_with(statement)).statements[0].readings.len(), 1);
+}
+
+#[test]
+fn every_example_study_reads() {
+    for example in library::STUDIES {
+        let read = read(example.path, Path::new(example.name), example.text.as_bytes());
+        assert!(read.is_ok(), "{}", read.unwrap_err());
+    }
+}
+
+#[test]
+fn an_ask_that_names_a_branch_keeps_the_home_of_the_study() {
+    let home = "posture = { branch = \"front elbow-up\", home_deg = [1, 2, 3, 4, 5, 6] }\n";
+    let study = plate_with(&format!(
+        "{home}[[ask]]\nkind = \"map\"\nposture.branch = \"front elbow-down\"\n"
+    ));
+    let setting = study.settings().next().unwrap();
+    assert_eq!(setting.branch(), "front elbow-down");
+    let home: Vec<f64> = setting.home.clone().unwrap();
+    assert!((home[5].to_degrees() - 6.0).abs() < 1e-12);
+}
+
+#[test]
+fn points_are_counted_before_they_are_asked() {
+    let study = plate_with(
+        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"sections\"\ntilts_deg = [0, 30]\n\
+         [[ask]]\nkind = \"volume\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n",
+    );
+    assert_eq!(point_count(&study), 81 + 2 * 81 + 27);
+    let told = std::sync::atomic::AtomicUsize::new(0);
+    let finished = |points: usize| {
+        told.fetch_add(points, std::sync::atomic::Ordering::Relaxed);
+    };
+    run(
+        &study,
+        Watch {
+            finished: &finished,
+            cancel: &AtomicBool::new(false),
+        },
+    )
+    .unwrap();
+    assert_eq!(
+        told.into_inner(),
+        point_count(&study),
+        "progress does not end at its end"
+    );
+}
+
+#[test]
+fn a_cancelled_study_says_so_and_has_no_answer() {
+    let watch = Watch {
+        finished: &|_| (),
+        cancel: &AtomicBool::new(true),
+    };
+    let error = run(&plate_with(""), watch).unwrap_err();
+    assert!(matches!(error, StudyError::Cancelled(_)), "{error}");
+    assert_eq!(error.kind(), ErrorKind::Cancelled);
+}
+
+#[test]
+fn the_same_study_gives_the_same_files() {
+    let study = plate_with(
+        "[[ask]]\nkind = \"map\"\n[[ask]]\nkind = \"path\"\ncircle.radius_mm = 100\nstep_mm = 30\n",
+    );
+    let folders = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
+    for folder in &folders {
+        let found = found(&study);
+        write(
+            &study,
+            &found,
+            &answer(&study, &found),
+            (folder.path(), Wanted::TABLES),
+            &|_| (),
+        )
+        .unwrap();
+    }
+    let mut names: Vec<_> = std::fs::read_dir(folders[0].path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name())
+        .collect();
+    names.sort();
+    // Three tables an ask, the answer, the list of files.
+    assert_eq!(names.len(), 2 * 3 + 2, "{names:?}");
+    for name in names {
+        let [a, b] = [0, 1].map(|i: usize| std::fs::read(folders[i].path().join(&name)).unwrap());
+        assert!(a == b, "{}", name.display());
+    }
+}

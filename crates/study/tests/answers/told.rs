@@ -1,0 +1,103 @@
+//! What an answer says besides numbers of points: statements, assumptions, sources, warnings, its sentence.
+
+use crate::{PLATE, answered, plate_with, study};
+
+#[test]
+fn a_statement_is_consistent_where_the_largest_deviation_is_within_its_bound() {
+    let most = answered(&plate_with("")).maps[0].max_in_plane_um.unwrap();
+    for (bound, consistent) in [(most * (1.0 - 1e-9), false), (most * (1.0 + 1e-9), true)] {
+        let statement = format!(
+            "[[ask]]\nkind = \"map\"\nname = \"m\"\n[[ask]]\nkind = \"map\"\nname = \"far\"\nplane.centre_mm = [9000, 0, 800]\n\
+             [[statement]]\ntext = \"t\"\nsource = \"s\"\nat_most_um = {bound}\nof = [\"m\", \"far\"]\n"
+        );
+        let answer = answered(&plate_with(&statement));
+        let readings = &answer.statements[0].readings;
+        assert_eq!(
+            (readings.len(), readings[0].consistent),
+            (2, consistent),
+            "{readings:?}"
+        );
+        assert_eq!(readings[0].in_plane_um.unwrap()[1], most);
+        assert!(
+            readings[1].in_plane_um.is_none() && !readings[1].consistent,
+            "what is not reached confirms nothing"
+        );
+    }
+}
+
+#[test]
+fn assumed_compliances_and_their_source_are_told() {
+    let own = "compliance = { rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6], source = \"a guess of mine\", assumed = true }\n";
+    let kuka = PLATE
+        .replace("yaskawa/mh12", "kuka/kr120r2500pro")
+        .replace("[900,", "[1500,");
+    let answer = answered(&study(&format!("{kuka}{own}")));
+    assert!(
+        answer.warnings.iter().any(|warning| warning.contains("assumed")),
+        "{:?}",
+        answer.warnings
+    );
+    assert!(
+        answer
+            .sources
+            .iter()
+            .any(|source| source.place == "a guess of mine")
+    );
+    assert!(
+        answer
+            .robot
+            .joints
+            .iter()
+            .all(|joint| joint.compliance_source == "a guess of mine")
+    );
+}
+
+#[test]
+fn a_box_alone_is_told_in_the_sentence_and_what_is_out_of_reach_in_warnings() {
+    let of_box =
+        "[[ask]]\nkind = \"volume\"\nname = \"v\"\nbox = { half_size_mm = [50, 50, 50], step_mm = 50 }\n";
+    let answer = answered(&plate_with(of_box));
+    assert!(
+        answer.answer.starts_with("v, branch ") && answer.answer.contains("% of the box"),
+        "{}",
+        answer.answer
+    );
+    let far = "plane = { centre_mm = [9000, 0, 800] }\n";
+    let path = "[[ask]]\nkind = \"path\"\nname = \"c\"\ncircle.radius_mm = 100\n";
+    let answer = answered(&plate_with(&format!("{of_box}{far}{path}{far}")));
+    for words in [
+        "v: no point of the box has a posture",
+        "c: 360 of 360 points are out of reach",
+    ] {
+        assert!(
+            answer.warnings.iter().any(|warning| warning.contains(words)),
+            "{words}: {:?}",
+            answer.warnings
+        );
+    }
+    assert!(
+        answer.answer.contains("reaches no point of the box"),
+        "{}",
+        answer.answer
+    );
+}
+
+#[test]
+fn sources_of_loads_and_of_what_the_tool_holds_stand_in_the_answer() {
+    let tool = "tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0], mass = [{ at = \"tool\", mass_kg = 5, centre_mm = [0, 0, -50], source = \"weighed\" }] }\n";
+    let ask = "[[ask]]\nkind = \"map\"\nload = { cases_n = [[1, 2, 3]], source = \"a dynamometer\" }\n";
+    let answer = answered(&plate_with(&format!("{tool}{ask}")));
+    let place = |key: &str| {
+        answer
+            .sources
+            .iter()
+            .find(|source| source.key == key)
+            .map(|source| source.place.clone())
+    };
+    assert_eq!(place("load").as_deref(), Some("a dynamometer"));
+    assert_eq!(place("tool").as_deref(), Some("weighed"));
+    assert_eq!(
+        answer.maps[0].setting.load_source.as_deref(),
+        Some("a dynamometer")
+    );
+}
