@@ -98,7 +98,8 @@ impl ProcessMap {
         if self.deviation_um.iter().any(|um| um.is_nan()) {
             return Some("A deviation is not a number.");
         }
-        (!self.limit_um.is_finite()).then_some("The limit is not a number.")
+        let limit = self.limit_um.is_finite() && self.limit_um > 0.0;
+        (!limit).then_some("The limit is not a number above zero.")
     }
 
     /// Bands, iso-lines, the line of the limit and labels, cut to the chart by the caller.

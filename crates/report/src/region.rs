@@ -132,10 +132,11 @@ impl RegionMap {
             Entry::new(Key::field(OVER), format!("over {limit} µm")),
             limit::entry(self.limit_um, ""),
         ]);
-        if self.rectangle.is_some() {
+        let (rectangle, circle) = self.fits();
+        if rectangle.is_some() {
             entries.push(Entry::line(rectangle_style(), "largest rectangle"));
         }
-        if self.circle.is_some() {
+        if circle.is_some() {
             entries.push(Entry::line(circle_style(), "largest circle"));
         }
         entries

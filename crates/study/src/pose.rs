@@ -26,6 +26,7 @@ use armill_formats::sources::Source;
 use serde::Serialize;
 
 use crate::StudyError;
+use crate::joint_unit::JointUnit;
 use crate::model_words::{left_out, parts};
 
 /// What is asked of one pose.
@@ -75,6 +76,8 @@ pub struct PoseAnswer {
     pub base: String,
     /// Names of the joints.
     pub joint_names: Vec<String>,
+    /// Units of their positions and of their distances to limits: deg, of a joint that slides mm.
+    pub joint_units: Vec<&'static str>,
     /// Whether the joint compliances are assumed, not measured.
     pub compliance_assumed: bool,
     /// Parts of the stiffness model that were on.
@@ -226,6 +229,9 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
         robot: robot.name().to_owned(),
         base: question.base.clone(),
         joint_names: robot.joints().iter().map(|joint| joint.name.clone()).collect(),
+        joint_units: (0..robot.joints().len())
+            .map(|joint| JointUnit::of(robot, joint).name)
+            .collect(),
         compliance_assumed: question.caution.is_some(),
         model: parts(robot, &model),
         shares_of: model.sharer_names(robot.joints()),
@@ -331,13 +337,7 @@ fn posture_answer(
         deviation,
         unstable,
     } = yielding.unwrap_or_default();
-    let from_si = |i: usize, value: f64| {
-        if robot.slides(i) {
-            value * 1e3
-        } else {
-            value.to_degrees()
-        }
-    };
+    let from_si = |i: usize, value: f64| value * JointUnit::of(robot, i).scale;
     let margin = robot.limit_margin(&posture.joints);
     let j = jacobian(robot, &posture.screws);
     let counted_from_tool = base_from_counted.inv_mul(&posture.base_from_tool);

@@ -12,7 +12,7 @@ use super::violation::Violation;
 /// The rule and its reason.
 pub const RULE: Rule = Rule {
     name: "unsafe code",
-    reason: "memory is safe because the compiler says so, and two calls that anyone can check",
+    reason: "memory is safe because the compiler says so, and a few calls that anyone can check",
     check,
 };
 

@@ -23,6 +23,7 @@ use armill_core::spatial::Wrench;
 use armill_core::workpiece::Plane;
 use armill_formats::robot::RobotDescription;
 use armill_study::file::quantities::pose_mm_deg;
+use armill_study::joint_unit::JointUnit;
 use armill_study::output::posture_drawing;
 use armill_study::pose::{At, PoseAnswer, PoseQuestion, PostureAnswer, answer};
 use armill_study::{ComplianceClass, StudyError, robots};
@@ -159,15 +160,32 @@ fn posture_text(answer: &PoseAnswer, posture: &PostureAnswer) -> Vec<String> {
     let joints = answer
         .joint_names
         .iter()
+        .zip(&answer.joint_units)
         .zip(&posture.joints_deg)
-        .map(|(name, q)| format!("{name} {:.3}", without_minus_zero(*q)));
+        .map(|((name, unit), q)| {
+            let slides = if *unit == JointUnit::SLIDING.name {
+                " mm"
+            } else {
+                ""
+            };
+            format!("{name} {:.3}{slides}", without_minus_zero(*q))
+        });
+    let unit_of = |joint: &String| {
+        let found = answer.joint_names.iter().position(|name| name == joint);
+        found.map_or("", |index| answer.joint_units[index])
+    };
     let joints = joints.collect::<Vec<_>>().join("  ");
     let mut lines = vec![posture.branch.clone()];
     let limits = match (&posture.limit_joint, posture.limit_margin_deg) {
         (Some(joint), Some(margin)) if posture.within_limits => {
-            format!("inside limits, {joint} nearest, by {margin:.1} deg")
+            format!(
+                "inside limits, {joint} nearest, by {margin:.1} {}",
+                unit_of(joint)
+            )
         }
-        (Some(joint), Some(margin)) => format!("OUTSIDE LIMITS, {joint} by {:.1} deg", -margin),
+        (Some(joint), Some(margin)) => {
+            format!("OUTSIDE LIMITS, {joint} by {:.1} {}", -margin, unit_of(joint))
+        }
         _ => "limits not known".to_owned(),
     };
     lines.push(format!("  joints      {joints}   ({limits})"));

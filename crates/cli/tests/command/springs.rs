@@ -147,3 +147,24 @@ fn a_joint_that_slides_is_told_in_mm_and_um_per_n() {
     assert_eq!(numbers(&sliding["limits_mm"]), [0.0, 250.0]);
     assert!(sliding.get("compliance_rad_per_n_m").is_none() && turning.get("limits_mm").is_none());
 }
+
+#[test]
+fn a_posture_tells_where_a_slide_stands_and_how_far_it_is_from_its_end_in_mm() {
+    let cell = Cell::new();
+    cell.file("lever.toml", LEVER);
+    // 0.1 mm from its end the slide is nearest: rad and m are compared as they are.
+    let said = cell
+        .armill(&["pose", "lever.toml", "--joints-deg", "10,249.9"])
+        .fine();
+    assert!(
+        said.out
+            .contains("A 10.000  B 249.900 mm   (inside limits, B nearest, by 0.1 mm)"),
+        "{}",
+        said.out
+    );
+    let json = cell
+        .armill(&["pose", "lever.toml", "--joints-deg", "10,249.9", "--json"])
+        .fine()
+        .json();
+    assert_eq!(json["joint_units"], serde_json::json!(["deg", "mm"]));
+}

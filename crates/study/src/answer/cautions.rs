@@ -38,7 +38,7 @@ pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
     let without_force = path.cut.as_ref().map_or(0, |cut| cut.points_without_force);
     if without_force > 0 {
         warnings.push(format!(
-            "{name}: {without_force} of {} points have no force (plunges and steep dives, where the bottom of the cutter cuts): their deviation is told as zero.",
+            "{name}: {without_force} of {} points have no force known (a cutter that plunges or dives steeply cuts with its bottom, a drill that goes sideways does not drill): their deviation is told as zero.",
             path.points
         ));
     }

@@ -74,7 +74,7 @@ impl Resolver<'_> {
                 .zip(grid)
                 .and_then(|(setting, grid)| self.sheet(places, setting, grid))
                 .map(Subject::Map),
-            AskKind::Sections => self.sections(places, setting, grid),
+            AskKind::Sections => self.sections(places, setting.and(push), grid),
             AskKind::Volume => self.volume(places, setting),
             AskKind::Path => {
                 let table = (self.table, plane.step_mm);
@@ -261,7 +261,7 @@ impl Resolver<'_> {
     fn sections(
         &self,
         places: &mut Places<'_>,
-        setting: Option<Setting>,
+        push: Option<Push<'_>>,
         grid: Option<Grid>,
     ) -> Option<Subject> {
         let given = |list: &Option<Vec<f64>>| list.as_ref().is_some_and(|list| !list.is_empty());
@@ -285,15 +285,11 @@ impl Resolver<'_> {
                 );
             }
         }
-        let (setting, grid) = (setting?, grid?);
+        let (push, grid) = (push?, grid?);
         let mut sections = Vec::new();
         let mut add = |places: &mut Places<'_>, label: String, plane: PlaneTable| {
-            let (plane, tilt) = plane_at(places, &plane, &setting.base_from_counted)?;
-            let setting = Setting {
-                plane,
-                tilt,
-                ..setting.clone()
-            };
+            // A load told in the part turns with the plane of each section.
+            let setting = self.setting(places, &plane, Some(push))?;
             sections.push((label, self.sheet(places, setting, grid)?));
             Some(())
         };

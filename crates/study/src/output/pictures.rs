@@ -12,6 +12,7 @@
 use armill_core::kernel::Answers;
 use armill_core::map::PlaneMap;
 use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::path::Shape;
 use armill_report::{ArmDrawing, Growth, Overlay, ShareBar, ShareBars, StiffnessEllipse, View};
 
 use rayon::prelude::*;
@@ -104,9 +105,7 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
         let Subject::Path(path) = &ask.subject else {
             continue;
         };
-        if path.shape().is_none() {
-            continue;
-        }
+        let Some(shape) = path.shape() else { continue };
         let of_path = &path.setting;
         // The same plane counted from the same frame.
         let apart =
@@ -117,7 +116,10 @@ fn overlays(study: &Study, setting: &Setting) -> Vec<Overlay> {
         let y0 = base_y(setting);
         let points = path.track.path.points.iter().map(|point| point.at);
         let mut points_mm: Vec<[f64; 2]> = points.map(|at| [y0 - at.x * 1e3, at.y * 1e3]).collect();
-        points_mm.extend(points_mm.first().copied());
+        // Of a circle the first point is not sampled again at its end.
+        if matches!(shape, Shape::Circle { .. }) {
+            points_mm.extend(points_mm.first().copied());
+        }
         if overlays.iter().all(|other| other.points_mm != points_mm) {
             overlays.push(Overlay {
                 label: "path".to_owned(),

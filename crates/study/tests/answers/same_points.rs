@@ -29,6 +29,22 @@ fn a_section_is_the_map_of_its_plane() {
 }
 
 #[test]
+fn a_load_told_in_the_part_turns_with_the_plane_of_each_section() {
+    let load = "load = { frame = \"part\", cases_n = [[3, 5, 7]], u_n = [1, 0.5, 0] }\n";
+    let answer = answered(&plate_with(&format!(
+        "[[ask]]\nkind = \"sections\"\nname = \"s\"\ntilts_deg = [0, 60]\n{load}\
+         [[ask]]\nkind = \"map\"\nname = \"tilted\"\nplane.tilt_deg = 60\n{load}"
+    )));
+    let (section, tilted) = (map(&answer, "s: tilt 60 deg"), map(&answer, "tilted"));
+    assert_eq!(section.setting.cases_n, tilted.setting.cases_n);
+    assert_ne!(
+        section.setting.cases_n,
+        map(&answer, "s: tilt 0 deg").setting.cases_n
+    );
+    assert_eq!(section.grid.in_plane_um, tilted.grid.in_plane_um);
+}
+
+#[test]
 fn a_volume_agrees_with_the_map_of_a_plane_through_it() {
     let study = plate_with(
         "[[ask]]\nkind = \"map\"\nname = \"m\"\n\

@@ -46,11 +46,14 @@ pub(super) fn as_text(robot: &Robot) -> Vec<String> {
         lines.push(format!("  spring at {}: {what}", seat_name(robot, spring.seat)));
     }
     for mass in &structure.masses {
-        let centre = axis(&(mass.centre.coords * 1e3));
+        let centre = mass.centre.coords * 1e3;
         lines.push(format!(
-            "  mass at {}: {} kg, centre {centre} mm",
+            "  mass at {}: {} kg, centre ({:.3}, {:.3}, {:.3}) mm",
             seat_name(robot, mass.seat),
-            mass.mass
+            mass.mass,
+            centre.x,
+            centre.y,
+            centre.z
         ));
     }
     for joint in 0..robot.joints().len() {

@@ -225,7 +225,7 @@ impl Machine {
     }
 
     /// The moves of one hole: above it, down to R, the strokes, and back. Behind G86 and G88 the spindle turns
-    /// clockwise, whichever way it did before.
+    /// as it did before.
     fn hole(&mut self, code: u16, hole: Hole, out: Out<'_>) -> Result<(), Refusal> {
         let [first, second, across] = self.plane.axes();
         let mut above = self.at;
@@ -253,7 +253,7 @@ impl Machine {
                     self.call(Canonical::ProgramStop, out)?;
                 }
                 self.across_to(hole.back, FAST, out)?;
-                return self.call(Canonical::StartSpindleClockwise, out);
+                return self.call(self.spindle.clone(), out);
             }
             _ => {}
         }

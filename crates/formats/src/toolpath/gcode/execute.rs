@@ -139,8 +139,13 @@ impl Machine {
             self.call(Canonical::ChangeTool(self.tool), out)?;
         }
         match block.m[groups::SPINDLE] {
-            Some((3, _)) => self.call(Canonical::StartSpindleClockwise, out)?,
-            Some((4, _)) => self.call(Canonical::StartSpindleCounterclockwise, out)?,
+            Some((code @ (3 | 4), _)) => {
+                self.spindle = match code {
+                    3 => Canonical::StartSpindleClockwise,
+                    _ => Canonical::StartSpindleCounterclockwise,
+                };
+                self.call(self.spindle.clone(), out)?;
+            }
             Some((5, _)) => self.call(Canonical::StopSpindleTurning, out)?,
             // M19 turns the spindle to an angle, which is not followed.
             Some(_) => [b'r', b'p', b'q'].iter().for_each(|letter| {

@@ -76,6 +76,8 @@ pub(super) struct Machine {
     pub at: Axes,
     /// Number of the tool that T chose.
     pub selected: u32,
+    /// The call that started the spindle last: drilling cycles that stop it start it so again.
+    pub spindle: Canonical,
     /// Number of the tool in the spindle.
     pub tool: u32,
     pub cycle: Cycle,
@@ -149,6 +151,7 @@ impl Machine {
             at: [0.0; 6],
             selected: 0,
             tool: 0,
+            spindle: Canonical::StartSpindleClockwise,
             cycle: Cycle::default(),
             cutter: Cutter::default(),
             centre: false,

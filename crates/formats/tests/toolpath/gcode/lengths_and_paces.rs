@@ -7,7 +7,7 @@ use armill_core::path::Pace;
 use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::gcode::{Tool, ToolTable, Wanted, Warning};
 
-use super::program::{ends, path, read};
+use super::program::{calls, ends, path, read};
 
 #[test]
 fn lengths_speeds_and_angles_are_si() {
@@ -30,6 +30,24 @@ fn lengths_speeds_and_angles_are_si() {
         "60 turns a minute, counterclockwise: two roundings"
     );
     assert_eq!(program.moves[2].line, 4);
+}
+
+#[test]
+fn a_cycle_that_stops_the_spindle_starts_it_again_as_it_turned() {
+    for (start, called) in [
+        ("M3", "START_SPINDLE_CLOCKWISE(0)"),
+        ("M4", "START_SPINDLE_COUNTERCLOCKWISE(0)"),
+    ] {
+        for cycle in ["G86", "G88"] {
+            let program = format!("G21 S60 {start}\nG0 X0 Y0 Z5\n{cycle} X1 Z-1 R1 P0 F60\n");
+            let calls = calls(&program);
+            let starts = calls.iter().filter(|call| call.starts_with("START_SPINDLE"));
+            assert!(
+                starts.clone().count() == 2 && starts.clone().all(|call| call == called),
+                "{calls:?}"
+            );
+        }
+    }
 }
 
 #[test]
