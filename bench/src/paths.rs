@@ -97,8 +97,7 @@ impl Paths {
                 ..SampledPath::default()
             },
             placing: placing(),
-            base_from_part: placing().base_from_path,
-        }
+            base_from_part: placing().base_from_path, spins: None, }
     }
 }
 

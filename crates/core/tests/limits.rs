@@ -56,6 +56,7 @@ fn track() -> Track {
             spin: Spin::Fixed(0.0),
         },
         base_from_part,
+        spins: None,
     }
 }
 

@@ -366,6 +366,7 @@ fn a_circle_under_constant_load_shifts_and_goes_out_of_round() {
         path: circle.sampled(0.01),
         placing: Placing::on_plane(&plane),
         base_from_part: plane.base_from_part,
+        spins: None,
     };
     let load = PathLoad::Cases(LoadCases {
         frame: LoadFrame::Base,
@@ -403,6 +404,7 @@ fn a_steady_load_gives_the_same_deviation_whichever_way_it_is_worked_out() {
         path: Shape::rectangle(Point2::origin(), Vector2::new(0.2, 0.1)).sampled(0.01),
         placing: Placing::on_plane(&plane),
         base_from_part: plane.base_from_part,
+        spins: None,
     };
     let of_each = PathLoad::OfEach {
         cases: 4,

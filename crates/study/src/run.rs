@@ -193,11 +193,6 @@ impl Runner<'_> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
         let along = along_path(&question, &ask.track, load, self.watch)?;
-        // What follows is asked in the branch that was chosen for the whole path.
-        let question = Question {
-            choice: along.choice,
-            ..question
-        };
         let limits = match ask.tells_limits() {
             true => program_limits(&question, &ask.track, &along, ask.setting.limit, self.watch)?,
             false => None,
@@ -255,7 +250,7 @@ impl Runner<'_> {
             plane: across,
             tilt: None,
             cases,
-            choice: along.choice,
+            choice: along.choice_at(index),
             // The arm stands as it does on the path, whatever its joints to spare.
             home: Some(along.answers.joints_at(index).to_vec()),
             ..ask.setting.clone()

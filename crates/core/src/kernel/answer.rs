@@ -94,6 +94,19 @@ impl Answers {
         }
     }
 
+    /// The answers to one question at stretches of points, one behind the other; at least one.
+    pub(crate) fn joined(stretches: Vec<Answers>) -> Answers {
+        let mut stretches = stretches.into_iter();
+        let mut joined = stretches.next().expect("one stretch at least");
+        for more in stretches {
+            joined.points.extend(more.points);
+            joined.joints.extend(more.joints);
+            joined.deviations.extend(more.deviations);
+            joined.shares.extend(more.shares);
+        }
+        joined
+    }
+
     /// Where the answers go, in blocks of so many points.
     pub(super) fn blocks(&mut self, size: usize) -> Vec<Slots<'_>> {
         let mut rest = Slots {

@@ -8,10 +8,11 @@
 //! gives the same bits.
 //!
 //! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
-//! points that each have a load of their own.
+//! points that each have a load of their own; `column`: every posture of a few poses.
 
 mod answer;
 mod at_joints;
+mod column;
 mod general;
 // Loops over lanes index many planes at once.
 #[allow(clippy::needless_range_loop)]
@@ -22,6 +23,7 @@ mod solver;
 
 pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, at_joints};
+pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
 pub use question::{BranchChoice, Question};
 

@@ -20,8 +20,8 @@ const SPREAD: usize = 400;
 /// Answers along a path.
 #[derive(Clone, Debug)]
 pub struct AlongPath {
-    /// The branch it was followed in.
-    pub choice: BranchChoice,
+    /// The branch it was followed in, each from the point with that index on; the first from point 0.
+    pub choices: Vec<(usize, BranchChoice)>,
     /// What came out at each point; in-plane is across the tool, normal along it. Shares and uncertainties where the load
     /// is the same at all points and the tool does not lean ([`Answers::share_count`] is zero otherwise).
     pub answers: Answers,
@@ -60,49 +60,101 @@ pub fn along_path(
     load: PathLoad,
     watch: Watch<'_>,
 ) -> Result<AlongPath, Cancelled> {
-    assert!(load.covers(track.len()), "a load for each point of the track");
-    let mut cases = vec![Wrench::ZERO; load.case_count()];
+    let cases = vec![Wrench::ZERO; load.case_count()];
     let asked = Question {
         cases: &cases,
         ..*question
     };
+    assert!(load.covers(track.len()), "a load for each point of the track");
     let choice = chosen(&asked, track, &load, watch)?;
+    along_postures(question, (track, load), vec![(0, choice)], watch)
+}
+
+/// [`along_path`] in branches that are known: each of `choices` from the point with that index on, in order.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If the load does not [cover](PathLoad::covers) the points of the track, or the first choice does not begin at point 0.
+pub fn along_postures(
+    question: &Question<'_>,
+    (track, load): (&Track, PathLoad),
+    choices: Vec<(usize, BranchChoice)>,
+    watch: Watch<'_>,
+) -> Result<AlongPath, Cancelled> {
+    assert!(load.covers(track.len()), "a load for each point of the track");
+    assert!(
+        choices.first().is_some_and(|(first, _)| *first == 0),
+        "a choice from the first point on"
+    );
+    let mut cases = vec![Wrench::ZERO; load.case_count()];
     let steady = track.steady_normal().filter(|_| load.is_steady());
     if steady.is_some() {
         track.wrenches(&load, 0, &mut cases);
     }
     let asked = Question {
         cases: &cases,
-        choice,
         normal: steady.unwrap_or(question.normal),
         ..*question
     };
-    let (count, stop) = (track.len(), |i| track.stop(i));
-    let (mut answers, load, rested) = match load {
+    let ends = choices
+        .iter()
+        .skip(1)
+        .map(|(first, _)| *first)
+        .chain([track.len()]);
+    let runs = || {
+        choices
+            .iter()
+            .zip(ends.clone())
+            .map(|((first, choice), end)| (*first..end, *choice))
+    };
+    let mut answers: Vec<Answers> = Vec::with_capacity(choices.len());
+    let mut rest = |load: &mut dyn FnMut(usize, Option<&TipYield>, &mut [Wrench])| {
+        for (run, choice) in runs() {
+            let asked = Question { choice, ..asked };
+            let of_run = |i: usize, tip: Option<&TipYield>, out: &mut [Wrench]| load(run.start + i, tip, out);
+            let stop = |i| track.stop(run.start + i);
+            answers.push(evaluate_loaded(&asked, run.len(), stop, of_run, watch)?);
+        }
+        Ok(())
+    };
+    let (load, rested) = match load {
         load if steady.is_some() => {
-            let answers = evaluate_in_order(&asked, count, |i| stop(i).base_from_tool, watch)?;
-            (answers, load, None)
+            for (run, choice) in runs() {
+                let asked = Question { choice, ..asked };
+                let pose = |i| track.stop(run.start + i).base_from_tool;
+                answers.push(evaluate_in_order(&asked, run.len(), pose, watch)?);
+            }
+            (load, None)
         }
         PathLoad::Cuts(cuts) => {
             let mut resting = Resting::new(track, cuts);
-            let load = |i, tip: Option<&TipYield>, out: &mut [Wrench]| resting.load(i, tip, out);
-            let answers = evaluate_loaded(&asked, count, stop, load, watch)?;
+            rest(&mut |i, tip, out| resting.load(i, tip, out))?;
             let rested = question.arm.model.is_affine().then_some(resting.rested);
-            (answers, PathLoad::Cuts(resting.cuts), rested)
+            (PathLoad::Cuts(resting.cuts), rested)
         }
         load => {
-            let of_point = |i, _: Option<&TipYield>, out: &mut [Wrench]| track.wrenches(&load, i, out);
-            let answers = evaluate_loaded(&asked, count, stop, of_point, watch)?;
-            (answers, load, None)
+            rest(&mut |i, _, out| track.wrenches(&load, i, out))?;
+            (load, None)
         }
     };
+    let mut answers = Answers::joined(answers);
     turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
     Ok(AlongPath {
-        choice,
+        choices,
         answers,
         load,
         rested,
     })
+}
+
+impl AlongPath {
+    /// The branch that point `index` was followed in.
+    pub fn choice_at(&self, index: usize) -> BranchChoice {
+        let from = self.choices.partition_point(|(first, _)| *first <= index);
+        self.choices[from.max(1) - 1].1
+    }
 }
 
 /// Cuts whose forces come to rest point after point.

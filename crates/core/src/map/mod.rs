@@ -22,7 +22,7 @@ mod varied;
 pub mod volume;
 mod worst;
 
-pub use along::{AlongPath, Rested, along_path};
+pub use along::{AlongPath, Rested, along_path, along_postures};
 pub use certainty::{COVERAGE, Certainty, probability_within};
 pub use depth_by_feed::DepthByFeed;
 pub use jumps::{Jump, jumps};

@@ -51,6 +51,7 @@ mod tests {
             path: line.sampled(1e-3),
             placing: Placing::on_plane(&plane),
             base_from_part: plane.base_from_part,
+            spins: None,
         };
         let held = |in_plane| Held {
             name: PostureName::Branch(Branch::ALL[0]),

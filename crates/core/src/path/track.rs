@@ -1,6 +1,6 @@
 //! A path in the cell: its points with the tool poses there, and a deviation seen from them.
 
-use nalgebra::{Rotation3, Unit, Vector3};
+use nalgebra::{Rotation3, Unit, UnitQuaternion, Vector3};
 
 use super::placing::Placing;
 use super::sampled::SampledPath;
@@ -17,6 +17,8 @@ pub struct Track {
     pub placing: Placing,
     /// The part whose axes a load may be told in.
     pub base_from_part: Isometry,
+    /// How far the tool is turned about its axis beside that, rad, point after point; `None` where it is not.
+    pub spins: Option<Vec<f64>>,
 }
 
 /// A point of a track: where the tool stands, and what its deviation is split on.
@@ -53,8 +55,11 @@ impl Track {
     /// The tool pose at point `index`, and the tool axis as its normal.
     pub fn stop(&self, index: usize) -> Stop {
         let point = &self.path.points[index];
+        let placed = self.placing.base_from_tool(point);
+        let spin = self.spins.as_ref().map(|spins| spins[index]);
+        let about_axis = |spin| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), spin);
         Stop {
-            base_from_tool: self.placing.base_from_tool(point),
+            base_from_tool: spin.map_or(placed, |spin| placed * about_axis(spin)),
             normal: self.placing.spindle(point),
         }
     }

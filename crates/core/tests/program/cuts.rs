@@ -83,7 +83,7 @@ fn at_the_depth_width_or_feed_that_is_permitted_the_tool_deviates_by_the_limit()
     let followed = followed(&robot, StiffnessModel::DRIVES, choice, load);
     let limit = 0.7 * followed.answers.worst().unwrap().1.in_plane;
     let tool = arms::bent_tool();
-    let question = question(&robot, StiffnessModel::DRIVES, &tool, followed.choice);
+    let question = question(&robot, StiffnessModel::DRIVES, &tool, followed.choice_at(0));
     let found = program_limits(&question, &track(), &followed, limit, Watch::NONE);
     let found = found.unwrap().unwrap();
     let feed_speed = 0.02;
@@ -141,7 +141,7 @@ fn a_force_that_is_permitted_deviates_by_the_limit() {
     let along = |force| followed(&robot, StiffnessModel::DRIVES, choice, unit(force));
     let under_x = along(Vector3::x());
     let tool = arms::bent_tool();
-    let question = question(&robot, StiffnessModel::DRIVES, &tool, under_x.choice);
+    let question = question(&robot, StiffnessModel::DRIVES, &tool, under_x.choice_at(0));
     let limit = 50e-6;
     let found = program_limits(&question, &track(), &under_x, limit, Watch::NONE);
     let found = found.unwrap().unwrap();
@@ -161,7 +161,7 @@ fn a_force_that_is_permitted_deviates_by_the_limit() {
         load_dependent: true,
         ..StiffnessModel::DRIVES.clone()
     };
-    let question = self::question(&robot, &soft, &tool, under_x.choice);
+    let question = self::question(&robot, &soft, &tool, under_x.choice_at(0));
     let none = program_limits(&question, &track(), &under_x, limit, Watch::NONE);
     assert_eq!(none, Ok(None));
 }

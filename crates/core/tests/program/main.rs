@@ -75,6 +75,7 @@ fn track() -> Track {
             spin: Spin::AlongFeed(0.3),
         },
         base_from_part,
+        spins: None,
     }
 }
 

@@ -80,7 +80,7 @@ impl Drawing<'_> {
     /// The setting with the branch that was followed.
     fn setting(&self) -> Setting {
         Setting {
-            choice: self.found.along.choice,
+            choice: self.found.along.choice_at(0),
             ..self.ask.setting.clone()
         }
     }

@@ -8,7 +8,7 @@
 //! answers, for [`super::evaluate`]).
 //!
 //! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
-//! as whole answers use it).
+//! as whole answers use it), `column` (every posture of a block under one load).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -57,6 +57,7 @@ mod arrays;
 mod backend;
 mod batch;
 mod block;
+mod column;
 mod compliance;
 mod deviation;
 mod envelope;
@@ -76,6 +77,7 @@ mod vector;
 pub use arrays::{Arrays, Envelopes, Poses};
 pub use backend::{Backend, Precision};
 pub use batch::Batch;
+
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;

@@ -74,6 +74,11 @@ impl<T: Float> Postures<T> {
         [c1, s1, cp, sp, cc, sc]
     }
 
+    /// Squared sine of the wrist's bend.
+    pub fn bend2(&self) -> &Plane<T> {
+        &self.solved[12]
+    }
+
     /// Room for a block.
     pub fn new() -> Postures<T> {
         Postures {

@@ -179,16 +179,12 @@ impl<T: Precision> Batch<T> {
         }
     }
 
-    /// Envelope of the solved block; without a place to go it stays in the scratch.
+    /// Envelope of the solved block, joint limits flagged; without a place to go it stays in the scratch.
     pub(super) fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
         let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch {
             aims,
             postures,
-            in_plane,
-            case,
-            state,
-            out,
             positions,
             ..
         } = &mut *self.scratch;
@@ -206,6 +202,21 @@ impl<T: Precision> Batch<T> {
                 backend.run(LimitsByPositions { positions, postures });
             }
         }
+        self.largest(still, to);
+    }
+
+    /// Largest deviation of the load cases in the solved block; without a place to go it stays in the scratch.
+    pub(super) fn largest(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
+        let (prepared, backend) = (&self.prepared, self.backend);
+        let Scratch {
+            aims,
+            postures,
+            in_plane,
+            case,
+            state,
+            out,
+            ..
+        } = &mut *self.scratch;
         let Some(rows) = out.first_chunk_mut() else { return };
         match (still, prepared.moments) {
             (true, false) => backend.run(Rows::<T, true, false> {

@@ -23,7 +23,8 @@ pub use measured::MeasuredAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
 pub use worst::WorstPoint;
 
-use armill_core::kernel::{Answers, BranchChoice};
+use armill_core::kernel::Answers;
+use armill_core::map::AlongPath;
 use armill_core::path::Shape;
 use serde::Serialize;
 
@@ -125,7 +126,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
     PathAnswer {
         name: name.to_owned(),
         branch: setting.branch(),
-        followed_branch: followed(study, found.along.choice, setting),
+        followed_branch: followed(study, &found.along, setting),
         points,
         unreached: points - held().count(),
         outside_joint_limits: held().filter(|held| !held.within_limits()).count(),
@@ -154,13 +155,22 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
 }
 
 /// The branch of the whole path, if its robot has names for them.
-fn followed(study: &Study, choice: BranchChoice, setting: &Setting) -> Option<String> {
-    let named = study.robot.robot.inverse().has_branches();
-    let of_path = Setting {
-        choice,
-        ..setting.clone()
-    };
-    named.then(|| of_path.branch())
+fn followed(study: &Study, along: &AlongPath, setting: &Setting) -> Option<String> {
+    if !study.robot.robot.inverse().has_branches() {
+        return None;
+    }
+    let mut names: Vec<String> = Vec::new();
+    for (_, choice) in &along.choices {
+        let of_run = Setting {
+            choice: *choice,
+            ..setting.clone()
+        };
+        let name = of_run.branch();
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    Some(names.join(", then "))
 }
 
 /// Largest deviation of all cases along the track, across it and along the tool, by size.

@@ -148,6 +148,7 @@ pub(super) fn resolve(
             path,
             placing,
             base_from_part,
+            spins: None,
         },
         load: PathLoad::Cases(setting.load.clone()),
         cut: None,

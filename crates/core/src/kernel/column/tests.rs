@@ -1,0 +1,135 @@
+use nalgebra::{Rotation3, UnitQuaternion};
+
+use super::*;
+use crate::arms::{self, Stream};
+use crate::frame::tool_orientation;
+use crate::robot::inverse::{ToolAt, postures};
+use crate::source::StiffnessModel;
+
+const WRIST: f64 = 0.1;
+
+fn arm<'a>(robot: &'a crate::robot::Robot, tool: &'a Isometry) -> Arm<'a> {
+    Arm {
+        robot,
+        compliance: robot.compliance().unwrap(),
+        flange_from_tool: tool,
+        model: StiffnessModel::DRIVES,
+    }
+}
+
+/// Wrenches and two directions across a random one.
+fn push(random: &mut Stream) -> (Vec<Wrench>, [Vector3<f64>; 2]) {
+    let cases = (0..3).map(|case| Wrench {
+        force: random.vector(200.0),
+        moment: random.vector(if case == 1 { 5.0 } else { 0.0 }),
+    });
+    let cases = cases.collect();
+    let turn = Rotation3::from_scaled_axis(random.vector(3.0));
+    (cases, [turn * Vector3::x(), turn * Vector3::y()])
+}
+
+#[test]
+fn lanes_tell_what_one_pose_after_the_other_tells() {
+    let mut random = Stream(41);
+    let tool = Isometry::from_parts(
+        nalgebra::Translation3::new(0.03, -0.02, 0.25),
+        UnitQuaternion::from_scaled_axis(Vector3::new(0.2, 0.4, -0.1)),
+    );
+    let mut counts = [0; 5];
+    for robot in arms::all() {
+        let arm = arm(&robot, &tool);
+        let mut lanes = Columns::new(arm, None, WRIST);
+        assert!(matches!(lanes.way, Way::Lanes(_)));
+        let mut plain = Columns {
+            way: Way::General(Box::new(OneByOne {
+                finder: Finder::new(&robot),
+                frames: Frames::for_robot(&robot),
+                standing: Standing::new(arm),
+                tool_from_flange: tool.inverse(),
+            })),
+            ..Columns::new(arm, None, WRIST)
+        };
+        let (mut one, mut other) = (Column::default(), Column::default());
+        for round in 0..40 {
+            let (cases, along) = push(&mut random);
+            let joints = random.joints(&robot);
+            let base = crate::robot::forward::forward(&robot, &joints).base_from_flange;
+            let base = Isometry::from_parts(
+                base.translation,
+                UnitQuaternion::from_rotation_matrix(&base.rotation),
+            ) * tool;
+            // More turns than a block holds.
+            let poses: Vec<Isometry> = (0..100)
+                .map(|turn| {
+                    base * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.0628 * f64::from(turn))
+                })
+                .collect();
+            let push = Push { cases: &cases, along };
+            lanes.fill(&poses, &push, &mut one);
+            plain.fill(&poses, &push, &mut other);
+            for slot in 0..poses.len() * SLOTS {
+                let stands = [one.stands[slot], other.stands[slot]];
+                counts[stands[0] as usize] += 1;
+                // Where two reasons hold, lanes and the plain way look in another order at the edge of reach alone.
+                assert_eq!(stands[0], stands[1], "{} {round} slot {slot}", robot.name());
+                if stands[0] != Stand::Holds {
+                    assert!(one.deviations[slot].is_infinite());
+                    continue;
+                }
+                let (a, b) = (one.deviations[slot], other.deviations[slot]);
+                assert!((a - b).abs() < 1e-10 * b, "{}: {a} {b}", robot.name());
+                for (a, b) in one.joints_of(slot, 6).iter().zip(other.joints_of(slot, 6)) {
+                    assert!(
+                        (a - b).abs() < 1e-9,
+                        "{} {round} slot {slot}: {a} {b}",
+                        robot.name()
+                    );
+                }
+            }
+        }
+    }
+    for stand in [
+        Stand::Holds,
+        Stand::OutsideLimits,
+        Stand::Singular,
+        Stand::OutOfReach,
+    ] {
+        assert!(counts[stand as usize] > 100, "{counts:?}");
+    }
+}
+
+#[test]
+fn a_posture_of_a_column_is_one_of_the_postures_of_its_pose_and_deviates_as_predicted() {
+    let robot = arms::mh12();
+    let tool = Isometry::translation(0.0, 0.0, 0.2);
+    let mut columns = Columns::new(arm(&robot, &tool), None, WRIST);
+    let mut column = Column::default();
+    let mut random = Stream(5);
+    let (cases, along) = push(&mut random);
+    let pose = Isometry::from_parts(
+        nalgebra::Translation3::new(0.9, 0.1, 0.8),
+        tool_orientation(Vector3::x_axis(), 0.3),
+    );
+    columns.fill(&[pose], &Push { cases: &cases, along }, &mut column);
+    let all = postures(&robot, &pose, ToolAt::on(&tool)).unwrap();
+    let mut held = 0;
+    for posture in &all {
+        let PostureName::Branch(branch) = posture.name else {
+            panic!("named")
+        };
+        let slot = Branch::ALL.iter().position(|other| *other == branch).unwrap();
+        if column.stands[slot] != Stand::Holds {
+            continue;
+        }
+        held += 1;
+        let deviates = |wrench: &Wrench| {
+            let delta = crate::predict::predict(posture, robot.compliance().unwrap(), wrench)
+                .twist
+                .linear;
+            along[0].dot(&delta).hypot(along[1].dot(&delta))
+        };
+        let most = cases.iter().map(deviates).fold(0.0, f64::max);
+        assert!((most - column.deviations[slot]).abs() < 1e-11 * most, "{most}");
+    }
+    assert!(held >= 2, "{held}");
+}

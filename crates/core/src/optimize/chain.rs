@@ -1,0 +1,301 @@
+//! The cheapest chain of postures through the columns of a path: dynamic programming, column after column.
+//!
+//! ```text
+//! m_i(s, b) = min over b' of v_{i-1}(s, b')                    the tip goes on, the tool keeps its turn
+//! v_i(s, b) = n_i(s, b) + min over |s' - s| <= k_i of m_i(s', b') + t |s' - s|     the tool turns
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `s`, `b` | turn of the tool and posture: a state |
+//! | `n`, `v` | what a state costs, and the cheapest chain that ends there |
+//! | `k_i` | steps that the tool may turn by there |
+//! | `t` | price of a step |
+//!
+//! Where the goal is the worst point, sums become maxima. A column that nothing leads to begins anew behind the cheapest
+//! chain so far, and counts as a break: the arm stops there and takes another posture. A column without any state is
+//! passed over.
+
+use crate::kernel::SLOTS;
+
+/// How costs along a chain become one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Together {
+    /// Their sum.
+    Sum,
+    /// The largest.
+    Worst,
+}
+
+/// What leads from one column to the next.
+pub(super) trait Links {
+    /// Whether the tip can go on from posture `from` of the column before to posture `to`, the tool turned by step `turn`
+    /// at both.
+    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool;
+    /// Whether the tool can turn, in the column, from posture `from` at step `turn` to posture `to` at step `next`.
+    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool;
+}
+
+/// The turns of a lattice and how they neighbour.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turns {
+    /// How many.
+    pub count: usize,
+    /// Whether the last neighbours the first.
+    pub around: bool,
+    /// Whether postures keep their slot from state to state; otherwise any may be that of any.
+    pub kept_slots: bool,
+    /// Price of a step.
+    pub price: f64,
+}
+
+/// What a column begins with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Beginning {
+    /// It follows on the column before; the tool may turn by so many steps.
+    Follows(usize),
+    /// A rapid leads there: any posture may follow on any.
+    Anew,
+}
+
+/// How a column was entered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Entry {
+    /// By links; see the back pointers.
+    Linked,
+    /// From this state of the last column that had one, or from nothing.
+    From(Option<u32>),
+    /// By a break: nothing led there.
+    Broken(u32),
+    /// It has no state at all.
+    Lost,
+}
+
+/// More steps than this the tool does not turn by in one column: a back pointer is a byte.
+pub(super) const MOST_STEPS: usize = 15;
+
+/// The cheapest chains so far.
+pub(super) struct Chain {
+    turns: Turns,
+    together: Together,
+    /// Of each state of each column one more than the way back: steps turned and [`MOST_STEPS`], times [`SLOTS`], and the
+    /// slot before; zero where there is none. Empty where nobody asks for the chain.
+    back: Option<Vec<u8>>,
+    entries: Vec<Entry>,
+    /// Costs of the chains to the states of the last column that has any.
+    values: Vec<f64>,
+    next: Vec<f64>,
+    ways: Vec<u8>,
+}
+
+/// The cheapest chain.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Cheapest {
+    /// Its cost.
+    pub cost: f64,
+    /// State at each column: turn times [`SLOTS`] plus slot; `None` where there is none.
+    pub states: Vec<Option<usize>>,
+    /// Columns that nothing leads to.
+    pub breaks: Vec<usize>,
+}
+
+impl Chain {
+    /// Before the first column. `traced`: whether the chain itself is asked for, or its cost alone.
+    pub fn new(turns: Turns, together: Together, traced: Option<usize>) -> Chain {
+        let states = turns.count * SLOTS;
+        Chain {
+            turns,
+            together,
+            back: traced.map(|columns| Vec::with_capacity(columns * states)),
+            entries: Vec::new(),
+            values: vec![f64::INFINITY; states],
+            next: vec![f64::INFINITY; states],
+            ways: vec![0; states],
+        }
+    }
+
+    /// Takes the next column: what its states cost (infinite where there is none), what it begins with, what leads there.
+    pub fn take(&mut self, costs: &[f64], beginning: Beginning, links: &impl Links) {
+        if costs.iter().all(|cost| cost.is_infinite()) {
+            self.entries.push(Entry::Lost);
+            if let Some(back) = &mut self.back {
+                back.resize(back.len() + costs.len(), 0);
+            }
+            return;
+        }
+        let entry = match beginning {
+            Beginning::Follows(steps) if self.values.iter().any(|value| value.is_finite()) => {
+                self.link(costs, steps.min(MOST_STEPS), links);
+                let leads = self.next.iter().any(|value| value.is_finite());
+                let least = least(&self.values).unwrap_or(0) as u32;
+                if leads {
+                    Entry::Linked
+                } else {
+                    Entry::Broken(least)
+                }
+            }
+            _ => Entry::From(least(&self.values).map(|state| state as u32)),
+        };
+        if let Entry::From(Some(state)) | Entry::Broken(state) = entry {
+            let before = self.values[state as usize];
+            self.begin(costs, before);
+        } else if entry == Entry::From(None) {
+            self.begin(costs, 0.0);
+        }
+        self.entries.push(entry);
+        if let Some(back) = &mut self.back {
+            back.extend_from_slice(&self.ways);
+        }
+        std::mem::swap(&mut self.values, &mut self.next);
+    }
+
+    fn begin(&mut self, costs: &[f64], before: f64) {
+        self.ways.fill(0);
+        for (value, cost) in self.next.iter_mut().zip(costs) {
+            *value = self.together.of(before, *cost);
+        }
+    }
+
+    /// Fills the values of the next column by what leads there.
+    fn link(&mut self, costs: &[f64], steps: usize, links: &impl Links) {
+        let Turns {
+            count, kept_slots, ..
+        } = self.turns;
+        self.next.fill(f64::INFINITY);
+        self.ways.fill(0);
+        for turn in 0..count {
+            for to in 0..SLOTS {
+                let state = turn * SLOTS + to;
+                if costs[state].is_infinite() {
+                    continue;
+                }
+                let from = if kept_slots { to..to + 1 } else { 0..SLOTS };
+                for slot in from {
+                    let before = self.values[turn * SLOTS + slot];
+                    if before < self.next[state] && links.goes_on(turn, slot, to) {
+                        self.next[state] = before;
+                        self.ways[state] = way(0, slot);
+                    }
+                }
+            }
+        }
+        // One step more each time, in both directions: what came by fewer steps stays where it is no dearer.
+        for _ in 0..steps {
+            self.turn_by_a_step(costs, links);
+        }
+        for (value, cost) in self.next.iter_mut().zip(costs) {
+            *value = self.together.of(*value, *cost);
+        }
+    }
+
+    fn turn_by_a_step(&mut self, costs: &[f64], links: &impl Links) {
+        let Turns {
+            count,
+            around,
+            kept_slots,
+            price,
+        } = self.turns;
+        let before = self.next.clone();
+        let ways = self.ways.clone();
+        for turn in 0..count {
+            for (sense, neighbour) in neighbours(turn, count, around) {
+                for to in 0..SLOTS {
+                    let state = turn * SLOTS + to;
+                    if costs[state].is_infinite() {
+                        continue;
+                    }
+                    let from = if kept_slots { to..to + 1 } else { 0..SLOTS };
+                    for slot in from {
+                        let there = neighbour * SLOTS + slot;
+                        let value = before[there] + price;
+                        if value < self.next[state] && links.turns(neighbour, turn, slot, to) {
+                            let (by, origin) = steps_and_slot(ways[there]);
+                            self.next[state] = value;
+                            self.ways[state] = way(by + sense, origin);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The cheapest chain through all columns; its states where they were asked for.
+    pub fn cheapest(&self) -> Cheapest {
+        let last = least(&self.values);
+        let cost = last.map_or(0.0, |state| self.values[state]);
+        let breaks = (0..self.entries.len()).filter(|i| matches!(self.entries[*i], Entry::Broken(_)));
+        let breaks = breaks.collect();
+        let mut states = vec![None; self.entries.len()];
+        let (Some(back), Some(mut state)) = (&self.back, last) else {
+            return Cheapest { cost, states, breaks };
+        };
+        let width = self.values.len();
+        for (index, entry) in self.entries.iter().enumerate().rev() {
+            if *entry == Entry::Lost {
+                continue;
+            }
+            states[index] = Some(state);
+            match entry {
+                Entry::Linked => {
+                    let (by, slot) = steps_and_slot(back[index * width + state]);
+                    let count = self.turns.count as isize;
+                    // The tool came from `turn - by`.
+                    let turn = (state / SLOTS) as isize - by;
+                    state = turn.rem_euclid(count) as usize * SLOTS + slot;
+                }
+                Entry::From(Some(before)) | Entry::Broken(before) => state = *before as usize,
+                Entry::From(None) | Entry::Lost => break,
+            }
+        }
+        Cheapest { cost, states, breaks }
+    }
+}
+
+impl Together {
+    fn of(self, so_far: f64, cost: f64) -> f64 {
+        match self {
+            Together::Sum => so_far + cost,
+            Together::Worst => so_far.max(cost),
+        }
+    }
+}
+
+/// The state with the least value, the first of equal ones; `None` where all are infinite.
+fn least(values: &[f64]) -> Option<usize> {
+    let mut least: Option<usize> = None;
+    for (state, value) in values.iter().enumerate() {
+        if value.is_finite() && least.is_none_or(|other| *value < values[other]) {
+            least = Some(state);
+        }
+    }
+    least
+}
+
+/// The neighbours of a turn, each with the sense in which the tool turns from there.
+fn neighbours(turn: usize, count: usize, around: bool) -> impl Iterator<Item = (isize, usize)> {
+    let below = match turn {
+        0 => (around && count > 2).then(|| count - 1),
+        _ => Some(turn - 1),
+    };
+    let above = match turn + 1 == count {
+        true => (around && count > 2).then_some(0),
+        false => Some(turn + 1),
+    };
+    let below = below.map(|other| (1, other));
+    below.into_iter().chain(above.map(|other| (-1, other)))
+}
+
+/// A way back in a byte.
+fn way(steps: isize, slot: usize) -> u8 {
+    let most = MOST_STEPS as isize;
+    ((steps + most) * SLOTS as isize + slot as isize + 1) as u8
+}
+
+/// Steps that the tool turned by, and the slot it came from.
+fn steps_and_slot(way: u8) -> (isize, usize) {
+    let code = usize::from(way.max(1)) - 1;
+    ((code / SLOTS) as isize - MOST_STEPS as isize, code % SLOTS)
+}
+
+#[cfg(test)]
+mod tests;

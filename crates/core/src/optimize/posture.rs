@@ -1,0 +1,523 @@
+//! How should the arm hold the tool along a path? Turn about the tool axis and branch, point after point.
+//!
+//! At each point the tool may be turned about its own axis, and each turn is held in several postures: a lattice of
+//! path x turn x posture. Of all chains through it that keep the limits the one is taken whose deviation is least, as
+//! [`Goal`] says ([`super::chain`]).
+//!
+//! | limit | kept how |
+//! |---|---|
+//! | joint range | a posture outside does not stand |
+//! | singularities | nor does one whose wrist is bent by less than asked, or near a stretched arm |
+//! | joint speed at the feed | from point to point, and for the turn of the tool |
+//! | a jump | no joint turns by half a radian from one point to the next |
+//! | turn of the tool | so many radians for a metre of the path, in steps; smoothed over the length of a step |
+//!
+//! Branches change between cuts alone. The chain is the best of the lattice, not of all turns between its steps; forces are
+//! those of the path as drawn. Both are looked at again when the path is answered with what was found
+//! ([`crate::map::along_postures`]).
+
+use std::f64::consts::TAU;
+
+use nalgebra::{UnitQuaternion, Vector3};
+use rayon::prelude::*;
+
+use super::chain::{Beginning, Chain, Cheapest, Links, MOST_STEPS, Together, Turns};
+use crate::frame::{Isometry, some_across};
+use crate::kernel::{Column, Columns, Push, Question, SLOTS, Stand};
+use crate::load::PathLoad;
+use crate::path::{Pace, Track};
+use crate::robot::{Branch, Robot};
+use crate::spatial::Wrench;
+use crate::watch::{Cancelled, Watch};
+
+/// Which part of the deviation counts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counts {
+    /// Across the tool.
+    InPlane,
+    /// Across the tool and the feed: what a wall gets.
+    CrossTrack,
+    /// Along the tool: what a floor gets.
+    Axial,
+}
+
+/// What of the deviations along the path shall be least.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Goal {
+    /// The largest, and under that the mean.
+    Worst,
+    /// The mean over the points.
+    Mean,
+    /// What is above this limit (m), on the mean.
+    Above(f64),
+}
+
+/// Turns of the tool about its axis, beside the one that the placing has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spins {
+    /// The first, rad.
+    pub first: f64,
+    /// From one to the next, rad; above zero.
+    pub step: f64,
+    /// How many, at least one.
+    pub count: usize,
+}
+
+/// What is searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PostureSearch {
+    /// Turns that are tried.
+    pub spins: Spins,
+    /// Which part of the deviation counts.
+    pub counts: Counts,
+    /// What shall be least.
+    pub goal: Goal,
+    /// How much the tool may turn along the path, rad/m.
+    pub turn_rate: f64,
+    /// What a step of turning must gain at least, m.
+    pub turn_price: f64,
+    /// Least bend of the wrist, rad.
+    pub wrist: f64,
+}
+
+/// Postures along a path.
+#[derive(Clone, Debug)]
+pub struct PostureFound {
+    /// Turn of the tool at each point beside what the placing has, rad; where no posture stands that of the point before.
+    pub spins: Vec<f64>,
+    /// The branch at each point; `None` where no posture stands, and for arms without names of branches.
+    pub branches: Vec<Option<Branch>>,
+    /// Points where no posture stands, each with what stands in the way of the most.
+    pub lost: Vec<(usize, Stand)>,
+    /// Points that the arm cannot go on to without a stop.
+    pub breaks: Vec<usize>,
+    /// What the chain has of the goal, m: the largest deviation, or the mean cost of its points.
+    pub reached: f64,
+    /// The lattice, thinned out.
+    pub lattice: Lattice,
+}
+
+/// Points of the path by turns of the tool: what each would deviate by, and the chain.
+#[derive(Clone, Debug, Default)]
+pub struct Lattice {
+    /// Which points.
+    pub points: Vec<usize>,
+    /// Turns, rad.
+    pub spins: Vec<f64>,
+    /// At each point, turn after turn: the deviation that counts, m, in the posture of the chain where it stands, else in
+    /// the best; infinite where none stands.
+    pub deviations: Vec<f64>,
+    /// Whether that posture stands, and why not.
+    pub stands: Vec<Stand>,
+    /// Index of the chain's turn at each point.
+    pub chain: Vec<Option<usize>>,
+}
+
+/// Columns worked out at once.
+const CHUNK: usize = 256;
+/// Points of the lattice that are kept.
+const KEPT: usize = 800;
+/// A joint that turns farther than this from one point to the next jumps, rad.
+const FAR: f64 = 0.5;
+/// Part of a deviation within the limit that still counts, so that of chains within it the better is taken.
+const WITHIN: f64 = 1e-3;
+/// Rounding of a speed at its limit.
+const AT_SPEED: f64 = 1.0 + 1e-9;
+
+/// The postures that hold the tool along `track` under `load` as `search` asks. What `question` says of cases, normal, doubt and
+/// choice is not looked at.
+///
+/// Memory: a byte for each point x turn x posture, and a hundred times that for each of some hundred points.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no turn.
+pub fn postures_along(
+    question: &Question<'_>,
+    (track, load): (&Track, &PathLoad),
+    search: &PostureSearch,
+    watch: Watch<'_>,
+) -> Result<PostureFound, Cancelled> {
+    assert!(load.covers(track.len()), "a load for each point of the track");
+    assert!(search.spins.count > 0, "a turn at least");
+    let walk = Walk {
+        question,
+        track,
+        load,
+        search,
+        joints: JointRate::all(question.arm.robot),
+    };
+    Ok(match search.goal {
+        Goal::Worst => {
+            let worst = walk.chain(Cost::Worst, watch)?.0.cost;
+            let chain = walk.chain(Cost::Within(worst), watch)?;
+            PostureFound {
+                reached: worst,
+                ..walk.told(chain)
+            }
+        }
+        Goal::Mean => walk.told(walk.chain(Cost::Within(f64::INFINITY), watch)?),
+        Goal::Above(limit) => walk.told(walk.chain(Cost::Above(limit), watch)?),
+    })
+}
+
+/// What a state costs, of its deviation.
+#[derive(Clone, Copy, Debug)]
+enum Cost {
+    /// The deviation, of which the largest counts.
+    Worst,
+    /// The deviation; nothing above this stands.
+    Within(f64),
+    /// What is above this limit.
+    Above(f64),
+}
+
+impl Cost {
+    fn of(self, deviation: f64) -> f64 {
+        match self {
+            Cost::Worst => deviation,
+            Cost::Within(most) if deviation > most => f64::INFINITY,
+            Cost::Within(_) => deviation,
+            Cost::Above(limit) if deviation.is_finite() => (deviation - limit).max(0.0) + WITHIN * deviation,
+            Cost::Above(_) => f64::INFINITY,
+        }
+    }
+
+    fn together(self) -> Together {
+        match self {
+            Cost::Worst => Together::Worst,
+            Cost::Within(_) | Cost::Above(_) => Together::Sum,
+        }
+    }
+}
+
+/// One way through the path.
+struct Walk<'a> {
+    question: &'a Question<'a>,
+    track: &'a Track,
+    load: &'a PathLoad,
+    search: &'a PostureSearch,
+    joints: Vec<JointRate>,
+}
+
+/// What was seen on the way beside the chain.
+#[derive(Default)]
+struct Seen {
+    /// Points without any posture that stands.
+    lost: Vec<(usize, Stand)>,
+    /// Columns of the thinned lattice, with all their slots.
+    kept: Vec<(usize, Vec<f64>, Vec<Stand>)>,
+    /// Whether slots are branches.
+    named: bool,
+}
+
+impl Walk<'_> {
+    fn chain(&self, cost: Cost, watch: Watch<'_>) -> Result<(Cheapest, Seen), Cancelled> {
+        let Spins { step, count, .. } = self.search.spins;
+        let (arm, home) = (self.question.arm, self.question.home);
+        let maker = || Columns::new(arm, home, self.search.wrist);
+        let worst_alone = matches!(cost, Cost::Worst);
+        let turns = Turns {
+            count,
+            around: (step * count as f64 - TAU).abs() < 1e-9,
+            kept_slots: maker().slots_are_branches(),
+            price: if worst_alone { 0.0 } else { self.search.turn_price },
+        };
+        let points = self.track.len();
+        let mut chain = Chain::new(turns, cost.together(), (!worst_alone).then_some(points));
+        let mut seen = Seen {
+            named: turns.kept_slots,
+            ..Seen::default()
+        };
+        let stride = points.div_ceil(KEPT).max(1);
+        let mut columns: Vec<Column> = vec![Column::default(); CHUNK.min(points)];
+        let mut before = Column::default();
+        let mut costs = Vec::new();
+        for first in (0..points).step_by(CHUNK) {
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
+            let chunk = &mut columns[..CHUNK.min(points - first)];
+            chunk
+                .par_iter_mut()
+                .enumerate()
+                .for_each_init(maker, |maker, (i, column)| self.fill(maker, first + i, column));
+            for i in 0..chunk.len() {
+                let index = first + i;
+                let (done, rest) = chunk.split_at(i);
+                let here = &rest[0];
+                costs.clear();
+                costs.extend(here.deviations.iter().map(|deviation| cost.of(*deviation)));
+                let links = Between {
+                    before: done.last().unwrap_or(&before),
+                    here,
+                    joints: &self.joints,
+                    time: self.time(index),
+                    turn_time: self.turn_time(index),
+                };
+                chain.take(&costs, self.beginning(index), &links);
+                if !worst_alone {
+                    seen.note(index, here, index % stride == 0);
+                }
+            }
+            if let Some(last) = chunk.last() {
+                before.clone_from(last);
+            }
+            (watch.finished)(chunk.len());
+        }
+        Ok((chain.cheapest(), seen))
+    }
+
+    /// The column of point `index`.
+    fn fill(&self, maker: &mut Columns<'_>, index: usize, column: &mut Column) {
+        let stop = self.track.stop(index);
+        let poses: Vec<Isometry> = (0..self.search.spins.count)
+            .map(|turn| stop.base_from_tool * about_z(self.search.spins.at(turn)))
+            .collect();
+        let mut cases = vec![Wrench::ZERO; self.load.case_count()];
+        self.track.wrenches(self.load, index, &mut cases);
+        let normal = stop.normal.into_inner();
+        let along = match self.search.counts {
+            Counts::InPlane => {
+                let across = some_across(&normal);
+                [across, normal.cross(&across)]
+            }
+            Counts::CrossTrack => [self.track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
+            Counts::Axial => [normal, Vector3::zeros()],
+        };
+        let push = Push { cases: &cases, along };
+        maker.fill(&poses, &push, column);
+    }
+
+    /// How the column of point `index` begins.
+    fn beginning(&self, index: usize) -> Beginning {
+        if self.track.path.begins(index) {
+            return Beginning::Anew;
+        }
+        let points = &self.track.path.points;
+        let per_step = self.search.turn_rate / self.search.spins.step;
+        let steps = |at: usize| (points[at].along * per_step).floor();
+        Beginning::Follows((steps(index) - steps(index - 1)).clamp(0.0, MOST_STEPS as f64) as usize)
+    }
+
+    /// Time from the point before to point `index`, s, where the feed is told.
+    fn time(&self, index: usize) -> Option<f64> {
+        let points = &self.track.path.points;
+        let Pace::Feed(speed) = points[index].pace else {
+            return None;
+        };
+        let before = points[index.checked_sub(1)?].along;
+        (speed > 0.0).then(|| (points[index].along - before) / speed)
+    }
+
+    /// Time that a step of turning takes at the fastest, s, where the feed is told.
+    fn turn_time(&self, index: usize) -> Option<f64> {
+        let Pace::Feed(speed) = self.track.path.points[index].pace else {
+            return None;
+        };
+        (speed > 0.0).then(|| self.search.spins.step / (self.search.turn_rate * speed))
+    }
+
+    fn told(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
+        let spins = self.smooth(&cheapest.states);
+        let branch = |state: &Option<usize>| {
+            state
+                .filter(|_| seen.named)
+                .map(|state| Branch::ALL[state % SLOTS])
+        };
+        let stand = cheapest.states.iter().flatten().count().max(1);
+        PostureFound {
+            lattice: Lattice::of(&self.search.spins, &seen.kept, &cheapest.states),
+            branches: cheapest.states.iter().map(branch).collect(),
+            reached: cheapest.cost / stand as f64,
+            spins,
+            lost: seen.lost,
+            breaks: cheapest.breaks,
+        }
+    }
+
+    /// Turns of the chain, each stretch averaged over the length in which the tool may turn by a step.
+    fn smooth(&self, states: &[Option<usize>]) -> Vec<f64> {
+        let points = &self.track.path.points;
+        let spins = &self.search.spins;
+        let mut turns: Vec<f64> = Vec::with_capacity(states.len());
+        for (index, state) in states.iter().enumerate() {
+            let here = state.map(|state| spins.at(state / SLOTS));
+            let before = turns.last().copied().filter(|_| !self.track.path.begins(index));
+            turns.push(match (here, before) {
+                // The shorter way round from the point before.
+                (Some(here), Some(before)) => here + TAU * ((before - here) / TAU).round(),
+                (Some(here), None) => here,
+                (None, before) => before.unwrap_or(0.0),
+            });
+        }
+        let half = 0.5 * spins.step / self.search.turn_rate;
+        let mut smooth = turns.clone();
+        for stretch in self.track.path.stretches() {
+            let mut window = stretch.start..stretch.start;
+            let mut sum = 0.0;
+            for index in stretch.clone() {
+                let at = points[index].along;
+                // As far to one side as to the other: the ends stay.
+                let reach = half
+                    .min(at - points[stretch.start].along)
+                    .min(points[stretch.end - 1].along - at);
+                while window.end < stretch.end && points[window.end].along <= at + reach {
+                    sum += turns[window.end];
+                    window.end += 1;
+                }
+                while window.end > index + 1 && points[window.end - 1].along > at + reach {
+                    window.end -= 1;
+                    sum -= turns[window.end];
+                }
+                while window.start < index && points[window.start].along < at - reach {
+                    sum -= turns[window.start];
+                    window.start += 1;
+                }
+                smooth[index] = sum / window.len() as f64;
+            }
+        }
+        smooth
+    }
+}
+
+impl Spins {
+    /// Turn number `index`, rad.
+    pub fn at(&self, index: usize) -> f64 {
+        self.first + self.step * index as f64
+    }
+}
+
+impl Seen {
+    fn note(&mut self, index: usize, column: &Column, keep: bool) {
+        if !column.stands.contains(&Stand::Holds) {
+            // What stands in the way of most postures; out of reach only where nothing else does.
+            let count = |stand: Stand| column.stands.iter().filter(|other| **other == stand).count();
+            let most = Stand::ALL[1..4].iter().copied().max_by_key(|stand| count(*stand));
+            let most = most.filter(|stand| count(*stand) > 0);
+            self.lost.push((index, most.unwrap_or(Stand::OutOfReach)));
+        }
+        if keep {
+            self.kept
+                .push((index, column.deviations.clone(), column.stands.clone()));
+        }
+    }
+}
+
+impl Lattice {
+    fn of(spins: &Spins, kept: &[(usize, Vec<f64>, Vec<Stand>)], states: &[Option<usize>]) -> Lattice {
+        let mut lattice = Lattice {
+            spins: (0..spins.count).map(|turn| spins.at(turn)).collect(),
+            ..Lattice::default()
+        };
+        for (index, deviations, stands) in kept {
+            let state = states[*index];
+            lattice.points.push(*index);
+            lattice.chain.push(state.map(|state| state / SLOTS));
+            for turn in 0..spins.count {
+                let slots = turn * SLOTS..(turn + 1) * SLOTS;
+                let best = slots.min_by(|a, b| {
+                    deviations[*a]
+                        .total_cmp(&deviations[*b])
+                        .then(stands[*a].cmp(&stands[*b]))
+                });
+                let followed = state.map(|state| turn * SLOTS + state % SLOTS);
+                let shown = followed.or(best).unwrap_or(turn * SLOTS);
+                lattice.deviations.push(deviations[shown]);
+                lattice.stands.push(stands[shown]);
+            }
+        }
+        lattice
+    }
+}
+
+/// How fast a joint is, and how it counts.
+#[derive(Clone, Copy, Debug)]
+struct JointRate {
+    /// rad/s (m/s).
+    most: Option<f64>,
+    slides: bool,
+    /// Whether whole turns away it may stand as well.
+    wraps: bool,
+}
+
+impl JointRate {
+    fn all(robot: &Robot) -> Vec<JointRate> {
+        let of = |(index, joint): (usize, &crate::robot::Joint)| {
+            let slides = robot.slides(index);
+            let whole = joint
+                .limits
+                .is_none_or(|limits| limits.upper - limits.lower >= TAU);
+            JointRate {
+                most: joint.max_speed,
+                slides,
+                wraps: !slides && whole,
+            }
+        };
+        robot.joints().iter().enumerate().map(of).collect()
+    }
+
+    /// Whether the joint can go from one position to the other in this time, s.
+    fn can(&self, from: f64, to: f64, time: Option<f64>) -> bool {
+        let by = to - from;
+        let by = if self.wraps {
+            by - TAU * (by / TAU).round()
+        } else {
+            by
+        };
+        let in_time = self
+            .most
+            .zip(time)
+            .is_none_or(|(most, time)| by.abs() <= most * time * AT_SPEED);
+        in_time && (self.slides || by.abs() < FAR)
+    }
+}
+
+/// What leads from one column to the next: joints that are fast enough and do not jump.
+struct Between<'a> {
+    before: &'a Column,
+    here: &'a Column,
+    joints: &'a [JointRate],
+    time: Option<f64>,
+    turn_time: Option<f64>,
+}
+
+impl Between<'_> {
+    fn can(&self, from: (&Column, usize), to: (&Column, usize), time: Option<f64>) -> bool {
+        let count = self.joints.len();
+        let holds = |(column, slot): (&Column, usize)| column.stands[slot] == Stand::Holds;
+        let positions = from
+            .0
+            .joints_of(from.1, count)
+            .iter()
+            .zip(to.0.joints_of(to.1, count));
+        holds(from)
+            && holds(to)
+            && self
+                .joints
+                .iter()
+                .zip(positions)
+                .all(|(joint, (from, to))| joint.can(*from, *to, time))
+    }
+}
+
+impl Links for Between<'_> {
+    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
+        let first = turn * SLOTS;
+        self.can((self.before, first + from), (self.here, first + to), self.time)
+    }
+
+    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
+        let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
+        self.can((self.here, from), (self.here, to), self.turn_time)
+    }
+}
+
+fn about_z(angle: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,342 @@
+use std::f64::consts::PI;
+use std::sync::atomic::AtomicBool;
+
+use nalgebra::{Point2, Point3};
+
+use super::*;
+use crate::arms;
+use crate::kernel::BranchChoice;
+use crate::load::{Doubt, LoadCases, LoadFrame};
+use crate::map::{AlongPath, along_postures};
+use crate::path::{Placing, SampledPath, Shape, Spin};
+use crate::source::{Arm, StiffnessModel};
+use crate::workpiece::Plane;
+
+/// An arm with limits of speed, that machines a plate before it.
+struct Cell {
+    robot: Robot,
+    tool: Isometry,
+}
+
+impl Cell {
+    fn new() -> Cell {
+        let mut joints = arms::mh12().joints().to_vec();
+        for (joint, most) in joints.iter_mut().zip([3.8, 3.5, 3.8, 7.9, 7.9, 10.5]) {
+            joint.max_speed = Some(most);
+        }
+        Cell::with(joints)
+    }
+
+    fn with(joints: Vec<crate::robot::Joint>) -> Cell {
+        let arm = arms::mh12();
+        let robot = Robot::new("mh12", arm.chain().motions().to_vec(), joints).unwrap();
+        Cell {
+            robot: robot.with_compliance(arm.compliance().unwrap().to_vec()).unwrap(),
+            // A spindle across the flange: turning the tool moves the wrist.
+            tool: crate::frame::from_xyz_and_fixed_angles(
+                Vector3::new(0.1, 0.0, 0.15),
+                Vector3::new(0.0, PI / 2.0, 0.0),
+            ),
+        }
+    }
+
+    fn question(&self) -> Question<'_> {
+        Question {
+            arm: Arm {
+                robot: &self.robot,
+                compliance: self.robot.compliance().unwrap(),
+                flange_from_tool: &self.tool,
+                model: StiffnessModel::DRIVES,
+            },
+            home: None,
+            cases: &[],
+            doubt: Doubt::NONE,
+            normal: Vector3::z_axis(),
+            choice: BranchChoice::Best,
+        }
+    }
+
+    fn found(&self, track: &Track, search: &PostureSearch) -> PostureFound {
+        postures_along(&self.question(), (track, &load()), search, Watch::NONE).unwrap()
+    }
+
+    /// The path answered with the tool turned so, in these branches.
+    fn answered(&self, track: &Track, spins: Vec<f64>, branches: &[Option<Branch>]) -> AlongPath {
+        let track = Track {
+            spins: Some(spins),
+            ..track.clone()
+        };
+        let mut choices: Vec<(usize, BranchChoice)> = Vec::new();
+        for (index, branch) in branches.iter().enumerate() {
+            let choice = branch.map_or(BranchChoice::Best, |branch| BranchChoice::Of(branch.into()));
+            if choices.last().is_none_or(|(_, before)| *before != choice) {
+                choices.push((index, choice));
+            }
+        }
+        along_postures(&self.question(), (&track, load()), choices, Watch::NONE).unwrap()
+    }
+}
+
+fn load() -> PathLoad {
+    PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Feed,
+        cases: [[-80.0, 30.0, 10.0], [20.0, 60.0, -25.0]]
+            .map(|force| Wrench::from_force(force.into()))
+            .to_vec(),
+    })
+}
+
+/// A square of 0.3 m on a horizontal plate, cut at 40 mm/s.
+fn square() -> Track {
+    let shape = Shape::rectangle(Point2::origin(), nalgebra::Vector2::new(0.3, 0.3));
+    track(shape.sampled(0.01), Point3::new(0.85, 0.0, 0.3))
+}
+
+fn track(mut path: SampledPath, centre: Point3<f64>) -> Track {
+    for point in &mut path.points {
+        point.pace = Pace::Feed(0.04);
+    }
+    let plane = Plane::tilted(centre, PI / 2.0);
+    Track {
+        path,
+        placing: Placing {
+            spin: Spin::Fixed(0.4),
+            ..Placing::on_plane(&plane)
+        },
+        base_from_part: plane.base_from_part,
+        spins: None,
+    }
+}
+
+fn search(goal: Goal) -> PostureSearch {
+    PostureSearch {
+        spins: Spins {
+            first: -PI,
+            step: PI / 18.0,
+            count: 36,
+        },
+        counts: Counts::InPlane,
+        goal,
+        turn_rate: 20.0,
+        turn_price: 1e-9,
+        wrist: 0.05,
+    }
+}
+
+/// In-plane deviations at the points that are held.
+fn in_plane(along: &AlongPath) -> Vec<f64> {
+    along.answers.held().map(|(_, held)| held.in_plane).collect()
+}
+
+fn largest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[test]
+fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
+    let (cell, track) = (Cell::new(), square());
+    let found = cell.found(&track, &search(Goal::Worst));
+    assert!(
+        found.lost.is_empty() && found.breaks.is_empty(),
+        "{:?} {:?}",
+        found.lost,
+        found.breaks
+    );
+    let mut held = 0;
+    for turn in 0..36 {
+        let spin = search(Goal::Worst).spins.at(turn);
+        for branch in Branch::ALL {
+            let along = cell.answered(&track, vec![spin; track.len()], &vec![Some(branch); track.len()]);
+            let fine = |held: &crate::kernel::Held| held.within_limits() && held.singularity.is_none();
+            if along.answers.held().filter(|(_, held)| fine(held)).count() < track.len() {
+                continue;
+            }
+            held += 1;
+            let worst = largest(&in_plane(&along));
+            assert!(
+                found.reached <= worst * (1.0 + 1e-9),
+                "{turn} {branch}: {} {worst}",
+                found.reached
+            );
+        }
+    }
+    assert!(held > 10, "{held} turns and branches hold the whole path");
+}
+
+#[test]
+fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits() {
+    let (cell, track) = (Cell::new(), square());
+    for goal in [Goal::Worst, Goal::Mean] {
+        let search = search(goal);
+        let found = cell.found(&track, &search);
+        let along = cell.answered(&track, found.spins.clone(), &found.branches);
+        let deviations = in_plane(&along);
+        assert_eq!(deviations.len(), track.len());
+        let reached = if goal == Goal::Worst {
+            largest(&deviations)
+        } else {
+            mean(&deviations)
+        };
+        // Turns are smoothed between the steps of the lattice, 10 deg apart: that changes a deviation by some percent.
+        assert!(
+            (reached / found.reached - 1.0).abs() < 0.05,
+            "{goal:?}: {reached} {}",
+            found.reached
+        );
+        let rate = |i: usize| {
+            let by = (found.spins[i] - found.spins[i - 1]).abs();
+            by / (track.path.points[i].along - track.path.points[i - 1].along)
+        };
+        let fastest = (1..track.len()).map(rate).fold(0.0, f64::max);
+        // A window that holds one point more or less than its length.
+        assert!(fastest < search.turn_rate * 2.0, "{fastest} rad/m");
+        for i in 1..track.len() {
+            let joints = along
+                .answers
+                .joints_at(i)
+                .iter()
+                .zip(along.answers.joints_at(i - 1));
+            for (joint, (to, from)) in cell.robot.joints().iter().zip(joints) {
+                let time = 0.01 / 0.04;
+                assert!(
+                    (to - from).abs() <= joint.max_speed.unwrap() * time,
+                    "{} at {i}",
+                    joint.name
+                );
+            }
+        }
+        assert!(along.answers.held().all(|(_, held)| held.within_limits()));
+    }
+}
+
+#[test]
+fn each_goal_is_the_best_at_its_own() {
+    let (cell, track) = (Cell::new(), square());
+    let limit = 60e-6;
+    let goals = [Goal::Worst, Goal::Mean, Goal::Above(limit)];
+    let told: Vec<Vec<f64>> = goals
+        .iter()
+        .map(|goal| {
+            // No smoothing: the lattice alone is compared.
+            let search = PostureSearch {
+                turn_price: 0.0,
+                ..search(*goal)
+            };
+            let found = cell.found(&track, &search);
+            let turns = found.lattice.spins.len();
+            assert_eq!(found.lattice.points.len(), track.len());
+            let of = |(i, turn): (usize, &Option<usize>)| found.lattice.deviations[i * turns + turn.unwrap()];
+            found.lattice.chain.iter().enumerate().map(of).collect()
+        })
+        .collect();
+    let above = |values: &[f64]| values.iter().map(|value| (value - limit).max(0.0)).sum::<f64>();
+    let rounding = 1.0 + 1e-9;
+    for other in &told {
+        assert!(largest(&told[0]) <= largest(other) * rounding);
+        assert!(mean(&told[1]) <= mean(other) * rounding);
+        // What is within the limit counts a thousandth.
+        let within = WITHIN * told[2].iter().sum::<f64>();
+        assert!(above(&told[2]) <= above(other) + within);
+    }
+}
+
+#[test]
+fn points_without_posture_are_told_with_what_stands_in_the_way() {
+    let cell = Cell::new();
+    let far = Shape::Polyline(vec![Point2::new(0.0, -0.3), Point2::new(0.0, 0.9)]).sampled(0.05);
+    let found = cell.found(&track(far, Point3::new(0.9, 0.0, 0.3)), &search(Goal::Mean));
+    let (index, stand) = found.lost[0];
+    assert!(index > 3 && stand == Stand::OutOfReach, "{:?}", found.lost);
+    let last = found.branches.len();
+    assert_eq!(
+        found.lost.iter().map(|(i, _)| *i).collect::<Vec<_>>(),
+        (index..last).collect::<Vec<_>>()
+    );
+    assert!(
+        found.branches[..index].iter().all(Option::is_some)
+            && found.branches[index..].iter().all(Option::is_none)
+    );
+    // A joint that must not move holds nothing.
+    let mut joints = cell.robot.joints().to_vec();
+    joints[1].limits = Some(crate::robot::Limits {
+        lower: 2.6,
+        upper: 2.61,
+    });
+    let found = Cell::with(joints).found(&square(), &search(Goal::Mean));
+    assert_eq!(found.lost.len(), square().len());
+    assert!(found.lost.iter().all(|(_, stand)| *stand == Stand::OutsideLimits));
+    assert!(found.reached == 0.0 && found.breaks.is_empty());
+}
+
+#[test]
+fn an_arm_too_slow_for_the_feed_breaks_off() {
+    let mut joints = arms::mh12().joints().to_vec();
+    for joint in &mut joints {
+        joint.max_speed = Some(1e-3);
+    }
+    let track = square();
+    let found = Cell::with(joints).found(&track, &search(Goal::Mean));
+    assert_eq!(found.breaks, (1..track.len()).collect::<Vec<_>>());
+    assert!(found.lost.is_empty());
+}
+
+#[test]
+fn a_rapid_may_change_turn_and_branch() {
+    let cell = Cell::new();
+    let mut path = square().path;
+    // The same square again behind a rapid, far to the side.
+    let second: Vec<_> = path
+        .points
+        .iter()
+        .map(|point| crate::path::PathPoint {
+            at: point.at + Vector3::new(0.55, 0.0, 0.25),
+            along: point.along + path.length(),
+            ..*point
+        })
+        .collect();
+    path.points.extend(second);
+    let track = track(path, Point3::new(0.7, 0.0, 0.3));
+    let slow = PostureSearch {
+        turn_rate: 1e-3,
+        ..search(Goal::Worst)
+    };
+    let found = cell.found(&track, &slow);
+    assert!(found.lost.is_empty() && found.breaks.is_empty());
+    let half = track.len() / 2;
+    let turned = |range: std::ops::Range<usize>| {
+        let spins = &found.spins[range];
+        // Sums of some hundred turns.
+        spins.iter().all(|spin| (spin - spins[0]).abs() < 1e-12)
+    };
+    assert!(turned(0..half) && turned(half..track.len()));
+    let change =
+        (found.spins[half] - found.spins[half - 1]).abs() > 0.1 || found.branches[half] != found.branches[0];
+    assert!(change, "each square has the turn that suits it");
+}
+
+#[test]
+fn any_number_of_threads_finds_the_same_and_it_stops_when_told() {
+    let (cell, track) = (Cell::new(), square());
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        pool.install(|| cell.found(&track, &search(Goal::Worst)))
+    };
+    let (one, two) = (with(1), with(2));
+    assert_eq!(one.spins, two.spins);
+    assert_eq!(one.branches, two.branches);
+    assert_eq!(one.lattice.deviations, two.lattice.deviations);
+    let cancel = AtomicBool::new(true);
+    let watch = Watch {
+        finished: &|_| (),
+        cancel: &cancel,
+    };
+    let stopped = postures_along(&cell.question(), (&track, &load()), &search(Goal::Mean), watch);
+    assert_eq!(stopped.unwrap_err(), Cancelled);
+}
