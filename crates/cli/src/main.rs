@@ -33,6 +33,8 @@ fn main() -> ExitCode {
         Command::Robots(robots) => command::robots::run(robots),
         Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
+        Command::Posture(posture) => command::posture::run(posture),
+        Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Forces(forces) => command::forces::run(forces),
         Command::Completions(completions) => command::completions::run(completions),

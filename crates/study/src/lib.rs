@@ -11,6 +11,7 @@
 //! Everything here is the same whatever the surface: command, Python and web return these bytes.
 
 pub mod answer;
+pub mod compensate;
 pub mod compliance_class;
 pub mod error;
 pub mod file;

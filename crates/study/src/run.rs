@@ -13,11 +13,12 @@ use armill_core::frame::Isometry;
 use armill_core::kernel::{Answers, Question, evaluate};
 use armill_core::load::PathLoad;
 use armill_core::map::{
-    AlongPath, Jump, PlaneMap, ProgramLimits, RadialDeviation, VolumeMap, along_path, jumps, plane_map,
-    program_limits, radial_deviations, volume_map, worst_points,
+    AlongPath, Jump, PlaneMap, ProgramLimits, RadialDeviation, VolumeMap, along_path, along_postures, jumps,
+    plane_map, program_limits, radial_deviations, volume_map, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
-use armill_core::path::{ForcesTold, NoForces, Shape, Stock};
+use armill_core::optimize::{Goal, PostureFound, PostureSearch, postures_along};
+use armill_core::path::{ForcesTold, NoForces, Shape, Stock, Track};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::source::Arm;
 use armill_core::spatial::Wrench;
@@ -76,6 +77,17 @@ pub struct PathFound {
     pub forces: Option<ForcesTold>,
     /// What keeps the tolerance, where that was asked and can be told.
     pub limits: Option<ProgramLimits>,
+    /// Turns and branches that were searched for, where they were.
+    pub searched: Option<Searched>,
+}
+
+/// Turns of the tool and branches along a path.
+#[derive(Clone, Debug)]
+pub struct Searched {
+    /// What was found.
+    pub posture: PostureFound,
+    /// The path with the turn and the branch that it has without.
+    pub as_asked: Answers,
 }
 
 /// One point of a path, asked with shares and uncertainty on a plane across the tool.
@@ -103,8 +115,15 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Map(sheet) => sheet.grid.len(),
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
-        // A stock is cut in a pass of its own.
-        Subject::Path(path) => path.track.len() * if path.has_stock() { 2 } else { 1 },
+        // A stock is cut in a pass of its own, and a search passes over the lattice once or twice.
+        Subject::Path(path) => {
+            let passes = match path.setting.search.map(|search| search.goal) {
+                Some(Goal::Worst) => 4,
+                Some(_) => 3,
+                None => 1,
+            };
+            path.track.len() * (passes + usize::from(path.has_stock()))
+        }
     };
     study.asks.iter().map(of).sum()
 }
@@ -116,16 +135,7 @@ pub fn point_count(study: &Study) -> usize {
 ///
 /// `watch` hears of every point and may cancel. The same study gives the same values on any number of threads.
 pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, StudyError> {
-    let robot = &study.robot.robot;
-    let compliance = robot.compliance().ok_or_else(|| {
-        let message = format!("robot `{}` has no joint compliance", robot.name());
-        StudyError::value(message, "see `armill check`")
-    })?;
-    let runner = Runner {
-        robot,
-        compliance,
-        watch,
-    };
+    let runner = runner(study, watch)?;
     let done = |ask: &'a Ask| {
         let found = runner.find(ask)?;
         Ok(Done {
@@ -134,6 +144,23 @@ pub fn run<'a>(study: &'a Study, watch: Watch<'_>) -> Result<Vec<Done<'a>>, Stud
         })
     };
     study.asks.iter().map(done).collect()
+}
+
+/// What asks of this study are done with.
+///
+/// # Errors
+/// A robot without compliance.
+pub(crate) fn runner<'a>(study: &'a Study, watch: Watch<'a>) -> Result<Runner<'a>, StudyError> {
+    let robot = &study.robot.robot;
+    let compliance = robot.compliance().ok_or_else(|| {
+        let message = format!("robot `{}` has no joint compliance", robot.name());
+        StudyError::value(message, "see `armill check`")
+    })?;
+    Ok(Runner {
+        robot,
+        compliance,
+        watch,
+    })
 }
 
 /// What to ask oneself where a path and its stock do not meet.
@@ -156,10 +183,21 @@ fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
 }
 
 /// The robot of the study, and who watches.
-struct Runner<'a> {
+pub(crate) struct Runner<'a> {
     robot: &'a Robot,
     compliance: &'a [JointCompliance],
-    watch: Watch<'a>,
+    /// Who hears of the work.
+    pub watch: Watch<'a>,
+}
+
+/// A path as it is followed.
+pub(crate) struct Followed {
+    /// The path with the turns that a search found; `None` without a search.
+    pub turned: Option<Track>,
+    /// What came out along it.
+    pub along: AlongPath,
+    /// What the search found.
+    pub searched: Option<Searched>,
 }
 
 impl Runner<'_> {
@@ -192,7 +230,12 @@ impl Runner<'_> {
     fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
-        let along = along_path(&question, &ask.track, load, self.watch)?;
+        let Followed {
+            turned,
+            along,
+            searched,
+        } = self.follow(ask, load)?;
+        let track = turned.as_ref().unwrap_or(&ask.track);
         let limits = match ask.tells_limits() {
             true => program_limits(&question, &ask.track, &along, ask.setting.limit, self.watch)?,
             false => None,
@@ -201,7 +244,7 @@ impl Runner<'_> {
         Ok(PathFound {
             worst: worst
                 .into_iter()
-                .map(|index| self.in_full(ask, &along, index))
+                .map(|index| self.in_full((ask, track), &along, index))
                 .collect::<Result<_, Cancelled>>()?,
             jumps: jumps(self.robot, &ask.track.path, &along.answers)
                 .take(MOST_JUMPS + 1)
@@ -213,11 +256,46 @@ impl Runner<'_> {
             along,
             forces,
             limits,
+            searched,
+        })
+    }
+
+    /// The path under this load, turned as a search finds it where one is asked for.
+    pub(crate) fn follow(&self, ask: &PathAsk, load: PathLoad) -> Result<Followed, StudyError> {
+        let question = self.question(&ask.setting);
+        let Some(search) = &ask.setting.search else {
+            let along = along_path(&question, &ask.track, load, self.watch)?;
+            return Ok(Followed {
+                turned: None,
+                along,
+                searched: None,
+            });
+        };
+        let searched = self.search(ask, &load, search)?;
+        let turned = Track {
+            spins: Some(searched.posture.spins.clone()),
+            ..ask.track.clone()
+        };
+        let choices = searched.posture.choices();
+        Ok(Followed {
+            along: along_postures(&question, (&turned, load), choices, self.watch)?,
+            turned: Some(turned),
+            searched: Some(searched),
+        })
+    }
+
+    /// The best turns and branches along a path, and the path as it is without them.
+    fn search(&self, ask: &PathAsk, load: &PathLoad, search: &PostureSearch) -> Result<Searched, StudyError> {
+        let question = self.question(&ask.setting);
+        let as_asked = along_path(&question, &ask.track, load.clone(), self.watch)?;
+        Ok(Searched {
+            as_asked: as_asked.answers,
+            posture: postures_along(&question, (&ask.track, load), search, self.watch)?,
         })
     }
 
     /// What pushes along a path: of a cut in a stock what the tool meets there.
-    fn pushed(&self, ask: &PathAsk) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
+    pub(crate) fn pushed(&self, ask: &PathAsk) -> Result<(PathLoad, Option<ForcesTold>), StudyError> {
         let in_stock = ask.cut.as_ref().and_then(|cut| Some((cut, cut.stock.clone()?)));
         let Some((cut, mut stock)) = in_stock else {
             return Ok((ask.load.clone(), ask.forces));
@@ -236,14 +314,19 @@ impl Runner<'_> {
 
     /// One point of a path asked by itself: under the forces found there, in the branch that was followed, on a plane
     /// through the TCP across the tool, so that shares and uncertainty are told.
-    fn in_full(&self, ask: &PathAsk, along: &AlongPath, index: usize) -> Result<InFull, Cancelled> {
+    fn in_full(
+        &self,
+        (ask, track): (&PathAsk, &Track),
+        along: &AlongPath,
+        index: usize,
+    ) -> Result<InFull, Cancelled> {
         let mut cases = vec![Wrench::ZERO; along.answers.case_count];
-        ask.track.wrenches(&along.load, index, &mut cases);
-        let stop = ask.track.stop(index);
+        track.wrenches(&along.load, index, &mut cases);
+        let stop = track.stop(index);
         let across = Plane {
             base_from_part: Isometry::from_parts(
                 Translation3::from(stop.base_from_tool.translation.vector),
-                UnitQuaternion::from_rotation_matrix(&ask.track.base_from_feed(index)),
+                UnitQuaternion::from_rotation_matrix(&track.base_from_feed(index)),
             ),
         };
         let setting = Setting {
@@ -264,7 +347,7 @@ impl Runner<'_> {
     }
 
     /// What the core is asked under this setting.
-    fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
+    pub(crate) fn question<'q>(&'q self, setting: &'q Setting) -> Question<'q> {
         Question {
             arm: Arm {
                 robot: self.robot,

@@ -1,6 +1,6 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
-//! `run`, `check`, `new`, `robots`, `materials`, `pose`, `identify`, `forces`, `completions`.
+//! `run`, `check`, `new`, `robots`, `materials`, `pose`, `posture`, `compensate`, `identify`, `forces`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -10,24 +10,28 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod check;
+mod compensate;
 mod completions;
 mod forces;
 mod identify;
 mod materials;
 mod new;
 mod pose;
+mod posture;
 mod robots;
 mod run;
 
 pub(crate) use check::CheckArguments;
+pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
 pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
 pub(crate) use pose::PoseArguments;
+pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
-pub(crate) use run::RunArguments;
+pub(crate) use run::{RunArguments, RunOptions};
 
 use clap::{Parser, Subcommand};
 
@@ -63,6 +67,10 @@ pub(crate) enum Command {
     Materials(MaterialsArguments),
     /// Every posture of one pose: joints, compliance, deviation
     Pose(Box<PoseArguments>),
+    /// The best turn of the tool and branch along the paths of a study
+    Posture(PostureArguments),
+    /// The paths to command so that the tool goes where it is drawn
+    Compensate(CompensateArguments),
     /// Joint compliances from load tests, and which tests to do
     Identify(IdentifyArguments),
     /// What is in a record of a dynamometer, without drift and teeth
@@ -75,7 +83,7 @@ impl Command {
     /// Whether stdout is to hold JSON, also of problems.
     pub(crate) fn wants_json(&self) -> bool {
         match self {
-            Command::Run(a) => a.json,
+            Command::Run(a) => a.run.json,
             Command::Check(a) => a.json,
             Command::New(a) => a.json,
             Command::Robots(a) => match &a.action {
@@ -85,6 +93,8 @@ impl Command {
             },
             Command::Materials(a) => a.json,
             Command::Pose(a) => a.json,
+            Command::Posture(a) => a.run.json,
+            Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,
             Command::Completions(_) => false,

@@ -14,9 +14,16 @@ Examples:
   armill run cell/study.toml --out results --no-pictures
   armill run cell --json --strict && echo \"the tolerance holds everywhere\"")]
 pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub run: RunOptions,
+}
+
+// What every command that runs a study takes.
+#[derive(Debug, Args)]
+pub(crate) struct RunOptions {
     /// Folder with a study.toml, the file itself, or the name of an example study
     pub study: PathBuf,
-    /// Folder for the results (STUDY/out if left out)
+    /// Folder for the results (beside the study if left out: out, posture, ... by the command)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write tables only: no pictures, no report

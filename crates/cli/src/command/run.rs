@@ -4,7 +4,7 @@
 //! Stdout holds the answer in words, or with `--json` all of `result.json`; warnings and progress go to stderr. `--strict`
 //! exits with 1 unless every point holds its limit.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use armill_study::answer::{StudyAnswer, answer};
 use armill_study::output::{self, Csv, Pictures, Wanted};
@@ -12,7 +12,7 @@ use armill_study::run::{point_count, run as run_study};
 use armill_study::{Study, StudyError, studies};
 
 use crate::Outcome;
-use crate::arguments::RunArguments;
+use crate::arguments::{RunArguments, RunOptions};
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
@@ -22,12 +22,28 @@ use crate::terminal::{print, say};
 /// No study there, or its problems; a folder where nothing can be written, told before any work is done; a
 /// fault while results are written.
 pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
-    let found = studies::find(&arguments.study)?;
-    let study = found.read()?;
-    let out = arguments.out.clone().unwrap_or_else(|| found.folder.join("out"));
+    let found = studies::find(&arguments.run.study)?;
+    results(
+        (&found.read()?, found.folder.join("out")),
+        &arguments.run,
+        summary,
+    )
+}
+
+/// Runs a study, writes all of its results into the folder that the options name, or that one, and says what came out, in
+/// words those of `summary`.
+///
+/// # Errors
+/// A folder where nothing can be written, told before any work is done; a fault while results are written.
+pub(super) fn results(
+    (study, beside): (&Study, PathBuf),
+    options: &RunOptions,
+    summary: impl FnOnce(&StudyAnswer) -> String,
+) -> Result<Outcome, StudyError> {
+    let out = options.out.clone().unwrap_or(beside);
     output::prepare(&out)?;
-    let answer = in_pool(arguments.threads, || work(&study, &out, arguments))??;
-    if arguments.json {
+    let answer = in_pool(options.threads, || work(study, &out, options))??;
+    if options.json {
         print(output::json(&answer)?.trim_end())?;
     } else {
         print(&summary(&answer))?;
@@ -36,7 +52,7 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
         say(&format!("warning: {warning}"));
     }
     say(&format!("results in {}", out.display()));
-    Ok(if arguments.strict && !answer.holds_everywhere() {
+    Ok(if options.strict && !answer.holds_everywhere() {
         Outcome::ToleranceNotHeld
     } else {
         Outcome::Fine
@@ -56,15 +72,15 @@ fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Re
 }
 
 /// From the study to its answer and its files, under a bar.
-fn work(study: &Study, out: &Path, arguments: &RunArguments) -> Result<StudyAnswer, StudyError> {
+fn work(study: &Study, out: &Path, options: &RunOptions) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
     let mut wanted = Wanted::USUAL;
-    if arguments.no_pictures {
+    if options.no_pictures {
         wanted.pictures = Pictures::None;
     }
-    if arguments.csv {
+    if options.csv {
         wanted.csv = Csv::Every;
     }
     output::write(study, &found, &answer, (out, wanted), &|name| {

@@ -9,6 +9,7 @@
 
 mod assumed;
 mod cell;
+mod compensate;
 mod documents;
 mod forces;
 mod identify;
@@ -18,6 +19,7 @@ mod killed;
 mod materials;
 mod new_and_robots;
 mod pose;
+mod posture;
 mod refused;
 mod robots_check;
 mod run;

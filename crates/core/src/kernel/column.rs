@@ -94,6 +94,14 @@ impl Column {
         &self.joints[slot * joint_count..][..joint_count]
     }
 
+    /// Lets posture `slot` stand at no pose.
+    pub(crate) fn forbid(&mut self, slot: usize) {
+        for at in (slot..self.stands.len()).step_by(SLOTS) {
+            self.stands[at] = Stand::OutOfReach;
+            self.deviations[at] = f64::INFINITY;
+        }
+    }
+
     fn clear(&mut self, poses: usize, joint_count: usize) {
         self.stands.clear();
         self.stands.resize(poses * SLOTS, Stand::OutOfReach);

@@ -10,7 +10,7 @@
 //! | singularities | nor does one whose wrist is bent by less than asked, or near a stretched arm |
 //! | joint speed at the feed | from point to point, and for the turn of the tool |
 //! | a jump | no joint turns by half a radian from one point to the next |
-//! | turn of the tool | so many radians for a metre of the path, in steps; smoothed over the length of a step |
+//! | turn of the tool | so many radians for a metre of the path, in steps; then without them, half a step away at the most |
 //!
 //! Branches change between cuts alone. The chain is the best of the lattice, not of all turns between its steps; forces are
 //! those of the path as drawn. Both are looked at again when the path is answered with what was found
@@ -23,10 +23,10 @@ use rayon::prelude::*;
 
 use super::chain::{Beginning, Chain, Cheapest, Links, MOST_STEPS, Together, Turns};
 use crate::frame::{Isometry, some_across};
-use crate::kernel::{Column, Columns, Push, Question, SLOTS, Stand};
+use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
 use crate::load::PathLoad;
 use crate::path::{Pace, Track};
-use crate::robot::{Branch, Robot};
+use crate::robot::{Branch, BranchPattern, Limits, Robot};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -72,6 +72,8 @@ pub struct PostureSearch {
     pub counts: Counts,
     /// What shall be least.
     pub goal: Goal,
+    /// Branches that may be taken, of an arm whose branches have names.
+    pub branches: BranchPattern,
     /// How much the tool may turn along the path, rad/m.
     pub turn_rate: f64,
     /// What a step of turning must gain at least, m.
@@ -289,6 +291,13 @@ impl Walk<'_> {
         };
         let push = Push { cases: &cases, along };
         maker.fill(&poses, &push, column);
+        if maker.slots_are_branches() && self.search.branches != BranchPattern::default() {
+            for (slot, branch) in Branch::ALL.into_iter().enumerate() {
+                if !self.search.branches.matches(branch) {
+                    column.forbid(slot);
+                }
+            }
+        }
     }
 
     /// How the column of point `index` begins.
@@ -338,7 +347,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Turns of the chain, each stretch averaged over the length in which the tool may turn by a step.
+    /// Turns of the chain without their steps: on each stretch straight lines through the middles of the steps, half a
+    /// step from the chain at the most.
     fn smooth(&self, states: &[Option<usize>]) -> Vec<f64> {
         let points = &self.track.path.points;
         let spins = &self.search.spins;
@@ -353,33 +363,55 @@ impl Walk<'_> {
                 (None, before) => before.unwrap_or(0.0),
             });
         }
-        let half = 0.5 * spins.step / self.search.turn_rate;
         let mut smooth = turns.clone();
         for stretch in self.track.path.stretches() {
-            let mut window = stretch.start..stretch.start;
-            let mut sum = 0.0;
-            for index in stretch.clone() {
-                let at = points[index].along;
-                // As far to one side as to the other: the ends stay.
-                let reach = half
-                    .min(at - points[stretch.start].along)
-                    .min(points[stretch.end - 1].along - at);
-                while window.end < stretch.end && points[window.end].along <= at + reach {
-                    sum += turns[window.end];
-                    window.end += 1;
+            let last = stretch.end - 1;
+            let along = |index: usize| points[index].along;
+            // Where the line is, and its turn there: at the middle of each step, and at the ends.
+            let steps = (stretch.start..last).filter(|index| turns[*index] != turns[index + 1]);
+            let middles = steps.map(|index| {
+                let middle = |a: f64, b: f64| 0.5 * (a + b);
+                (
+                    middle(along(index), along(index + 1)),
+                    middle(turns[index], turns[index + 1]),
+                )
+            });
+            let begin = (along(stretch.start), turns[stretch.start]);
+            let knots: Vec<(f64, f64)> = std::iter::once(begin)
+                .chain(middles)
+                .chain([(along(last), turns[last])])
+                .collect();
+            let mut knot = 0;
+            for index in stretch {
+                while knot + 2 < knots.len() && knots[knot + 1].0 <= along(index) {
+                    knot += 1;
                 }
-                while window.end > index + 1 && points[window.end - 1].along > at + reach {
-                    window.end -= 1;
-                    sum -= turns[window.end];
+                let [(from, a), (to, b)] = [knots[knot], knots[knot + 1]];
+                if to > from {
+                    smooth[index] = a + (b - a) * ((along(index) - from) / (to - from)).clamp(0.0, 1.0);
                 }
-                while window.start < index && points[window.start].along < at - reach {
-                    sum -= turns[window.start];
-                    window.start += 1;
-                }
-                smooth[index] = sum / window.len() as f64;
             }
         }
         smooth
+    }
+}
+
+impl PostureFound {
+    /// The branches of the path, each with the point that it begins at, for [`crate::map::along_postures`].
+    pub fn choices(&self) -> Vec<(usize, BranchChoice)> {
+        let mut choices: Vec<(usize, BranchChoice)> = Vec::new();
+        for (index, branch) in self.branches.iter().enumerate() {
+            let Some(branch) = branch else { continue };
+            let choice = BranchChoice::Of((*branch).into());
+            if choices.last().is_none_or(|(_, before)| *before != choice) {
+                // Points before the first posture are asked in its branch too.
+                choices.push((if choices.is_empty() { 0 } else { index }, choice));
+            }
+        }
+        if choices.is_empty() {
+            choices.push((0, BranchChoice::Of(BranchPattern::default())));
+        }
+        choices
     }
 }
 
@@ -439,21 +471,23 @@ struct JointRate {
     /// rad/s (m/s).
     most: Option<f64>,
     slides: bool,
-    /// Whether whole turns away it may stand as well.
+    /// Whether it may stand a whole turn away as well. The chain does not count turns, so of a joint that turns a little
+    /// more than once it says no.
     wraps: bool,
 }
+
+/// Joints with a range of so many turns wrap.
+const WRAPPING: f64 = 1.5;
 
 impl JointRate {
     fn all(robot: &Robot) -> Vec<JointRate> {
         let of = |(index, joint): (usize, &crate::robot::Joint)| {
             let slides = robot.slides(index);
-            let whole = joint
-                .limits
-                .is_none_or(|limits| limits.upper - limits.lower >= TAU);
+            let enough = |limits: Limits| limits.upper - limits.lower >= WRAPPING * TAU;
             JointRate {
                 most: joint.max_speed,
                 slides,
-                wraps: !slides && whole,
+                wraps: !slides && joint.limits.is_none_or(enough),
             }
         };
         robot.joints().iter().enumerate().map(of).collect()

@@ -2,7 +2,7 @@
 //!
 //! [`program`]: what a tool path program tells, move after move. [`sampler`]: those moves as points. [`shape`]: circles and
 //! lines on a workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: where they lie in the cell and
-//! how the tool is turned. [`clock`]: when the tip is where. [`stock`], `sweep`, `front` and [`bite`]: what the cutter meets
+//! how the tool is turned. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: when the tip is where. [`stock`], `sweep`, `front` and [`bite`]: what the cutter meets
 //! on its way; [`cutting`], [`drilled`]: what that pushes with. [`roundness`](mod@roundness) and [`feature`]: the circle,
 //! line, plane or hole that comes out.
 
@@ -20,6 +20,7 @@ pub mod sampler;
 pub mod shape;
 pub mod stock;
 mod sweep;
+pub mod thinned;
 pub mod track;
 
 pub use crate::load::Greatest;
@@ -35,4 +36,5 @@ pub use sampled::{PathBuilder, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::Shape;
 pub use stock::{Stock, StockError};
+pub use thinned::{Thinning, thinned};
 pub use track::{Parts, Stop, Track};

@@ -4,6 +4,9 @@
 
 use super::path::PathAnswer;
 
+/// Stretches without posture that are told.
+const MOST_LOST: usize = 5;
+
 /// What a user should know before trusting the result of a path.
 ///
 /// In this order: points out of reach with what may be the reason, points outside joint limits, jumps, points whose
@@ -34,6 +37,23 @@ pub(super) fn of_path(path: &PathAnswer) -> Vec<String> {
             "{name}: the arm cannot follow without a stop: {}.",
             path.jumps.join("; ")
         ));
+    }
+    if let Some(search) = &path.search {
+        warnings.extend(search.lost.iter().take(MOST_LOST).map(|lost| {
+            format!(
+                "{name}: no turn of the tool and branch stands at {} points from line {} to {} ({}).",
+                lost.points,
+                lost.first_line,
+                lost.last_line,
+                lost.reason.replace('_', " ")
+            )
+        }));
+        if let Some(first) = search.breaks.first() {
+            warnings.push(format!(
+                "{name}: the arm has to stop and take another posture {} times, first in line {first}: no turn of the tool leads on within the joints' speed.",
+                search.breaks.len()
+            ));
+        }
     }
     let without_force = path.cut.as_ref().map_or(0, |cut| cut.points_without_force);
     if without_force > 0 {

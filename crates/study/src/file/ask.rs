@@ -15,6 +15,7 @@ use armill_core::kernel::BranchChoice;
 use armill_core::load::{Doubt, LoadCases, LoadFrame};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Translation3, Vector3};
+use armill_core::optimize::PostureSearch;
 use armill_core::robot::BranchPattern;
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
@@ -92,6 +93,7 @@ impl Resolver<'_> {
     /// is passed over in silence.
     fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {
         let t = self.table;
+        let search = t.posture.as_ref().and_then(|posture| posture.search.as_ref());
         let given = [
             ("distances_mm", AskKind::Sections, t.distances_mm.is_some()),
             ("tilts_deg", AskKind::Sections, t.tilts_deg.is_some()),
@@ -103,6 +105,7 @@ impl Resolver<'_> {
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
             ("program", AskKind::Path, t.program.is_some()),
             ("cut", AskKind::Path, t.cut.is_some()),
+            ("posture.search", AskKind::Path, search.is_some()),
         ];
         let load = t.load.as_ref().or(self.file.load.as_ref());
         if t.kind != AskKind::Path && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
@@ -146,6 +149,13 @@ impl Resolver<'_> {
         let base_from_counted = self.base_from_counted(places, &base_name);
         let choice = self.choice(places);
         let home = self.home(places);
+        // Words bound a search; without any, each branch is tried.
+        let told = self.of_posture(|posture| posture.branch.as_ref());
+        let open = match (told, choice) {
+            (Some(_), Some(BranchChoice::Of(pattern))) => pattern,
+            _ => BranchPattern::default(),
+        };
+        let search = self.search(places, open);
         let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
         let plane = plane_at(
             places,
@@ -205,7 +215,17 @@ impl Resolver<'_> {
             limit,
             choice,
             home,
+            open,
+            search,
         })
+    }
+
+    /// What is searched for along a path; `None` also where that is wrong.
+    fn search(&self, places: &mut Places<'_>, open: BranchPattern) -> Option<PostureSearch> {
+        let table = self.of_posture(|posture| posture.search.as_ref());
+        let table = table.filter(|_| self.table.kind == AskKind::Path)?;
+        let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
+        table.resolve(places, limit_um * 1e-6, open)
     }
 
     /// The frame that coordinates count from, in base.

@@ -9,6 +9,7 @@ use serde::Deserialize;
 
 use super::path::cut::CutTable;
 use super::path::program::ProgramTable;
+use super::posture_search::SearchTable;
 use crate::compliance_class::ComplianceClass;
 
 /// A study: robot, tool, workpiece plane, load, tolerance, and what is asked.
@@ -255,6 +256,8 @@ pub struct PostureTable {
     /// ranges.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub home_deg: Option<Vec<f64>>,
+    /// Along paths the best turn of the tool and branch are searched for; `branch`, where it is said, bounds the search.
+    pub search: Option<SearchTable>,
 }
 
 /// What is asked.

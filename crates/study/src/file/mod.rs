@@ -12,6 +12,7 @@ pub mod compliance;
 pub mod format;
 pub mod path;
 pub mod positioner;
+pub mod posture_search;
 pub mod quantities;
 pub mod resolve;
 pub mod stiffness;

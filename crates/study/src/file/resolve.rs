@@ -10,6 +10,7 @@ use armill_core::kernel::BranchChoice;
 use armill_core::load::{Doubt, LoadCases};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Matrix6, Point3};
+use armill_core::optimize::PostureSearch;
 use armill_core::robot::{BranchPattern, Robot};
 use armill_core::source::{Arm, Standing, StiffnessModel};
 use armill_core::spatial::Wrench;
@@ -128,6 +129,10 @@ pub struct Setting {
     pub choice: BranchChoice,
     /// Where a rail stands and what joints to spare are drawn to, rad (m).
     pub home: Option<Vec<f64>>,
+    /// Branches that the words of the study leave open; all where it has none.
+    pub open: BranchPattern,
+    /// Along a path: which turns and branches are tried.
+    pub search: Option<PostureSearch>,
 }
 
 impl Setting {

@@ -18,6 +18,7 @@
 
 mod arm;
 mod folder;
+mod lattice;
 mod limits;
 mod path;
 mod pictures;

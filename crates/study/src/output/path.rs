@@ -7,6 +7,7 @@
 //! | `along` | deviation over distance | every path |
 //! | `polar` | the circle that comes out, magnified | a circle |
 //! | `shares` | shares of the joints at the worst points | a path that is reached |
+//! | `turns` | deviation over path and turn of the tool, with the turn chosen | a search |
 //! | `process` | largest deviation over depth and feed per tooth | a cut |
 //! | `forces` | the record before and after treatment | measured forces |
 //! | `arm` | the arm at the worst point, faintly elsewhere | a path that is reached |
@@ -54,6 +55,12 @@ pub(super) fn pictures(study: &Study, ask: &PathAsk, told: &PathAnswer, found: &
     pictures.extend(drawing.polar());
     pictures.extend(drawing.blame());
     pictures.extend(super::limits::picture(&told.name, drawing.subtitle(), ask, found));
+    pictures.extend(super::lattice::picture(
+        &told.name,
+        drawing.subtitle(),
+        ask,
+        found,
+    ));
     pictures.extend(ask.measured.as_deref().map(|measured| drawing.forces(measured)));
     pictures.extend(drawing.arm());
     pictures

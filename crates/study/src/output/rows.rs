@@ -13,7 +13,7 @@ use armill_core::nalgebra::Point3;
 use crate::file::path::PathAsk;
 use crate::file::resolve::Setting;
 use crate::number::decimals;
-use crate::run::{Found, Section};
+use crate::run::{Found, PathFound, Section};
 
 /// Decimals of a position, mm, that mean something: what changes of frame leave behind them is no length.
 pub(super) const MM_DECIMALS: u8 = 6;
@@ -28,8 +28,8 @@ pub(super) struct Rows<'a> {
     pub answers: &'a Answers,
     /// TCP of each point, mm, in the frame that the study counts from.
     pub at_mm: Vec<[f64; 3]>,
-    /// The path whose points they are.
-    pub path: Option<&'a PathAsk>,
+    /// The path whose points they are, and what came out along it.
+    pub path: Option<(&'a PathAsk, &'a PathFound)>,
 }
 
 impl<'a> Rows<'a> {
@@ -112,7 +112,7 @@ pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Rows<'a>> {
                 .iter()
                 .map(|point| base_from_path * point.at);
             vec![Rows {
-                path: Some(ask),
+                path: Some((ask, found)),
                 ..Rows::new("", &ask.setting, &found.along.answers, points)
             }]
         }

@@ -61,18 +61,11 @@ impl Cell {
     }
 
     /// The path answered with the tool turned so, in these branches.
-    fn answered(&self, track: &Track, spins: Vec<f64>, branches: &[Option<Branch>]) -> AlongPath {
+    fn answered(&self, track: &Track, spins: Vec<f64>, choices: Vec<(usize, BranchChoice)>) -> AlongPath {
         let track = Track {
             spins: Some(spins),
             ..track.clone()
         };
-        let mut choices: Vec<(usize, BranchChoice)> = Vec::new();
-        for (index, branch) in branches.iter().enumerate() {
-            let choice = branch.map_or(BranchChoice::Best, |branch| BranchChoice::Of(branch.into()));
-            if choices.last().is_none_or(|(_, before)| *before != choice) {
-                choices.push((index, choice));
-            }
-        }
         along_postures(&self.question(), (&track, load()), choices, Watch::NONE).unwrap()
     }
 }
@@ -117,6 +110,7 @@ fn search(goal: Goal) -> PostureSearch {
         },
         counts: Counts::InPlane,
         goal,
+        branches: BranchPattern::default(),
         turn_rate: 20.0,
         turn_price: 1e-9,
         wrist: 0.05,
@@ -150,7 +144,11 @@ fn no_turn_and_branch_held_throughout_is_better_than_the_chain() {
     for turn in 0..36 {
         let spin = search(Goal::Worst).spins.at(turn);
         for branch in Branch::ALL {
-            let along = cell.answered(&track, vec![spin; track.len()], &vec![Some(branch); track.len()]);
+            let along = cell.answered(
+                &track,
+                vec![spin; track.len()],
+                vec![(0, BranchChoice::Of(branch.into()))],
+            );
             let fine = |held: &crate::kernel::Held| held.within_limits() && held.singularity.is_none();
             if along.answers.held().filter(|(_, held)| fine(held)).count() < track.len() {
                 continue;
@@ -173,7 +171,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
     for goal in [Goal::Worst, Goal::Mean] {
         let search = search(goal);
         let found = cell.found(&track, &search);
-        let along = cell.answered(&track, found.spins.clone(), &found.branches);
+        let along = cell.answered(&track, found.spins.clone(), found.choices());
         let deviations = in_plane(&along);
         assert_eq!(deviations.len(), track.len());
         let reached = if goal == Goal::Worst {
@@ -192,7 +190,7 @@ fn the_path_answered_with_what_was_found_deviates_as_told_and_keeps_the_limits()
             by / (track.path.points[i].along - track.path.points[i - 1].along)
         };
         let fastest = (1..track.len()).map(rate).fold(0.0, f64::max);
-        // A window that holds one point more or less than its length.
+        // Steps that the rate allows stand a point nearer or farther than its length: 10 mm of some 9.
         assert!(fastest < search.turn_rate * 2.0, "{fastest} rad/m");
         for i in 1..track.len() {
             let joints = along
@@ -262,7 +260,7 @@ fn points_without_posture_are_told_with_what_stands_in_the_way() {
     );
     // A joint that must not move holds nothing.
     let mut joints = cell.robot.joints().to_vec();
-    joints[1].limits = Some(crate::robot::Limits {
+    joints[1].limits = Some(Limits {
         lower: 2.6,
         upper: 2.61,
     });
@@ -309,7 +307,6 @@ fn a_rapid_may_change_turn_and_branch() {
     let half = track.len() / 2;
     let turned = |range: std::ops::Range<usize>| {
         let spins = &found.spins[range];
-        // Sums of some hundred turns.
         spins.iter().all(|spin| (spin - spins[0]).abs() < 1e-12)
     };
     assert!(turned(0..half) && turned(half..track.len()));

@@ -7,13 +7,14 @@
 //! | axial | along the tool, from the part towards the spindle: what floors get |
 //!
 //! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what
-//! keeps the tolerance; `program`: what a program tells of it.
+//! keeps the tolerance; `program`: what a program tells of it; `search`: what a search for turns of the tool and branches brought.
 
 mod cut;
 mod feature;
 pub(crate) mod limits;
 mod measured;
 mod program;
+mod search;
 mod worst;
 
 pub use cut::{CutAnswer, RestAnswer, StockAnswer};
@@ -21,6 +22,7 @@ pub use feature::FeatureAnswer;
 pub use limits::{LimitAnswer, LimitsAnswer};
 pub use measured::MeasuredAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
+pub use search::SearchAnswer;
 pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;
@@ -90,6 +92,8 @@ pub struct PathAnswer {
     pub limits: Option<LimitsAnswer>,
     /// The program that tells the path; none of a shape.
     pub program: Option<ProgramAnswer>,
+    /// Turns of the tool and branches that were searched for; none where nothing was.
+    pub search: Option<SearchAnswer>,
     /// What was passed over, or taken for granted.
     pub notes: Vec<String>,
 }
@@ -148,6 +152,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
         measured: ask.measured.as_deref().map(MeasuredAnswer::of),
         limits: LimitsAnswer::of(ask, found),
         program: ProgramAnswer::of(ask, found),
+        search: SearchAnswer::of(ask, found),
         notes: notes(ask, found),
         worst_points,
         features,

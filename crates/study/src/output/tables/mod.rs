@@ -150,7 +150,7 @@ fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadat
 
 /// The points of a path, stretch by stretch where rapids part them.
 fn stretches(rows: &Rows<'_>) -> Vec<Vec<[f64; 3]>> {
-    let stretches = rows.path.iter().flat_map(|path| path.track.path.stretches());
+    let stretches = rows.path.iter().flat_map(|(path, _)| path.track.path.stretches());
     stretches.map(|stretch| rows.at_mm[stretch].to_vec()).collect()
 }
 
@@ -315,7 +315,7 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         let sharers = rows.setting.model.sharer_names(study.robot.robot.joints());
         let mut columns = rows
             .path
-            .map_or_else(Vec::new, |path| track::columns(&path.track));
+            .map_or_else(Vec::new, |(path, found)| track::columns(&path.track, found));
         columns.extend(numbers(study, sharers, rows.answers));
         columns
     });

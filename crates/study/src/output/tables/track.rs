@@ -5,14 +5,16 @@
 //! | `line` | - | line of the program, or piece of the shape |
 //! | `distance_mm` | mm | along all cuts before |
 //! | `feed_mm_per_s` | mm/s | speed of the tip; empty where the program tells none |
+//! | `turn_deg` | deg | turn of the tool that a search found |
 //! | `along_um`, `cross_um`, `axial_um` | um | parts of the deviation of the deciding case, seen from the track |
 
 use armill_core::path::{Pace, Parts, Track};
 
 use super::{MM_DECIMALS, Numbers};
+use crate::run::PathFound;
 
 /// Line, way and feed, and the deviation seen from the track.
-pub(super) fn columns(track: &Track) -> Vec<Numbers<'_>> {
+pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
     let points = &track.path.points;
     let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
         Numbers::um(name.to_owned(), description, move |rows, index, held| {
@@ -20,7 +22,15 @@ pub(super) fn columns(track: &Track) -> Vec<Numbers<'_>> {
             of(track.parts(index, &deviation)) * 1e6
         })
     };
-    vec![
+    let turned = found.searched.as_ref().map(|searched| {
+        let spins = &searched.posture.spins;
+        Numbers::deg(
+            "turn_deg".to_owned(),
+            "turn of the tool about its axis that was found, beside the one it has without",
+            move |_, index, _| spins[index].to_degrees(),
+        )
+    });
+    let mut columns = vec![
         Numbers {
             unit: None,
             decimals: 0,
@@ -66,5 +76,7 @@ pub(super) fn columns(track: &Track) -> Vec<Numbers<'_>> {
             "deviation of the deciding case along the tool, away from the part",
             |parts| parts.axial,
         ),
-    ]
+    ];
+    columns.extend(turned);
+    columns
 }

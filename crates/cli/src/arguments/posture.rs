@@ -1,0 +1,95 @@
+//! `armill posture STUDY`: the best turn of the tool and branch along the paths of a study.
+
+use armill_study::file::posture_search::{CountsName, GoalName};
+use clap::{Args, ValueEnum};
+
+use super::run::RunOptions;
+
+// Without any of the numbers the study's own `posture.search` counts; with one they stand for all of it.
+#[derive(Debug, Args)]
+#[command(after_help = POSTURE_EXAMPLES)]
+pub(crate) struct PostureArguments {
+    #[command(flatten)]
+    pub run: RunOptions,
+
+    /// What shall be least
+    #[arg(long)]
+    pub goal: Option<GoalArgument>,
+
+    /// Which part of the deviation counts
+    #[arg(long)]
+    pub counts: Option<CountsArgument>,
+
+    /// First and last turn of the tool about its axis, beside the one it has [default: -180,180]
+    #[arg(
+        long,
+        value_name = "FIRST,LAST",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    pub turns_deg: Option<Vec<f64>>,
+
+    /// From one turn to the next [default: 5]
+    #[arg(long, value_name = "DEG")]
+    pub step_deg: Option<f64>,
+
+    /// How much the tool may turn along the path [default: 1]
+    #[arg(long, value_name = "DEG/MM")]
+    pub turn_deg_per_mm: Option<f64>,
+
+    /// Least angle by which the wrist is bent [default: 3]
+    #[arg(long, value_name = "DEG")]
+    pub least_wrist_deg: Option<f64>,
+}
+
+/// `--goal`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum GoalArgument {
+    /// The largest deviation along the path
+    Worst,
+    /// The mean of its points
+    Mean,
+    /// What is above the limit
+    AboveLimit,
+}
+
+/// `--counts`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum CountsArgument {
+    /// Across the tool
+    InPlane,
+    /// Across tool and feed: what walls get
+    CrossTrack,
+    /// Along the tool: what floors get
+    Axial,
+}
+
+impl GoalArgument {
+    /// As a study calls it.
+    pub(crate) fn name(self) -> GoalName {
+        match self {
+            GoalArgument::Worst => GoalName::Worst,
+            GoalArgument::Mean => GoalName::Mean,
+            GoalArgument::AboveLimit => GoalName::AboveLimit,
+        }
+    }
+}
+
+impl CountsArgument {
+    /// As a study calls it.
+    pub(crate) fn name(self) -> CountsName {
+        match self {
+            CountsArgument::InPlane => CountsName::InPlane,
+            CountsArgument::CrossTrack => CountsName::CrossTrack,
+            CountsArgument::Axial => CountsName::Axial,
+        }
+    }
+}
+
+const POSTURE_EXAMPLES: &str = "\
+Examples:
+  armill posture cell                              the tool free about its axis, in every branch
+  armill posture cell --turns-deg -30,30 --goal mean
+  armill posture cell --counts cross-track --step-deg 2 --out best
+The result is that of `armill run` with the turns found; the table of a path has them as turn_deg, the picture
+NAME-turns.svg shows what each turn would bring.";

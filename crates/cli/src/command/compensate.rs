@@ -1,0 +1,77 @@
+//! `armill compensate`: the paths that must be commanded so that the tool goes where it is drawn.
+//!
+//! `--out` (`compensated` beside the study) takes a table and a picture a path; stdout a line each, before and after.
+
+use armill_formats::file::write_atomically;
+use armill_study::compensate::{CompensationAnswer, compensate};
+use armill_study::{StudyError, output, studies};
+
+use crate::Outcome;
+use crate::arguments::CompensateArguments;
+use crate::progress::Progress;
+use crate::terminal::{print, say};
+
+/// Compensates and writes.
+///
+/// # Errors
+/// No study there, or its problems; no such path; a folder where nothing can be written.
+pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError> {
+    let found = studies::find(&arguments.study)?;
+    let study = found.read()?;
+    let out = arguments
+        .out
+        .clone()
+        .unwrap_or_else(|| found.folder.join("compensated"));
+    output::prepare(&out)?;
+    let progress = Progress::new(armill_study::compensate::point_count(
+        &study,
+        arguments.ask.as_deref(),
+    ));
+    let commanded = progress.watch(|watch| compensate(&study, arguments.ask.as_deref(), watch))?;
+    for one in &commanded {
+        write_atomically(out.join(&one.told.file), &one.csv)?;
+        let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
+        write_atomically(out.join(picture), one.picture.as_bytes())?;
+    }
+    let answer = CompensationAnswer {
+        paths: commanded.into_iter().map(|one| one.told).collect(),
+        compliance_assumed: study.compliance_is_assumed(),
+    };
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&answer)?
+    } else {
+        as_text(&answer)
+    })?;
+    say(&format!("paths to command in {}", out.display()));
+    Ok(Outcome::Fine)
+}
+
+fn as_text(answer: &CompensationAnswer) -> String {
+    let mut lines: Vec<String> = answer
+        .paths
+        .iter()
+        .map(|path| {
+            format!(
+                "{}: the tool goes {:.1} µm from the path at most ({:.1} µm rms), compensated {:.2} µm ({:.2} µm rms); points move by up to {:.1} µm",
+                path.name, path.before.max_um, path.before.rms_um, path.after.max_um, path.after.rms_um, path.largest_correction_um
+            )
+        })
+        .collect();
+    for path in answer
+        .paths
+        .iter()
+        .filter(|path| path.unreached + path.outside_joint_limits > 0)
+    {
+        lines.push(format!(
+            "{}: {} of {} points are out of reach and stay; {} stand outside joint limits",
+            path.name, path.unreached, path.points, path.outside_joint_limits
+        ));
+    }
+    lines.push("Elastic deviation alone, as predicted: backlash and calibration are not in it.".to_owned());
+    if answer.compliance_assumed {
+        lines.push(
+            "The joint compliances are assumed, not measured: do not send such a path to a robot.".to_owned(),
+        );
+    }
+    lines.join("\n")
+}

@@ -1,0 +1,66 @@
+//! `armill posture`: the best turn of the tool and branch along the paths of a study.
+//!
+//! The study is run with a search on every path, and all of its results are written as `armill run` writes them, into `--out`
+//! (`posture` beside the study). Stdout has a sentence a path: before and after.
+
+use armill_study::answer::StudyAnswer;
+use armill_study::file::posture_search::SearchTable;
+use armill_study::{StudyError, studies};
+
+use super::run::results;
+use crate::Outcome;
+use crate::arguments::PostureArguments;
+
+/// Searches along every path of the study and writes its results.
+///
+/// # Errors
+/// No study there, or its problems; a study without paths; turns that are none; a folder where nothing can be written.
+pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
+    let found = studies::find(&arguments.run.study)?;
+    let mut study = found.read()?;
+    study.search_postures(wanted(arguments)?.as_ref())?;
+    results((&study, found.folder.join("posture")), &arguments.run, summary)
+}
+
+/// What the options ask for; `None` where they leave all to the study.
+fn wanted(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyError> {
+    let bounded = |option: &str, value: Option<f64>, [least, most]: [f64; 2]| match value {
+        Some(value) if !(value >= least && value <= most) => Err(StudyError::value(
+            format!("{option}: {value} is outside {least} to {most}"),
+            "see `armill posture --help`",
+        )),
+        value => Ok(value),
+    };
+    let turns: Option<[f64; 2]> = match &arguments.turns_deg {
+        Some(turns) => Some(turns.as_slice().try_into().map_err(|_| {
+            let message = format!("--turns-deg: {} numbers, where there are 2", turns.len());
+            StudyError::value(message, "the first and the last: --turns-deg -90,90")
+        })?),
+        None => None,
+    };
+    for turn in turns.into_iter().flatten() {
+        bounded("--turns-deg", Some(turn), [-720.0, 720.0])?;
+    }
+    let table = SearchTable {
+        turns_deg: turns,
+        step_deg: bounded("--step-deg", arguments.step_deg, [0.1, 180.0])?,
+        counts: arguments.counts.map(|counts| counts.name()),
+        goal: arguments.goal.map(|goal| goal.name()),
+        turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
+        least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
+    };
+    Ok((!table.is_empty()).then_some(table))
+}
+
+/// A sentence a path.
+fn summary(answer: &StudyAnswer) -> String {
+    let of_paths = answer.paths.iter().filter_map(|path| {
+        let search = path.search.as_ref()?;
+        let branch = path
+            .followed_branch
+            .as_deref()
+            .map_or(String::new(), |branch| format!(" in {branch}"));
+        Some(format!("{}:{branch} {}.", path.name, search.sentence()))
+    });
+    of_paths.collect::<Vec<_>>().join("\n")
+}

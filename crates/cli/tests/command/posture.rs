@@ -1,0 +1,83 @@
+//! `armill posture`: before and after in words, files as `armill run` writes them.
+
+use crate::cell::{Cell, number};
+
+const CELL: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+plane = { centre_mm = [850, 50, 300], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+tool = { flange_from_tool_mm_deg = [120, 0, 150, 0, 90, 0] }
+load = { cases_n = [[30, -50, 50], [30, 50, 50]] }
+[[ask]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 10
+"#;
+
+fn text(cell: &Cell, name: &str) -> String {
+    std::fs::read_to_string(cell.at(name)).unwrap()
+}
+
+#[test]
+fn before_and_after_stand_in_one_sentence_and_the_table_has_the_turns() {
+    let cell = Cell::new();
+    cell.file("study.toml", CELL);
+    let said = cell
+        .armill(&["posture", "study.toml", "--step-deg", "15", "--no-pictures"])
+        .fine();
+    assert!(
+        said.out.starts_with("ring: in ") && said.out.contains("where it deviated by"),
+        "{}",
+        said.out
+    );
+    let table = text(&cell, "posture/ring.csv");
+    assert!(table.contains("turn_deg"), "{}", &table[..400]);
+    let json = cell
+        .armill(&[
+            "posture",
+            "study.toml",
+            "--step-deg",
+            "15",
+            "--no-pictures",
+            "--json",
+            "--goal",
+            "mean",
+        ])
+        .fine()
+        .json();
+    let search = &json["paths"][0]["search"];
+    assert_eq!(
+        (search["goal"].as_str(), number(&search["turns"])),
+        (Some("mean"), 24.0)
+    );
+    assert!(number(&search["with"]["mean_in_plane_um"]) <= number(&search["without"]["mean_in_plane_um"]));
+}
+
+#[test]
+fn pictures_have_the_lattice() {
+    let cell = Cell::new();
+    cell.file("study.toml", CELL);
+    cell.armill(&["posture", "study.toml", "--step-deg", "30", "--out", "found"])
+        .fine();
+    assert!(text(&cell, "found/ring-turns.svg").contains("turn of the tool (deg)"));
+    assert!(text(&cell, "found/report.html").contains("for each turn of the tool"));
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_the_option() {
+    let cell = Cell::new();
+    cell.file("study.toml", CELL);
+    cell.armill(&["posture", "study.toml", "--step-deg", "0"])
+        .refused(&["--step-deg: 0 is outside 0.1 to 180"]);
+    cell.armill(&["posture", "study.toml", "--turns-deg", "90,-90"])
+        .refused(&["turns from 90 to -90 deg"]);
+    let map = CELL
+        .split("[[ask]]")
+        .next()
+        .map(str::to_owned)
+        .unwrap_or_default();
+    cell.file("map.toml", &map);
+    cell.armill(&["posture", "map.toml"])
+        .refused(&["asks for no path"]);
+}

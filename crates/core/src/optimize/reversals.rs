@@ -1,0 +1,107 @@
+//! How often does each joint turn back along a path? Where it does, backlash prints on the part.
+
+use crate::kernel::Answers;
+use crate::path::SampledPath;
+
+/// A joint that has turned by less than this since it last turned back has not turned yet, rad (m).
+const NOTHING: f64 = 1e-6;
+
+/// Times that each joint turns back on the cuts of `path`; what it does in a rapid does not count, nor over points without
+/// posture.
+pub fn reversals(path: &SampledPath, answers: &Answers) -> Vec<usize> {
+    let mut counts = vec![0; answers.joint_count];
+    for stretch in path.stretches() {
+        // Farthest that each joint came since it turned back, and the way it goes.
+        let mut ends: Option<Vec<(f64, f64)>> = None;
+        for index in stretch {
+            if answers.points[index].is_err() {
+                ends = None;
+                continue;
+            }
+            let joints = answers.joints_at(index);
+            let Some(ends) = &mut ends else {
+                ends = Some(joints.iter().map(|q| (*q, 0.0)).collect());
+                continue;
+            };
+            for ((count, (end, way)), q) in counts.iter_mut().zip(ends).zip(joints) {
+                let by = q - *end;
+                if by * *way >= 0.0 && (*way != 0.0 || by.abs() > NOTHING) {
+                    (*end, *way) = (*q, if by == 0.0 { *way } else { by.signum() });
+                } else if by.abs() > NOTHING {
+                    *count += usize::from(*way != 0.0);
+                    (*end, *way) = (*q, by.signum());
+                }
+            }
+        }
+    }
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point2;
+
+    use super::*;
+    use crate::kernel::Held;
+    use crate::path::Shape;
+    use crate::robot::{Branch, PostureName, Unreachable};
+
+    fn answers(joints: &[[f64; 2]]) -> Answers {
+        let held = Held {
+            name: PostureName::Branch(Branch::ALL[0]),
+            limit_margin: 1.0,
+            limit_joint: 0,
+            singularity: None,
+            deciding_case: 0,
+            in_plane: 0.0,
+            in_plane_uncertainty: 0.0,
+            normal: 0.0,
+            full: 0.0,
+        };
+        Answers {
+            points: vec![Ok(held); joints.len()],
+            joints: joints.concat(),
+            deviations: Vec::new(),
+            shares: Vec::new(),
+            joint_count: 2,
+            case_count: 0,
+            share_count: 0,
+        }
+    }
+
+    fn path(points: usize) -> SampledPath {
+        let end = Point2::new(points as f64 - 1.0, 0.0);
+        Shape::Polyline(vec![Point2::origin(), end]).sampled(1.0)
+    }
+
+    #[test]
+    fn a_wave_turns_back_at_each_crest_and_a_shiver_does_not_count() {
+        let joints: Vec<[f64; 2]> = (0..401)
+            .map(|k| {
+                let t = f64::from(k) * 0.05;
+                // 20 rad of a cosine are 6 half turns: crests at pi, 2 pi, ... 6 pi.
+                [t.cos(), 0.01 * t + 3e-7 * (40.0 * t).sin()]
+            })
+            .collect();
+        assert_eq!(reversals(&path(401), &answers(&joints)), [6, 0]);
+    }
+
+    #[test]
+    fn a_joint_that_waits_and_goes_on_does_not_turn_back() {
+        let at = [0.0, 0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 2.0];
+        let joints: Vec<[f64; 2]> = at.iter().map(|q| [*q, -q]).collect();
+        assert_eq!(reversals(&path(8), &answers(&joints)), [1, 1]);
+    }
+
+    #[test]
+    fn nothing_counts_across_a_rapid_or_a_point_without_posture() {
+        let joints = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
+        let mut held = answers(&joints);
+        assert_eq!(reversals(&path(4), &held), [2, 0]);
+        held.points[2] = Err(Unreachable::TooFar { by: 1.0 });
+        assert_eq!(reversals(&path(4), &held), [0, 0]);
+        let mut two = path(2);
+        two.points.extend(two.points.clone());
+        assert_eq!(reversals(&two, &answers(&joints)), [0, 0]);
+    }
+}

@@ -1,0 +1,282 @@
+//! The path to be commanded so that the tool goes where it is drawn: the deviation before and after, and the path as a
+//! table that armill reads again.
+//!
+//! | column of the table | unit | meaning |
+//! |---|---|---|
+//! | `x_mm`, `y_mm`, `z_mm` | mm | the tip, in the frame of the program |
+//! | `i`, `j`, `k` | - | from the tip towards the spindle, same frame |
+//! | `spin_deg` | deg | turn of the tool about its axis, for `spin = "given"` |
+//! | `feed_mm_per_min` | mm/min | speed towards the point; empty where the program tells none |
+//! | `rapid` | - | 1 where a rapid leads to the point |
+//!
+//! What is taken off is the elastic deviation (and what gravity adds, where the study has it) under the mean of the load
+//! cases, of a cut under its force as drawn; what the cases leave is told as the rest.
+
+use armill_core::frame::tool_orientation;
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::optimize::{Compensated, Compensation, compensated};
+use armill_core::path::{Pace, Parts, Track};
+use armill_core::watch::Watch;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::{PathPlot, Series};
+use serde::Serialize;
+
+use crate::error::StudyError;
+use crate::file::path::PathAsk;
+use crate::file::resolve::{Study, Subject};
+use crate::run::{Runner, runner};
+
+/// What compensating the paths of a study brings.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensationAnswer {
+    /// Every path that was compensated.
+    pub paths: Vec<CompensatedPath>,
+    /// Whether the joint compliances are assumed, not measured: so are the corrections then.
+    pub compliance_assumed: bool,
+}
+
+/// One path, before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct CompensatedPath {
+    /// Its name.
+    pub name: String,
+    /// How many points.
+    pub points: usize,
+    /// How far the tool goes from the drawn path without compensation.
+    pub before: ErrorAnswer,
+    /// And with it, as predicted.
+    pub after: ErrorAnswer,
+    /// Largest move of a point.
+    pub largest_correction_um: f64,
+    /// Rounds of the fixed point.
+    pub rounds: usize,
+    /// Largest move of a point in the last round.
+    pub last_round_um: f64,
+    /// What that was of the one before; none after one round.
+    pub contraction: Option<f64>,
+    /// Points without posture, which stay where they are.
+    pub unreached: usize,
+    /// Points that stand outside joint limits once they are moved.
+    pub outside_joint_limits: usize,
+    /// File of the commanded path.
+    pub file: String,
+}
+
+/// Distances of the tool from the drawn path, over all points and load cases.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ErrorAnswer {
+    /// Largest, in space.
+    pub max_um: f64,
+    /// Root of the mean square, in space.
+    pub rms_um: f64,
+    /// Largest across the tool.
+    pub max_in_plane_um: f64,
+    /// Largest across the track, by size: what walls get.
+    pub max_cross_um: f64,
+    /// Largest along the tool, by size: what floors get.
+    pub max_axial_um: f64,
+}
+
+/// What comes of one path.
+#[derive(Clone, Debug)]
+pub struct Commanded {
+    /// In numbers.
+    pub told: CompensatedPath,
+    /// The table, as CSV.
+    pub csv: Vec<u8>,
+    /// Before and after along the path, as SVG.
+    pub picture: String,
+}
+
+/// Compensates every path of the study, or the one called `name`.
+///
+/// # Errors
+/// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch; a study in which the
+/// load changes the arm.
+pub fn compensate(study: &Study, name: Option<&str>, watch: Watch<'_>) -> Result<Vec<Commanded>, StudyError> {
+    let runner = runner(study, watch)?;
+    let paths = study.asks.iter().filter_map(|ask| match &ask.subject {
+        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => Some((&ask.name, &**path)),
+        _ => None,
+    });
+    let all: Vec<Commanded> = paths
+        .map(|(name, path)| of_path(&runner, name, path))
+        .collect::<Result<_, _>>()?;
+    if all.is_empty() {
+        let message = match name {
+            Some(name) => format!("the study has no path called `{name}`"),
+            None => "the study asks for no path that could be compensated".to_owned(),
+        };
+        return Err(StudyError::value(
+            message,
+            "[[ask]] kind = \"path\" with a program or a shape",
+        ));
+    }
+    Ok(all)
+}
+
+/// Points that the progress of [`compensate`] ends at: a path is followed once, and twice or more on the way back.
+pub fn point_count(study: &Study, name: Option<&str>) -> usize {
+    let of = |ask: &crate::file::resolve::Ask| match &ask.subject {
+        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => 4 * path.track.len(),
+        _ => 0,
+    };
+    study.asks.iter().map(of).sum()
+}
+
+fn of_path(runner: &Runner<'_>, name: &str, ask: &PathAsk) -> Result<Commanded, StudyError> {
+    let (load, _) = runner.pushed(ask)?;
+    let followed = runner.follow(ask, load.clone())?;
+    let drawn = followed.turned.as_ref().unwrap_or(&ask.track);
+    let question = runner.question(&ask.setting);
+    let found = compensated(
+        &question,
+        (drawn, &load),
+        &followed.along.choices,
+        Compensation::USUAL,
+        runner.watch,
+    )?;
+    let before = &followed.along.answers;
+    let file = format!("{}.commanded.csv", crate::output::slug(name));
+    let correction = |index: usize| {
+        let moved = found.track.path.points[index].at - drawn.path.points[index].at;
+        moved.norm() * 1e6
+    };
+    let told = CompensatedPath {
+        name: name.to_owned(),
+        points: drawn.len(),
+        before: ErrorAnswer::of(drawn, &before.deviations, before.case_count),
+        after: ErrorAnswer::of(drawn, &found.residual, found.along.answers.case_count),
+        largest_correction_um: (0..drawn.len()).map(correction).fold(0.0, f64::max),
+        rounds: found.rounds,
+        last_round_um: found.last_move * 1e6,
+        contraction: found.contraction,
+        unreached: found.unmoved,
+        outside_joint_limits: found
+            .along
+            .answers
+            .held()
+            .filter(|(_, held)| !held.within_limits())
+            .count(),
+        file,
+    };
+    Ok(Commanded {
+        picture: picture(name, drawn, (&before.deviations, before.case_count), &found),
+        csv: csv::write(&table(name, &found.track)?),
+        told,
+    })
+}
+
+impl ErrorAnswer {
+    /// Of these distances from the path, m, base, so many a point.
+    fn of(track: &Track, errors: &[Vector3<f64>], cases: usize) -> ErrorAnswer {
+        let parts = |at: usize| track.parts(at / cases, &errors[at]);
+        let largest = |of: &dyn Fn(Parts) -> f64| {
+            let sizes = (0..errors.len()).map(|at| of(parts(at)).abs());
+            sizes.fold(0.0, f64::max) * 1e6
+        };
+        let square: f64 = errors.iter().map(Vector3::norm_squared).sum();
+        ErrorAnswer {
+            max_um: errors.iter().map(Vector3::norm).fold(0.0, f64::max) * 1e6,
+            rms_um: (square / errors.len().max(1) as f64).sqrt() * 1e6,
+            max_in_plane_um: largest(&|parts| parts.along.hypot(parts.cross)),
+            max_cross_um: largest(&|parts| parts.cross),
+            max_axial_um: largest(&|parts| parts.axial),
+        }
+    }
+}
+
+/// The path as a table of points.
+fn table(name: &str, track: &Track) -> Result<Table, StudyError> {
+    let points = &track.path.points;
+    let column = |name: &str, unit: Option<&str>, (decimals, data): (u8, ColumnData)| Column {
+        name: name.to_owned(),
+        unit: unit.map(str::to_owned),
+        description: String::new(),
+        decimals: Some(decimals),
+        data,
+    };
+    let mut columns = Vec::new();
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let values = points.iter().map(|point| point.at[axis] * 1e3).collect();
+        columns.push(column(
+            &format!("{letter}_mm"),
+            Some("mm"),
+            (6, ColumnData::Float(values)),
+        ));
+    }
+    for (axis, letter) in ["i", "j", "k"].into_iter().enumerate() {
+        let values = points
+            .iter()
+            .map(|point| track.placing.path_spindle(point)[axis])
+            .collect();
+        columns.push(column(letter, None, (9, ColumnData::Float(values))));
+    }
+    let spins = (0..points.len())
+        .map(|index| spin(track, index).to_degrees())
+        .collect();
+    columns.push(column("spin_deg", Some("deg"), (6, ColumnData::Float(spins))));
+    let feed = |pace: Pace| match pace {
+        Pace::Feed(speed) => Some(speed * 60e3),
+        Pace::Rapid | Pace::Untold => None,
+    };
+    let feeds = points.iter().map(|point| feed(point.pace)).collect();
+    columns.push(column(
+        "feed_mm_per_min",
+        Some("mm/min"),
+        (3, ColumnData::OptionalFloat(feeds)),
+    ));
+    let rapid = |index: usize| i64::from(track.path.begins(index));
+    let rapids = (0..points.len()).map(rapid).collect();
+    columns.push(column("rapid", None, (0, ColumnData::Integer(rapids))));
+    Ok(Table::new(name, columns)?)
+}
+
+/// Turn of the tool about its axis at a point, from where [`tool_orientation`] has it, rad.
+fn spin(track: &Track, index: usize) -> f64 {
+    let stop = track.stop(index);
+    let unspun = tool_orientation(-stop.normal, 0.0);
+    let turn: UnitQuaternion<f64> = unspun.inverse() * stop.base_from_tool.rotation;
+    2.0 * turn.k.atan2(turn.w)
+}
+
+/// Points that the picture has at most.
+const MOST_POINTS: usize = 1200;
+
+/// Distance from the drawn path along it, before and after: the largest of the load cases, and of points that share a mark.
+fn picture(
+    name: &str,
+    drawn: &Track,
+    (before, cases): (&[Vector3<f64>], usize),
+    found: &Compensated,
+) -> String {
+    let points = &drawn.path.points;
+    let handful = points.len().div_ceil(MOST_POINTS).max(1);
+    let series = |name: &str, errors: &[Vector3<f64>], cases: usize| Series {
+        name: name.to_owned(),
+        position: points
+            .iter()
+            .step_by(handful)
+            .map(|point| point.along * 1e3)
+            .collect(),
+        deviation_um: errors
+            .chunks(handful * cases)
+            .map(|some| some.iter().map(Vector3::norm).fold(0.0, f64::max) * 1e6)
+            .collect(),
+    };
+    let after = found.along.answers.case_count;
+    PathPlot {
+        title: format!("{name}: compensated"),
+        subtitle: "how far the tool goes from the drawn path, as predicted; the largest of the load cases"
+            .to_owned(),
+        position_label: "along the path (mm)".to_owned(),
+        quantity: "distance from the drawn path (µm)".to_owned(),
+        series: vec![
+            series("as drawn", before, cases),
+            series("compensated", &found.residual, after),
+        ],
+        envelope: None,
+        limit_um: None,
+    }
+    .to_svg()
+}
