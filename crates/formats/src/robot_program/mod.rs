@@ -14,7 +14,9 @@
 //! ([`RobotProgram::with_poses`]).
 //!
 //! In reading order: [`Language`]; `program` what is read; `text` files as bytes and as characters; `rewrite` the same
-//! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers.
+//! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
+//! `findings` what readers have to say; `spelling` lines, numbers as they stand, and others in their places; `arc_row`
+//! arcs that are told point by point.
 
 pub mod inform;
 pub mod krl;
@@ -23,13 +25,18 @@ pub mod tp;
 pub mod urscript;
 pub mod val3;
 
+mod arc_row;
 mod draft;
+mod findings;
 mod language;
 mod number;
 mod posture;
 mod program;
 mod rewrite;
+mod spelling;
 mod text;
+#[cfg(test)]
+mod trials;
 
 pub use draft::{Draft, DraftError, DraftPoint, Written};
 pub use language::Language;

@@ -36,7 +36,7 @@ pub struct RobotMove {
     pub tool: Frame,
     /// How fast.
     pub speed: Speed,
-    /// Line of the main file where it stands, from 1.
+    /// Line where it stands, from 1: of the main file, or of the called one that holds it.
     pub line: u32,
 }
 
@@ -70,6 +70,11 @@ pub enum Target {
     },
     /// The joints stand so, rad (m of a sliding one), as the controller counts them.
     Joints(Vec<f64>),
+    /// The program does not tell it: a register of the controller, or pulses of its motors.
+    Elsewhere {
+        /// What the program calls it.
+        name: String,
+    },
 }
 
 /// The bytes of a text that spell a target, as its language's `spell` writes it.
@@ -108,7 +113,7 @@ impl Target {
     pub fn pose(&self) -> Option<&Isometry> {
         match self {
             Target::Pose { pose, .. } => Some(pose),
-            Target::Joints(_) => None,
+            Target::Joints(_) | Target::Elsewhere { .. } => None,
         }
     }
 }

@@ -27,6 +27,14 @@ pub enum RewriteError {
         /// Line of the move.
         line: u32,
     },
+    /// The target of the move stands on the controller.
+    #[error("line {line}: the program does not tell where `{name}` is, so that it cannot be moved")]
+    Elsewhere {
+        /// Line of the move.
+        line: u32,
+        /// What the program calls the target.
+        name: String,
+    },
     /// Two moves go to one target and shall go to different places.
     #[error(
         "the moves of lines {lines:?} go to one target, which would have to lie at places {apart_um:.1} um apart; give each \
@@ -91,5 +99,9 @@ fn spelled(target: &Target, line: u32) -> Result<&Spelled, RewriteError> {
     match target {
         Target::Pose { spelled, .. } => Ok(spelled),
         Target::Joints(_) => Err(RewriteError::Joints { line }),
+        Target::Elsewhere { name } => Err(RewriteError::Elsewhere {
+            line,
+            name: name.clone(),
+        }),
     }
 }
