@@ -98,7 +98,46 @@ fn the_yaskawa_job_has_the_poses_of_the_others_in_the_base() {
     }
     assert_eq!(
         program.moves.iter().map(|one| one.line).collect::<Vec<_>>(),
-        [34, 35, 36, 40, 41, 42, 46, 47, 48]
+        [33, 34, 35, 39, 40, 41, 45, 46, 47]
     );
+    assert_eq!(program.with_poses(&[]).unwrap()[0].1, bytes);
+}
+
+#[test]
+fn the_fanuc_listing_has_the_poses_of_the_others_in_the_frame() {
+    let Some((program, bytes)) = sample("Fanuc_R30iA.LS") else {
+        return;
+    };
+    assert_eq!(
+        (program.language, program.name.as_str()),
+        (Language::Tp, "Program")
+    );
+    let Target::Joints(joints) = &program.moves[0].target else {
+        panic!("{:?}", program.moves[0])
+    };
+    for (joint, told) in joints.iter().zip(JOINTS) {
+        // Three decimals here, five there.
+        assert!((joint.to_degrees() - told).abs() < 0.000_51, "{joint} {told}");
+    }
+    for (at, pose) in poses(&program).iter().enumerate() {
+        near(pose, &in_frame(at), &format!("target {at}"));
+    }
+    for one in &program.moves {
+        let (Frame::Told(frame), Frame::Told(tool)) = (one.frame, one.tool) else {
+            panic!("{one:?}")
+        };
+        near(&frame, &kuka(&BASE_FROM_FRAME), "frame");
+        // W 0, P 90, R -60 here, A -60, B 90, C 0 there: the same turns.
+        near(&tool, &kuka(&FLANGE_FROM_TOOL), "tool");
+    }
+    for one in &program.moves[1..] {
+        assert_eq!(one.speed, Speed::Tip(0.5));
+        let Target::Pose { branch, turns, .. } = &one.target else {
+            panic!("{one:?}")
+        };
+        assert_eq!(branch.to_string(), "front elbow-up no-flip");
+        // Of the joints of the first move: axes 1 and 4 within half a turn, axis 6 at -302.5 deg.
+        assert_eq!(turns, &[0, 0, -1]);
+    }
     assert_eq!(program.with_poses(&[]).unwrap()[0].1, bytes);
 }
