@@ -141,3 +141,93 @@ fn the_fanuc_listing_has_the_poses_of_the_others_in_the_frame() {
     }
     assert_eq!(program.with_poses(&[]).unwrap()[0].1, bytes);
 }
+
+#[test]
+fn the_staubli_program_without_its_data_names_what_is_missing() {
+    let Some(folder) = samples(FOLDER) else {
+        return;
+    };
+    let name = "Staubli_VAL3_simplified.pgx";
+    let bytes = std::fs::read(folder.join(name)).unwrap();
+    let problems = read(vec![ProgramText::new(name, &bytes)]).unwrap_err();
+    let said: Vec<(usize, &str)> = problems
+        .as_slice()
+        .iter()
+        .map(|one| (one.line(), one.message()))
+        .collect();
+    let missing = |line, what: &str| {
+        (
+            line,
+            format!("`{what}` is not told: no data (.dtx) are among these files"),
+        )
+    };
+    let points = [4, 5, 9, 10, 11, 15, 16, 17];
+    let mut expected = vec![missing(3, "jJoint[0]")];
+    expected.extend(
+        points
+            .iter()
+            .enumerate()
+            .map(|(at, line)| missing(*line, &format!("pPoint[{at}]"))),
+    );
+    let expected: Vec<(usize, &str)> = expected
+        .iter()
+        .map(|(line, what)| (*line, what.as_str()))
+        .collect();
+    assert_eq!(said, expected);
+    assert!(
+        problems.as_slice()[0]
+            .hint()
+            .unwrap()
+            .contains("the whole folder of the project")
+    );
+}
+
+/// The sample's moves with data of our own: the eight poses, as Staubli writes them.
+#[test]
+fn the_staubli_program_with_data_has_the_poses_of_the_others() {
+    let Some(folder) = samples(FOLDER) else {
+        return;
+    };
+    let bytes = std::fs::read(folder.join("Staubli_VAL3_simplified.pgx")).unwrap();
+    let value = |key: usize, pose: &Isometry, father: &str| {
+        let numbers = Convention::Staubli.numbers_of(pose);
+        let [x, y, z, rx, ry, rz] = numbers.try_into().unwrap();
+        format!(
+            "<Value key=\"{key}\" x=\"{x:.3}\" y=\"{y:.3}\" z=\"{z:.3}\" rx=\"{rx:.3}\" ry=\"{ry:.3}\" rz=\"{rz:.3}\" fatherId=\"{father}\" />\n"
+        )
+    };
+    let points: String = (0..8).map(|at| value(at, &in_frame(at), "fFrame[0]")).collect();
+    let joints: String = JOINTS
+        .iter()
+        .zip(1..)
+        .map(|(deg, axis)| format!("j{axis}=\"{deg}\" "))
+        .collect();
+    let data = [
+        ("fFrame", "frame", value(0, &kuka(&BASE_FROM_FRAME), "world[0]")),
+        ("tTool", "tool", value(0, &kuka(&FLANGE_FROM_TOOL), "flange[0]")),
+        ("jJoint", "jointRx", format!("<Value key=\"0\" {joints}/>")),
+        (
+            "mNomSpeed",
+            "mdesc",
+            "<Value key=\"0\" tmax=\"100\" />".to_owned(),
+        ),
+        ("pPoint", "pointRx", points),
+    ]
+    .map(|(name, kind, values)| format!("<Data name=\"{name}\" type=\"{kind}\">\n{values}\n</Data>\n"))
+    .concat();
+    let data = format!("<Database><Datas>{data}</Datas></Database>");
+    let texts = vec![
+        ProgramText::new("a.pgx", &bytes),
+        ProgramText::new("a.dtx", data.as_bytes()),
+    ];
+    let program = read(texts).unwrap_or_else(|problems| panic!("{problems}"));
+    assert_eq!(program.language, Language::Val3);
+    assert_eq!(
+        program.moves[0].target,
+        Target::Joints(JOINTS.map(f64::to_radians).to_vec())
+    );
+    for (at, pose) in poses(&program).iter().enumerate() {
+        near(pose, &in_frame(at), &format!("target {at}"));
+        assert_eq!(program.moves[at + 1].speed, Speed::Tip(0.1));
+    }
+}

@@ -133,7 +133,9 @@ impl Language {
                 .into_iter()
                 .find(|language| language.endings().contains(&ending.as_str()))
         };
-        of_lines.or_else(of_name).ok_or_else(|| {
+        // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
+        let val3 = of_name().filter(|language| *language == Language::Val3);
+        val3.or(of_lines).or_else(of_name).ok_or_else(|| {
             let name = texts.first().map_or("", ProgramText::name);
             let message = "neither content nor name tells what robot program this is";
             Problems::from(Problem::of_file(
