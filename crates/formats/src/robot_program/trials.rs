@@ -178,3 +178,41 @@ pub(super) fn problems(files: &[(&str, &str)]) -> Vec<String> {
     let problems = read(texts).expect_err("something is wrong");
     problems.as_slice().iter().map(ToString::to_string).collect()
 }
+
+/// Where to cut a text, how much of it, and what to put there.
+pub(super) type Cuts = Vec<(prop::sample::Index, usize, String)>;
+
+/// Cuts into files, with letters that mean something to these languages.
+pub(super) fn cuts() -> impl Strategy<Value = Cuts> {
+    let letters = "[\\[\\]{}()<>=.,:;\"'*/#\\-+0-9A-Zxyz \n\t\u{e4}\u{1f600}]{0,5}";
+    prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, letters), 1..6)
+}
+
+/// Files that were cut into make no reader panic; what is read all the same is read again as it was.
+pub(super) fn survives(files: &[(&str, &str)], cuts: &Cuts) {
+    let mut files: Vec<(String, String)> = files
+        .iter()
+        .map(|(name, text)| ((*name).to_owned(), (*text).to_owned()))
+        .collect();
+    for (place, length, letters) in cuts {
+        let whole: usize = files.iter().map(|(_, text)| text.len() + 1).sum();
+        let mut at = place.index(whole);
+        for (_, text) in &mut files {
+            if at <= text.len() {
+                let start = text.floor_char_boundary(at);
+                let end = text.ceil_char_boundary((start + length).min(text.len()));
+                text.replace_range(start..end, letters);
+                break;
+            }
+            at -= text.len() + 1;
+        }
+    }
+    let texts = files
+        .iter()
+        .map(|(name, text)| ProgramText::new(name, text.as_bytes()))
+        .collect();
+    if let Ok(program) = read(texts) {
+        // Numbers of any size may have come about: up to 1e9 mm, of which a double holds 1e-4 mm, and as many degrees.
+        moved_alone(&program, &Isometry::identity(), [1e-5, 1e-5]);
+    }
+}

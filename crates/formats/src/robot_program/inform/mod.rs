@@ -18,8 +18,9 @@
 //! Source: Yaskawa's manuals of data transmission (NX100, DX100) for the lists and RCONF. [recalled] Yaskawa's flip is
 //! axis B (5) bent the other way, as ours; `FPT` ends an arc where the next begins; parameters of `PL=`.
 //!
-//! In reading order: `position` the list of positions, `read` what is done with them, `write` jobs to load.
+//! In reading order: `position` the list of positions, `read` what is done with them, `motion` moves, `write` jobs to load.
 
+mod motion;
 mod position;
 mod read;
 mod write;

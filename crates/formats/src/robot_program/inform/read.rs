@@ -1,12 +1,12 @@
 //! What a job does with its positions: moves, and what is passed over between them.
 
-use super::position::{Name, Position, Positions, elsewhere};
+use super::position::{Position, Positions};
 use crate::document::Problems;
-use crate::robot_program::arc_row::{ArcEnd, ArcRow, Next};
+use crate::robot_program::arc_row::ArcRow;
 use crate::robot_program::findings::Findings;
 use crate::robot_program::language::Language;
-use crate::robot_program::program::{Motion, RobotMove, RobotProgram, Speed, Target};
-use crate::robot_program::spelling::{Line, Part, lines, number};
+use crate::robot_program::program::{RobotMove, RobotProgram, Target};
+use crate::robot_program::spelling::{Line, Part, lines};
 use crate::robot_program::text::ProgramText;
 
 /// Jobs that call jobs are followed so deep.
@@ -56,16 +56,16 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
     };
     reader.job(0, 0);
     let told = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
-    if let (Some(first), Some(text)) = (reader.moves.first(), texts.first()) {
-        if !reader.moves.iter().any(told) {
-            let message = format!(
-                "line {}: no target of this job is told in coordinates",
-                first.line
-            );
-            let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions \
-                        in BASE, ROBOT or USER";
-            reader.findings.problem(text, 0..0, message, hint);
-        }
+    if let (Some(first), Some(text)) = (reader.moves.first(), texts.first())
+        && !reader.moves.iter().any(told)
+    {
+        let message = format!(
+            "line {}: no target of this job is told in coordinates",
+            first.line
+        );
+        let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions in \
+                    BASE, ROBOT or USER";
+        reader.findings.problem(text, 0..0, message, hint);
     }
     let Reader {
         names,
@@ -96,19 +96,20 @@ fn job_name(text: &ProgramText) -> String {
     })
 }
 
-struct Reader<'a> {
+/// Jobs on their way.
+pub(super) struct Reader<'a> {
     texts: &'a [ProgramText],
     names: Vec<String>,
     done: Vec<bool>,
-    moves: Vec<RobotMove>,
-    findings: Findings,
+    pub moves: Vec<RobotMove>,
+    pub findings: Findings,
 }
 
 /// A job on its way.
-struct Job<'a> {
-    text: &'a ProgramText,
-    positions: Positions<'a>,
-    row: ArcRow<Position>,
+pub(super) struct Job<'a> {
+    pub text: &'a ProgramText,
+    pub positions: Positions<'a>,
+    pub row: ArcRow<Position>,
     depth: usize,
 }
 
@@ -187,12 +188,10 @@ impl<'a> Reader<'a> {
                 let what = format!("{word} is passed over: positions are taken as they are listed");
                 self.findings.note(job.text, line.number, what);
             }
-            _ if COMPUTES.contains(&word.as_str()) => {
-                if words.any(|word| word.text.starts_with(['P', 'p'])) {
-                    let what =
-                        format!("{word} of a position variable is passed over: it is taken as it is listed");
-                    self.findings.note(job.text, line.number, what);
-                }
+            _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
+                let what =
+                    format!("{word} of a position variable is passed over: it is taken as it is listed");
+                self.findings.note(job.text, line.number, what);
             }
             _ => {}
         }
@@ -219,160 +218,12 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn motion<'l>(
-        &mut self,
-        job: &mut Job<'a>,
-        line: &Line<'l>,
-        (word, words): (&str, impl Iterator<Item = Part<'l>>),
-    ) {
-        let mut position = None;
-        let mut external = false;
-        let mut speed = Speed::Untold;
-        let mut ends_arc = ArcEnd::Untold;
-        for part in words {
-            let text = part.text.to_ascii_uppercase();
-            if text.starts_with("//") || text.starts_with('\'') {
-                break;
-            }
-            if text.starts_with('+') {
-                let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.findings.note(job.text, line.number, what);
-                break;
-            }
-            match (text.as_str(), text.split_once('=')) {
-                ("UNTIL" | "SRCH", _) => {
-                    let what = format!("{text} is passed over: the move goes to its end");
-                    self.findings.note(job.text, line.number, what);
-                    break;
-                }
-                ("FPT", _) => ends_arc = ArcEnd::Told,
-                (_, Some(("V", value))) => speed = self.speed(job, line, (&part, value)),
-                (_, Some(("VJ" | "VR" | "VE", _))) => speed = Speed::Joints,
-                _ => match Name::of(part.text) {
-                    Some(Name::Robot(list, number)) if position.is_none() => {
-                        position = self.position(job, line, (&part, list, number));
-                        if position.is_none() {
-                            return;
-                        }
-                    }
-                    Some(Name::Found(name)) if position.is_none() => position = Some(elsewhere(&name)),
-                    Some(_) => external = true,
-                    None => {}
-                },
-            }
-        }
-        if external {
-            let what = "positions of rails and stations (BC, EC, BP, EX) are passed over: they are taken as standing still";
-            self.findings.note(job.text, line.number, what);
-        }
-        let Some(position) = position else {
-            if !external {
-                let message = format!("`{word}` names no position");
-                let hint = "a move names one: `MOVL C00001 V=100.0`";
-                self.findings.problem(job.text, line.span(), message, hint);
-            }
-            return;
-        };
-        if word == "MOVC" {
-            return self.arc(job, line, (position, speed, ends_arc));
-        }
-        self.end_row(job);
-        if word == "MOVS" {
-            let what = "MOVS is taken as straight between its points";
-            self.findings.note(job.text, line.number, what);
-        }
-        let motion = match word {
-            "MOVJ" => Motion::Joint,
-            _ => Motion::Linear,
-        };
-        self.push((motion, position, speed), line);
-    }
-
-    /// The position of this name; P variables that are not listed stand on the controller.
-    fn position(
-        &mut self,
-        job: &Job<'a>,
-        line: &Line,
-        (part, list, number): (&Part, char, u32),
-    ) -> Option<Position> {
-        match (job.positions.get(list, number), list) {
-            (Some(position), _) => Some(position.clone()),
-            (None, 'P') => Some(elsewhere(part.text)),
-            (None, _) => {
-                let message = format!("the position {} is not in the list of this job", part.text);
-                let hint = "its line stands below //POS: give the whole job, as the controller saves it";
-                self.findings.problem(job.text, line.span_of(part), message, hint);
-                None
-            }
-        }
-    }
-
-    fn speed(&mut self, job: &Job<'a>, line: &Line, (part, value): (&Part, &str)) -> Speed {
-        if value.starts_with(|c: char| c.is_ascii_alphabetic()) {
-            let what = "a speed out of a variable is not known";
-            self.findings.note(job.text, line.number, what);
-            return Speed::Untold;
-        }
-        match number(value).filter(|value| *value >= 0.0) {
-            Some(value) => {
-                let what = "speeds V= are taken as mm/s; a parameter of the controller may make them cm/min or inch/min";
-                self.findings.note(job.text, line.number, what);
-                Speed::Tip(value * 1e-3)
-            }
-            None => {
-                let message = format!("`{value}` is no speed");
-                let hint = "write it in mm/s: `V=100.0`";
-                self.findings.problem(job.text, line.span_of(part), message, hint);
-                Speed::Untold
-            }
-        }
-    }
-
-    /// One more MOVC of a row.
-    fn arc(&mut self, job: &mut Job<'a>, line: &Line, (position, speed, end): (Position, Speed, ArcEnd)) {
-        match job.row.next(position, end, line.span()) {
-            Next::Straight(position) => self.push((Motion::Linear, position, speed), line),
-            Next::Waits => {}
-            Next::Arc { via, end } if (via.frame, via.tool) == (end.frame, end.tool) => {
-                self.push((Motion::Circular { via: via.target }, end, speed), line);
-            }
-            Next::Arc { .. } => {
-                let message =
-                    "the points of this arc count in different frames or have different tools".to_owned();
-                let hint = "teach the three points of an arc in one frame with one tool";
-                self.findings.problem(job.text, line.span(), message, hint);
-            }
-            Next::Uncertain => {
-                let message = "a fourth MOVC in a row: which points make which arc is not certain".to_owned();
-                let hint =
-                    "end an arc by FPT, or begin the next with a MOVL to the place where the tip stands";
-                self.findings.problem(job.text, line.span(), message, hint);
-            }
-        }
-    }
-
     /// No MOVC follows: whether what came made arcs.
-    fn end_row(&mut self, job: &mut Job<'a>) {
+    pub fn end_row(&mut self, job: &mut Job<'a>) {
         if let Some(span) = job.row.end() {
             let message = "this row of MOVC has no three points".to_owned();
             let hint = "an arc goes through three MOVC in a row";
             self.findings.problem(job.text, span, message, hint);
         }
-    }
-
-    fn push(&mut self, (motion, position, speed): (Motion, Position, Speed), line: &Line) {
-        let Position { target, frame, tool } = position;
-        let speed = match motion {
-            Motion::Joint => Speed::Joints,
-            _ => speed,
-        };
-        self.moves.push(RobotMove {
-            motion,
-            target,
-            frame,
-            tool,
-            speed,
-            line: line.number,
-        });
     }
 }

@@ -3,10 +3,14 @@
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::{BranchPattern, Elbow, Shoulder, Wrist};
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::{RngSeed, TestRunner};
 
 use super::*;
-use crate::robot_program::trials::{MICROMETRE, angle_of_decimals, apart, drafts, moved_alone, problems};
+use crate::robot_program::draft::Draft;
+use crate::robot_program::trials::{
+    MICROMETRE, angle_of_decimals, apart, cuts, drafts, moved_alone, problems, survives,
+};
 use crate::robot_program::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 
 const JOB: &str = "/JOB\r
@@ -310,16 +314,24 @@ fn what_controllers_do_not_hold_is_refused() {
 }
 
 fn one_draft() -> Draft {
-    let mut runner = proptest::test_runner::TestRunner::deterministic();
-    let mut draft = drafts().new_tree(&mut runner).unwrap().current();
+    let mut draft = drafts()
+        .new_tree(&mut TestRunner::deterministic())
+        .unwrap()
+        .current();
     draft.name = "part".to_owned();
     draft.points.truncate(1);
     draft.points[0].speed = Some(0.1);
     draft
 }
 
-use crate::robot_program::draft::Draft;
-use proptest::strategy::ValueTree;
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_was_cut_into_is_refused_or_read_again_as_it_was(cuts in cuts()) {
+        survives(&[("part-1.jbi", JOB)], &cuts);
+    }
+}
 
 proptest! {
     #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: RngSeed::Fixed(7), ..ProptestConfig::default() })]

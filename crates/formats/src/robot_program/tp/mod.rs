@@ -15,9 +15,10 @@
 //! systems the three turns are those of axes 4, 5, 6; rows of `A`; how long names, remarks and programs may be.
 //!
 //! In reading order: `statement` the lines between /MN and /POS, `position` those behind, `frames` what registers tell of
-//! frames and tools, `read` what is done, `write` listings to load.
+//! frames and tools, `read` what is done, `motion` moves, `write` listings to load.
 
 mod frames;
+mod motion;
 mod position;
 mod read;
 mod statement;

@@ -95,10 +95,8 @@ pub(super) fn positions(
             None => (rest, false),
         };
         fields((text, line), inside, position, findings);
-        if ends {
-            if let Some(position) = open.take() {
-                end((text, index), position, &mut done, findings);
-            }
+        if ends && let Some(position) = open.take() {
+            end((text, index), position, &mut done, findings);
         }
     }
     if let Some(open) = open {

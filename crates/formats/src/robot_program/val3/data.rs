@@ -105,7 +105,7 @@ impl Data {
     }
 
     /// Robot base to this frame, or flange to this tool; nothing where it leads to what is not told.
-    pub fn from_root(&self, father: &str) -> Option<Isometry> {
+    pub fn pose_of(&self, father: &str) -> Option<Isometry> {
         let mut pose = Isometry::identity();
         let mut at = Reference::of(father)?;
         for _ in 0..DEEPEST {

@@ -272,7 +272,7 @@ impl<'a> Reader<'a> {
         };
         let (message, hint) = match self.data.get(&reference) {
             Some(Datum::Point { target, father }) => {
-                let frame = self.data.from_root(father).map_or(Frame::Untold, Frame::Told);
+                let frame = self.data.pose_of(father).map_or(Frame::Untold, Frame::Told);
                 return Some(Goal {
                     target: target.clone(),
                     frame,
@@ -313,7 +313,7 @@ impl<'a> Reader<'a> {
     }
 
     fn tool(&mut self, (text, line): (&ProgramText, u32), argument: Part) -> Frame {
-        let told = Reference::of(argument.text).and_then(|_| self.data.from_root(argument.text));
+        let told = Reference::of(argument.text).and_then(|_| self.data.pose_of(argument.text));
         told.map_or_else(
             || {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();

@@ -8,7 +8,9 @@ use proptest::test_runner::{RngSeed, TestRunner};
 
 use super::*;
 use crate::robot_program::draft::Draft;
-use crate::robot_program::trials::{MICROMETRE, angle_of_decimals, apart, drafts, moved_alone, problems};
+use crate::robot_program::trials::{
+    MICROMETRE, angle_of_decimals, apart, cuts, drafts, moved_alone, problems, survives,
+};
 use crate::robot_program::{Frame, Motion, ProgramText, RobotProgram, Speed, Target};
 
 const PROJECT: &str = "\u{feff}<?xml version=\"1.0\" encoding=\"utf-8\" ?>\r
@@ -323,6 +325,15 @@ fn one_draft() -> Draft {
     draft.points.truncate(1);
     draft.points[0].speed = Some(0.1);
     draft
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, rng_seed: RngSeed::Fixed(11), ..ProptestConfig::default() })]
+
+    #[test]
+    fn what_was_cut_into_is_refused_or_read_again_as_it_was(cuts in cuts()) {
+        survives(&[("a.pjx", PROJECT), ("a.dtx", DATA), ("cut.pgx", CUT), ("start.pgx", START)], &cuts);
+    }
 }
 
 proptest! {
