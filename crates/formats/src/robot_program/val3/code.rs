@@ -1,5 +1,6 @@
 //! The code of a program as what happens in it: moves with their arguments, calls, choices, assignments.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use super::tags::{Piece, attributes, pieces, value};
@@ -42,7 +43,7 @@ pub(super) struct Program<'a> {
     /// Its code, in pieces.
     pub code: Vec<Part<'a>>,
     /// Names that are given to it, or its own.
-    pub locals: Vec<&'a str>,
+    pub locals: BTreeSet<&'a str>,
 }
 
 /// The programs of a file; a file without tags is the code of one, under the name of the file.
@@ -51,7 +52,7 @@ pub(super) fn programs<'a>(text: &'a str, file: &'a str) -> Vec<Program<'a>> {
         return vec![Program {
             name: file,
             code: vec![Part { at: 0, text }],
-            locals: Vec::new(),
+            locals: BTreeSet::new(),
         }];
     }
     let mut found: Vec<Program> = Vec::new();
@@ -68,7 +69,7 @@ pub(super) fn programs<'a>(text: &'a str, file: &'a str) -> Vec<Program<'a>> {
             (Piece::Verbatim(code), None) => found.push(Program {
                 name: file,
                 code: vec![code],
-                locals: Vec::new(),
+                locals: BTreeSet::new(),
             }),
             _ => {}
         }

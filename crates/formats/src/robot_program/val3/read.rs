@@ -1,5 +1,7 @@
 //! A project as moves: its code with its data.
 
+use std::collections::BTreeMap;
+
 use armill_core::frame::Isometry;
 
 use super::code::{Event, LineCount, Program, What, events, programs};
@@ -30,6 +32,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         data: Data::default(),
         has_data: false,
         programs: Vec::new(),
+        names: BTreeMap::new(),
         done: Vec::new(),
         moves: Vec::new(),
         findings: Findings::default(),
@@ -53,6 +56,9 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         }
     }
     reader.done = vec![false; reader.programs.len()];
+    for (at, (_, program)) in reader.programs.iter().enumerate() {
+        reader.names.entry(program.name).or_insert(at);
+    }
     let first_is_code = texts.first().is_some_and(|text| matches!(kind(text), Kind::Code));
     let start = reader
         .programs
@@ -114,6 +120,8 @@ struct Reader<'a> {
     data: Data,
     has_data: bool,
     programs: Vec<(&'a ProgramText, Program<'a>)>,
+    /// Which of the programs has a name; the first of those with the same.
+    names: BTreeMap<&'a str, usize>,
     done: Vec<bool>,
     moves: Vec<RobotMove>,
     findings: Findings,
@@ -169,10 +177,7 @@ impl<'a> Reader<'a> {
                 );
             }
             What::Call(name) => {
-                let known = self
-                    .programs
-                    .iter()
-                    .position(|(_, program)| program.name == *name);
+                let known = self.names.get(name).copied();
                 match known {
                     Some(at) if !self.done[at] && depth < DEEPEST => self.program(at, depth + 1),
                     Some(_) => {
@@ -289,7 +294,7 @@ impl<'a> Reader<'a> {
                 format!("`{}` is neither point nor joints", argument.text),
                 "a move goes to a pointRx or a jointRx",
             ),
-            None if program.locals.contains(&reference.name.as_str()) || reference.name.contains(':') => {
+            None if program.locals.contains(reference.name.as_str()) || reference.name.contains(':') => {
                 return elsewhere();
             }
             None if !self.has_data => (
