@@ -8,6 +8,7 @@
 //! | `///POSTYPE BASE`, `ROBOT` | poses in the robot's base |
 //! | `///POSTYPE USER`, `///USER n` | poses in the controller's user frame n |
 //! | `///POSTYPE PULSE` | [`Target::Elsewhere`](super::Target::Elsewhere): what a pulse is only the controller knows |
+//! | `///POSTYPE ANGLE` | joints, deg |
 //! | `///RCONF l,m,n,o,p,q` | l 0 flip, 1 none; m 1 lower arm; n 1 rear; o, p, q: axes R, T, S turned beyond 180 deg |
 //! | `MOVJ`, `MOVL`, `MOVS` | joint; straight; a curve through points, taken as straight between them |
 //! | three `MOVC` in a row | straight to the first, then an arc through the second to the third |
@@ -15,8 +16,9 @@
 //!
 //! A job of the RoboDK post has RCONF in another order (rear, lower, flip) and is known by that name in it.
 //!
-//! Source: Yaskawa's manuals of data transmission (NX100, DX100) for the lists and RCONF. [recalled] Yaskawa's flip is
-//! axis B (5) bent the other way, as ours; `FPT` ends an arc where the next begins; parameters of `PL=`.
+//! Source: Yaskawa's manuals of data transmission (NX100, DX100) for the lists and RCONF; a public program that writes jobs
+//! for ANGLE. [recalled] Yaskawa's flip is axis B (5) bent the other way, as ours; `FPT` ends an arc where the next begins;
+//! parameters of `PL=`.
 //!
 //! In reading order: `position` the list of positions, `read` what is done with them, `motion` moves, `write` jobs to load.
 

@@ -58,6 +58,7 @@ pub(super) struct Position {
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Pulse,
+    Angle,
     Base,
     User,
     Other(String),
@@ -127,12 +128,14 @@ impl<'a> Positions<'a> {
             "POSTYPE" => {
                 self.kind = Some(match rest.to_ascii_uppercase().as_str() {
                     "PULSE" => Kind::Pulse,
+                    "ANGLE" => Kind::Angle,
                     "BASE" | "ROBOT" => Kind::Base,
                     "USER" => Kind::User,
                     _ => Kind::Other(rest.to_owned()),
                 });
             }
             "PULSE" => self.kind = Some(Kind::Pulse),
+            "ANGLE" => self.kind = Some(Kind::Angle),
             "RCONF" => self.rconf(line, rest, findings),
             _ => {}
         }
@@ -252,6 +255,9 @@ impl<'a> Positions<'a> {
             Some(Kind::Pulse) => Some(Target::Elsewhere {
                 name: name.to_owned(),
             }),
+            Some(Kind::Angle) => Some(Target::Joints(
+                numbers.iter().map(|deg| deg.to_radians()).collect(),
+            )),
             Some(Kind::Base | Kind::User) => {
                 let pose = numbers.get(..6).unwrap_or(numbers);
                 if numbers.len() > 6 {

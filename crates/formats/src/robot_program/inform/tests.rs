@@ -206,6 +206,17 @@ fn a_called_job_is_read_where_it_is_called_first() {
 }
 
 #[test]
+fn angles_are_joints() {
+    let job = "/JOB\n//POS\n///TOOL 2\n///POSTYPE ANGLE\n///ANGLE\nC0=-46.1842,-6.7752,90.0,0,0,-302.5475\n//INST\nMOVJ C0 VJ=1.0\nEND\n";
+    let program = program(job);
+    let joints = [-46.1842, -6.7752, 90.0, 0.0, 0.0, -302.5475]
+        .map(f64::to_radians)
+        .to_vec();
+    assert_eq!(program.moves[0].target, Target::Joints(joints));
+    assert_eq!(program.moves[0].tool, Frame::Numbered(2));
+}
+
+#[test]
 fn each_mistake_has_its_sentence() {
     let head = "/JOB\n//POS\n///POSTYPE BASE\nC1=1,2,3,0,0,0\nC2=1,2,3,0,0,0\n";
     let with =

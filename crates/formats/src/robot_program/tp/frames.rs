@@ -17,6 +17,14 @@ pub(super) enum Which {
     Tool,
 }
 
+/// What they are called, in German listings too.
+const NAMES: [(Which, &str); 4] = [
+    (Which::User, "UFRAME"),
+    (Which::Tool, "UTOOL"),
+    (Which::User, "BENUTZER"),
+    (Which::Tool, "WKZ"),
+];
+
 /// Registers, frames and tools as far as they are told, and which are chosen.
 #[derive(Debug, Default)]
 pub(super) struct Frames {
@@ -32,7 +40,7 @@ impl Frames {
             return false;
         };
         let (left, right) = (left.trim(), right.trim());
-        for (which, name) in [(Which::User, "UFRAME"), (Which::Tool, "UTOOL")] {
+        for (which, name) in NAMES {
             if let Some((at, "")) = index(left, name) {
                 let pose = single(right, "PR").and_then(|register| self.pose(register));
                 match (single_index(&at), pose) {

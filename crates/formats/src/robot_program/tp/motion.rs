@@ -9,13 +9,16 @@ use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::spelling::{Part, number};
 
 /// Units of speed: a length in m, and a time in s; nothing where it says nothing of the tip.
-const UNITS: [(&str, Option<[f64; 2]>); 7] = [
+const UNITS: [(&str, Option<[f64; 2]>); 10] = [
     ("mm/sec", Some([1e-3, 1.0])),
+    ("mm/sek", Some([1e-3, 1.0])),
     ("cm/min", Some([1e-2, 60.0])),
     ("inch/min", Some([0.0254, 60.0])),
     ("deg/sec", None),
     ("msec", None),
     ("sec", None),
+    ("msek", None),
+    ("sek", None),
     ("%", None),
 ];
 
@@ -138,41 +141,36 @@ impl<'a> Reader<'a> {
         statement: &Statement,
         (kind, rest): (&str, &[Part]),
     ) -> Speed {
-        let mut before = None;
-        for word in rest {
+        if kind == "J" {
+            return Speed::Joints;
+        }
+        // The unit may stand alone behind its number.
+        let apart = rest.first().is_some_and(|word| number(word.text).is_some());
+        if let Some(word) = rest.get(usize::from(apart)) {
             let lower = word.text.to_ascii_lowercase();
             let unit = UNITS.iter().find(|(unit, _)| lower.ends_with(unit));
-            let Some((unit, of_tip)) = unit else {
-                // The unit may stand alone behind its number.
-                before = Some(word.text);
-                continue;
-            };
-            let alone = lower.len() == unit.len();
-            let told = match (alone, before) {
-                (true, Some(before)) => before,
-                (true, None) => "",
-                (false, _) => word.text.get(..lower.len() - unit.len()).unwrap_or_default(),
+            let told = match (apart, unit) {
+                (true, _) => rest.first().map_or("", |word| word.text),
+                (false, Some((unit, _))) => word.text.get(..lower.len() - unit.len()).unwrap_or_default(),
+                (false, None) => "",
             };
             let computed = told.starts_with(['R', 'r', 'A', 'a']) && told.contains('[');
-            return match (of_tip, number(told).filter(|value| *value >= 0.0)) {
-                _ if kind == "J" => Speed::Joints,
-                (None, _) => Speed::Joints,
-                (Some([length, time]), Some(value)) => Speed::Tip(value * length / time),
+            match (unit, number(told).filter(|value| *value >= 0.0)) {
+                (None, _) => {}
+                (Some((_, None)), _) => return Speed::Joints,
+                (Some((_, Some([length, time]))), Some(value)) => return Speed::Tip(value * length / time),
                 (Some(_), None) if computed => {
                     let what = "a speed out of a register is not known";
                     self.findings.note(program.text, statement.line, what);
-                    Speed::Untold
+                    return Speed::Untold;
                 }
                 (Some(_), None) => {
                     let message = format!("`{told}` is no speed");
                     self.findings
                         .problem(program.text, word.range(), message, "write it as `100mm/sec`");
-                    Speed::Untold
+                    return Speed::Untold;
                 }
-            };
-        }
-        if kind == "J" {
-            return Speed::Joints;
+            }
         }
         let what = "a speed that the program does not tell (WELD_SPEED, max_speed, ...) is not known";
         self.findings.note(program.text, statement.line, what);

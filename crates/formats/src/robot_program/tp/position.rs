@@ -53,6 +53,8 @@ struct Open {
     spelled: Option<Range<usize>>,
     joints: BTreeMap<u32, f64>,
     untaught: Option<String>,
+    /// Told as RX, RY, ..., in the frame of another group.
+    relative: bool,
     broken: bool,
 }
 
@@ -125,6 +127,7 @@ fn begin(text: &ProgramText, line: &Line, findings: &mut Findings) -> Option<Ope
         spelled: None,
         joints: BTreeMap::new(),
         untaught: None,
+        relative: false,
         broken: false,
     })
 }
@@ -212,6 +215,11 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
                     .spelled
                     .get_or_insert_with(|| line.start + key_at(part)..place.end);
                 spelled.end = spelled.end.max(place.end);
+            } else if key
+                .strip_prefix('R')
+                .is_some_and(|key| super::KEYS.contains(&key))
+            {
+                position.relative = true;
             } else if key.starts_with('E') {
                 let what = "extended axes (E1, ...) are passed over: they are taken as standing still";
                 findings.note(text, line.number, what);
@@ -236,7 +244,7 @@ fn taught(
         return found;
     }
     if value.text.starts_with('*') {
-        position.untaught = Some(key.to_owned());
+        position.untaught.get_or_insert_with(|| key.to_owned());
     } else {
         position.broken = true;
         let message = format!("`{}` is no number of {key} in P[{}]", value.text, position.number);
@@ -275,6 +283,9 @@ fn end(
     let nothing = open.pose.iter().all(Option::is_none);
     let taught = match (&open.untaught, values, open.spelled) {
         _ if open.broken => Taught::Refused,
+        _ if open.relative => {
+            Taught::Missing("it is told relative to another group (RX, RY, ...)".to_owned())
+        }
         (Some(key), ..) => Taught::Missing(format!("its {key} was never taught")),
         (None, Some(values), Some(bytes)) => match Convention::Fanuc.pose(&values) {
             Ok(pose) => Taught::There(Target::Pose {

@@ -18,8 +18,8 @@ use crate::robot_program::text::ProgramText;
 const DEEPEST: usize = 30;
 
 /// Words that choose what runs and how often.
-const CHOICES: [&str; 12] = [
-    "JMP", "LBL", "IF", "ELSE", "ENDIF", "SELECT", "FOR", "ENDFOR", "MONITOR", "RUN", "ABORT", "END",
+const CHOICES: [&str; 13] = [
+    "JMP", "LBL", "IF", "ELSE", "ENDIF", "SELECT", "FOR", "ENDFOR", "MONITOR", "RUN", "ABORT", "END", "WENN",
 ];
 
 /// Words that shift what follows, or end moves early.
@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
             .chars()
             .take_while(|c| c.is_ascii_alphabetic() || *c == '_')
             .collect();
-        if name == "CALL" {
+        if matches!(name.as_str(), "CALL" | "AUFRUF") {
             let called = statement.word(1).split('(').next().unwrap_or_default();
             return self.call(program, statement, called);
         }

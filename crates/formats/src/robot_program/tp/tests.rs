@@ -44,7 +44,7 @@ LINE_COUNT\t= 24;\r
   20:S P[6] WELD_SPEED FINE COORD    ;\r
   21:  UTOOL[3]=PR[8] ;\r
   22:L P[5] 2.0sec FINE    ;\r
-  23:L P[R[3]] max_speed FINE    ;\r
+  23:L P[R[3]] max_speed FINE TB    .10sec,P-SPS    ;\r
   24:  CALL OPEN_GRIPPER(1) ;\r
   25:  IF R[1]=1,JMP LBL[3] ;\r
        ------ ;\r
@@ -325,6 +325,21 @@ fn each_mistake_has_its_sentence() {
         );
     }
     assert!(problems(&[("a.ls", "hello")])[0].contains("this is no listing of a FANUC program"));
+}
+
+#[test]
+fn a_german_listing_is_read_too() {
+    let text = "/PROG A\n/MN\n   1:  WKZ_NUM=3 ;\n   2:  BENUTZER_NUM=2 ;\n   3:L P[1] 250mm/sek CNT0 ZEIT VOR   0.00sek,P-SPS    ;\n   4:  AUFRUF B    ;\n/POS\nP[1]{\n   GP1:\n\tUF : F, UT : F,\n\tX = 1 mm, Y = 2 mm, Z = 3 mm, W = 0 deg, P = 0 deg, R = 0 deg\n};\n/END\n";
+    let program = read(vec![ProgramText::new("a.ls", text.as_bytes())]).unwrap();
+    let one = &program.moves[0];
+    assert_eq!(
+        (one.frame, one.tool, one.speed),
+        (Frame::Numbered(2), Frame::Numbered(3), Speed::Tip(0.25))
+    );
+    assert_eq!(
+        program.notes,
+        ["a.ls:6: B is called, but not given: what it does is passed over"]
+    );
 }
 
 #[test]

@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use armill_core::frame::Isometry;
-
 use super::code::{Event, LineCount, Program, What, events, programs};
 use super::data::{Data, Datum, Reference};
 use super::tags::{Piece, attributes, pieces, value};
@@ -286,7 +284,7 @@ impl<'a> Reader<'a> {
             Some(Datum::Joints(target)) => {
                 return Some(Goal {
                     target: target.clone(),
-                    frame: Frame::Told(Isometry::identity()),
+                    frame: Frame::Untold,
                 });
             }
             Some(Datum::Refused) => return None,
