@@ -153,10 +153,11 @@ pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], ou
     out.push_str(before.get(done..).unwrap_or_default());
 }
 
-/// The text in ASCII, other characters as question marks, in pieces of so many characters: for remarks.
+/// The words of a text in ASCII, other characters as question marks, in pieces of so many characters: for remarks.
 pub(super) fn in_pieces(text: &str, longest: usize) -> Vec<String> {
-    let plain: Vec<char> = text
-        .chars()
+    let plain: String = text
+        .split_whitespace()
+        .flat_map(|word| word.chars().chain([' ']))
         .map(|c| {
             if c.is_ascii() && !c.is_ascii_control() {
                 c
@@ -165,10 +166,19 @@ pub(super) fn in_pieces(text: &str, longest: usize) -> Vec<String> {
             }
         })
         .collect();
-    plain
-        .chunks(longest.max(1))
-        .map(|piece| piece.iter().collect::<String>().trim_end().to_owned())
-        .collect()
+    let mut pieces = Vec::new();
+    let mut rest = plain.trim_end();
+    while !rest.is_empty() {
+        let most = longest.max(1).min(rest.len());
+        let end = match rest.as_bytes().get(most) {
+            // Between words, if there is a place.
+            Some(next) if *next != b' ' => rest[..most].rfind(' ').unwrap_or(most),
+            _ => most,
+        };
+        pieces.push(rest[..end].to_owned());
+        rest = rest[end..].trim_start();
+    }
+    pieces
 }
 
 #[cfg(test)]
@@ -223,7 +233,11 @@ mod tests {
 
     #[test]
     fn remarks_are_cut_and_have_no_other_letters() {
-        assert_eq!(in_pieces("gr\u{fc}n und blau", 8), ["gr?n und", " blau"]);
+        assert_eq!(
+            in_pieces("gr\u{fc}n  und\tblau gelb", 8),
+            ["gr?n und", "blau", "gelb"]
+        );
+        assert_eq!(in_pieces("dunkelblau", 4), ["dunk", "elbl", "au"]);
         assert!(in_pieces("", 8).is_empty());
     }
 }

@@ -1,5 +1,7 @@
 //! A draft as a relative job: positions in a user frame, RCONF for each, split where it is long.
 
+use armill_core::frame::Isometry;
+
 use crate::convention::Convention;
 use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written};
 use crate::robot_program::number::fixed;
@@ -70,29 +72,16 @@ fn file(name: &str, text: String) -> (String, Vec<u8>) {
 }
 
 fn notes(draft: &Draft, split: bool) -> Vec<String> {
-    let numbers = |pose| {
-        let numbers = Convention::Yaskawa.numbers_of(pose);
-        let of = |at: usize| fixed(numbers[at], if at < 3 { 3 } else { 4 });
-        format!(
-            "X {} Y {} Z {} mm, Rx {} Ry {} Rz {} deg",
-            of(0),
-            of(1),
-            of(2),
-            of(3),
-            of(4),
-            of(5)
-        )
-    };
     let mut notes = vec![
         format!(
             "user frame {} on the controller must be, from the robot's base: {}",
             draft.frame_number,
-            numbers(&draft.base_from_frame)
+            numbers(&draft.base_from_frame).join(" ")
         ),
         format!(
             "tool {} on the controller must be: {}",
             draft.tool_number,
-            numbers(&draft.flange_from_tool)
+            numbers(&draft.flange_from_tool).join(" ")
         ),
         "the job is a relative one (ATTR RJ), which some controllers load with an option only".to_owned(),
         "the first move is MOVJ to a position with its RCONF, since joints are pulses that differ from arm to arm: \
@@ -125,6 +114,18 @@ fn notes(draft: &Draft, split: bool) -> Vec<String> {
     notes
 }
 
+/// A pose in pieces that fit a remark.
+fn numbers(pose: &Isometry) -> [String; 4] {
+    let numbers = Convention::Yaskawa.numbers_of(pose);
+    let of = |at: usize| fixed(numbers[at], super::DECIMALS[at / 3]);
+    [
+        format!("X {} Y {}", of(0), of(1)),
+        format!("Z {} mm,", of(2)),
+        format!("Rx {} Ry {}", of(3), of(4)),
+        format!("Rz {} deg", of(5)),
+    ]
+}
+
 fn line(out: &mut String, text: &str) {
     out.push_str(text);
     out.push_str(END);
@@ -142,6 +143,21 @@ fn instructions(draft: &Draft, attributes: &[&str], out: &mut String) {
     line(out, "NOP");
     for remark in &draft.remarks {
         for piece in in_pieces(remark, LONGEST_REMARK) {
+            line(out, &format!("'{piece}"));
+        }
+    }
+    let told = [
+        (
+            format!("USER {} from the base:", draft.frame_number),
+            &draft.base_from_frame,
+        ),
+        (
+            format!("TOOL {} from the flange:", draft.tool_number),
+            &draft.flange_from_tool,
+        ),
+    ];
+    for (what, pose) in told {
+        for piece in std::iter::once(what).chain(numbers(pose)) {
             line(out, &format!("'{piece}"));
         }
     }
