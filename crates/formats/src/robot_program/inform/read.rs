@@ -1,7 +1,7 @@
 //! What a job does with its positions: moves, and what is passed over between them.
 
 use super::position::{Position, Positions};
-use crate::document::Problems;
+use crate::document::{Problem, Problems};
 use crate::robot_program::arc_row::ArcRow;
 use crate::robot_program::findings::Findings;
 use crate::robot_program::language::Language;
@@ -47,6 +47,23 @@ const COMPUTES: [&str; 9] = [
 /// # Errors
 /// Every problem of the files, at most 200.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
+    let is_job = |text: &ProgramText| {
+        let begins = |line: &str| {
+            ["/JOB", "//POS", "//INST"]
+                .iter()
+                .any(|begin| line.trim_start().starts_with(begin))
+        };
+        text.text().lines().any(begins)
+    };
+    if let Some(other) = texts.first().filter(|text| !is_job(text)) {
+        let message = "this is no job: it has neither /JOB nor //POS nor //INST";
+        return Err(Problem::of_file(
+            other.name(),
+            message,
+            "save the job as the controller writes it (.JBI)",
+        )
+        .into());
+    }
     let mut reader = Reader {
         texts: &texts,
         names: texts.iter().map(job_name).collect(),

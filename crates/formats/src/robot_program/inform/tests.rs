@@ -280,6 +280,7 @@ fn each_mistake_has_its_sentence() {
     }
     let without_type = problems(&[("a.jbi", "/JOB\n//POS\nC1=1,2,3,0,0,0\n//INST\nEND\n")]);
     assert!(without_type[0].contains("nothing tells in which coordinates the position C1 counts"));
+    assert!(problems(&[("a.jbi", "hello")])[0].contains("this is no job"));
     let pulses = "/JOB\n//POS\n///POSTYPE PULSE\nC1=1,2,3,0,0,0\n//INST\nMOVJ C1 VJ=1.0\nEND\n";
     assert!(
         problems(&[("a.jbi", pulses)])[0].contains("line 6: no target of this job is told in coordinates")
