@@ -14,7 +14,8 @@
 //! ([`RobotProgram::with_poses`]).
 //!
 //! In reading order: [`Language`]; `program` what is read; `text` files as bytes and as characters; `rewrite` the same
-//! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers.
+//! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
+//! `tokens` what three languages' texts are made of; `told` what is told beside moves.
 
 pub mod inform;
 pub mod krl;
@@ -30,6 +31,8 @@ mod posture;
 mod program;
 mod rewrite;
 mod text;
+mod tokens;
+mod told;
 
 pub use draft::{Draft, DraftError, DraftPoint, Written};
 pub use language::Language;
