@@ -127,6 +127,17 @@ impl Draft {
 }
 
 impl Draft {
+    /// Whether its name is none of these words, which differ by more than capitals.
+    pub(super) fn avoid(&self, bounds: &Bounds, words: &[&str]) -> Result<(), DraftError> {
+        let is_word = words.iter().any(|word| word.eq_ignore_ascii_case(&self.name));
+        let refused = || DraftError::Name {
+            name: self.name.clone(),
+            language: bounds.language,
+            rule: bounds.names,
+        };
+        if is_word { Err(refused()) } else { Ok(()) }
+    }
+
     /// The remarks line by line: what ends a line in one of them must not begin a statement.
     pub(super) fn remark_lines(&self) -> impl Iterator<Item = &str> {
         self.remarks

@@ -127,12 +127,17 @@ pub(super) struct Cursor<'a> {
     pub tokens: &'a [Token],
     /// Where its last token ends.
     pub end: usize,
+    passed: usize,
 }
 
 impl<'a> Cursor<'a> {
     pub fn new(text: &'a str, tokens: &'a [Token]) -> Cursor<'a> {
-        let end = tokens.last().map_or(0, |last| last.end);
-        Cursor { text, tokens, end }
+        Cursor {
+            text,
+            tokens,
+            end: tokens.last().map_or(0, |last| last.end),
+            passed: tokens.first().map_or(0, |first| first.start),
+        }
     }
 
     pub fn peek(&self) -> Option<Token> {
@@ -142,6 +147,7 @@ impl<'a> Cursor<'a> {
     pub fn next(&mut self) -> Option<Token> {
         let token = self.peek()?;
         self.tokens = &self.tokens[1..];
+        self.passed = token.end;
         Some(token)
     }
 
@@ -182,6 +188,11 @@ impl<'a> Cursor<'a> {
                 _ => return None,
             }
         }
+    }
+
+    /// Where the token that it passed last ends; of none, where its first begins.
+    pub fn before(&self) -> usize {
+        self.passed
     }
 
     /// Where it stands: the next token, or the end of the last.

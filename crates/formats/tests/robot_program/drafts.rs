@@ -12,6 +12,7 @@ use armill_formats::robot_program::{
 use proptest::prelude::*;
 
 use crate::rewriting::near;
+use crate::same_poses::{JOINTS, kuka};
 
 fn poses() -> impl Strategy<Value = Isometry> {
     // The middle angle is at times a right one, where the others share a turn.
@@ -45,10 +46,10 @@ fn points() -> impl Strategy<Value = DraftPoint> {
         })
 }
 
-/// Drafts within what every language holds.
+/// Drafts within what every language holds; no word of any begins with Q.
 pub fn drafts() -> impl Strategy<Value = Draft> {
     (
-        "[A-Z][A-Z0-9_]{0,6}",
+        "Q[A-Z0-9_]{0,6}",
         prop::collection::vec("[ -~\u{e4}\r\n]{0,40}", 0..3),
         (poses(), 1..9u32),
         (poses(), 1..9u32),
@@ -63,6 +64,27 @@ pub fn drafts() -> impl Strategy<Value = Draft> {
             tool_number: tool.1,
             points,
         })
+}
+
+/// A draft of so many points on a line.
+pub fn long(points: usize) -> Draft {
+    let joints: Vec<f64> = JOINTS.map(f64::to_radians).to_vec();
+    let point = |index: usize| DraftPoint {
+        frame_from_tool: kuka([index as f64 * 0.1, 0.0, 0.0, 0.0, 90.0, 0.0]),
+        joints: joints.clone(),
+        branch: Some(Branch::ALL[0]),
+        speed: Some(0.05),
+        blend: 0.0005,
+    };
+    Draft {
+        name: "PLATE".to_owned(),
+        remarks: vec!["made by armill\nLIN {X 0}".to_owned()],
+        base_from_frame: kuka([1.0, 2.0, 3.0, 0.0, 0.0, 0.0]),
+        frame_number: 1,
+        flange_from_tool: kuka([0.0, 0.0, 100.0, 0.0, 0.0, 0.0]),
+        tool_number: 2,
+        points: (0..points).map(point).collect(),
+    }
 }
 
 /// The program that was written.
@@ -96,10 +118,11 @@ pub fn reads_back(language: Language, draft: &Draft, says: &Says) {
     assert_eq!((program.language, &program.name), (language, &draft.name));
     assert_eq!(program.moves.len(), draft.points.len(), "{:?}", program.notes);
     for (index, (found, asked)) in program.moves.iter().zip(&draft.points).enumerate() {
-        for (found, pose, number) in [
-            (found.frame, &draft.base_from_frame, draft.frame_number),
-            (found.tool, &draft.flange_from_tool, draft.tool_number),
-        ] {
+        let tool = (found.tool, &draft.flange_from_tool, draft.tool_number);
+        let frame = (found.frame, &draft.base_from_frame, draft.frame_number);
+        // Joints count in no frame.
+        let frame = found.target.pose().map(|_| frame);
+        for (found, pose, number) in [tool].into_iter().chain(frame) {
             match (found, (says.frames)(number)) {
                 (found, Some(wanted)) => assert_eq!(found, wanted),
                 (Frame::Told(found), None) => near(&found, pose),

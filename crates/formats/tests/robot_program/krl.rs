@@ -1,14 +1,11 @@
 //! KUKA KRL.
 
-use armill_core::robot::Branch;
-use armill_formats::robot_program::{
-    Draft, DraftPoint, Frame, Language, Motion, RobotProgram, Speed, Target, write,
-};
+use armill_formats::robot_program::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
 use proptest::prelude::*;
 
-use crate::drafts::{Says, drafts, read_back, reads_back};
+use crate::drafts::{Says, drafts, long, read_back, reads_back};
 use crate::rewriting::{keeps_the_rest, near, rewritten};
-use crate::same_poses::{JOINTS, eight_moves, kuka, path, same, same_joints, sample};
+use crate::same_poses::{eight_moves, kuka, path, same, same_joints, sample};
 use crate::{problems, program, refused};
 
 /// A program with its data, as the inline forms of a pendant write it.
@@ -454,27 +451,6 @@ proptest! {
     }
 }
 
-/// A draft of so many points on a line.
-fn long(points: usize) -> Draft {
-    let joints: Vec<f64> = JOINTS.map(f64::to_radians).to_vec();
-    let point = |index: usize| DraftPoint {
-        frame_from_tool: kuka([index as f64 * 0.1, 0.0, 0.0, 0.0, 90.0, 0.0]),
-        joints: joints.clone(),
-        branch: Some(Branch::ALL[0]),
-        speed: Some(0.05),
-        blend: 0.0005,
-    };
-    Draft {
-        name: "PLATE".to_owned(),
-        remarks: vec!["made by armill\nLIN {X 0}".to_owned()],
-        base_from_frame: kuka([1.0, 2.0, 3.0, 0.0, 0.0, 0.0]),
-        frame_number: 1,
-        flange_from_tool: kuka([0.0, 0.0, 100.0, 0.0, 0.0, 0.0]),
-        tool_number: 2,
-        points: (0..points).map(point).collect(),
-    }
-}
-
 #[test]
 fn a_program_is_written_so() {
     let written = write(Language::Krl, &long(3)).unwrap();
@@ -539,8 +515,5 @@ fn what_controllers_do_not_hold_is_refused() {
     let mut draft = long(5001);
     draft.name = "A".repeat(20);
     let told = write(Language::Krl, &draft).unwrap_err().to_string();
-    assert!(
-        told.contains("at most 19 in all, for it is written in parts"),
-        "{told}"
-    );
+    assert!(told.contains("at most 19 for it is written in parts"), "{told}");
 }

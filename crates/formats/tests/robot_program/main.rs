@@ -5,11 +5,13 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod drafts;
+mod hostile;
 mod krl;
 mod rewriting;
 mod same_poses;
 #[path = "../samples_folder/mod.rs"]
 mod samples_folder;
+mod urscript;
 
 use armill_formats::document::Problems;
 use armill_formats::robot_program::{ProgramText, RobotProgram, read};

@@ -256,8 +256,12 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
         let (Some(index), Some(_)) = (POSE.iter().position(|known| *known == name), cursor.number()) else {
             continue;
         };
-        let end = start + before[start..cursor.place().start].trim_end().len();
+        let end = cursor.before();
         out.push_str(&before[done..start]);
+        // `A-5` is a component, `A5` would be an axis.
+        if out.ends_with(|c: char| c.is_alphanumeric()) {
+            out.push(' ');
+        }
         let least = if index < 3 { MM } else { DEG };
         write_fixed(
             out,

@@ -137,8 +137,7 @@ impl<'a> Reader<'a> {
     fn relative(&mut self, (at, word): (Token, &str), cursor: &mut Cursor<'a>) -> Option<(Motion, Goal)> {
         let aggregate = self.aggregate(cursor)?;
         let in_tool = cursor.pass('#') && cursor.word().is_some_and(|word| word == "TOOL");
-        let end = at.start..cursor.tokens.first().map_or(cursor.end, |next| next.start);
-        let span = at.start..at.start + cursor.text[end].trim_end().len();
+        let span = at.start..cursor.before();
         let motion = match word.starts_with("PTP") || word.starts_with("SPTP") {
             true => Motion::Joint,
             false => Motion::Linear,
@@ -244,9 +243,7 @@ impl<'a> Reader<'a> {
             self.text = text;
             return goal;
         }
-        let end = cursor.tokens.first().map_or(cursor.end, |next| next.start);
-        let end = place.start + cursor.text[place.start..end].trim_end().len();
-        self.posed(numbers, &Aggregate::default(), place.start..end)
+        self.posed(numbers, &Aggregate::default(), place.start..cursor.before())
     }
 
     /// A pose of these numbers with what the aggregate says beside, spelled at these bytes of the text that is read.

@@ -25,6 +25,77 @@ const AXIS: usize = 5;
 const FRAME: [usize; 2] = [4, 6];
 const SPEED: usize = 6;
 const BLEND: usize = 3;
+/// Words of the language [recalled].
+const WORDS: &[&str] = &[
+    "AND",
+    "ANIN",
+    "ANOUT",
+    "B_AND",
+    "BAS",
+    "BOOL",
+    "BRAKE",
+    "CASE",
+    "CHANNEL",
+    "CHAR",
+    "CIRC",
+    "CIRC_REL",
+    "CONFIRM",
+    "CONST",
+    "CONTINUE",
+    "DECL",
+    "DEF",
+    "DEFAULT",
+    "DEFDAT",
+    "DEFFCT",
+    "DIGIN",
+    "DO",
+    "ELSE",
+    "END",
+    "ENDDAT",
+    "ENDFCT",
+    "ENDFOR",
+    "ENDIF",
+    "ENDLOOP",
+    "ENDSWITCH",
+    "ENDWHILE",
+    "ENUM",
+    "EXIT",
+    "EXT",
+    "FALSE",
+    "FOR",
+    "FRAME",
+    "GLOBAL",
+    "GOTO",
+    "HALT",
+    "IF",
+    "IMPORT",
+    "INT",
+    "INTERRUPT",
+    "LIN",
+    "LIN_REL",
+    "LOOP",
+    "NOT",
+    "OR",
+    "POS",
+    "PTP",
+    "PTP_REL",
+    "PULSE",
+    "REAL",
+    "REPEAT",
+    "RESUME",
+    "RETURN",
+    "SIGNAL",
+    "SPLINE",
+    "STRUC",
+    "SWITCH",
+    "THEN",
+    "TO",
+    "TRIGGER",
+    "TRUE",
+    "UNTIL",
+    "WAIT",
+    "WHILE",
+];
 
 /// Writes a program.
 ///
@@ -37,15 +108,18 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         longest_name: LONGEST_NAME - if is_split { PART } else { 0 },
         names: match is_split {
             true => {
-                "a letter, then letters, digits and underscores, at most 19 in all, for it is written in parts"
+                "letters, digits and underscores, at most 19 for it is written in parts, and no word of the language"
             }
-            false => "a letter, then letters, digits and underscores, at most 24 in all",
+            false => {
+                "a letter, then letters, digits and underscores, at most 24 in all, and no word of the language"
+            }
         },
         joints: 6..=6,
         frames: 0..=MOST_FRAMES,
         tools: 0..=MOST_FRAMES,
     };
     draft.check(&bounds)?;
+    draft.avoid(&bounds, WORDS)?;
     let mut main = head(draft);
     let mut parts = Vec::new();
     let mut modal = Modal::default();

@@ -1,0 +1,123 @@
+//! Programs broken in every way that one wrong character can break them, and such as are made to take long.
+
+use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotProgram, Target, krl, urscript};
+
+use crate::rewriting::all_moved;
+
+type Read = fn(Vec<ProgramText>) -> Result<RobotProgram, armill_formats::document::Problems>;
+
+/// A program with all that its language has, on few lines.
+const PROGRAMS: &[(Read, &str, &str)] = &[
+    (
+        krl::read,
+        "a.src",
+        "DEF A()\nDECL FDAT FP1={TOOL_NO 2,BASE_NO 5,IPO_FRAME #BASE}\n$BASE={FRAME: X 1,Y 2.5,Z 3,A 4,B 5,C 6}:$NULLFRAME\n\
+         P[1]={E6POS: X 1,Y 2,Z 3,A 0,B 0,C 0,S 'B10',T 35}\nPTP P[1] C_PTP\nLIN {X 20.125 ,B -.5E1}\nLIN_REL {Z 10} #TOOL C_DIS\n\
+         SLIN P[1]:{X 1,Y 2,Z 3,A 4,B 5,C 6} WITH $VEL=SVEL_CP(0.4, ,L), $BASE=SBASE(FP1.BASE_NO)\n\
+         BAS(#BASE,4)\nPTP P[1]\nCIRC {X 1},{Y 2} ; \"\u{e4}\nPTP {A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\nEND\n",
+    ),
+    (
+        urscript::read,
+        "a.script",
+        "def a(x):\n  f = p[1, 2, 3, 0.1, -.2, d2r(30)]\n  q = [0, 1, (2 + 3) * 4, 5, 6, f[1]]\n  while True:\n  movej([0, 1, 2, 3, 4, 5], a=1)\n\
+         movel(pose_trans(f, p[1e-1,2,3 ,0,0,0]), 1.2, 0.25, 0, r=0.01) # \u{e4}\n  movec(f, pose_inv(f))\n\
+         movej(get_inverse_kin(f, qnear=q))\n  set_tcp(f)\n  textmsg(\"a)\", 'b')\nend\n",
+    ),
+];
+
+/// That what is read is made of numbers, and reads again when written with the poses that it has.
+fn judge(read: Read, text: &str) {
+    let Ok(program) = read(vec![ProgramText::new("a", text.as_bytes())]) else {
+        return;
+    };
+    for of in &program.moves {
+        match &of.target {
+            Target::Pose { pose, spelled, .. } => {
+                assert!(
+                    pose.to_homogeneous().iter().all(|value| value.is_finite()),
+                    "{text}"
+                );
+                assert!(
+                    program.texts[spelled.text]
+                        .text()
+                        .get(spelled.bytes.clone())
+                        .is_some()
+                );
+            }
+            Target::Joints(joints) => assert!(joints.iter().all(|value| value.is_finite()), "{text}"),
+        }
+    }
+    // Two moves to one target with components left out go to different places: that is told, and no more.
+    if let Ok(files) = program.with_poses(&all_moved(&program, |pose| *pose)) {
+        let texts = files.iter().map(|(name, bytes)| ProgramText::new(name, bytes));
+        let again = read(texts.collect()).unwrap_or_else(|problems| panic!("{problems}\n{text}"));
+        assert_eq!(program.moves.len(), again.moves.len(), "{text}");
+    }
+}
+
+#[test]
+fn every_language_reads_its_own_program_here() {
+    for (read, name, text) in PROGRAMS {
+        let program =
+            read(vec![ProgramText::new(name, text.as_bytes())]).unwrap_or_else(|told| panic!("{told}"));
+        assert!(program.moves.len() >= 4, "{name}");
+        let arcs = |of: &Moved| matches!(program.moves[of.index].motion, Motion::Circular { .. });
+        assert!(all_moved(&program, |pose| *pose).iter().any(arcs), "{name}");
+    }
+}
+
+#[test]
+fn no_wrong_character_makes_any_language_panic() {
+    for (read, _, text) in PROGRAMS {
+        for (at, c) in text.char_indices() {
+            judge(*read, &text[..at]);
+            for with in [
+                "", "{", "}", "[", "(", ")", "]", ",", ":", "=", "\"", "\n", "-", "9", "x", "\\", ";",
+                "\u{fc}",
+            ] {
+                judge(
+                    *read,
+                    &format!("{}{with}{}", &text[..at], &text[at + c.len_utf8()..]),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_nests_or_repeats_without_end_is_read_soon() {
+    let many = 200_000;
+    for (read, ..) in PROGRAMS {
+        for piece in [
+            "{",
+            "(",
+            "[",
+            "p[",
+            "-",
+            "movel(",
+            "LIN {",
+            "LIN P:",
+            "A=",
+            "A=B\n",
+            "[(",
+            "pose_trans(",
+            "WITH ",
+            ",",
+            "f(x)\n",
+            "\"",
+            "MoveL [[",
+            "\\",
+            ":=",
+            "p.x",
+            "IF ",
+            "MoveL Offs(",
+            "Offs(p,1",
+            "1+",
+        ] {
+            judge(*read, &piece.repeat(many));
+            judge(*read, &format!("MODULE a\nDEF A()\nmovel({}", piece.repeat(many)));
+            judge(*read, &format!("LIN {}", piece.repeat(many)));
+            judge(*read, &format!("CONST robtarget p:={}", piece.repeat(many)));
+        }
+    }
+}
