@@ -27,15 +27,15 @@ struct Note {
 impl Told {
     /// A problem of these bytes; beyond 200 none.
     pub fn problem(&mut self, text: &ProgramText, span: Range<usize>, message: String, hint: &str) {
-        if !self.is_full() {
+        if self.problems.len() < MOST_PROBLEMS {
             self.problems
                 .push(text.source().problem(span, message, Some(hint.to_owned())));
         }
     }
 
-    /// Whether no more problems are kept.
-    pub fn is_full(&self) -> bool {
-        self.problems.len() >= MOST_PROBLEMS
+    /// How many problems there are.
+    pub fn count(&self) -> usize {
+        self.problems.len()
     }
 
     /// A sentence of what was passed over; said once, with its first line and how often it would be said.

@@ -1,6 +1,6 @@
 //! Programs broken in every way that one wrong character can break them, and such as are made to take long.
 
-use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotProgram, Target, krl, urscript};
+use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotProgram, Target, krl, rapid, urscript};
 
 use crate::rewriting::all_moved;
 
@@ -15,6 +15,15 @@ const PROGRAMS: &[(Read, &str, &str)] = &[
          P[1]={E6POS: X 1,Y 2,Z 3,A 0,B 0,C 0,S 'B10',T 35}\nPTP P[1] C_PTP\nLIN {X 20.125 ,B -.5E1}\nLIN_REL {Z 10} #TOOL C_DIS\n\
          SLIN P[1]:{X 1,Y 2,Z 3,A 4,B 5,C 6} WITH $VEL=SVEL_CP(0.4, ,L), $BASE=SBASE(FP1.BASE_NO)\n\
          BAS(#BASE,4)\nPTP P[1]\nCIRC {X 1},{Y 2} ; \"\u{e4}\nPTP {A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\nEND\n",
+    ),
+    (
+        rapid::read,
+        "a.mod",
+        "%%%\nVERSION:1\n%%%\nMODULE M\nCONST robtarget p{2}:=[[[1,2,3],[1,0,0,0],[0,1,-1,1],[9E9,9E9,9E9,9E9,9E9,5]],q];\n\
+         LOCAL PERS tooldata t:=[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\nVAR robtarget q:=[[4,5,6],[1,0,0,0],[0,0,0,0],[9E9]];\n\
+         PROC a(num x)\nMoveAbsJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v5,fine,t;\nIF x=1 THEN\nq.trans.z:=7;ENDIF\n\
+         FOR i FROM 1 TO 2 DO MoveL q,v100\\V:=5,z1,t,\\WObj:=wobj0; ENDFOR ! \u{e4}\n\
+         MoveC p{1},Offs(RelTool(p{1},1,2,3\\Rx:=90),0,0,-5.5),[5,1,1,1],z1,t;\nl1: MoveJ p{2},vmax,z1,tool0;\nIF x=1 MoveL p{1},v1,z0,t;\nENDPROC\nENDMODULE\n",
     ),
     (
         urscript::read,
@@ -86,7 +95,7 @@ fn no_wrong_character_makes_any_language_panic() {
 
 #[test]
 fn what_nests_or_repeats_without_end_is_read_soon() {
-    let many = 200_000;
+    let many = 50_000;
     for (read, ..) in PROGRAMS {
         for piece in [
             "{",

@@ -7,6 +7,7 @@
 mod drafts;
 mod hostile;
 mod krl;
+mod rapid;
 mod rewriting;
 mod same_poses;
 #[path = "../samples_folder/mod.rs"]

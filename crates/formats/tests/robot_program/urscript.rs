@@ -180,7 +180,7 @@ fn every_problem_is_told_with_its_place_and_a_hint() {
             "`servoj` moves the robot in a way that is not understood",
         ),
         ("movex(p[0,0,0,0,0,0])", "`movex` moves the robot"),
-        ("movel(p[0,0,0,0,0,0)", "1:21: `]` is missing here"),
+        ("movel(p[0,0,0,0,0,0)", "1:20: `]` is missing here"),
         ("movel(p[0,0,0,0,0,0]", "1:21: `)` is missing here"),
         ("sleep(1)", "no move stands in this program"),
     ] {
