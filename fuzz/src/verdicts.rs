@@ -9,12 +9,13 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Pace, Step};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
+use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::format::{self as forces, Measured};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests};
 use armill_formats::robot::format::{self, Format, Wanted};
-use armill_formats::robot::pendant::{self, Convention};
+use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
 use armill_formats::robot_program::{
     Motion, Moved, ProgramText, RobotProgram, Target, inform, krl, rapid, tp, urscript, val3,
@@ -231,16 +232,16 @@ fn as_they_are(program: &RobotProgram) -> Vec<Moved> {
             Motion::Circular { via } => via.pose().copied(),
             Motion::Joint | Motion::Linear => None,
         };
-        match &of.target {
-            Target::Joints(joints) => assert!(joints.iter().all(|value| value.is_finite())),
-            Target::Pose { pose, .. } => {
-                assert!(pose.to_homogeneous().iter().all(|value| value.is_finite()));
-                all.push(Moved {
-                    index,
-                    target: *pose,
-                    via,
-                });
-            }
+        if let Target::Joints(joints) = &of.target {
+            assert!(joints.iter().all(|value| value.is_finite()));
+        }
+        if let Some(pose) = of.target.pose() {
+            assert!(pose.to_homogeneous().iter().all(|value| value.is_finite()));
+            all.push(Moved {
+                index,
+                target: *pose,
+                via,
+            });
         }
     }
     all

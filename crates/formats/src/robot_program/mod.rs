@@ -47,14 +47,7 @@ use crate::document::Problems;
 /// # Errors
 /// A language that nobody here reads; every problem of the files.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
-    match Language::of(&texts)? {
-        Language::Krl => krl::read(texts),
-        Language::Rapid => rapid::read(texts),
-        Language::Inform => inform::read(texts),
-        Language::Tp => tp::read(texts),
-        Language::UrScript => urscript::read(texts),
-        Language::Val3 => val3::read(texts),
-    }
+    Language::of(&texts)?.read(texts)
 }
 
 /// Writes `draft` as a program of this language.

@@ -40,20 +40,16 @@ fn judge(read: Read, text: &str) {
         return;
     };
     for of in &program.moves {
-        match &of.target {
-            Target::Pose { pose, spelled, .. } => {
-                assert!(
-                    pose.to_homogeneous().iter().all(|value| value.is_finite()),
-                    "{text}"
-                );
-                assert!(
-                    program.texts[spelled.text]
-                        .text()
-                        .get(spelled.bytes.clone())
-                        .is_some()
-                );
-            }
-            Target::Joints(joints) => assert!(joints.iter().all(|value| value.is_finite()), "{text}"),
+        if let Target::Pose { pose, spelled, .. } = &of.target {
+            assert!(
+                pose.to_homogeneous().iter().all(|value| value.is_finite()),
+                "{text}"
+            );
+            let spelled_in = program.texts[spelled.text].text();
+            assert!(spelled_in.get(spelled.bytes.clone()).is_some(), "{text}");
+        }
+        if let Target::Joints(joints) = &of.target {
+            assert!(joints.iter().all(|value| value.is_finite()), "{text}");
         }
     }
     // Two moves to one target with components left out go to different places: that is told, and no more.

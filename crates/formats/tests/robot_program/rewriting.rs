@@ -38,7 +38,7 @@ fn places(program: &RobotProgram) -> Vec<Spelled> {
     let mut places: Vec<Spelled> = targets
         .filter_map(|target| match target {
             Target::Pose { spelled, .. } => Some(spelled.clone()),
-            Target::Joints(_) => None,
+            _ => None,
         })
         .collect();
     places.sort_by_key(|place| (place.text, place.bytes.start));
@@ -78,6 +78,7 @@ pub fn rewritten(
 ) -> (Vec<(String, Vec<u8>)>, RobotProgram) {
     let moved = all_moved(program, by);
     let files = program.with_poses(&moved).unwrap();
+    program.check_rewritten(&moved, &files).unwrap();
     let found = again(&files);
     assert_eq!(program.moves.len(), found.moves.len());
     for asked in &moved {
@@ -95,7 +96,7 @@ pub fn rewritten(
 fn said(target: &Target) -> String {
     match target {
         Target::Pose { branch, turns, .. } => format!("{branch} {turns:?}"),
-        Target::Joints(joints) => format!("{joints:?}"),
+        other => format!("{other:?}"),
     }
 }
 
@@ -108,4 +109,35 @@ pub fn near(found: &Isometry, wanted: &Isometry) {
         apart < 0.51e-6 && turned < 3.0 * 0.51e-3_f64.to_radians(),
         "{apart} {turned}: {found} {wanted}"
     );
+}
+
+#[test]
+fn a_target_that_counts_from_one_that_was_moved_is_told() {
+    let krl = "DEF A()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN {X 5}\nEND\n";
+    let step = "DEF A()\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN_REL {X 5}\nEND\n";
+    let beside = "MODULE M\nCONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC a()\n\
+        MoveL p,v5,fine,tool0;\nMoveL Offs(p,1,0,0),v5,fine,tool0;\nENDPROC\nENDMODULE\n";
+    let frame = "f = p[1,2,3,0,0,0]\nmovel(f)\nmovel(pose_trans(f, p[0,0,0,0,0,0]))\n";
+    for (name, text, line) in [
+        ("a.src", krl, 3),
+        ("a.src", step, 3),
+        ("a.mod", beside, 5),
+        ("a.script", frame, 3),
+    ] {
+        let program = crate::program(&[(name, text)]).unwrap();
+        let by = crate::same_poses::kuka([0.0, 10.0, 0.0, 0.0, 0.0, 0.0]);
+        let mut moved = all_moved(&program, |pose| by * pose);
+        let all = program.with_poses(&moved).unwrap();
+        // Where both are moved each has a target of its own; but a frame that is a target moves what counts in it.
+        assert_eq!(
+            program.check_rewritten(&moved, &all).is_ok(),
+            name != "a.script",
+            "{text}"
+        );
+        moved.truncate(1);
+        let files = program.with_poses(&moved).unwrap();
+        let told = program.check_rewritten(&moved, &files).unwrap_err().to_string();
+        let wanted = format!("line {line}: the move would go 10000.0 um beside its place");
+        assert!(told.starts_with(&wanted), "{told}");
+    }
 }

@@ -16,7 +16,7 @@
 //! [recalled], not in a sample: what `WITH` holds, `FDAT`'s fields beside number and `IPO_FRAME`, `SPL`, the geometric
 //! operator `P1:{...}`, that `LIN_REL` counts in base unless `#TOOL` follows, that names of `$CONFIG.DAT` are `XHOME`s.
 //!
-//! In reading order: `aggregate` is `{...}`; `points` what the data files hold; `read` statements; `motion` moves;
+//! In reading order: `aggregate` is `{...}`; `points` what the data files hold; `read` statements; `motion` and `relative` moves;
 //! `modal` what lasts; `write` the program out.
 
 mod aggregate;
@@ -24,6 +24,7 @@ mod modal;
 mod motion;
 mod points;
 mod read;
+mod relative;
 mod write;
 
 pub(super) use self::aggregate::spell;

@@ -18,8 +18,9 @@
 //! arguments of process moves; `v100` is 100 mm/s.
 //!
 //! In reading order: `value` expressions; `names` what names stand for; `statement` takes text apart; `read`, `motion`,
-//! `target` what statements do; `spell` a pose; `write` the program out.
+//! `target`, `kept` what statements do; `spell` a pose; `write` the program out.
 
+mod kept;
 mod motion;
 mod names;
 mod read;

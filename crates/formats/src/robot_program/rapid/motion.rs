@@ -2,9 +2,9 @@
 
 use armill_core::frame::Isometry;
 
+use super::kept::Kept;
 use super::read::Reader;
 use super::statement::is_move;
-use super::target::Kept;
 use super::value::{Argument, Node, Value};
 use crate::robot_program::program::{Frame, Motion, RobotMove, Speed, Target};
 use crate::robot_program::tokens::{Cursor, Token};
