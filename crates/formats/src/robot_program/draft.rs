@@ -57,6 +57,8 @@ pub(super) struct Bounds {
 
 /// No controller writes a larger place, m, or joint position, rad.
 const LARGEST: f64 = 1e4;
+/// A speed below this is none in the digits that controllers write, m/s.
+const SLOWEST: f64 = 1e-5;
 
 impl Draft {
     /// Whether it can be written within these bounds: its name, its numbers, the counts of its joints, and that every
@@ -106,7 +108,12 @@ impl Draft {
                 .chain(point.speed.map(|value| ("the speed", value)))
                 .chain([("the blend", point.blend)]);
             for (what, value) in values {
-                if !value.is_finite() || value.abs() > LARGEST {
+                let least = match what {
+                    "the speed" => SLOWEST,
+                    "the blend" => 0.0,
+                    _ => -LARGEST,
+                };
+                if !(least..=LARGEST).contains(&value) {
                     return Err(DraftError::NotWritable {
                         index: at + 1,
                         what,
@@ -117,6 +124,46 @@ impl Draft {
         }
         Ok(())
     }
+}
+
+impl Draft {
+    /// Whether its name is none of these words, which differ by more than capitals.
+    pub(super) fn avoid(&self, bounds: &Bounds, words: &[&str]) -> Result<(), DraftError> {
+        let is_word = words.iter().any(|word| word.eq_ignore_ascii_case(&self.name));
+        let refused = || DraftError::Name {
+            name: self.name.clone(),
+            language: bounds.language,
+            rule: bounds.names,
+        };
+        if is_word { Err(refused()) } else { Ok(()) }
+    }
+
+    /// The remarks line by line: what ends a line in one of them must not begin a statement.
+    pub(super) fn remark_lines(&self) -> impl Iterator<Item = &str> {
+        self.remarks
+            .iter()
+            .flat_map(|remark| remark.split(|c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}'))
+            .filter(|line| !line.is_empty())
+    }
+
+    /// The points in parts of so many; one part is the program itself.
+    pub(super) fn parts(&self, most: usize) -> impl Iterator<Item = (String, &[DraftPoint])> {
+        let is_split = self.points.len() > most;
+        self.points.chunks(most).enumerate().map(move |(index, points)| {
+            let name = match is_split {
+                true => format!("{}_{:03}", self.name, index + 1),
+                false => self.name.clone(),
+            };
+            (name, points)
+        })
+    }
+}
+
+/// These characters as ISO-8859-1, with `?` for what it lacks.
+pub(super) fn latin1(text: &str) -> Vec<u8> {
+    text.chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
+        .collect()
 }
 
 /// The files of a program as they are written.

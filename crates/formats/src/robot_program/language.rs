@@ -2,6 +2,7 @@
 
 use armill_core::frame::Isometry;
 
+use super::program::RobotProgram;
 use super::text::ProgramText;
 use super::{inform, krl, rapid, tp, urscript, val3};
 use crate::document::{Problem, Problems};
@@ -145,6 +146,21 @@ impl Language {
                  Staubli VAL3 (.pjx, .dtx, .pgx)",
             ))
         })
+    }
+
+    /// Reads the program that these files make, which is of this language.
+    ///
+    /// # Errors
+    /// Every problem of the files.
+    pub fn read(self, texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
+        match self {
+            Language::Krl => krl::read(texts),
+            Language::Rapid => rapid::read(texts),
+            Language::Inform => inform::read(texts),
+            Language::Tp => tp::read(texts),
+            Language::UrScript => urscript::read(texts),
+            Language::Val3 => val3::read(texts),
+        }
     }
 
     /// Spells a pose (frame to tool) in place of `before`, which spells another target of the same program: what is said

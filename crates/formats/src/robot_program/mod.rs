@@ -15,8 +15,8 @@
 //!
 //! In reading order: [`Language`]; `program` what is read; `text` files as bytes and as characters; `rewrite` the same
 //! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
-//! `findings` what readers have to say; `spelling` lines, numbers as they stand, and others in their places; `arc_row`
-//! arcs that are told point by point.
+//! `told` what is told beside moves; `tokens` what the texts of three languages are made of; `spelling` lines, numbers as
+//! they stand, and others in their places; `arc_row` arcs that are told point by point.
 
 pub mod inform;
 pub mod krl;
@@ -27,7 +27,6 @@ pub mod val3;
 
 mod arc_row;
 mod draft;
-mod findings;
 mod language;
 mod number;
 mod posture;
@@ -35,6 +34,8 @@ mod program;
 mod rewrite;
 mod spelling;
 mod text;
+mod tokens;
+mod told;
 #[cfg(test)]
 mod trials;
 
@@ -51,14 +52,7 @@ use crate::document::Problems;
 /// # Errors
 /// A language that nobody here reads; every problem of the files.
 pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
-    match Language::of(&texts)? {
-        Language::Krl => krl::read(texts),
-        Language::Rapid => rapid::read(texts),
-        Language::Inform => inform::read(texts),
-        Language::Tp => tp::read(texts),
-        Language::UrScript => urscript::read(texts),
-        Language::Val3 => val3::read(texts),
-    }
+    Language::of(&texts)?.read(texts)
 }
 
 /// Writes `draft` as a program of this language.

@@ -1,22 +1,27 @@
 //! What the tests of every language share: random drafts, and what must hold of a program that is written again.
 
-use armill_core::frame::Isometry;
-use armill_core::nalgebra::{Translation3, UnitQuaternion, Vector3};
+use std::f64::consts::PI;
+
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::nalgebra::Vector3;
 use armill_core::robot::Branch;
 use proptest::prelude::*;
 
 use super::*;
 
-/// A pose within a few metres, turned in any way.
+/// A pose within a few metres, turned in any way; the middle angle is at times a right one, where the others share a turn.
 pub(super) fn poses() -> impl Strategy<Value = Isometry> {
+    let angle = prop_oneof![
+        -PI..PI,
+        Just(0.0),
+        Just(PI / 2.0),
+        Just(-PI / 2.0),
+        Just(PI),
+        (-1e-7..1e-7).prop_map(|by| by + PI / 2.0)
+    ];
     let place = prop::array::uniform3(-3.0..3.0);
-    // Turns of more than half a turn are others the other way round: every turn is reached.
-    (place, prop::array::uniform3(-3.2..3.2)).prop_map(|(place, turn)| {
-        Isometry::from_parts(
-            Translation3::from(Vector3::from(place)),
-            UnitQuaternion::from_scaled_axis(Vector3::from(turn)),
-        )
-    })
+    (place, prop::array::uniform3(angle))
+        .prop_map(|(place, angles)| from_xyz_and_fixed_angles(Vector3::from(place), Vector3::from(angles)))
 }
 
 fn points() -> impl Strategy<Value = DraftPoint> {

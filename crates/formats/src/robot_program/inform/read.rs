@@ -3,11 +3,11 @@
 use super::position::{Position, Positions};
 use crate::document::{Problem, Problems};
 use crate::robot_program::arc_row::ArcRow;
-use crate::robot_program::findings::Findings;
 use crate::robot_program::language::Language;
 use crate::robot_program::program::{RobotMove, RobotProgram, Target};
 use crate::robot_program::spelling::{Line, Part, lines};
 use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
 
 /// Jobs that call jobs are followed so deep.
 const DEEPEST: usize = 30;
@@ -69,7 +69,7 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: texts.iter().map(job_name).collect(),
         done: vec![false; texts.len()],
         moves: Vec::new(),
-        findings: Findings::default(),
+        told: Told::default(),
     };
     reader.job(0, 0);
     let told = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
@@ -82,15 +82,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         );
         let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions in \
                     BASE, ROBOT or USER";
-        reader.findings.problem(text, 0..0, message, hint);
+        reader.told.problem(text, 0..0, message, hint);
     }
     let Reader {
-        names,
-        moves,
-        findings,
-        ..
+        names, moves, told, ..
     } = reader;
-    let notes = findings.finish()?;
+    let notes = told.finish()?;
     Ok(RobotProgram {
         language: Language::Inform,
         name: names.into_iter().next().unwrap_or_default(),
@@ -119,7 +116,7 @@ pub(super) struct Reader<'a> {
     names: Vec<String>,
     done: Vec<bool>,
     pub moves: Vec<RobotMove>,
-    pub findings: Findings,
+    pub told: Told,
 }
 
 /// A job on its way.
@@ -149,8 +146,10 @@ impl<'a> Reader<'a> {
             if said.text.starts_with("/JOB") {
                 jobs += 1;
                 if jobs == 2 {
-                    self.findings
-                        .note(text, line.number, "a second job in the same file is passed over");
+                    self.told.note(
+                        (text, line.number),
+                        "a second job in the same file is passed over",
+                    );
                     break;
                 }
             } else if said.text.starts_with("//INST") {
@@ -158,9 +157,9 @@ impl<'a> Reader<'a> {
             } else if instructions && !said.text.starts_with("//") {
                 self.instruction(&mut job, &line);
             } else if !instructions {
-                job.positions.take(&line, &mut self.findings);
+                job.positions.take(&line, &mut self.told);
             }
-            if self.findings.is_full() {
+            if self.told.is_full() {
                 return;
             }
         }
@@ -174,7 +173,7 @@ impl<'a> Reader<'a> {
         }
         if said.text.starts_with('*') {
             let what = "labels and jumps are passed over: what stands here runs once";
-            return self.findings.note(job.text, line.number, what);
+            return self.told.note((job.text, line.number), what);
         }
         let mut words = said.words();
         let Some(first) = words.next() else {
@@ -186,7 +185,7 @@ impl<'a> Reader<'a> {
             "CALL" => self.call(job, line, words.next()),
             _ if word.starts_with("+MOV") => {
                 let what = "what a second robot or a station does beside (+MOV..) is passed over";
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
             _ if word.contains("MOV") => {
                 let message = format!("the move `{word}` is not followed");
@@ -194,21 +193,20 @@ impl<'a> Reader<'a> {
                     "IMOV" => "it goes by an increment: write it as MOVL to a position",
                     _ => "understood are MOVJ, MOVL, MOVC and MOVS of one robot",
                 };
-                self.findings
-                    .problem(job.text, line.span_of(&first), message, hint);
+                self.told.problem(job.text, line.span_of(&first), message, hint);
             }
             _ if CHOICES.contains(&word.as_str()) => {
                 let what = format!("{word} is passed over: what stands here runs once");
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
             _ if SHIFTS.contains(&word.as_str()) => {
                 let what = format!("{word} is passed over: positions are taken as they are listed");
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
             _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
                 let what =
                     format!("{word} of a position variable is passed over: it is taken as it is listed");
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
             _ => {}
         }
@@ -226,11 +224,11 @@ impl<'a> Reader<'a> {
             Some(index) if !self.done[index] && job.depth < DEEPEST => self.job(index, job.depth + 1),
             Some(_) => {
                 let what = format!("the job {name} is called again: it is read once");
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
             None => {
                 let what = format!("the job {name} is called, but not given: what it does is passed over");
-                self.findings.note(job.text, line.number, what);
+                self.told.note((job.text, line.number), what);
             }
         }
     }
@@ -240,7 +238,7 @@ impl<'a> Reader<'a> {
         if let Some(span) = job.row.end() {
             let message = "this row of MOVC has no three points".to_owned();
             let hint = "an arc goes through three MOVC in a row";
-            self.findings.problem(job.text, span, message, hint);
+            self.told.problem(job.text, span, message, hint);
         }
     }
 }

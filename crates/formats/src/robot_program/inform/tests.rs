@@ -152,14 +152,14 @@ fn rconf_is_read_as_the_manual_says_and_as_the_robodk_post_writes_it() {
 fn what_is_passed_over_and_matters_is_noted_with_its_line() {
     let notes = program(JOB).notes;
     for words in [
-        "part-1.jbi:15: a seventh number of a position",
-        "part-1.jbi:32: labels and jumps are passed over",
-        "part-1.jbi:34 and 6 more: speeds V= are taken as mm/s",
-        "part-1.jbi:40: a speed out of a variable",
-        "part-1.jbi:40: what a second robot or a station does beside",
-        "part-1.jbi:40: MOVS is taken as straight",
-        "part-1.jbi:43: the job TOOLCHANGE is called, but not given",
-        "part-1.jbi:44: JUMP is passed over",
+        "part-1.jbi, line 15: a seventh number of a position",
+        "part-1.jbi, line 32: labels and jumps are passed over",
+        "part-1.jbi, line 34: speeds V= are taken as mm/s",
+        "part-1.jbi, line 40: a speed out of a variable",
+        "part-1.jbi, line 40: what a second robot or a station does beside",
+        "part-1.jbi, line 40: MOVS is taken as straight",
+        "part-1.jbi, line 43: the job TOOLCHANGE is called, but not given",
+        "part-1.jbi, line 44: JUMP is passed over",
     ] {
         assert!(
             notes.iter().any(|note| note.starts_with(words)),

@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
         if !matches!(kind.as_str(), "J" | "L" | "C" | "A" | "S") {
             let message = format!("the move `{kind}` is not followed");
             let hint = "understood are J, L, C, A and S";
-            self.findings
+            self.told
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }
@@ -66,13 +66,13 @@ impl<'a> Reader<'a> {
             ("C", None) => {
                 let message = "an arc with one position".to_owned();
                 let hint = "it goes through one to another: `C P[1] P[2] 100mm/sec FINE`";
-                self.findings
+                self.told
                     .problem(program.text, statement.span.clone(), message, hint);
                 return;
             }
             ("S", _) => {
                 let what = "S is taken as straight between its positions";
-                self.findings.note(program.text, statement.line, what);
+                self.told.note((program.text, statement.line), what);
                 Motion::Linear
             }
             _ => Motion::Linear,
@@ -95,7 +95,7 @@ impl<'a> Reader<'a> {
             }
             let message = format!("`{}` is no position", word.text);
             let hint = "a move names one: `L P[1] 100mm/sec FINE`; an arc two";
-            self.findings.problem(program.text, word.range(), message, hint);
+            self.told.problem(program.text, word.range(), message, hint);
             return None;
         };
         let Some(number) = at.first().and_then(|at| at.parse::<u32>().ok()) else {
@@ -112,7 +112,7 @@ impl<'a> Reader<'a> {
                         let what = format!(
                             "positions of {what} {own} are gone to while {what} {chosen} is chosen: they are taken in their own"
                         );
-                        self.findings.note(program.text, statement.line, what);
+                        self.told.note((program.text, statement.line), what);
                     }
                 }
                 return Some(Goal {
@@ -131,7 +131,7 @@ impl<'a> Reader<'a> {
                 "it stands behind /POS: save the whole program as ASCII (.LS)",
             ),
         };
-        self.findings.problem(program.text, word.range(), message, hint);
+        self.told.problem(program.text, word.range(), message, hint);
         None
     }
 
@@ -161,19 +161,19 @@ impl<'a> Reader<'a> {
                 (Some((_, Some([length, time]))), Some(value)) => return Speed::Tip(value * length / time),
                 (Some(_), None) if computed => {
                     let what = "a speed out of a register is not known";
-                    self.findings.note(program.text, statement.line, what);
+                    self.told.note((program.text, statement.line), what);
                     return Speed::Untold;
                 }
                 (Some(_), None) => {
                     let message = format!("`{told}` is no speed");
-                    self.findings
+                    self.told
                         .problem(program.text, word.range(), message, "write it as `100mm/sec`");
                     return Speed::Untold;
                 }
             }
         }
         let what = "a speed that the program does not tell (WELD_SPEED, max_speed, ...) is not known";
-        self.findings.note(program.text, statement.line, what);
+        self.told.note((program.text, statement.line), what);
         Speed::Untold
     }
 
@@ -190,12 +190,12 @@ impl<'a> Reader<'a> {
             if let Some(refused) = refused {
                 let message = format!("this move {refused}, which is not followed");
                 let hint = "write it as a move of a tool at the flange to a position of its own";
-                self.findings.problem(program.text, word.range(), message, hint);
+                self.told.problem(program.text, word.range(), message, hint);
                 return false;
             }
             if SHIFTS.contains(&name) || name == "COORD" {
                 let what = format!("{name} of moves is passed over: they go to their positions as taught");
-                self.findings.note(program.text, statement.line, what);
+                self.told.note((program.text, statement.line), what);
             }
         }
         true
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
             Next::Uncertain => {
                 let message = "a fourth A in a row: which positions make which arc is not certain".to_owned();
                 let hint = "write arcs as C with two positions";
-                self.findings
+                self.told
                     .problem(program.text, statement.span.clone(), message, hint);
             }
         }
@@ -226,7 +226,7 @@ impl<'a> Reader<'a> {
             let message =
                 "the positions of this arc count in different frames or have different tools".to_owned();
             let hint = "teach the positions of an arc in one frame with one tool";
-            self.findings
+            self.told
                 .problem(program.text, statement.span.clone(), message, hint);
             return;
         }

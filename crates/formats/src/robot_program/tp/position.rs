@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use crate::convention::Convention;
-use crate::robot_program::findings::Findings;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::{Line, Part, number};
 use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
 
 /// A position of the first group.
 #[derive(Clone, Debug)]
@@ -62,12 +62,12 @@ struct Open {
 pub(super) fn positions(
     (text, index): (&ProgramText, usize),
     lines: &[Line],
-    findings: &mut Findings,
+    told: &mut Told,
 ) -> BTreeMap<u32, Position> {
     let mut done = BTreeMap::new();
     let mut open: Option<Open> = None;
     for line in lines {
-        if findings.is_full() {
+        if told.is_full() {
             break;
         }
         let said = line.trimmed();
@@ -75,9 +75,9 @@ pub(super) fn positions(
         if said.text.starts_with("P[") || said.text.starts_with("p[") {
             if let Some(open) = open.take() {
                 let message = format!("the position P[{}] has no end", open.number);
-                findings.problem(text, open.span, message, "a position ends with `};`");
+                told.problem(text, open.span, message, "a position ends with `};`");
             }
-            open = begin(text, line, findings);
+            open = begin(text, line, told);
             rest = said
                 .text
                 .find('{')
@@ -96,24 +96,24 @@ pub(super) fn positions(
             ),
             None => (rest, false),
         };
-        fields((text, line), inside, position, findings);
+        fields((text, line), inside, position, told);
         if ends && let Some(position) = open.take() {
-            end((text, index), position, &mut done, findings);
+            end((text, index), position, &mut done, told);
         }
     }
     if let Some(open) = open {
         let message = format!("the position P[{}] has no end", open.number);
-        findings.problem(text, open.span, message, "a position ends with `};`");
+        told.problem(text, open.span, message, "a position ends with `};`");
     }
     done
 }
 
-fn begin(text: &ProgramText, line: &Line, findings: &mut Findings) -> Option<Open> {
+fn begin(text: &ProgramText, line: &Line, told: &mut Told) -> Option<Open> {
     let said = line.trimmed();
     let inside = said.text[2..].split([']', ':']).next().unwrap_or_default().trim();
     let Ok(number) = inside.parse() else {
         let message = format!("`{inside}` is no number of a position");
-        findings.problem(text, line.span(), message, "positions are written `P[1]{`");
+        told.problem(text, line.span(), message, "positions are written `P[1]{`");
         return None;
     };
     Some(Open {
@@ -133,7 +133,7 @@ fn begin(text: &ProgramText, line: &Line, findings: &mut Findings) -> Option<Ope
 }
 
 /// What one line says of a position.
-fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open, findings: &mut Findings) {
+fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open, told: &mut Told) {
     // Commas of the configuration stand between quotes.
     let mut quoted = false;
     let begin = inside.at;
@@ -159,10 +159,10 @@ fn fields((text, line): (&ProgramText, &Line), inside: Part, position: &mut Open
         let part = group(part, position);
         if position.group > 1 && before <= 1 {
             let what = "what further groups (GP2, ...) do is passed over: they are taken as standing still";
-            findings.note(text, line.number, what);
+            told.note((text, line.number), what);
         }
         if position.group <= 1 {
-            one_field((text, line), part, position, findings);
+            one_field((text, line), part, position, told);
         }
     }
 }
@@ -184,7 +184,7 @@ fn group<'a>(part: Part<'a>, position: &mut Open) -> Part<'a> {
     }
 }
 
-fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Open, findings: &mut Findings) {
+fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Open, told: &mut Told) {
     let Some((key, value)) = field(part) else {
         return;
     };
@@ -195,7 +195,7 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
         ("UT", _) => position.numbers[1] = value.text.parse().ok(),
         ("CONFIG", _) => configure(part, position),
         (_, Some(axis)) => {
-            if let Some(value) = taught((text, line), (&key, value), position, findings) {
+            if let Some(value) = taught((text, line), (&key, value), position, told) {
                 let turning = part.text.trim_end().to_ascii_lowercase().ends_with("deg");
                 let value = if turning { value.to_radians() } else { value * 1e-3 };
                 position.joints.insert(axis, value);
@@ -207,10 +207,10 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
                 if position.pose[at].is_some() {
                     position.broken = true;
                     let message = format!("{key} is told twice in P[{}]", position.number);
-                    return findings.problem(text, line.span_of(&value), message, "tell each number once");
+                    return told.problem(text, line.span_of(&value), message, "tell each number once");
                 }
                 let place = line.span_of(&value);
-                position.pose[at] = taught((text, line), (&key, value), position, findings);
+                position.pose[at] = taught((text, line), (&key, value), position, told);
                 let spelled = position
                     .spelled
                     .get_or_insert_with(|| line.start + key_at(part)..place.end);
@@ -222,7 +222,7 @@ fn one_field((text, line): (&ProgramText, &Line), part: Part, position: &mut Ope
                 position.relative = true;
             } else if key.starts_with('E') {
                 let what = "extended axes (E1, ...) are passed over: they are taken as standing still";
-                findings.note(text, line.number, what);
+                told.note((text, line.number), what);
             }
         }
     }
@@ -237,7 +237,7 @@ fn taught(
     (text, line): (&ProgramText, &Line),
     (key, value): (&str, Part),
     position: &mut Open,
-    findings: &mut Findings,
+    told: &mut Told,
 ) -> Option<f64> {
     let found = number(value.text);
     if found.is_some() {
@@ -249,7 +249,7 @@ fn taught(
         position.broken = true;
         let message = format!("`{}` is no number of {key} in P[{}]", value.text, position.number);
         let hint = "write it as `X = 200.000 mm`";
-        findings.problem(text, line.span_of(&value), message, hint);
+        told.problem(text, line.span_of(&value), message, hint);
     }
     None
 }
@@ -276,7 +276,7 @@ fn end(
     (text, index): (&ProgramText, usize),
     open: Open,
     done: &mut BTreeMap<u32, Position>,
-    findings: &mut Findings,
+    told: &mut Told,
 ) {
     let values = open.pose.iter().copied().collect::<Option<Vec<f64>>>();
     let values = values.and_then(|values| <[f64; 6]>::try_from(values).ok());
@@ -296,7 +296,7 @@ fn end(
             }),
             Err(error) => {
                 let message = format!("the position P[{}] is no pose: {error}", open.number);
-                findings.problem(
+                told.problem(
                     text,
                     open.span.clone(),
                     message,
@@ -326,7 +326,7 @@ fn end(
     };
     if done.insert(open.number, position).is_some() {
         let message = format!("the position P[{}] is told twice", open.number);
-        findings.problem(text, open.span, message, "give each position a number of its own");
+        told.problem(text, open.span, message, "give each position a number of its own");
     }
 }
 

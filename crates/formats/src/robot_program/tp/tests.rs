@@ -167,16 +167,16 @@ fn every_move_of_a_listing_is_read_with_its_frame_and_tool() {
 fn what_is_passed_over_and_matters_is_noted_with_its_line() {
     let notes = program(LISTING).notes;
     for words in [
-        "deburr.ls:24: OFFSET of moves is passed over",
-        "deburr.ls:26 and 4 more: positions of user frame 0 are gone to",
-        "deburr.ls:29: S is taken as straight",
-        "deburr.ls:28: a speed out of a register",
-        "deburr.ls:29 and 1 more: a speed that the program does not tell",
-        "deburr.ls:29: COORD of moves is passed over",
-        "deburr.ls:33: OPEN_GRIPPER is called, but not given",
-        "deburr.ls:34: IF is passed over",
-        "deburr.ls:42: what further groups",
-        "deburr.ls:51: extended axes",
+        "deburr.ls, line 24: OFFSET of moves is passed over",
+        "deburr.ls, line 26: positions of user frame 0 are gone to",
+        "deburr.ls, line 29: S is taken as straight",
+        "deburr.ls, line 28: a speed out of a register",
+        "deburr.ls, line 29: a speed that the program does not tell",
+        "deburr.ls, line 29: COORD of moves is passed over",
+        "deburr.ls, line 33: OPEN_GRIPPER is called, but not given",
+        "deburr.ls, line 34: IF is passed over",
+        "deburr.ls, line 42: what further groups",
+        "deburr.ls, line 51: extended axes",
     ] {
         assert!(
             notes.iter().any(|note| note.starts_with(words)),
@@ -221,7 +221,10 @@ fn a_called_program_is_read_where_it_is_called_first_and_knows_the_frames() {
         (program.moves.len(), program.moves[0].tool),
         (1, Frame::Told(tool))
     );
-    assert_eq!(program.notes, ["a.ls:6: SUB is called again: it is read once"]);
+    assert_eq!(
+        program.notes,
+        ["a.ls, line 6: SUB is called again: it is read once"]
+    );
 }
 
 #[test]
@@ -338,7 +341,7 @@ fn a_german_listing_is_read_too() {
     );
     assert_eq!(
         program.notes,
-        ["a.ls:6: B is called, but not given: what it does is passed over"]
+        ["a.ls, line 6: B is called, but not given: what it does is passed over"]
     );
 }
 

@@ -8,11 +8,11 @@ use armill_core::robot::BranchPattern;
 
 use super::tags::{Attribute, Piece, attributes, pieces, value};
 use crate::convention::Convention;
-use crate::robot_program::findings::Findings;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::program::{Spelled, Target};
 use crate::robot_program::spelling::number;
 use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
 
 /// Frames stand in frames so deep.
 const DEEPEST: usize = 30;
@@ -124,16 +124,16 @@ impl Data {
     }
 
     /// Takes the data of one file.
-    pub fn take(&mut self, (text, index): (&ProgramText, usize), findings: &mut Findings) {
+    pub fn take(&mut self, (text, index): (&ProgramText, usize), told: &mut Told) {
         let mut of: Option<(String, String)> = None;
         for piece in pieces(text.text()) {
-            if findings.is_full() {
+            if told.is_full() {
                 return;
             }
             match piece {
                 Piece::Broken(part) => {
                     let message = "this tag does not end".to_owned();
-                    findings.problem(
+                    told.problem(
                         text,
                         part.range(),
                         message,
@@ -141,9 +141,9 @@ impl Data {
                     );
                 }
                 Piece::Tag(tag) if tag.name == "Data" => {
-                    let told = attributes(tag.inside);
-                    let name = value(&told, "name").unwrap_or_default();
-                    let kind = value(&told, "type").unwrap_or_default();
+                    let said = attributes(tag.inside);
+                    let name = value(&said, "name").unwrap_or_default();
+                    let kind = value(&said, "type").unwrap_or_default();
                     of = Some((name.to_owned(), kind.to_owned()));
                 }
                 Piece::Tag(tag) if tag.name == "/Data" => of = None,
@@ -151,23 +151,23 @@ impl Data {
                     let Some((name, kind)) = &of else {
                         continue;
                     };
-                    let told = attributes(tag.inside);
+                    let said = attributes(tag.inside);
                     let reference = Reference {
                         name: name.clone(),
-                        key: value(&told, "key").unwrap_or("0").to_owned(),
+                        key: value(&said, "key").unwrap_or("0").to_owned(),
                     };
                     let file = File {
                         text,
                         index,
                         tag: tag.inside.range(),
                     };
-                    let Some(datum) = datum(&file, (kind, &reference, &told), findings) else {
+                    let Some(datum) = datum(&file, (kind, &reference, &said), told) else {
                         continue;
                     };
                     let shown = format!("{}[{}]", reference.name, reference.key);
                     if self.list.insert(reference, datum).is_some() {
                         let message = format!("{shown} is told twice");
-                        findings.problem(
+                        told.problem(
                             text,
                             tag.inside.range(),
                             message,
@@ -178,7 +178,7 @@ impl Data {
                 Piece::Tag(tag) if matches!(tag.name, "valuePoint" | "valueJoint") => {
                     let message = "the data of an older project (s6) are not read".to_owned();
                     let hint = "convert the project to s7 or later with the maker's suite";
-                    findings.problem(text, tag.inside.range(), message, hint);
+                    told.problem(text, tag.inside.range(), message, hint);
                     return;
                 }
                 _ => {}
@@ -196,14 +196,14 @@ struct File<'a> {
 
 fn datum(
     file: &File,
-    (kind, reference, told): (&str, &Reference, &[Attribute]),
-    findings: &mut Findings,
+    (kind, reference, said): (&str, &Reference, &[Attribute]),
+    told: &mut Told,
 ) -> Option<Datum> {
     let root = if kind == "tool" { "flange" } else { "world" };
-    let father = value(told, "fatherId").unwrap_or(root).to_owned();
+    let father = value(said, "fatherId").unwrap_or(root).to_owned();
     match kind {
         "pointRx" | "frame" | "tool" => {
-            let Some(pose) = pose(file, (reference, told), findings) else {
+            let Some(pose) = pose(file, (reference, said), told) else {
                 return Some(Datum::Refused);
             };
             Some(match kind {
@@ -212,7 +212,7 @@ fn datum(
                 _ => Datum::Point {
                     target: Target::Pose {
                         pose,
-                        branch: branch(told),
+                        branch: branch(said),
                         turns: Vec::new(),
                         spelled: Spelled {
                             text: file.index,
@@ -226,18 +226,18 @@ fn datum(
         "jointRx" => {
             let joints = numbers(
                 file,
-                (reference, told),
-                (&["j1", "j2", "j3", "j4", "j5", "j6"], findings),
+                (reference, said),
+                (&["j1", "j2", "j3", "j4", "j5", "j6"], told),
             );
             Some(joints.map_or(Datum::Refused, |joints| {
                 Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
             }))
         }
         "mdesc" => {
-            if value(told, "tmax").is_none() {
+            if value(said, "tmax").is_none() {
                 return Some(Datum::Speed(None));
             }
-            let tip = numbers(file, (reference, told), (&["tmax"], findings));
+            let tip = numbers(file, (reference, said), (&["tmax"], told));
             Some(tip.map_or(Datum::Refused, |tip| {
                 let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
                 Datum::Speed(limit.map(|tip| tip * 1e-3))
@@ -250,12 +250,12 @@ fn datum(
 /// The numbers of these attributes; those left out are zero.
 fn numbers(
     file: &File,
-    (reference, told): (&Reference, &[Attribute]),
-    (keys, findings): (&[&str], &mut Findings),
+    (reference, said): (&Reference, &[Attribute]),
+    (keys, told): (&[&str], &mut Told),
 ) -> Option<Vec<f64>> {
     let mut found = Vec::with_capacity(keys.len());
     for key in keys {
-        let Some(attribute) = told.iter().find(|attribute| attribute.name == *key) else {
+        let Some(attribute) = said.iter().find(|attribute| attribute.name == *key) else {
             found.push(0.0);
             continue;
         };
@@ -263,7 +263,7 @@ fn numbers(
             let Reference { name, key: at } = reference;
             let message = format!("`{}` is no number: {key} of {name}[{at}]", attribute.value.text);
             let hint = "numbers are written with a point: `x=\"100.5\"`";
-            findings.problem(file.text, attribute.value.range(), message, hint);
+            told.problem(file.text, attribute.value.range(), message, hint);
             return None;
         };
         found.push(value);
@@ -271,17 +271,13 @@ fn numbers(
     Some(found)
 }
 
-fn pose(
-    file: &File,
-    (reference, told): (&Reference, &[Attribute]),
-    findings: &mut Findings,
-) -> Option<Isometry> {
-    let numbers = numbers(file, (reference, told), (&super::KEYS, findings))?;
+fn pose(file: &File, (reference, said): (&Reference, &[Attribute]), told: &mut Told) -> Option<Isometry> {
+    let numbers = numbers(file, (reference, said), (&super::KEYS, told))?;
     match Convention::Staubli.pose(&numbers) {
         Ok(pose) => Some(pose),
         Err(error) => {
             let message = format!("{}[{}] is no pose: {error}", reference.name, reference.key);
-            findings.problem(
+            told.problem(
                 file.text,
                 file.tag.clone(),
                 message,
@@ -292,8 +288,8 @@ fn pose(
     }
 }
 
-fn branch(told: &[Attribute]) -> BranchPattern {
-    let of = |key: &str, [not, yes]: [&str; 2]| match value(told, key) {
+fn branch(said: &[Attribute]) -> BranchPattern {
+    let of = |key: &str, [not, yes]: [&str; 2]| match value(said, key) {
         Some(word) if word == not => Some(false),
         Some(word) if word == yes => Some(true),
         _ => None,

@@ -6,11 +6,11 @@ use super::code::{Event, LineCount, Program, What, events, programs};
 use super::data::{Data, Datum, Reference};
 use super::tags::{Piece, attributes, pieces, value};
 use crate::document::Problems;
-use crate::robot_program::findings::Findings;
 use crate::robot_program::language::Language;
 use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Speed, Target};
 use crate::robot_program::spelling::Part;
 use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
 
 /// Programs that call programs are followed so deep.
 const DEEPEST: usize = 30;
@@ -33,14 +33,14 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
         names: BTreeMap::new(),
         done: Vec::new(),
         moves: Vec::new(),
-        findings: Findings::default(),
+        told: Told::default(),
     };
     let mut project = None;
     for (index, text) in texts.iter().enumerate() {
         match kind(text) {
             Kind::Data => {
                 reader.has_data = true;
-                reader.data.take((text, index), &mut reader.findings);
+                reader.data.take((text, index), &mut reader.told);
             }
             Kind::Project => {
                 project.get_or_insert(stem(text));
@@ -73,12 +73,12 @@ pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
             if let Some(text) = texts.first() {
                 let message = "no program (.pgx) is among these files".to_owned();
                 let hint = "give the whole folder of the project: .pjx, .dtx and .pgx";
-                reader.findings.problem(text, 0..0, message, hint);
+                reader.told.problem(text, 0..0, message, hint);
             }
         }
     }
-    let Reader { moves, findings, .. } = reader;
-    let notes = findings.finish()?;
+    let Reader { moves, told, .. } = reader;
+    let notes = told.finish()?;
     Ok(RobotProgram {
         language: Language::Val3,
         name,
@@ -122,7 +122,7 @@ struct Reader<'a> {
     names: BTreeMap<&'a str, usize>,
     done: Vec<bool>,
     moves: Vec<RobotMove>,
-    findings: Findings,
+    told: Told,
 }
 
 /// Where a move goes.
@@ -140,7 +140,7 @@ impl<'a> Reader<'a> {
             {
                 let message = "this project counts in inches, which is not read".to_owned();
                 let hint = "set its unit of length to mm (millimeterUnit) in the maker's suite";
-                self.findings.problem(text, tag.inside.range(), message, hint);
+                self.told.problem(text, tag.inside.range(), message, hint);
             }
         }
     }
@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
         let mut lines = LineCount::new(text.text());
         for code in &program.code {
             for event in events(*code, &mut lines) {
-                if self.findings.is_full() {
+                if self.told.is_full() {
                     return;
                 }
                 self.event((text, &program), &event, depth);
@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
             What::Move { word, arguments } => self.motion((text, program), (event, *word), arguments),
             What::Unclosed(word) => {
                 let message = format!("the bracket of `{}` is not closed", word.text);
-                self.findings.problem(
+                self.told.problem(
                     text,
                     word.range(),
                     message,
@@ -180,17 +180,17 @@ impl<'a> Reader<'a> {
                     Some(at) if !self.done[at] && depth < DEEPEST => self.program(at, depth + 1),
                     Some(_) => {
                         let what = format!("{name} is called again: it is read once");
-                        self.findings.note(text, event.line, what);
+                        self.told.note((text, event.line), what);
                     }
                     None => {
                         let what = format!("{name} is called, but not given: what it does is passed over");
-                        self.findings.note(text, event.line, what);
+                        self.told.note((text, event.line), what);
                     }
                 }
             }
             What::Choice(word) => {
                 let what = format!("{word} is passed over: what stands here runs once");
-                self.findings.note(text, event.line, what);
+                self.told.note((text, event.line), what);
             }
             What::Assign(name) => {
                 let first = Reference::of(name);
@@ -198,7 +198,7 @@ impl<'a> Reader<'a> {
                 if used.is_some() {
                     let what =
                         format!("{name} is computed, and passed over: it is taken as the data tell it");
-                    self.findings.note(text, event.line, what);
+                    self.told.note((text, event.line), what);
                 }
             }
         }
@@ -216,14 +216,14 @@ impl<'a> Reader<'a> {
             _ => {
                 let message = format!("the move `{}` is not followed", word.text);
                 let hint = "understood are movej, movel and movec of one robot";
-                self.findings.problem(text, word.range(), message, hint);
+                self.told.problem(text, word.range(), message, hint);
                 return;
             }
         };
         let (Some(goals), Some([tool, speed])) = (arguments.get(..goals), arguments.get(goals..)) else {
             let message = format!("`{}` with {} arguments", word.text, arguments.len());
             let hint = "written are `movel(point,tool,mdesc)` and `movec(via,point,tool,mdesc)`";
-            self.findings.problem(text, word.range(), message, hint);
+            self.told.problem(text, word.range(), message, hint);
             return;
         };
         let mut found: Vec<Goal> = goals
@@ -247,7 +247,7 @@ impl<'a> Reader<'a> {
             (_, Some(_)) => {
                 let message = "the points of this arc count in different frames".to_owned();
                 let hint = "give both points of an arc one fatherId";
-                self.findings.problem(text, word.range(), message, hint);
+                self.told.problem(text, word.range(), message, hint);
                 return;
             }
         };
@@ -311,7 +311,7 @@ impl<'a> Reader<'a> {
                 "give all data files of the project, as pointRx or jointRx",
             ),
         };
-        self.findings.problem(text, argument.range(), message, hint);
+        self.told.problem(text, argument.range(), message, hint);
         None
     }
 
@@ -321,7 +321,7 @@ impl<'a> Reader<'a> {
             || {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the tool `{name}` is not told in the data");
-                self.findings.note(text, line, what);
+                self.told.note((text, line), what);
                 Frame::Untold
             },
             Frame::Told,
@@ -336,7 +336,7 @@ impl<'a> Reader<'a> {
             _ => {
                 let name: String = argument.text.chars().take(LONGEST_SHOWN).collect();
                 let what = format!("the description of moves `{name}` is not told in the data");
-                self.findings.note(text, line, what);
+                self.told.note((text, line), what);
                 Speed::Untold
             }
         }

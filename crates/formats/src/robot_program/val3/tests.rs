@@ -168,11 +168,11 @@ fn every_move_of_a_project_is_read_with_its_data() {
 fn what_is_passed_over_and_matters_is_noted_with_its_line() {
     let notes = program().notes;
     for words in [
-        "part/start.pgx:15: for is passed over",
-        "part/start.pgx:16: the tool `tOther` is not told",
-        "part/start.pgx:16: the description of moves `mOther` is not told",
-        "part/start.pgx:19: pPoint is computed",
-        "part/start.pgx:23: prog:valve is called, but not given",
+        "part/start.pgx, line 15: for is passed over",
+        "part/start.pgx, line 16: the tool `tOther` is not told",
+        "part/start.pgx, line 16: the description of moves `mOther` is not told",
+        "part/start.pgx, line 19: pPoint is computed",
+        "part/start.pgx, line 23: prog:valve is called, but not given",
     ] {
         assert!(
             notes.iter().any(|note| note.starts_with(words)),

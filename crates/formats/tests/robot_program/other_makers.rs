@@ -1,53 +1,15 @@
-//! Programs of controllers in the samples of one list of poses for several languages: Yaskawa, FANUC, Staubli.
-//!
-//! The eight poses are typed here from `KUKA_KRC4.src` of the same folder, whose text is read by none of these readers.
-
-// A panic is how a test says that its claim is false; helper functions too.
-#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
-
-mod samples_folder;
+//! The samples of Yaskawa, FANUC and Staubli: the one list of poses.
 
 use armill_core::frame::Isometry;
 use armill_formats::convention::Convention;
 use armill_formats::robot_program::{
     Frame, Language, Motion, ProgramText, RobotProgram, Speed, Target, read,
 };
-use samples_folder::samples;
 
-const FOLDER: &str = "programs/same-poses-six-languages";
-
-/// X, Y, Z of the targets in the frame, mm.
-const PLACES: [[f64; 3]; 8] = [
-    [200.0, 250.0, 348.735],
-    [200.0, 200.0, 262.132],
-    [200.0, 250.0, 348.735],
-    [250.0, 300.0, 278.024],
-    [250.0, 250.0, 191.421],
-    [250.0, 300.0, 278.024],
-    [250.0, 200.0, 278.024],
-    [250.0, 150.0, 191.421],
-];
-/// A, B, C of all of them, deg.
-const TURN: [f64; 3] = [180.0, 0.0, -150.0];
-const BASE_FROM_FRAME: [f64; 6] = [807.767, -963.700, 41.479, 0.0, 0.0, 0.0];
-const FLANGE_FROM_TOOL: [f64; 6] = [62.500, -108.253, 100.000, -60.000, 90.000, 0.000];
-/// Of the first move, deg.
-const JOINTS: [f64; 6] = [-46.18419, -6.77518, -20.54925, 71.38674, 49.58727, -302.54752];
-
-fn kuka(numbers: &[f64]) -> Isometry {
-    Convention::Kuka.pose(numbers).unwrap()
-}
-
-fn near(one: &Isometry, other: &Isometry, what: &str) {
-    let far = (one.translation.vector - other.translation.vector).norm();
-    let turned = one.rotation.angle_to(&other.rotation);
-    // Both write 0.001 mm, and the frame that Yaskawa's base poses add is rounded as well: three roundings an axis. Angles are
-    // whole degrees; what is left is the arc cosine of `angle_to`.
-    assert!(far < 2.6e-6 && turned < 1e-7, "{what}: {far:e} m, {turned:e} rad");
-}
+use crate::same_poses::{FRAME, JOINTS, PLACES, TOOL, TURN, eight_moves, kuka, path, same, same_joints};
 
 fn sample(name: &str) -> Option<(RobotProgram, Vec<u8>)> {
-    let bytes = std::fs::read(samples(FOLDER)?.join(name)).unwrap();
+    let bytes = std::fs::read(path(name)?).unwrap();
     let program = read(vec![ProgramText::new(name, &bytes)]).unwrap_or_else(|problems| panic!("{problems}"));
     Some((program, bytes))
 }
@@ -64,7 +26,8 @@ fn poses(program: &RobotProgram) -> Vec<Isometry> {
 }
 
 fn in_frame(at: usize) -> Isometry {
-    kuka(&[PLACES[at].as_slice(), &TURN].concat())
+    let [[x, y, z], [a, b, c]] = [PLACES[at], TURN];
+    kuka([x, y, z, a, b, c])
 }
 
 #[test]
@@ -84,11 +47,7 @@ fn the_yaskawa_job_has_the_poses_of_the_others_in_the_base() {
         (&first, &Motion::Joint)
     );
     for (at, pose) in poses(&program).iter().enumerate() {
-        near(
-            pose,
-            &(kuka(&BASE_FROM_FRAME) * in_frame(at)),
-            &format!("target {at}"),
-        );
+        same(pose, &(kuka(FRAME) * in_frame(at)));
     }
     for one in &program.moves[1..] {
         assert_eq!(one.frame, Frame::Told(Isometry::identity()));
@@ -115,23 +74,19 @@ fn the_fanuc_listing_has_the_poses_of_the_others_in_the_frame() {
         (program.language, program.name.as_str()),
         (Language::Tp, "Program")
     );
-    let Target::Joints(joints) = &program.moves[0].target else {
-        panic!("{:?}", program.moves[0])
-    };
-    for (joint, told) in joints.iter().zip(JOINTS) {
-        // Three decimals here, five there.
-        assert!((joint.to_degrees() - told).abs() < 0.000_51, "{joint} {told}");
-    }
+    // Three decimals here, five there.
+    same_joints(&program.moves[0], 0.000_51);
+    eight_moves(&program.moves[1..]);
     for (at, pose) in poses(&program).iter().enumerate() {
-        near(pose, &in_frame(at), &format!("target {at}"));
+        same(pose, &in_frame(at));
     }
     for one in &program.moves {
         let (Frame::Told(frame), Frame::Told(tool)) = (one.frame, one.tool) else {
             panic!("{one:?}")
         };
-        near(&frame, &kuka(&BASE_FROM_FRAME), "frame");
+        same(&frame, &kuka(FRAME));
         // W 0, P 90, R -60 here, A -60, B 90, C 0 there: the same turns.
-        near(&tool, &kuka(&FLANGE_FROM_TOOL), "tool");
+        same(&tool, &kuka(TOOL));
     }
     for one in &program.moves[1..] {
         assert_eq!(one.speed, Speed::Tip(0.5));
@@ -147,11 +102,11 @@ fn the_fanuc_listing_has_the_poses_of_the_others_in_the_frame() {
 
 #[test]
 fn the_staubli_program_without_its_data_names_what_is_missing() {
-    let Some(folder) = samples(FOLDER) else {
+    let name = "Staubli_VAL3_simplified.pgx";
+    let Some(file) = path(name) else {
         return;
     };
-    let name = "Staubli_VAL3_simplified.pgx";
-    let bytes = std::fs::read(folder.join(name)).unwrap();
+    let bytes = std::fs::read(file).unwrap();
     let problems = read(vec![ProgramText::new(name, &bytes)]).unwrap_err();
     let said: Vec<(usize, &str)> = problems
         .as_slice()
@@ -188,10 +143,10 @@ fn the_staubli_program_without_its_data_names_what_is_missing() {
 /// The sample's moves with data of our own: the eight poses, as Staubli writes them.
 #[test]
 fn the_staubli_program_with_data_has_the_poses_of_the_others() {
-    let Some(folder) = samples(FOLDER) else {
+    let Some(file) = path("Staubli_VAL3_simplified.pgx") else {
         return;
     };
-    let bytes = std::fs::read(folder.join("Staubli_VAL3_simplified.pgx")).unwrap();
+    let bytes = std::fs::read(file).unwrap();
     let value = |key: usize, pose: &Isometry, father: &str| {
         let numbers = Convention::Staubli.numbers_of(pose);
         let [x, y, z, rx, ry, rz] = numbers.try_into().unwrap();
@@ -206,8 +161,8 @@ fn the_staubli_program_with_data_has_the_poses_of_the_others() {
         .map(|(deg, axis)| format!("j{axis}=\"{deg}\" "))
         .collect();
     let data = [
-        ("fFrame", "frame", value(0, &kuka(&BASE_FROM_FRAME), "world[0]")),
-        ("tTool", "tool", value(0, &kuka(&FLANGE_FROM_TOOL), "flange[0]")),
+        ("fFrame", "frame", value(0, &kuka(FRAME), "world[0]")),
+        ("tTool", "tool", value(0, &kuka(TOOL), "flange[0]")),
         ("jJoint", "jointRx", format!("<Value key=\"0\" {joints}/>")),
         (
             "mNomSpeed",
@@ -230,7 +185,7 @@ fn the_staubli_program_with_data_has_the_poses_of_the_others() {
         Target::Joints(JOINTS.map(f64::to_radians).to_vec())
     );
     for (at, pose) in poses(&program).iter().enumerate() {
-        near(pose, &in_frame(at), &format!("target {at}"));
+        same(pose, &in_frame(at));
         assert_eq!(program.moves[at + 1].speed, Speed::Tip(0.1));
     }
 }
