@@ -104,6 +104,14 @@ impl Draft {
             let values = place
                 .iter()
                 .map(|value| ("the place", *value))
+                .chain(
+                    point
+                        .frame_from_tool
+                        .rotation
+                        .coords
+                        .iter()
+                        .map(|value| ("the orientation", *value)),
+                )
                 .chain(point.joints.iter().map(|value| ("a joint", *value)))
                 .chain(point.speed.map(|value| ("the speed", value)))
                 .chain([("the blend", point.blend)]);

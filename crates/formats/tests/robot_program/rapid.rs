@@ -1,5 +1,7 @@
 //! ABB RAPID.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use armill_formats::robot_program::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
@@ -86,7 +88,7 @@ fn the_sample_has_its_joints_poses_arcs_frames_and_postures() {
     same(&frame, &Isometry::identity());
     same(
         &tool,
-        &abb([380.0, 0.0, 200.0], [0.70710678, 0.0, 0.70710678, 0.00000001]),
+        &abb([380.0, 0.0, 200.0], [FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2, 0.0]),
     );
     let arc = &program.moves[3];
     let Motion::Circular { via } = &arc.motion else {

@@ -167,7 +167,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
                         main,
                         "    MoveAbsJ [{},{ABSENT}]\\NoEOffs,v200,fine,{kept};\r\n",
                         joints(point)
-                    )
+                    );
                 }
                 _ => body.push_str(&line(point, &kept)),
             }
