@@ -154,6 +154,14 @@ impl Draft {
             .filter(|line| !line.is_empty())
     }
 
+    /// How near the tip must come to this point, m: at the last it stops.
+    pub(super) fn blend(&self, point: &DraftPoint) -> f64 {
+        match self.points.last().is_some_and(|last| std::ptr::eq(last, point)) {
+            true => 0.0,
+            false => point.blend,
+        }
+    }
+
     /// The points in parts of so many; one part is the program itself.
     pub(super) fn parts(&self, most: usize) -> impl Iterator<Item = (String, &[DraftPoint])> {
         let is_split = self.points.len() > most;

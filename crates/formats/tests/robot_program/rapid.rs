@@ -367,7 +367,7 @@ proptest! {
 
 #[test]
 fn a_program_is_written_so() {
-    let written = write(Language::Rapid, &long(2)).unwrap();
+    let written = write(Language::Rapid, &long(3)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.mod"));
     let none = "[1.00000000,0.00000000,0.00000000,0.00000000]";
@@ -377,7 +377,8 @@ fn a_program_is_written_so() {
          LOCAL PERS wobjdata wobj_1:=[FALSE,TRUE,\"\",[[1.000,2.000,3.000],{none}],[[0,0,0],[1,0,0,0]]];\r\n  \
          PROC PLATE()\r\n    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n    \
          MoveAbsJ [[-46.18419,-6.77518,-20.54925,71.38674,49.58727,-302.54752],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v200,fine,tool_2\\WObj:=wobj_1;\r\n    \
-         MoveL [[0.100,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,z0,tool_2\\WObj:=wobj_1;\r\n  \
+         MoveL [[0.100,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,z0,tool_2\\WObj:=wobj_1;\r\n    \
+         MoveL [[0.200,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool_2\\WObj:=wobj_1;\r\n  \
          ENDPROC\r\nENDMODULE\r\n"
     );
     assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);
