@@ -104,6 +104,14 @@ impl Draft {
             let values = place
                 .iter()
                 .map(|value| ("the place", *value))
+                .chain(
+                    point
+                        .frame_from_tool
+                        .rotation
+                        .coords
+                        .iter()
+                        .map(|value| ("the orientation", *value)),
+                )
                 .chain(point.joints.iter().map(|value| ("a joint", *value)))
                 .chain(point.speed.map(|value| ("the speed", value)))
                 .chain([("the blend", point.blend)]);
@@ -144,6 +152,14 @@ impl Draft {
             .iter()
             .flat_map(|remark| remark.split(|c: char| c.is_control() || c == '\u{2028}' || c == '\u{2029}'))
             .filter(|line| !line.is_empty())
+    }
+
+    /// How near the tip must come to this point, m: at the last it stops.
+    pub(super) fn blend(&self, point: &DraftPoint) -> f64 {
+        match self.points.last().is_some_and(|last| std::ptr::eq(last, point)) {
+            true => 0.0,
+            false => point.blend,
+        }
     }
 
     /// The points in parts of so many; one part is the program itself.

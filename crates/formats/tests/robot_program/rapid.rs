@@ -1,5 +1,7 @@
 //! ABB RAPID.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Quaternion, Translation3, UnitQuaternion};
 use armill_formats::robot_program::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
@@ -86,7 +88,7 @@ fn the_sample_has_its_joints_poses_arcs_frames_and_postures() {
     same(&frame, &Isometry::identity());
     same(
         &tool,
-        &abb([380.0, 0.0, 200.0], [0.70710678, 0.0, 0.70710678, 0.00000001]),
+        &abb([380.0, 0.0, 200.0], [FRAC_1_SQRT_2, 0.0, FRAC_1_SQRT_2, 0.0]),
     );
     let arc = &program.moves[3];
     let Motion::Circular { via } = &arc.motion else {
@@ -365,7 +367,7 @@ proptest! {
 
 #[test]
 fn a_program_is_written_so() {
-    let written = write(Language::Rapid, &long(2)).unwrap();
+    let written = write(Language::Rapid, &long(3)).unwrap();
     let (name, bytes) = &written.files[0];
     assert_eq!((written.files.len(), name.as_str()), (1, "PLATE.mod"));
     let none = "[1.00000000,0.00000000,0.00000000,0.00000000]";
@@ -375,7 +377,8 @@ fn a_program_is_written_so() {
          LOCAL PERS wobjdata wobj_1:=[FALSE,TRUE,\"\",[[1.000,2.000,3.000],{none}],[[0,0,0],[1,0,0,0]]];\r\n  \
          PROC PLATE()\r\n    ConfJ\\On;\r\n    ConfL\\Off;\r\n    SingArea\\Wrist;\r\n    \
          MoveAbsJ [[-46.18419,-6.77518,-20.54925,71.38674,49.58727,-302.54752],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v200,fine,tool_2\\WObj:=wobj_1;\r\n    \
-         MoveL [[0.100,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,z0,tool_2\\WObj:=wobj_1;\r\n  \
+         MoveL [[0.100,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,z0,tool_2\\WObj:=wobj_1;\r\n    \
+         MoveL [[0.200,0.000,0.000],[0.70710678,0.00000000,0.70710678,0.00000000],[-1,0,-4,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v50,fine,tool_2\\WObj:=wobj_1;\r\n  \
          ENDPROC\r\nENDMODULE\r\n"
     );
     assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);

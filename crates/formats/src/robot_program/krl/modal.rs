@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
             let Some(reference) = Reference::read(&mut cursor) else {
                 return;
             };
-            let begins = cursor.pass('=').then(|| cursor.tokens);
+            let begins = cursor.pass('=').then_some(cursor.tokens);
             let mut depth = 0_usize;
             let mut length = 0;
             while let Some(token) = cursor.next() {

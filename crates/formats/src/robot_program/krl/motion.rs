@@ -258,7 +258,7 @@ impl<'a> Reader<'a> {
         let read = Aggregate::read(cursor);
         read.map_err(|wrong| {
             self.told
-                .problem(self.here(), wrong.bytes, wrong.message, HINT_TARGET)
+                .problem(self.here(), wrong.bytes, wrong.message, HINT_TARGET);
         })
         .ok()
     }

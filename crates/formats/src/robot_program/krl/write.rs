@@ -129,7 +129,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
             match (index, at) {
                 // The first by axes: no posture is left to choose.
                 (0, 0) => _ = write!(main, "PTP {}\r\n", axes(&point.joints)),
-                _ => modal.take(point, &mut body),
+                _ => modal.take((point, draft.blend(point)), &mut body),
             }
         }
         if is_split {
@@ -198,7 +198,7 @@ struct Modal {
 }
 
 impl Modal {
-    fn take(&mut self, point: &DraftPoint, out: &mut String) {
+    fn take(&mut self, (point, blend): (&DraftPoint, f64), out: &mut String) {
         let mut pose = String::new();
         whole(&Convention::Kuka.numbers_of(&point.frame_from_tool), &mut pose);
         let Some(speed) = point.speed else {
@@ -216,8 +216,8 @@ impl Modal {
             self.speed = Some(speed);
         }
         let mut approximated = "";
-        if point.blend > 0.0 {
-            let blend = fixed(point.blend * 1e3, BLEND);
+        if blend > 0.0 {
+            let blend = fixed(blend * 1e3, BLEND);
             if self.blend.as_ref() != Some(&blend) {
                 _ = write!(out, "$APO.CDIS={blend}\r\n");
                 self.blend = Some(blend);

@@ -29,8 +29,8 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
         let inner = parts(arguments).into_iter().next().unwrap_or(0..arguments.len());
         base = arguments[inner].trim();
     }
-    if base.starts_with('[') {
-        entries = parts(&base[1..])
+    if let Some(inner) = base.strip_prefix('[') {
+        entries = parts(inner)
             .into_iter()
             .map(|entry| entry.start + 1..entry.end + 1)
             .collect();

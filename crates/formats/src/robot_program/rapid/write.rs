@@ -167,9 +167,9 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
                         main,
                         "    MoveAbsJ [{},{ABSENT}]\\NoEOffs,v200,fine,{kept};\r\n",
                         joints(point)
-                    )
+                    );
                 }
-                _ => body.push_str(&line(point, &kept)),
+                _ => body.push_str(&line((point, draft.blend(point)), &kept)),
             }
         }
         match is_split {
@@ -208,11 +208,13 @@ fn head(draft: &Draft, name: &str) -> String {
     out
 }
 
-fn line(point: &DraftPoint, kept: &str) -> String {
+fn line((point, blend): (&DraftPoint, f64), kept: &str) -> String {
     let mut target = String::new();
     whole(&point.frame_from_tool, &mut target);
     let target = format!("[{target},{},{ABSENT}]", confdata(point));
-    let zone = ZONES.iter().find(|(_, radius)| point.blend * 1e3 >= *radius);
+    let zone = ZONES
+        .iter()
+        .find(|(_, radius)| blend >= radius * (1.0 - 1e-12) * 1e-3);
     let zone = zone.map_or("fine", |(name, _)| name);
     match point.speed {
         Some(speed) => format!("    MoveL {target},{},{zone},{kept};\r\n", speed_of(speed * 1e3)),
@@ -323,10 +325,9 @@ mod tests {
             (4.0, "z1"),
             (500.0, "z200"),
         ] {
-            let mut point = point([0.0; 6], Branch::ALL[0]);
-            point.blend = blend_mm * 1e-3;
+            let point = point([0.0; 6], Branch::ALL[0]);
             assert!(
-                line(&point, "tool").contains(&format!(",v200,{zone},")),
+                line((&point, blend_mm * 1e-3), "tool").contains(&format!(",v200,{zone},")),
                 "{blend_mm}"
             );
         }

@@ -71,7 +71,7 @@ impl<'a> Reader<'a> {
             let bytes = start..cursor.before().max(start);
             all.push(Argument {
                 name: name.map(|token| cursor.text[token.span()].to_owned()),
-                value: self.to_the_next(cursor, value),
+                value: self.past_comma(cursor, value),
                 bytes,
             });
         }
@@ -86,7 +86,7 @@ impl<'a> Reader<'a> {
 
     /// Goes to the next of a list, past its comma, or to where the list is closed; what stands in between is not
     /// understood, nor is then the value.
-    fn to_the_next(&mut self, cursor: &mut Cursor<'a>, value: Value) -> Value {
+    fn past_comma(&mut self, cursor: &mut Cursor<'a>, value: Value) -> Value {
         let (mut value, mut depth) = (value, 0_usize);
         while let Some(token) = cursor.peek() {
             match token.kind {
@@ -210,7 +210,7 @@ impl<'a> Reader<'a> {
                 break;
             }
             let value = self.value(cursor, level + 1);
-            all.push(self.to_the_next(cursor, value));
+            all.push(self.past_comma(cursor, value));
         }
         all
     }

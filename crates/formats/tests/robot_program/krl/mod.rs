@@ -394,7 +394,7 @@ fn a_program_is_written_so() {
         PTP {AXIS: A1 -46.18419,A2 -6.77518,A3 -20.54925,A4 71.38674,A5 49.58727,A6 -302.54752}\r\n\
         $VEL.CP=0.050000\r\n$APO.CDIS=0.500\r\n\
         LIN {X 0.100,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000} C_DIS\r\n\
-        LIN {X 0.200,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000} C_DIS\r\nEND\r\n";
+        LIN {X 0.200,Y 0.000,Z 0.000,A 0.0000,B 90.0000,C 0.0000}\r\nEND\r\n";
     assert_eq!(std::str::from_utf8(bytes).unwrap(), wanted);
 }
 
