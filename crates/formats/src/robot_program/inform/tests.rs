@@ -325,6 +325,16 @@ fn what_controllers_do_not_hold_is_refused() {
     assert!(broken(|draft| draft.points[1].speed = Some(1e-5)).contains("the speed is 0.00001"));
 }
 
+#[test]
+fn moves_go_on_as_told_and_the_last_one_stops() {
+    let mut draft = one_draft();
+    draft.points[0].blend = 0.001;
+    draft.points = vec![draft.points[0].clone(); 3];
+    let text = String::from_utf8(write(&draft).unwrap().files.remove(0).1).unwrap();
+    assert_eq!(text.matches(" PL=1\r\n").count(), 2, "{text}");
+    assert_eq!(text.matches(" PL=0\r\n").count(), 1, "{text}");
+}
+
 fn one_draft() -> Draft {
     let mut draft = drafts()
         .new_tree(&mut TestRunner::deterministic())

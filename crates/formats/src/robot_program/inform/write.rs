@@ -207,7 +207,7 @@ fn job(draft: &Draft, name: &str, (begins, points): (bool, &[DraftPoint])) -> St
     let frame = format!("////FRAME USER {}", draft.frame_number);
     instructions(draft, &["///ATTR SC,RW,RJ", &frame], &mut out);
     for (at, point) in points.iter().enumerate() {
-        let level = if point.blend > 0.0 { 1 } else { 0 };
+        let level = if draft.blend(point) > 0.0 { 1 } else { 0 };
         let speed = point.speed.filter(|_| !(begins && at == 0));
         let said = match speed {
             Some(speed) => format!("MOVL C{at:05} V={} PL={level}", fixed(speed * 1e3, 1)),

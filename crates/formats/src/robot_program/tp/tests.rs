@@ -391,6 +391,16 @@ fn a_listing_counts_its_lines() {
     }
 }
 
+#[test]
+fn moves_go_on_as_told_and_the_last_one_stops() {
+    let mut draft = one_draft();
+    draft.points[0].blend = 0.001;
+    draft.points = vec![draft.points[0].clone(); 3];
+    let text = String::from_utf8(write(&draft).unwrap().files.remove(0).1).unwrap();
+    assert_eq!(text.matches(" CNT100 ;\r\n").count(), 2, "{text}");
+    assert_eq!(text.matches(" FINE ;\r\n").count(), 1, "{text}");
+}
+
 fn one_draft() -> Draft {
     let mut draft = drafts()
         .new_tree(&mut TestRunner::deterministic())

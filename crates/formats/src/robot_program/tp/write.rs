@@ -62,7 +62,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         files.push(listing(draft, &draft.name, (&lines, "")));
         for (at, (name, points)) in parts.iter().zip(draft.points.chunks(MOST_POSITIONS)).enumerate() {
             let mut lines = chosen(draft);
-            lines.extend(moves(at == 0, points));
+            lines.extend(moves(draft, (at == 0, points)));
             files.push(listing(
                 draft,
                 name,
@@ -71,7 +71,7 @@ pub fn write(draft: &Draft) -> Result<Written, DraftError> {
         }
     } else {
         let mut lines = head(draft);
-        lines.extend(moves(true, &draft.points));
+        lines.extend(moves(draft, (true, &draft.points)));
         let positions = positions(draft, (true, &draft.points));
         files.push(listing(draft, &draft.name, (&lines, &positions)));
     }
@@ -147,9 +147,13 @@ fn chosen(draft: &Draft) -> Vec<String> {
     ]
 }
 
-fn moves(begins: bool, points: &[DraftPoint]) -> Vec<String> {
+fn moves(draft: &Draft, (begins, points): (bool, &[DraftPoint])) -> Vec<String> {
     let one = |(at, point): (usize, &DraftPoint)| {
-        let end = if point.blend > 0.0 { "CNT100" } else { "FINE" };
+        let end = if draft.blend(point) > 0.0 {
+            "CNT100"
+        } else {
+            "FINE"
+        };
         let speed = point.speed.filter(|_| !(begins && at == 0)).and_then(feed);
         match speed {
             Some(speed) => format!("L P[{}] {speed} {end} ;", at + 1),

@@ -316,6 +316,19 @@ fn a_long_program_is_split_and_read_as_one() {
     assert_eq!(read(texts).unwrap().moves.len(), 4001);
 }
 
+#[test]
+fn moves_go_on_as_told_and_the_last_one_stops() {
+    let mut draft = one_draft();
+    draft.points[0].blend = 0.001;
+    draft.points = vec![draft.points[0].clone(); 3];
+    let text = |at: usize| String::from_utf8(write(&draft).unwrap().files.remove(at).1).unwrap();
+    let [data, start] = [text(1), text(2)];
+    assert!(data.contains("<Value key=\"0\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"100.000\" rmax=\"99999\" blend=\"cartesian\" leave=\"1.000\" reach=\"1.000\" />"));
+    assert!(data.contains("<Value key=\"1\" accel=\"100\" vel=\"100\" decel=\"100\" tmax=\"100.000\" rmax=\"99999\" blend=\"off\" leave=\"0.000\" reach=\"0.000\" />"));
+    assert!(start.contains("mSpeed[0])\r\n  nTraj=movel(pPoint[1]"), "{start}");
+    assert!(start.contains("mSpeed[1])\r\n  waitEndMove()"), "{start}");
+}
+
 fn one_draft() -> Draft {
     let mut draft = drafts()
         .new_tree(&mut TestRunner::deterministic())

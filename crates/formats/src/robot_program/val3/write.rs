@@ -99,10 +99,10 @@ fn notes(draft: &Draft) -> Vec<String> {
 /// Speed and blend as the data tell them: mm/s, mm.
 type Pace = (Option<String>, String);
 
-fn pace(point: &DraftPoint) -> Pace {
+fn pace(draft: &Draft, point: &DraftPoint) -> Pace {
     (
         point.speed.map(|speed| fixed(speed * 1e3, 3)),
-        fixed(point.blend * 1e3, 3),
+        fixed(draft.blend(point) * 1e3, 3),
     )
 }
 
@@ -111,7 +111,7 @@ fn speeds(draft: &Draft) -> Vec<Pace> {
     let mut found: Vec<Pace> = Vec::new();
     let mut known = std::collections::BTreeSet::new();
     for point in draft.points.iter().skip(1) {
-        let pace = pace(point);
+        let pace = pace(draft, point);
         if known.insert(pace.clone()) {
             found.push(pace);
         }
@@ -125,7 +125,7 @@ fn moves(draft: &Draft, speeds: &[Pace]) -> Vec<String> {
     let first = format!("nTraj=movej(jStart[0],{tool},mNomSpeed[0])");
     let rest = draft.points.iter().skip(1).enumerate().map(|(at, point)| {
         let word = if point.speed.is_some() { "movel" } else { "movej" };
-        let pace = places.get(&pace(point)).copied().unwrap_or_default();
+        let pace = places.get(&pace(draft, point)).copied().unwrap_or_default();
         format!("nTraj={word}(pPoint[{at}],{tool},mSpeed[{pace}])")
     });
     std::iter::once(first).chain(rest).collect()
