@@ -134,6 +134,17 @@ pub const APT: &[&str] = &[
     "PARTNO/", "INSERT/", "CUTCOM/", "COOLNT/", "FINI\n", "$\n", "$$", "1e308", "NURBS/", "GODLTA/",
 ];
 
+/// Words of the languages of robots.
+#[rustfmt::skip]
+pub const ROBOT_PROGRAM: &[&str] = &[
+    "PTP {", "LIN {X ", "CIRC ", "SLIN ", "LIN_REL {", "XP1", "DECL E6POS XP1={", "{A1 ", ",S 2,T 35", "C_DIS", "$BASE=", "$TOOL={", "BASE_DATA[1]", "BAS(#BASE,",
+    "FDAT_ACT=", "$VEL.CP=", " WITH ", "#TOOL", "DEFDAT A\n", "DEF A()\n", "END\n", "'B010'", "movel(p[", "movej([", "movec(", "pose_trans(", "get_inverse_kin(", "set_tcp(",
+    "d2r(", "def a():\n", "MoveL ", "MoveJ ", "MoveC ", "MoveAbsJ ", "[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]", "CONST robtarget p1:=", "Offs(p1,", "RelTool(p1,",
+    "\\\\WObj:=", ":=", ".trans", "tool0", "v100", "MODULE M\n", "PROC a()\n", "ENDPROC\n", "/JOB\n", "//NAME A\n", "//POS\n", "///NPOS 1,0,0,0,0,0\n", "///USER 1\n",
+    "///TOOL 1\n", "///POSTYPE BASE\n", "///RECTAN\n", "///RCONF 0,0,0,0,0,0\n", "C00000=", "//INST\n", "NOP\n", "MOVL C00000 V=100.0\n", "MOVC ", "MOVJ ", "/PROG A\n",
+    "/MN\n", "/POS\n", "P[1]{\n", "L P[1] 100mm/sec FINE ;\n", "CONFIG : 'N U T, 0, 0, 0',", "PR[9,1]=", "UFRAME[9]=PR[9] ;\n", "<Program ", "<Data ", "pointRx", "jointRx",
+];
+
 /// Columns of a path.
 #[rustfmt::skip]
 pub const PATH_CSV: &[&str] = &[

@@ -139,6 +139,25 @@ pub fn apt() -> Vec<Vec<u8>> {
     ])
 }
 
+/// A program of each language, files parted by a zero byte: points by name, by numbers, in frames, arcs.
+pub fn robot_programs() -> Vec<Vec<u8>> {
+    seeds(&[
+        "DEF A()\n$BASE={FRAME: X 1,Y 2.5,Z 3,A 4,B 5,C 6}\nBAS(#TOOL,2)\nPTP XP1 C_PTP\nLIN {X 20.125 ,B -.5E1}\nLIN_REL {Z 10} #TOOL\nCIRC {X 1},{Y 2}\nLIN \
+         XP1:{X 1,Y 2,Z 3,A 0,B 0,C 0} C_DIS\nPTP {A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\nEND\n\0DEFDAT A\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 0,S 'B10',T 35}\nENDDAT\n",
+        "def a():\n  f = p[1, 2, 3, 0.1, -.2, d2r(30)]\n  movej([0, 1, 2, 3, 4, 5], a=1)\n  movel(pose_trans(f, p[1e-1,2,3 ,0,0,0]), 1.2, 0.25, 0, r=0.01)\n  movec(f, p[1,2,3,0,0,1])\n  \
+         set_tcp(f)\n  movej(get_inverse_kin(f))\nend\n",
+        "MODULE M\nCONST robtarget p1:=[[1,2,3],[1,0,0,0],[0,1,-1,1],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPERS tooldata t:=[TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n\
+         PROC a()\nMoveAbsJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v5,fine,t;\nMoveL p1,v100\\V:=5,z1,t\\WObj:=wobj0;\nMoveC p1,Offs(p1,0,0,-5.5),v5,z1,t;\nENDPROC\nENDMODULE\n",
+        "/JOB\r\n//NAME A\r\n//POS\r\n///NPOS 2,0,0,0,0,0\r\n///USER 1\r\n///TOOL 1\r\n///POSTYPE USER\r\n///RECTAN\r\n///RCONF 0,0,0,0,0,0,0,0\r\nC00000=1.000,2.000,3.000,0.00,0.00,0.00\r\n\
+         C00001=2.000,2.000,3.000,0.00,90.00,0.00\r\n//INST\r\n///DATE 2026/01/01 00:00\r\n///ATTR SC,RW,RJ\r\n////FRAME USER 1\r\n///GROUP1 RB1\r\nNOP\r\nMOVJ C00000 VJ=5.00\r\nMOVL C00001 V=10.0\r\nEND\r\n",
+        "/PROG  A\n/ATTR\nLINE_COUNT\t= 2;\n/MN\n   1:J P[1] 20% FINE ;\n   2:L P[1] 100mm/sec CNT100 ;\n/POS\nP[1]{\n   GP1:\n    UF : 1, UT : 1,  CONFIG : 'N U T, 0, 0, 0',\n\
+         \tX = 1.000 mm,\tY = 2.000 mm,\tZ = 3.000 mm,\n\tW = 0.000 deg,\tP = 0.000 deg,\tR = 0.000 deg\n};\n/END\n",
+        "<Database><Datas><Data name=\"f\" type=\"frame\"><Value key=\"0\" x=\"1\" rz='90' fatherId=\"world[0]\" /></Data><Data name=\"p\" type=\"pointRx\"><Value key=\"0\" y=\"2.5\" \
+         shoulder=\"righty\" fatherId=\"f[0]\" /><Value key=\"1\" /></Data><Data name=\"j\" type=\"jointRx\"><Value j1=\"5\" /></Data></Datas></Database>\0<Programs><Program \
+         name=\"start\"><Code><![CDATA[begin\n movej(j,flange,m)\n movec(p[0],p[0],flange,m)\n movel(p[1],flange,m)\nend]]></Code></Program></Programs>",
+    ])
+}
+
 /// Every column; decimal commas.
 pub fn path_csv() -> Vec<Vec<u8>> {
     seeds(&[

@@ -73,6 +73,7 @@ pub const TARGETS: &[Target] = &[
     target("apt", verdicts::apt, fixtures::apt, &["apt", "cls", "clsf", "cl"], words::APT),
     target("path-csv", verdicts::path_csv, fixtures::path_csv, &["csv"], words::PATH_CSV),
     target("program", verdicts::program, fixtures::program, &["ngc", "apt", "cls", "csv"], words::PROGRAM),
+    target("robot-program", verdicts::robot_program, fixtures::robot_programs, &["src", "mod", "script", "jbi", "ls", "pgx"], words::ROBOT_PROGRAM),
     target("dynoware", verdicts::dynoware, fixtures::dynoware, &[], words::FORCES),
     target("force-csv", verdicts::force_csv, fixtures::force_csv, &[], words::FORCES),
     target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),

@@ -9,13 +9,17 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Pace, Step};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
+use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::format::{self as forces, Measured};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests};
 use armill_formats::robot::format::{self, Format, Wanted};
-use armill_formats::robot::pendant::{self, Convention};
+use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
+use armill_formats::robot_program::{
+    Motion, Moved, ProgramText, RobotProgram, Target, inform, krl, rapid, tp, urscript, val3,
+};
 use armill_formats::toolpath::format as program;
 use armill_formats::toolpath::{LengthUnit, Summary, apt, csv, gcode};
 use armill_study::file::resolve;
@@ -175,6 +179,72 @@ pub fn program(bytes: &[u8]) {
         ..program::Wanted::default()
     };
     judge_program(program::read("part", bytes, &wanted, &mut judge_step));
+}
+
+/// Half of the last digit that controllers keep, m and rad, in every direction, with angles that add up.
+const KEPT: [f64; 2] = [1e-6, 5e-5];
+
+/// A program of a robot, its files parted by a zero byte, in every language: what is read is made of numbers, and, written
+/// again with the poses that it has, reads to the same.
+pub fn robot_program(bytes: &[u8]) {
+    let readers = [
+        krl::read,
+        rapid::read,
+        inform::read,
+        tp::read,
+        urscript::read,
+        val3::read,
+    ];
+    for read in readers {
+        let files = bytes.split(|byte| *byte == 0).enumerate();
+        let texts = files.map(|(index, bytes)| ProgramText::new(&format!("a{index}"), bytes));
+        let program = match read(texts.collect()) {
+            Err(problems) => {
+                refused(&problems);
+                continue;
+            }
+            Ok(program) => program,
+        };
+        let moved = as_they_are(&program);
+        // Moves to one target may go to different places, where they leave out what the move before told.
+        let Ok(files) = program.with_poses(&moved) else {
+            continue;
+        };
+        let texts = files.iter().map(|(name, bytes)| ProgramText::new(name, bytes));
+        let again = read(texts.collect()).unwrap_or_else(|problems| panic!("{problems}"));
+        assert_eq!(program.moves.len(), again.moves.len());
+        for one in &moved {
+            let found = again.moves[one.index].target.pose().expect("a pose stays one");
+            let apart = (found.translation.vector - one.target.translation.vector).amax();
+            let matrix = |pose: &Isometry| *pose.rotation.to_rotation_matrix().matrix();
+            let turned = (matrix(found) - matrix(&one.target)).amax();
+            let far = one.target.translation.vector.amax() * 1e-12;
+            assert!(apart < KEPT[0] + far && turned < KEPT[1], "{apart} {turned}");
+        }
+    }
+}
+
+/// Every pose of the program, where it is.
+fn as_they_are(program: &RobotProgram) -> Vec<Moved> {
+    let mut all = Vec::new();
+    for (index, of) in program.moves.iter().enumerate() {
+        let via = match &of.motion {
+            Motion::Circular { via } => via.pose().copied(),
+            Motion::Joint | Motion::Linear => None,
+        };
+        if let Target::Joints(joints) = &of.target {
+            assert!(joints.iter().all(|value| value.is_finite()));
+        }
+        if let Some(pose) = of.target.pose() {
+            assert!(pose.to_homogeneous().iter().all(|value| value.is_finite()));
+            all.push(Moved {
+                index,
+                target: *pose,
+                via,
+            });
+        }
+    }
+    all
 }
 
 /// A program is refused for a reason, or counted.

@@ -2,22 +2,26 @@
 //!
 //! - [`document`]: a TOML file that is checked completely and tells all its problems at once,
 //!   each with its place, its limit and a hint.
-//! - [`robot`]: robot descriptions in, of six formats; poses as the pendants of six makers show them.
+//! - [`robot`]: robot descriptions in, of six formats; readings of pendants.
+//! - [`convention`]: poses as six makers write them.
 //! - [`material`]: what materials take to cut: our material file.
 //! - [`sources`]: where the numbers of these files come from.
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
+//! - [`robot_program`]: programs of robot controllers, in and out.
 //! - [`measurement`]: records of forces and tables of load tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`
 //! is caught and told as a problem of the file. Same input, same bytes.
 
+pub mod convention;
 pub mod document;
 pub mod file;
 pub mod material;
 pub mod measurement;
 pub mod robot;
+pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;

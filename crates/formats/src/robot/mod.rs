@@ -1,4 +1,4 @@
-//! Which robot does a file describe, and how does a pendant write a pose?
+//! Which robot does a file describe, and what does its pendant show?
 //!
 //! | format | module |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! has a `read`, or a `read_to_tip` where there are links to choose from, and tests with broken input.
 //! [`format`](mod@format) tells which of them a file is, and reads it.
 //!
-//! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: poses as six makers write
-//! them. `xml` is the ground of URDF and xacro.
+//! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: what a pendant
+//! shows. `xml` is the ground of URDF and xacro.
 //! `description`: what all of them give.
 
 pub mod armill;

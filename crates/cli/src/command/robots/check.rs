@@ -5,7 +5,8 @@
 
 use armill_core::robot::convention::Apart;
 use armill_core::watch::Watch;
-use armill_formats::robot::pendant::{Convention, reading};
+use armill_formats::convention::Convention;
+use armill_formats::robot::pendant::reading;
 use armill_study::file::quantities::pose_mm_deg;
 use armill_study::pendant::{PendantAnswer, PendantQuestion, check};
 use armill_study::{StudyError, robots};

@@ -1,0 +1,244 @@
+//! What a job does with its positions: moves, and what is passed over between them.
+
+use super::position::{Position, Positions};
+use crate::document::{Problem, Problems};
+use crate::robot_program::arc_row::ArcRow;
+use crate::robot_program::language::Language;
+use crate::robot_program::program::{RobotMove, RobotProgram, Target};
+use crate::robot_program::spelling::{Line, Part, lines};
+use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
+
+/// Jobs that call jobs are followed so deep.
+const DEEPEST: usize = 30;
+
+/// Words that choose what runs and how often.
+const CHOICES: [&str; 18] = [
+    "JUMP",
+    "IF",
+    "IFTHEN",
+    "IFTHENEXP",
+    "ELSE",
+    "ELSEIF",
+    "ELSEIFEXP",
+    "ENDIF",
+    "WHILE",
+    "WHILEEXP",
+    "ENDWHILE",
+    "FOR",
+    "NEXT",
+    "SWITCH",
+    "CASE",
+    "DEFAULT",
+    "ENDSWITCH",
+    "RET",
+];
+
+/// Words that shift or turn what follows.
+const SHIFTS: [&str; 6] = ["SFTON", "SFTOF", "MFRAME", "MIRROR", "MSHIFT", "SETTOOL"];
+
+/// Words that compute variables, position variables among them.
+const COMPUTES: [&str; 9] = [
+    "SET", "ADD", "SUB", "MULMAT", "INVMAT", "CNVRT", "GETS", "SETE", "GETPOS",
+];
+
+/// Reads the job that comes first, with the jobs that it calls as far as they are among `texts`.
+///
+/// # Errors
+/// Every problem of the files, at most 200.
+pub fn read(texts: Vec<ProgramText>) -> Result<RobotProgram, Problems> {
+    let is_job = |text: &ProgramText| {
+        let begins = |line: &str| {
+            ["/JOB", "//POS", "//INST"]
+                .iter()
+                .any(|begin| line.trim_start().starts_with(begin))
+        };
+        text.text().lines().any(begins)
+    };
+    if let Some(other) = texts.first().filter(|text| !is_job(text)) {
+        let message = "this is no job: it has neither /JOB nor //POS nor //INST";
+        return Err(Problem::of_file(
+            other.name(),
+            message,
+            "save the job as the controller writes it (.JBI)",
+        )
+        .into());
+    }
+    let mut reader = Reader {
+        texts: &texts,
+        names: texts.iter().map(job_name).collect(),
+        done: vec![false; texts.len()],
+        moves: Vec::new(),
+        told: Told::default(),
+    };
+    reader.job(0, 0);
+    let told = |one: &RobotMove| !matches!(one.target, Target::Elsewhere { .. });
+    if let (Some(first), Some(text)) = (reader.moves.first(), texts.first())
+        && !reader.moves.iter().any(told)
+    {
+        let message = format!(
+            "line {}: no target of this job is told in coordinates",
+            first.line
+        );
+        let hint = "pulses and variables are known to the controller alone: save the job as a relative job, with positions in \
+                    BASE, ROBOT or USER";
+        reader.told.problem(text, 0..0, message, hint);
+    }
+    let Reader {
+        names, moves, told, ..
+    } = reader;
+    let notes = told.finish()?;
+    Ok(RobotProgram {
+        language: Language::Inform,
+        name: names.into_iter().next().unwrap_or_default(),
+        moves,
+        notes,
+        texts,
+    })
+}
+
+/// What a job calls itself, or its file.
+fn job_name(text: &ProgramText) -> String {
+    let told = text.text().lines().take(50).find_map(|line| {
+        let rest = line.trim_start().strip_prefix("//NAME")?;
+        let name = rest.trim();
+        (!name.is_empty()).then(|| name.to_owned())
+    });
+    told.unwrap_or_else(|| {
+        let name = text.name().rsplit(['/', '\\']).next().unwrap_or_default();
+        name.rsplit_once('.').map_or(name, |(stem, _)| stem).to_owned()
+    })
+}
+
+/// Jobs on their way.
+pub(super) struct Reader<'a> {
+    texts: &'a [ProgramText],
+    names: Vec<String>,
+    done: Vec<bool>,
+    pub moves: Vec<RobotMove>,
+    pub told: Told,
+}
+
+/// A job on its way.
+pub(super) struct Job<'a> {
+    pub text: &'a ProgramText,
+    pub positions: Positions<'a>,
+    pub row: ArcRow<Position>,
+    depth: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn job(&mut self, index: usize, depth: usize) {
+        let (Some(text), Some(done)) = (self.texts.get(index), self.done.get_mut(index)) else {
+            return;
+        };
+        *done = true;
+        let mut job = Job {
+            text,
+            positions: Positions::new(text, index),
+            row: ArcRow::default(),
+            depth,
+        };
+        let mut instructions = false;
+        let mut jobs = 0;
+        for line in lines(text.text()) {
+            let said = line.trimmed();
+            if said.text.starts_with("/JOB") {
+                jobs += 1;
+                if jobs == 2 {
+                    self.told.note(
+                        (text, line.number),
+                        "a second job in the same file is passed over",
+                    );
+                    break;
+                }
+            } else if said.text.starts_with("//INST") {
+                instructions = true;
+            } else if instructions && !said.text.starts_with("//") {
+                self.instruction(&mut job, &line);
+            } else if !instructions {
+                job.positions.take(&line, &mut self.told);
+            }
+            if self.told.is_full() {
+                return;
+            }
+        }
+        self.end_row(&mut job);
+    }
+
+    fn instruction(&mut self, job: &mut Job<'a>, line: &Line) {
+        let said = line.trimmed();
+        if said.text.starts_with('\'') {
+            return;
+        }
+        if said.text.starts_with('*') {
+            let what = "labels and jumps are passed over: what stands here runs once";
+            return self.told.note((job.text, line.number), what);
+        }
+        let mut words = said.words();
+        let Some(first) = words.next() else {
+            return;
+        };
+        let word = first.text.to_ascii_uppercase();
+        match word.as_str() {
+            "MOVJ" | "MOVL" | "MOVS" | "MOVC" => self.motion(job, line, (&word, words)),
+            "CALL" => self.call(job, line, words.next()),
+            _ if word.starts_with("+MOV") => {
+                let what = "what a second robot or a station does beside (+MOV..) is passed over";
+                self.told.note((job.text, line.number), what);
+            }
+            _ if word.contains("MOV") => {
+                let message = format!("the move `{word}` is not followed");
+                let hint = match word.as_str() {
+                    "IMOV" => "it goes by an increment: write it as MOVL to a position",
+                    _ => "understood are MOVJ, MOVL, MOVC and MOVS of one robot",
+                };
+                self.told.problem(job.text, line.span_of(&first), message, hint);
+            }
+            _ if CHOICES.contains(&word.as_str()) => {
+                let what = format!("{word} is passed over: what stands here runs once");
+                self.told.note((job.text, line.number), what);
+            }
+            _ if SHIFTS.contains(&word.as_str()) => {
+                let what = format!("{word} is passed over: positions are taken as they are listed");
+                self.told.note((job.text, line.number), what);
+            }
+            _ if COMPUTES.contains(&word.as_str()) && words.any(|word| word.text.starts_with(['P', 'p'])) => {
+                let what =
+                    format!("{word} of a position variable is passed over: it is taken as it is listed");
+                self.told.note((job.text, line.number), what);
+            }
+            _ => {}
+        }
+    }
+
+    fn call(&mut self, job: &mut Job<'a>, line: &Line, called: Option<Part>) {
+        self.end_row(job);
+        let called = called.map_or("", |part| part.text);
+        let name = called.split_once(':').map_or(called, |(_, name)| name);
+        let known = self
+            .names
+            .iter()
+            .position(|other| other.eq_ignore_ascii_case(name));
+        match known {
+            Some(index) if !self.done[index] && job.depth < DEEPEST => self.job(index, job.depth + 1),
+            Some(_) => {
+                let what = format!("the job {name} is called again: it is read once");
+                self.told.note((job.text, line.number), what);
+            }
+            None => {
+                let what = format!("the job {name} is called, but not given: what it does is passed over");
+                self.told.note((job.text, line.number), what);
+            }
+        }
+    }
+
+    /// No MOVC follows: whether what came made arcs.
+    pub fn end_row(&mut self, job: &mut Job<'a>) {
+        if let Some(span) = job.row.end() {
+            let message = "this row of MOVC has no three points".to_owned();
+            let hint = "an arc goes through three MOVC in a row";
+            self.told.problem(job.text, span, message, hint);
+        }
+    }
+}

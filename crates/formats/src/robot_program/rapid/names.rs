@@ -1,0 +1,131 @@
+//! What names stand for: data of every module, as declared and as assigned since.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::value::{Node, Reference, Step, Value};
+
+/// Names that stand for names, more than anybody chains.
+const MOST_LINKS: usize = 16;
+
+/// Data of all modules, by name, then by text: two modules may each have a tool of their own under one name.
+#[derive(Default)]
+pub(super) struct Names(HashMap<String, BTreeMap<usize, Bound>>);
+
+struct Bound {
+    node: Node,
+    /// The text where it is spelled.
+    text: usize,
+    /// Parts of it were assigned: it is spelled in more than one place.
+    is_changed: bool,
+}
+
+/// What an expression comes to.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'n> {
+    pub node: &'n Node,
+    /// The text where it stands.
+    pub text: usize,
+    /// Whether it is spelled there and nowhere else.
+    pub is_whole: bool,
+}
+
+impl Names {
+    /// From here on the name means this in this text.
+    pub fn put(&mut self, name: String, node: Node, text: usize) {
+        let bound = Bound {
+            node,
+            text,
+            is_changed: false,
+        };
+        self.0.entry(name).or_default().insert(text, bound);
+    }
+
+    /// Whether any module declares it.
+    pub fn knows(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
+    /// A part of what the name stands for is assigned; nothing where the name or the part is not known.
+    pub fn change(&mut self, reference: &Reference, node: Node, text: usize) {
+        let Some(modules) = self.0.get_mut(&reference.name) else {
+            return;
+        };
+        let key = match modules.contains_key(&text) {
+            true => Some(text),
+            false => modules.keys().next().copied(),
+        };
+        let Some(bound) = key.and_then(|key| modules.get_mut(&key)) else {
+            return;
+        };
+        bound.is_changed = true;
+        let mut part = &mut bound.node;
+        for step in &reference.steps {
+            let length = match &part.value {
+                Value::List(all) => all.len(),
+                _ => 0,
+            };
+            let index = index_of(step, length).filter(|index| *index < length);
+            match (index, &mut part.value) {
+                (Some(index), Value::List(all)) => part = &mut all[index],
+                // Which part it is, or of what, is not known: nor is then the whole.
+                (_, value) => {
+                    *value = Value::Other;
+                    return;
+                }
+            }
+        }
+        *part = node;
+    }
+
+    /// What the expression comes to, through names that stand for it.
+    pub fn look<'n>(&'n self, node: &'n Node, text: usize) -> Option<Found<'n>> {
+        let mut found = Found {
+            node,
+            text,
+            is_whole: true,
+        };
+        for _ in 0..MOST_LINKS {
+            let Value::Name(reference) = &found.node.value else {
+                return Some(found);
+            };
+            let modules = self.0.get(&reference.name)?;
+            let bound = modules.get(&found.text).or_else(|| modules.values().next())?;
+            found = Found {
+                node: &bound.node,
+                text: bound.text,
+                is_whole: found.is_whole && !bound.is_changed,
+            };
+            for step in &reference.steps {
+                found.node = self.part(found, step)?;
+            }
+        }
+        None
+    }
+
+    fn part<'n>(&'n self, found: Found<'n>, step: &Step) -> Option<&'n Node> {
+        match &found.node.value {
+            Value::List(all) => all.get(index_of(step, all.len())?),
+            _ => None,
+        }
+    }
+}
+
+/// Which entry of a record or an array of so many a step leads to.
+fn index_of(step: &Step, length: usize) -> Option<usize> {
+    let field = match step {
+        Step::Index(index) => return Some(index - 1),
+        Step::Unknown => return None,
+        Step::Field(field) => field,
+    };
+    Some(match field.as_str() {
+        "trans" | "x" | "q1" | "cf1" | "robax" | "v_tcp" | "robhold" | "rax_1" | "eax_a" => 0,
+        "rot" | "y" | "q2" | "cf4" | "tframe" | "ufprog" | "rax_2" | "eax_b" => 1,
+        "z" | "q3" | "cf6" | "robconf" | "tload" | "ufmec" | "rax_3" | "eax_c" => 2,
+        "q4" | "cfx" | "uframe" | "rax_4" | "eax_d" => 3,
+        "oframe" | "rax_5" | "eax_e" => 4,
+        "rax_6" | "eax_f" => 5,
+        // The last of a target and of joints alike.
+        "extax" => length.checked_sub(1)?,
+        _ => return None,
+    })
+}

@@ -1,0 +1,90 @@
+//! A module as statements: what ends with `;`, and the heads of blocks, which end with their line or a word.
+
+use crate::robot_program::tokens::{Cursor, Kind, Token};
+
+/// Heads that end with their line.
+const LINES: [&str; 14] = [
+    "MODULE",
+    "ENDMODULE",
+    "PROC",
+    "ENDPROC",
+    "FUNC",
+    "ENDFUNC",
+    "TRAP",
+    "ENDTRAP",
+    "RECORD",
+    "ENDRECORD",
+    "TEST",
+    "VERSION",
+    "LANGUAGE",
+    "%",
+];
+/// Heads that are a word alone.
+const WORDS: [&str; 8] = [
+    "ELSE", "ENDIF", "ENDFOR", "ENDWHILE", "ENDTEST", "ERROR", "UNDO", "BACKWARD",
+];
+
+/// The statements of these tokens, without their `;`.
+pub(super) fn statements<'a>(text: &'a str, tokens: &'a [Token]) -> Vec<Cursor<'a>> {
+    let mut all = Vec::new();
+    let mut rest = tokens;
+    while let Some(first) = rest.first() {
+        if first.is(';') {
+            rest = &rest[1..];
+            continue;
+        }
+        let length = length(text, rest);
+        all.push(Cursor::new(text, &rest[..length]));
+        rest = &rest[length..];
+    }
+    all
+}
+
+/// How many tokens the first statement has, one at least.
+fn length(text: &str, rest: &[Token]) -> usize {
+    let first = &text[rest[0].span()];
+    let word = first.to_ascii_uppercase();
+    let after = |wanted: &dyn Fn(&Token) -> bool| {
+        let end = rest.iter().position(|token| token.is(';') || wanted(token));
+        end.map_or(rest.len(), |index| index + usize::from(!rest[index].is(';')))
+    };
+    let is = |token: &Token, wanted: &str| text[token.span()].eq_ignore_ascii_case(wanted);
+    let is_label =
+        rest.get(1).is_some_and(|token| token.is(':')) && !rest.get(2).is_some_and(|token| token.is('='));
+    match word.as_str() {
+        head if LINES.contains(&head) => {
+            let mut depth = 0_usize;
+            let mut line = rest[0].line;
+            let end = rest.iter().position(|token| {
+                let ends = token.line != line && depth == 0;
+                match token.kind {
+                    Kind::Mark('(') => depth += 1,
+                    Kind::Mark(')') => depth = depth.saturating_sub(1),
+                    _ => {}
+                }
+                line = token.line;
+                ends
+            });
+            end.unwrap_or(rest.len())
+        }
+        head if WORDS.contains(&head) => 1,
+        "WHILE" | "FOR" => after(&|token| is(token, "DO")),
+        "DEFAULT" | "CASE" => after(&|token| token.is(':')),
+        "IF" | "ELSEIF" => {
+            // `IF a THEN`, or `IF a MoveL ...;` without.
+            let end = rest
+                .iter()
+                .position(|token| token.is(';') || is(token, "THEN") || is_move(&text[token.span()]))
+                .unwrap_or(rest.len());
+            end + usize::from(rest.get(end).is_some_and(|token| is(token, "THEN")))
+        }
+        _ if is_label && rest[0].kind == Kind::Word => 2,
+        _ => after(&|_| false),
+    }
+}
+
+/// Whether a word names a move of the language, whatever follows it.
+pub(super) fn is_move(word: &str) -> bool {
+    word.get(..4)
+        .is_some_and(|begin| begin.eq_ignore_ascii_case("Move"))
+}

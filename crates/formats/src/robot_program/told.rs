@@ -1,0 +1,79 @@
+//! What is told of a program besides its moves: problems, and notes of what was passed over.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::text::ProgramText;
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+
+/// No more notes of different kinds than these: a list that nobody reads helps nobody.
+const MOST_NOTES: usize = 200;
+
+/// Problems and notes, as they are found.
+#[derive(Default)]
+pub(super) struct Told {
+    problems: Vec<Problem>,
+    notes: Vec<Note>,
+    known: HashMap<String, usize>,
+    more: usize,
+}
+
+struct Note {
+    sentence: String,
+    place: String,
+    times: usize,
+}
+
+impl Told {
+    /// A problem of these bytes; beyond 200 none.
+    pub fn problem(&mut self, text: &ProgramText, span: Range<usize>, message: String, hint: &str) {
+        if self.problems.len() < MOST_PROBLEMS {
+            self.problems
+                .push(text.source().problem(span, message, Some(hint.to_owned())));
+        }
+    }
+
+    /// Whether more problems are not looked for.
+    pub fn is_full(&self) -> bool {
+        self.problems.len() >= MOST_PROBLEMS
+    }
+
+    /// How many problems there are.
+    pub fn count(&self) -> usize {
+        self.problems.len()
+    }
+
+    /// A sentence of what was passed over; said once, with its first line and how often it would be said.
+    pub fn note(&mut self, (text, line): (&ProgramText, u32), sentence: impl Into<String>) {
+        let sentence = sentence.into();
+        if let Some(index) = self.known.get(&sentence) {
+            self.notes[*index].times += 1;
+        } else if self.notes.len() >= MOST_NOTES {
+            self.more += 1;
+        } else {
+            self.known.insert(sentence.clone(), self.notes.len());
+            self.notes.push(Note {
+                sentence,
+                place: format!("{}, line {line}", text.name()),
+                times: 1,
+            });
+        }
+    }
+
+    /// The notes, or the problems if there are any.
+    pub fn finish(self) -> Result<Vec<String>, Problems> {
+        Problems::from(self.problems).into_result()?;
+        let more = (self.more > 0).then(|| format!("{} more remarks of other kinds", self.more));
+        let notes = self.notes.into_iter().map(|note| match note.times {
+            1 => format!("{}: {}", note.place, note.sentence),
+            times => format!("{}: {} ({times} times, here first)", note.place, note.sentence),
+        });
+        Ok(notes.chain(more).collect())
+    }
+}
+
+/// `text` short enough for a sentence.
+pub(super) fn shown(text: &str) -> &str {
+    let end = text.char_indices().nth(40).map_or(text.len(), |(at, _)| at);
+    &text[..end]
+}

@@ -1,0 +1,303 @@
+//! The data of a project: points, joints, frames, tools and descriptions of moves, by name and key.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use armill_core::frame::Isometry;
+use armill_core::robot::BranchPattern;
+
+use super::tags::{Attribute, Piece, attributes, pieces, value};
+use crate::convention::Convention;
+use crate::robot_program::posture::Configuration;
+use crate::robot_program::program::{Spelled, Target};
+use crate::robot_program::spelling::number;
+use crate::robot_program::text::ProgramText;
+use crate::robot_program::told::Told;
+
+/// Frames stand in frames so deep.
+const DEEPEST: usize = 30;
+
+/// A greater `tmax` is no limit, mm/s.
+const NO_LIMIT: f64 = 99_999.0;
+
+/// A name with its key, `pPoint[0]`.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Reference {
+    pub name: String,
+    pub key: String,
+}
+
+impl Reference {
+    /// Of an expression that is nothing else; no key means the first.
+    pub fn of(text: &str) -> Option<Reference> {
+        let text = text.trim();
+        let end = text
+            .find(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == ':'))
+            .unwrap_or(text.len());
+        let (name, behind) = text.split_at(end);
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            return None;
+        }
+        let key = match behind.trim() {
+            "" => "0",
+            keyed => {
+                let inside = keyed.strip_prefix('[')?.strip_suffix(']')?.trim();
+                let quoted = inside.strip_prefix('"').and_then(|rest| rest.strip_suffix('"'));
+                let counted = !inside.is_empty() && inside.bytes().all(|byte| byte.is_ascii_digit());
+                match (quoted, counted) {
+                    (Some(key), _) if !key.contains('"') => key,
+                    (_, true) => inside,
+                    _ => return None,
+                }
+            }
+        };
+        Some(Reference {
+            name: name.to_owned(),
+            key: key.to_owned(),
+        })
+    }
+}
+
+/// One of the data.
+#[derive(Clone, Debug)]
+pub(super) enum Datum {
+    Point {
+        target: Target,
+        father: String,
+    },
+    Joints(Target),
+    Frame {
+        pose: Isometry,
+        father: String,
+    },
+    Tool {
+        pose: Isometry,
+        father: String,
+    },
+    /// Speed of the tip, m/s, if it is told.
+    Speed(Option<f64>),
+    /// Something wrong that is told already.
+    Refused,
+}
+
+/// All of them.
+#[derive(Debug, Default)]
+pub(super) struct Data {
+    list: BTreeMap<Reference, Datum>,
+}
+
+impl Data {
+    /// The one of this name.
+    pub fn get(&self, reference: &Reference) -> Option<&Datum> {
+        self.list.get(reference)
+    }
+
+    /// Whether any has this name, whatever its key.
+    pub fn knows(&self, name: &str) -> bool {
+        let first = Reference {
+            name: name.to_owned(),
+            key: String::new(),
+        };
+        self.list
+            .range(first..)
+            .next()
+            .is_some_and(|(found, _)| found.name == name)
+    }
+
+    /// Robot base to this frame, or flange to this tool; nothing where it leads to what is not told.
+    pub fn pose_of(&self, father: &str) -> Option<Isometry> {
+        let mut pose = Isometry::identity();
+        let mut at = Reference::of(father)?;
+        for _ in 0..DEEPEST {
+            if matches!(at.name.as_str(), "world" | "flange") {
+                return Some(pose);
+            }
+            match self.list.get(&at)? {
+                Datum::Frame { pose: own, father } | Datum::Tool { pose: own, father } => {
+                    pose = own * pose;
+                    at = Reference::of(father)?;
+                }
+                _ => return None,
+            }
+        }
+        None
+    }
+
+    /// Takes the data of one file.
+    pub fn take(&mut self, (text, index): (&ProgramText, usize), told: &mut Told) {
+        let mut of: Option<(String, String)> = None;
+        for piece in pieces(text.text()) {
+            if told.is_full() {
+                return;
+            }
+            match piece {
+                Piece::Broken(part) => {
+                    let message = "this tag does not end".to_owned();
+                    told.problem(
+                        text,
+                        part.range(),
+                        message,
+                        "the file is cut off there, or a quote is missing",
+                    );
+                }
+                Piece::Tag(tag) if tag.name == "Data" => {
+                    let said = attributes(tag.inside);
+                    let name = value(&said, "name").unwrap_or_default();
+                    let kind = value(&said, "type").unwrap_or_default();
+                    of = Some((name.to_owned(), kind.to_owned()));
+                }
+                Piece::Tag(tag) if tag.name == "/Data" => of = None,
+                Piece::Tag(tag) if tag.name == "Value" => {
+                    let Some((name, kind)) = &of else {
+                        continue;
+                    };
+                    let said = attributes(tag.inside);
+                    let reference = Reference {
+                        name: name.clone(),
+                        key: value(&said, "key").unwrap_or("0").to_owned(),
+                    };
+                    let file = File {
+                        text,
+                        index,
+                        tag: tag.inside.range(),
+                    };
+                    let Some(datum) = datum(&file, (kind, &reference, &said), told) else {
+                        continue;
+                    };
+                    let shown = format!("{}[{}]", reference.name, reference.key);
+                    if self.list.insert(reference, datum).is_some() {
+                        let message = format!("{shown} is told twice");
+                        told.problem(
+                            text,
+                            tag.inside.range(),
+                            message,
+                            "give each value a key of its own",
+                        );
+                    }
+                }
+                Piece::Tag(tag) if matches!(tag.name, "valuePoint" | "valueJoint") => {
+                    let message = "the data of an older project (s6) are not read".to_owned();
+                    let hint = "convert the project to s7 or later with the maker's suite";
+                    told.problem(text, tag.inside.range(), message, hint);
+                    return;
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// A tag of a file.
+struct File<'a> {
+    text: &'a ProgramText,
+    index: usize,
+    tag: Range<usize>,
+}
+
+fn datum(
+    file: &File,
+    (kind, reference, said): (&str, &Reference, &[Attribute]),
+    told: &mut Told,
+) -> Option<Datum> {
+    let root = if kind == "tool" { "flange" } else { "world" };
+    let father = value(said, "fatherId").unwrap_or(root).to_owned();
+    match kind {
+        "pointRx" | "frame" | "tool" => {
+            let Some(pose) = pose(file, (reference, said), told) else {
+                return Some(Datum::Refused);
+            };
+            Some(match kind {
+                "frame" => Datum::Frame { pose, father },
+                "tool" => Datum::Tool { pose, father },
+                _ => Datum::Point {
+                    target: Target::Pose {
+                        pose,
+                        branch: branch(said),
+                        turns: Vec::new(),
+                        spelled: Spelled {
+                            text: file.index,
+                            bytes: file.tag.clone(),
+                        },
+                    },
+                    father,
+                },
+            })
+        }
+        "jointRx" => {
+            let joints = numbers(
+                file,
+                (reference, said),
+                (&["j1", "j2", "j3", "j4", "j5", "j6"], told),
+            );
+            Some(joints.map_or(Datum::Refused, |joints| {
+                Datum::Joints(Target::Joints(joints.into_iter().map(f64::to_radians).collect()))
+            }))
+        }
+        "mdesc" => {
+            if value(said, "tmax").is_none() {
+                return Some(Datum::Speed(None));
+            }
+            let tip = numbers(file, (reference, said), (&["tmax"], told));
+            Some(tip.map_or(Datum::Refused, |tip| {
+                let limit = tip.first().copied().filter(|tip| *tip < NO_LIMIT && *tip >= 0.0);
+                Datum::Speed(limit.map(|tip| tip * 1e-3))
+            }))
+        }
+        _ => None,
+    }
+}
+
+/// The numbers of these attributes; those left out are zero.
+fn numbers(
+    file: &File,
+    (reference, said): (&Reference, &[Attribute]),
+    (keys, told): (&[&str], &mut Told),
+) -> Option<Vec<f64>> {
+    let mut found = Vec::with_capacity(keys.len());
+    for key in keys {
+        let Some(attribute) = said.iter().find(|attribute| attribute.name == *key) else {
+            found.push(0.0);
+            continue;
+        };
+        let Some(value) = number(attribute.value.text) else {
+            let Reference { name, key: at } = reference;
+            let message = format!("`{}` is no number: {key} of {name}[{at}]", attribute.value.text);
+            let hint = "numbers are written with a point: `x=\"100.5\"`";
+            told.problem(file.text, attribute.value.range(), message, hint);
+            return None;
+        };
+        found.push(value);
+    }
+    Some(found)
+}
+
+fn pose(file: &File, (reference, said): (&Reference, &[Attribute]), told: &mut Told) -> Option<Isometry> {
+    let numbers = numbers(file, (reference, said), (&super::KEYS, told))?;
+    match Convention::Staubli.pose(&numbers) {
+        Ok(pose) => Some(pose),
+        Err(error) => {
+            let message = format!("{}[{}] is no pose: {error}", reference.name, reference.key);
+            told.problem(
+                file.text,
+                file.tag.clone(),
+                message,
+                "lengths are in mm, angles in deg",
+            );
+            None
+        }
+    }
+}
+
+fn branch(said: &[Attribute]) -> BranchPattern {
+    let of = |key: &str, [not, yes]: [&str; 2]| match value(said, key) {
+        Some(word) if word == not => Some(false),
+        Some(word) if word == yes => Some(true),
+        _ => None,
+    };
+    Configuration {
+        rear: of("shoulder", ["lefty", "righty"]),
+        lower: of("elbow", ["epositive", "enegative"]),
+        flip: of("wrist", ["wpositive", "wnegative"]),
+    }
+    .pattern()
+}
