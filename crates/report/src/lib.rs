@@ -12,6 +12,7 @@
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
+//! | how may the tool be turned along the path? | [`PostureLattice`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |

@@ -53,7 +53,7 @@ pub struct CompensatedPath {
     /// Largest move of a point in the last round.
     pub last_round_um: f64,
     /// What that was of the one before; none after one round.
-    pub contraction: Option<f64>,
+    pub contraction_ratio: Option<f64>,
     /// Points without posture, which stay where they are.
     pub unreached: usize,
     /// Points that stand outside joint limits once they are moved.
@@ -150,7 +150,7 @@ fn of_path(runner: &Runner<'_>, name: &str, ask: &PathAsk) -> Result<Commanded, 
         largest_correction_um: (0..drawn.len()).map(correction).fold(0.0, f64::max),
         rounds: found.rounds,
         last_round_um: found.last_move * 1e6,
-        contraction: found.contraction,
+        contraction_ratio: found.contraction,
         unreached: found.unmoved,
         outside_joint_limits: found
             .along

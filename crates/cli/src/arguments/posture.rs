@@ -64,10 +64,9 @@ pub(crate) enum CountsArgument {
     Axial,
 }
 
-impl GoalArgument {
-    /// As a study calls it.
-    pub(crate) fn name(self) -> GoalName {
-        match self {
+impl From<GoalArgument> for GoalName {
+    fn from(goal: GoalArgument) -> GoalName {
+        match goal {
             GoalArgument::Worst => GoalName::Worst,
             GoalArgument::Mean => GoalName::Mean,
             GoalArgument::AboveLimit => GoalName::AboveLimit,
@@ -75,10 +74,9 @@ impl GoalArgument {
     }
 }
 
-impl CountsArgument {
-    /// As a study calls it.
-    pub(crate) fn name(self) -> CountsName {
-        match self {
+impl From<CountsArgument> for CountsName {
+    fn from(counts: CountsArgument) -> CountsName {
+        match counts {
             CountsArgument::InPlane => CountsName::InPlane,
             CountsArgument::CrossTrack => CountsName::CrossTrack,
             CountsArgument::Axial => CountsName::Axial,

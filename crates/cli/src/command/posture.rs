@@ -4,7 +4,7 @@
 //! (`posture` beside the study). Stdout has a sentence a path: before and after.
 
 use armill_study::answer::StudyAnswer;
-use armill_study::file::posture_search::SearchTable;
+use armill_study::file::posture_search::{CountsName, GoalName, SearchTable};
 use armill_study::{StudyError, studies};
 
 use super::run::results;
@@ -44,8 +44,8 @@ fn wanted(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyErro
     let table = SearchTable {
         turns_deg: turns,
         step_deg: bounded("--step-deg", arguments.step_deg, [0.1, 180.0])?,
-        counts: arguments.counts.map(|counts| counts.name()),
-        goal: arguments.goal.map(|goal| goal.name()),
+        counts: arguments.counts.map(CountsName::from),
+        goal: arguments.goal.map(GoalName::from),
         turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
     };

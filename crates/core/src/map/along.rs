@@ -6,6 +6,8 @@
 //! deviation come to rest at every point ([`crate::load::straying`]); the branch is chosen under the forces of the path as
 //! drawn.
 
+use std::ops::Range;
+
 use super::turns;
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
 use crate::load::{CutsAlong, PathLoad, Rest, Straying, TipYield};
@@ -98,48 +100,25 @@ pub fn along_postures(
         normal: steady.unwrap_or(question.normal),
         ..*question
     };
-    let ends = choices
-        .iter()
-        .skip(1)
-        .map(|(first, _)| *first)
-        .chain([track.len()]);
-    let runs = || {
-        choices
-            .iter()
-            .zip(ends.clone())
-            .map(|((first, choice), end)| (*first..end, *choice))
+    let runs = Runs {
+        question: asked,
+        track,
+        choices: &choices,
+        watch,
     };
-    let mut answers: Vec<Answers> = Vec::with_capacity(choices.len());
-    let mut rest = |load: &mut dyn FnMut(usize, Option<&TipYield>, &mut [Wrench])| {
-        for (run, choice) in runs() {
-            let asked = Question { choice, ..asked };
-            let of_run = |i: usize, tip: Option<&TipYield>, out: &mut [Wrench]| load(run.start + i, tip, out);
-            let stop = |i| track.stop(run.start + i);
-            answers.push(evaluate_loaded(&asked, run.len(), stop, of_run, watch)?);
-        }
-        Ok(())
-    };
-    let (load, rested) = match load {
-        load if steady.is_some() => {
-            for (run, choice) in runs() {
-                let asked = Question { choice, ..asked };
-                let pose = |i| track.stop(run.start + i).base_from_tool;
-                answers.push(evaluate_in_order(&asked, run.len(), pose, watch)?);
-            }
-            (load, None)
-        }
+    let (mut answers, load, rested) = match load {
+        load if steady.is_some() => (runs.steady()?, load, None),
         PathLoad::Cuts(cuts) => {
             let mut resting = Resting::new(track, cuts);
-            rest(&mut |i, tip, out| resting.load(i, tip, out))?;
+            let answers = runs.loaded(|i, tip, out| resting.load(i, tip, out))?;
             let rested = question.arm.model.is_affine().then_some(resting.rested);
-            (PathLoad::Cuts(resting.cuts), rested)
+            (answers, PathLoad::Cuts(resting.cuts), rested)
         }
         load => {
-            rest(&mut |i, _, out| track.wrenches(&load, i, out))?;
-            (load, None)
+            let answers = runs.loaded(|i, _, out| track.wrenches(&load, i, out))?;
+            (answers, load, None)
         }
     };
-    let mut answers = Answers::joined(answers);
     turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
     Ok(AlongPath {
         choices,
@@ -147,6 +126,52 @@ pub fn along_postures(
         load,
         rested,
     })
+}
+
+/// Stretches of a path, each in a branch of its own.
+struct Runs<'a> {
+    question: Question<'a>,
+    track: &'a Track,
+    choices: &'a [(usize, BranchChoice)],
+    watch: Watch<'a>,
+}
+
+impl Runs<'_> {
+    /// The answers under the cases of the question.
+    fn steady(&self) -> Result<Answers, Cancelled> {
+        self.each(|asked, run| {
+            let pose = |i| self.track.stop(run.start + i).base_from_tool;
+            evaluate_in_order(asked, run.len(), pose, self.watch)
+        })
+    }
+
+    /// The answers under the wrenches that `load` fills in at each point.
+    fn loaded(
+        &self,
+        mut load: impl FnMut(usize, Option<&TipYield>, &mut [Wrench]),
+    ) -> Result<Answers, Cancelled> {
+        self.each(|asked, run| {
+            let stop = |i| self.track.stop(run.start + i);
+            let of_run = |i: usize, tip: Option<&TipYield>, out: &mut [Wrench]| load(run.start + i, tip, out);
+            evaluate_loaded(asked, run.len(), stop, of_run, self.watch)
+        })
+    }
+
+    fn each(
+        &self,
+        mut answer: impl FnMut(&Question<'_>, Range<usize>) -> Result<Answers, Cancelled>,
+    ) -> Result<Answers, Cancelled> {
+        let ends = self.choices.iter().skip(1).map(|(first, _)| *first);
+        let ends = ends.chain([self.track.len()]);
+        let runs = self.choices.iter().zip(ends).map(|((first, choice), end)| {
+            let asked = Question {
+                choice: *choice,
+                ..self.question
+            };
+            answer(&asked, *first..end)
+        });
+        Ok(Answers::joined(runs.collect::<Result<_, _>>()?))
+    }
 }
 
 impl AlongPath {

@@ -4,13 +4,18 @@
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
-//! `chain`: the cheapest way through columns of postures.
+//! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `lattice`: what a picture
+//! shows of them; `smooth`: turns without steps.
 
 mod chain;
 pub mod compensation;
+mod lattice;
+mod links;
 pub mod posture;
 mod reversals;
+mod smooth;
 
 pub use compensation::{Compensated, Compensation, compensated};
-pub use posture::{Counts, Goal, Lattice, PostureFound, PostureSearch, Spins, postures_along};
+pub use lattice::Lattice;
+pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

@@ -21,12 +21,15 @@ use std::f64::consts::TAU;
 use nalgebra::{UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use super::chain::{Beginning, Chain, Cheapest, Links, MOST_STEPS, Together, Turns};
+use super::chain::{Beginning, Chain, Cheapest, MOST_STEPS, Together, Turns};
+use super::lattice::Lattice;
+use super::links::{Between, JointRate};
+use super::smooth::without_steps;
 use crate::frame::{Isometry, some_across};
 use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
 use crate::load::PathLoad;
 use crate::path::{Pace, Track};
-use crate::robot::{Branch, BranchPattern, Limits, Robot};
+use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -99,32 +102,12 @@ pub struct PostureFound {
     pub lattice: Lattice,
 }
 
-/// Points of the path by turns of the tool: what each would deviate by, and the chain.
-#[derive(Clone, Debug, Default)]
-pub struct Lattice {
-    /// Which points.
-    pub points: Vec<usize>,
-    /// Turns, rad.
-    pub spins: Vec<f64>,
-    /// At each point, turn after turn: the deviation that counts, m, in the posture of the chain where it stands, else in
-    /// the best; infinite where none stands.
-    pub deviations: Vec<f64>,
-    /// Whether that posture stands, and why not.
-    pub stands: Vec<Stand>,
-    /// Index of the chain's turn at each point.
-    pub chain: Vec<Option<usize>>,
-}
-
 /// Columns worked out at once.
 const CHUNK: usize = 256;
 /// Points of the lattice that are kept.
 const KEPT: usize = 800;
-/// A joint that turns farther than this from one point to the next jumps, rad.
-const FAR: f64 = 0.5;
 /// Part of a deviation within the limit that still counts, so that of chains within it the better is taken.
 const WITHIN: f64 = 1e-3;
-/// Rounding of a speed at its limit.
-const AT_SPEED: f64 = 1.0 + 1e-9;
 
 /// The postures that hold the tool along `track` under `load` as `search` asks. What `question` says of cases, normal, doubt and
 /// choice is not looked at.
@@ -330,7 +313,7 @@ impl Walk<'_> {
     }
 
     fn told(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
-        let spins = self.smooth(&cheapest.states);
+        let spins = without_steps(&self.track.path, &self.search.spins, &cheapest.states);
         let branch = |state: &Option<usize>| {
             state
                 .filter(|_| seen.named)
@@ -345,54 +328,6 @@ impl Walk<'_> {
             lost: seen.lost,
             breaks: cheapest.breaks,
         }
-    }
-
-    /// Turns of the chain without their steps: on each stretch straight lines through the middles of the steps, half a
-    /// step from the chain at the most.
-    fn smooth(&self, states: &[Option<usize>]) -> Vec<f64> {
-        let points = &self.track.path.points;
-        let spins = &self.search.spins;
-        let mut turns: Vec<f64> = Vec::with_capacity(states.len());
-        for (index, state) in states.iter().enumerate() {
-            let here = state.map(|state| spins.at(state / SLOTS));
-            let before = turns.last().copied().filter(|_| !self.track.path.begins(index));
-            turns.push(match (here, before) {
-                // The shorter way round from the point before.
-                (Some(here), Some(before)) => here + TAU * ((before - here) / TAU).round(),
-                (Some(here), None) => here,
-                (None, before) => before.unwrap_or(0.0),
-            });
-        }
-        let mut smooth = turns.clone();
-        for stretch in self.track.path.stretches() {
-            let last = stretch.end - 1;
-            let along = |index: usize| points[index].along;
-            // Where the line is, and its turn there: at the middle of each step, and at the ends.
-            let steps = (stretch.start..last).filter(|index| turns[*index] != turns[index + 1]);
-            let middles = steps.map(|index| {
-                let middle = |a: f64, b: f64| 0.5 * (a + b);
-                (
-                    middle(along(index), along(index + 1)),
-                    middle(turns[index], turns[index + 1]),
-                )
-            });
-            let begin = (along(stretch.start), turns[stretch.start]);
-            let knots: Vec<(f64, f64)> = std::iter::once(begin)
-                .chain(middles)
-                .chain([(along(last), turns[last])])
-                .collect();
-            let mut knot = 0;
-            for index in stretch {
-                while knot + 2 < knots.len() && knots[knot + 1].0 <= along(index) {
-                    knot += 1;
-                }
-                let [(from, a), (to, b)] = [knots[knot], knots[knot + 1]];
-                if to > from {
-                    smooth[index] = a + (b - a) * ((along(index) - from) / (to - from)).clamp(0.0, 1.0);
-                }
-            }
-        }
-        smooth
     }
 }
 
@@ -435,117 +370,6 @@ impl Seen {
             self.kept
                 .push((index, column.deviations.clone(), column.stands.clone()));
         }
-    }
-}
-
-impl Lattice {
-    fn of(spins: &Spins, kept: &[(usize, Vec<f64>, Vec<Stand>)], states: &[Option<usize>]) -> Lattice {
-        let mut lattice = Lattice {
-            spins: (0..spins.count).map(|turn| spins.at(turn)).collect(),
-            ..Lattice::default()
-        };
-        for (index, deviations, stands) in kept {
-            let state = states[*index];
-            lattice.points.push(*index);
-            lattice.chain.push(state.map(|state| state / SLOTS));
-            for turn in 0..spins.count {
-                let slots = turn * SLOTS..(turn + 1) * SLOTS;
-                let best = slots.min_by(|a, b| {
-                    deviations[*a]
-                        .total_cmp(&deviations[*b])
-                        .then(stands[*a].cmp(&stands[*b]))
-                });
-                let followed = state.map(|state| turn * SLOTS + state % SLOTS);
-                let shown = followed.or(best).unwrap_or(turn * SLOTS);
-                lattice.deviations.push(deviations[shown]);
-                lattice.stands.push(stands[shown]);
-            }
-        }
-        lattice
-    }
-}
-
-/// How fast a joint is, and how it counts.
-#[derive(Clone, Copy, Debug)]
-struct JointRate {
-    /// rad/s (m/s).
-    most: Option<f64>,
-    slides: bool,
-    /// Whether it may stand a whole turn away as well. The chain does not count turns, so of a joint that turns a little
-    /// more than once it says no.
-    wraps: bool,
-}
-
-/// Joints with a range of so many turns wrap.
-const WRAPPING: f64 = 1.5;
-
-impl JointRate {
-    fn all(robot: &Robot) -> Vec<JointRate> {
-        let of = |(index, joint): (usize, &crate::robot::Joint)| {
-            let slides = robot.slides(index);
-            let enough = |limits: Limits| limits.upper - limits.lower >= WRAPPING * TAU;
-            JointRate {
-                most: joint.max_speed,
-                slides,
-                wraps: !slides && joint.limits.is_none_or(enough),
-            }
-        };
-        robot.joints().iter().enumerate().map(of).collect()
-    }
-
-    /// Whether the joint can go from one position to the other in this time, s.
-    fn can(&self, from: f64, to: f64, time: Option<f64>) -> bool {
-        let by = to - from;
-        let by = if self.wraps {
-            by - TAU * (by / TAU).round()
-        } else {
-            by
-        };
-        let in_time = self
-            .most
-            .zip(time)
-            .is_none_or(|(most, time)| by.abs() <= most * time * AT_SPEED);
-        in_time && (self.slides || by.abs() < FAR)
-    }
-}
-
-/// What leads from one column to the next: joints that are fast enough and do not jump.
-struct Between<'a> {
-    before: &'a Column,
-    here: &'a Column,
-    joints: &'a [JointRate],
-    time: Option<f64>,
-    turn_time: Option<f64>,
-}
-
-impl Between<'_> {
-    fn can(&self, from: (&Column, usize), to: (&Column, usize), time: Option<f64>) -> bool {
-        let count = self.joints.len();
-        let holds = |(column, slot): (&Column, usize)| column.stands[slot] == Stand::Holds;
-        let positions = from
-            .0
-            .joints_of(from.1, count)
-            .iter()
-            .zip(to.0.joints_of(to.1, count));
-        holds(from)
-            && holds(to)
-            && self
-                .joints
-                .iter()
-                .zip(positions)
-                .all(|(joint, (from, to))| joint.can(*from, *to, time))
-    }
-}
-
-impl Links for Between<'_> {
-    fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
-        let first = turn * SLOTS;
-        self.can((self.before, first + from), (self.here, first + to), self.time)
-    }
-
-    fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
-        let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
-        self.can((self.here, from), (self.here, to), self.turn_time)
     }
 }
 

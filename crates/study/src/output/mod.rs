@@ -14,7 +14,7 @@
 //! ```
 //!
 //! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
-//! `path`, `limits`, `arm`, `report`: what they show.
+//! `path`, `lattice`, `limits`, `arm`, `report`: what they show.
 
 mod arm;
 mod folder;

@@ -100,11 +100,11 @@ impl Cell {
 }
 
 fn largest(vectors: &[Vector3<f64>]) -> f64 {
-    vectors.iter().map(|v| v.norm()).fold(0.0, f64::max)
+    vectors.iter().map(Vector3::norm).fold(0.0, f64::max)
 }
 
 fn rms(vectors: &[Vector3<f64>]) -> f64 {
-    (vectors.iter().map(|v| v.norm_squared()).sum::<f64>() / vectors.len() as f64).sqrt()
+    (vectors.iter().map(Vector3::norm_squared).sum::<f64>() / vectors.len() as f64).sqrt()
 }
 
 #[test]

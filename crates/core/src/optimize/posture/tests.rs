@@ -9,6 +9,7 @@ use crate::kernel::BranchChoice;
 use crate::load::{Doubt, LoadCases, LoadFrame};
 use crate::map::{AlongPath, along_postures};
 use crate::path::{Placing, SampledPath, Shape, Spin};
+use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
 use crate::workpiece::Plane;
 
