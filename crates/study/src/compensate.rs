@@ -13,6 +13,7 @@
 //! cases, of a cut under its force as drawn; what the cases leave is told as the rest.
 
 use armill_core::frame::tool_orientation;
+use armill_core::kernel::Answers;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::optimize::{Compensated, Compensation, compensated};
 use armill_core::path::{Pace, Parts, Track};
@@ -23,7 +24,7 @@ use serde::Serialize;
 
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
-use crate::file::resolve::{Study, Subject};
+use crate::file::resolve::{Setting, Study, Subject};
 use crate::run::{Runner, runner};
 
 /// What compensating the paths of a study brings.
@@ -79,7 +80,11 @@ pub struct ErrorAnswer {
 
 /// What comes of one path.
 #[derive(Clone, Debug)]
-pub struct Commanded {
+pub struct Commanded<'a> {
+    /// How it was asked.
+    pub setting: &'a Setting,
+    /// The path to command, and its postures.
+    pub path: (Track, Answers),
     /// In numbers.
     pub told: CompensatedPath,
     /// The table, as CSV.
@@ -93,13 +98,17 @@ pub struct Commanded {
 /// # Errors
 /// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch; a study in which the
 /// load changes the arm.
-pub fn compensate(study: &Study, name: Option<&str>, watch: Watch<'_>) -> Result<Vec<Commanded>, StudyError> {
+pub fn compensate<'a>(
+    study: &'a Study,
+    name: Option<&str>,
+    watch: Watch<'_>,
+) -> Result<Vec<Commanded<'a>>, StudyError> {
     let runner = runner(study, watch)?;
     let paths = study.asks.iter().filter_map(|ask| match &ask.subject {
         Subject::Path(path) if name.is_none_or(|name| name == ask.name) => Some((&ask.name, &**path)),
         _ => None,
     });
-    let all: Vec<Commanded> = paths
+    let all: Vec<Commanded<'a>> = paths
         .map(|(name, path)| of_path(&runner, name, path))
         .collect::<Result<_, _>>()?;
     if all.is_empty() {
@@ -124,7 +133,7 @@ pub fn point_count(study: &Study, name: Option<&str>) -> usize {
     study.asks.iter().map(of).sum()
 }
 
-fn of_path(runner: &Runner<'_>, name: &str, ask: &PathAsk) -> Result<Commanded, StudyError> {
+fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Commanded<'a>, StudyError> {
     let (load, _) = runner.pushed(ask)?;
     let followed = runner.follow(ask, load.clone())?;
     let drawn = followed.turned.as_ref().unwrap_or(&ask.track);
@@ -163,6 +172,8 @@ fn of_path(runner: &Runner<'_>, name: &str, ask: &PathAsk) -> Result<Commanded, 
     Ok(Commanded {
         picture: picture(name, drawn, (&before.deviations, before.case_count), &found),
         csv: csv::write(&table(name, &found.track)?),
+        setting: &ask.setting,
+        path: (found.track, found.along.answers),
         told,
     })
 }

@@ -27,6 +27,7 @@ pub mod number;
 pub mod output;
 pub mod pendant;
 pub mod pose;
+pub mod program_out;
 pub mod robot_answers;
 pub mod robots;
 pub mod run;

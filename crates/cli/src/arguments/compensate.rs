@@ -9,6 +9,8 @@ use clap::Args;
 Examples:
   armill compensate cell                   every path of the study, into cell/compensated
   armill compensate cell --ask ring --out fixed
+  armill compensate cell --ask ring --program ring.src --frame 3 --tool 2
+The ending of --program is the language: .src KUKA, .mod ABB, .jbi Yaskawa, .ls FANUC, .script UR, .pjx Staubli.
 The table NAME.commanded.csv is a path that `program.file` of a study reads, with spin = \"given\".")]
 pub(crate) struct CompensateArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study
@@ -19,6 +21,27 @@ pub(crate) struct CompensateArguments {
     /// Folder for the results (STUDY/compensated if left out)
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Write the path as a program of the robot too; its name is that of the program
+    #[arg(long, value_name = "FILE")]
+    pub program: Option<PathBuf>,
+    /// Number of the user frame on the controller
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub frame: u32,
+    /// Number of the tool on the controller
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub tool: u32,
+    /// How far straight moves of the program may leave the path
+    #[arg(long, value_name = "UM", default_value_t = 5.0)]
+    pub within_um: f64,
+    /// How far above the part each cut begins and ends
+    #[arg(long, value_name = "MM", default_value_t = 50.0)]
+    pub retract_mm: f64,
+    /// How near the tip comes to a point before it goes on
+    #[arg(long, value_name = "MM", default_value_t = 0.2)]
+    pub blend_mm: f64,
+    /// Speed of the tip where the path tells none
+    #[arg(long, value_name = "MM/MIN")]
+    pub feed_mm_per_min: Option<f64>,
     /// Print the answer as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -104,6 +104,80 @@ fn turns_that_are_searched_for_are_part_of_the_path() {
 }
 
 #[test]
+fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
+    use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
+    let cell = cell("file = \"ring.ngc\", limits = false", "");
+    // Two cuts with a rapid between them.
+    cell.file(
+        "ring.ngc",
+        format!(
+            "{}G0 Z10\nG0 X-40 Y0\nG0 Z0\nG1 X-10 F300\nG0 Z10\nM2\n",
+            RING.trim_end_matches("G0 Z10\nM2\n")
+        ),
+    );
+    for ending in ["src", "mod", "jbi", "ls", "script"] {
+        let file = format!("prog/ring.{ending}");
+        cell.armill(&["compensate", "study.toml", "--program", &file, "--within-um", "5"])
+            .fine();
+        let name = std::fs::read_dir(cell.at("prog"))
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .find(|path| {
+                path.extension()
+                    .is_some_and(|other| other.eq_ignore_ascii_case(ending))
+            })
+            .unwrap();
+        let text = ProgramText::new(&name.display().to_string(), &std::fs::read(&name).unwrap());
+        let program = read(vec![text]).unwrap();
+        let linear: Vec<_> = program
+            .moves
+            .iter()
+            .filter(|next| next.motion == Motion::Linear)
+            .collect();
+        assert_eq!(
+            program.moves.len() - linear.len(),
+            2,
+            "{ending}: each cut is come to by joints"
+        );
+        // Up at the end of each cut: 50 mm along the tool.
+        let at = |target: &Target| target.pose().unwrap().translation.vector;
+        let last = [linear[linear.len() - 2], linear[linear.len() - 1]].map(|next| at(&next.target));
+        assert!(((last[1] - last[0]).norm() - 0.05).abs() < 1e-5, "{ending}");
+        // 600 and 300 mm/min: 10 and 5 mm/s.
+        let speeds: Vec<f64> = linear
+            .iter()
+            .filter_map(|next| match next.speed {
+                Speed::Tip(speed) => Some((speed * 1e4).round() / 1e4),
+                _ => None,
+            })
+            .collect();
+        assert!(
+            speeds.contains(&0.01) && speeds.contains(&0.005) && speeds.len() == linear.len(),
+            "{ending} {speeds:?}"
+        );
+        // A circle of 40 mm in chords of 5 um sagitta, and few points more.
+        assert!(
+            linear.len() > 60 && linear.len() < 400,
+            "{ending}: {}",
+            linear.len()
+        );
+    }
+    cell.armill(&["compensate", "study.toml", "--program", "ring.txt"])
+        .refused(&["that of no language"]);
+    cell.armill(&["compensate", "study.toml", "--program", "1ring.src"])
+        .refused(&["`1ring` is no name in KUKA KRL"]);
+    cell.armill(&[
+        "compensate",
+        "study.toml",
+        "--program",
+        "ring.src",
+        "--retract-mm",
+        "5000",
+    ])
+    .refused(&["the arm cannot go 5000 mm up from here"]);
+}
+
+#[test]
 fn what_cannot_be_compensated_says_why() {
     let cell = cell("file = \"ring.ngc\"", "");
     cell.armill(&["compensate", "study.toml", "--ask", "rim"])

@@ -2,7 +2,7 @@
 //!
 //! At each point the tool may be turned about its own axis, and each turn is held in several postures: a lattice of
 //! path x turn x posture. Of all chains through it that keep the limits the one is taken whose deviation is least, as
-//! [`Goal`] says ([`super::chain`]).
+//! [`Goal`] says (`chain`).
 //!
 //! | limit | kept how |
 //! |---|---|

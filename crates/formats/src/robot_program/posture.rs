@@ -7,7 +7,7 @@
 //! | flip | wrist bend below zero |
 //!
 //! Controllers see the bending of the elbow from the side of the arm, so behind axis 1 it is upside down, where ours is up
-//! or down in base z. Source: the posts of the six samples, whose postures are all in front; behind, [recalled] from the
+//! or down in base z. Source: the posts of the six samples, whose postures are all in front; behind, `[recalled]` from the
 //! makers' figures.
 
 use armill_core::robot::{Branch, BranchPattern, Elbow, Shoulder, Wrist};

@@ -17,7 +17,7 @@
 //! A job of the RoboDK post has RCONF in another order (rear, lower, flip) and is known by that name in it.
 //!
 //! Source: Yaskawa's manuals of data transmission (NX100, DX100) for the lists and RCONF; a public program that writes jobs
-//! for ANGLE. [recalled] Yaskawa's flip is axis B (5) bent the other way, as ours; `FPT` ends an arc where the next begins;
+//! for ANGLE. `[recalled]` Yaskawa's flip is axis B (5) bent the other way, as ours; `FPT` ends an arc where the next begins;
 //! parameters of `PL=`.
 //!
 //! In reading order: `position` the list of positions, `read` what is done with them, `motion` moves, `write` jobs to load.

@@ -11,7 +11,7 @@ use crate::robot_program::spelling::in_pieces;
 /// Positions of one job; posts write 2000 to 9500. Source: posts.
 const MOST_POSITIONS: usize = 2000;
 
-/// Characters of a remark. [recalled]
+/// Characters of a remark. `[recalled]`
 const LONGEST_REMARK: usize = 32;
 
 /// Characters of a name: 8 on NX100, 32 later; three of them number the parts of a long program.
@@ -20,7 +20,7 @@ const LONGEST_NAME: [usize; 3] = [8, 32, 29];
 /// Part of their greatest speed at which joints go, percent: slow, for a first approach.
 const JOINT_SPEED: &str = "VJ=10.00";
 
-/// Least and greatest speed of the tip, mm/s. [recalled]
+/// Least and greatest speed of the tip, mm/s. `[recalled]`
 const SPEEDS: [f64; 2] = [0.1, 1500.0];
 
 const END: &str = "\r\n";

@@ -13,7 +13,7 @@
 //! of A1 to A6). Frame 0 is the base of the robot, tool 0 its flange, as on a controller whose `$ROBROOT` is null.
 //! External axes stay in the text and are no joints here.
 //!
-//! [recalled], not in a sample: what `WITH` holds, `FDAT`'s fields beside number and `IPO_FRAME`, `SPL`, the geometric
+//! `[recalled]`, not in a sample: what `WITH` holds, `FDAT`'s fields beside number and `IPO_FRAME`, `SPL`, the geometric
 //! operator `P1:{...}`, that `LIN_REL` counts in base unless `#TOOL` follows, that names of `$CONFIG.DAT` are `XHOME`s.
 //!
 //! In reading order: `aggregate` is `{...}`; `points` what the data files hold; `read` statements; `motion` and `relative` moves;

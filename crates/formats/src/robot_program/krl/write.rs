@@ -13,10 +13,10 @@ use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written
 use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 
-/// [recalled] Longest name of a module; frames and tools of newer systems, older ones have 32 and 16.
+/// `[recalled]` Longest name of a module; frames and tools of newer systems, older ones have 32 and 16.
 const LONGEST_NAME: usize = 24;
 const MOST_FRAMES: u32 = 128;
-/// Moves of one module: larger ones take long to load and are refused by older systems [recalled].
+/// Moves of one module: larger ones take long to load and are refused by older systems `[recalled]`.
 const MOST_MOVES: usize = 5000;
 /// A part is called by its main program's name, an underscore and up to four digits.
 const PART: usize = 5;
@@ -25,7 +25,7 @@ const AXIS: usize = 5;
 const FRAME: [usize; 2] = [4, 6];
 const SPEED: usize = 6;
 const BLEND: usize = 3;
-/// Words of the language [recalled].
+/// Words of the language `[recalled]`.
 const WORDS: &[&str] = &[
     "AND",
     "ANIN",

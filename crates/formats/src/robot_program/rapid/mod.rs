@@ -14,7 +14,7 @@
 //! rear + 2 lower + 1 flip. Speeds are mm/s. Tools that stand still, work objects on the flange and program displacements
 //! (`PDispOn`) are problems; external axes stay in the text and are no joints here.
 //!
-//! [recalled], not in a sample: `RelTool` turns about x, then the new y, then the new z; where tool and zone stand among the
+//! `[recalled]`, not in a sample: `RelTool` turns about x, then the new y, then the new z; where tool and zone stand among the
 //! arguments of process moves; `v100` is 100 mm/s.
 //!
 //! In reading order: `value` expressions; `names` what names stand for; `statement` takes text apart; `read`, `motion`,

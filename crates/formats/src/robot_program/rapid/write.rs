@@ -10,7 +10,7 @@ use crate::robot_program::draft::{Bounds, Draft, DraftError, DraftPoint, Written
 use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 
-/// [recalled] Longest identifier; `MOD_` goes before the name of a module, up to six characters behind that of a part.
+/// `[recalled]` Longest identifier; `MOD_` goes before the name of a module, up to six characters behind that of a part.
 const LONGEST_NAME: usize = 32;
 const BEFORE_MODULE: usize = 4;
 const PART: usize = 6;
@@ -21,12 +21,12 @@ const MOST_MOVES: usize = 10_000;
 /// Decimals of joints, deg, and of speeds, mm/s.
 const JOINT: usize = 5;
 const SPEED: usize = 3;
-/// Speeds that every controller has, mm/s [recalled].
+/// Speeds that every controller has, mm/s `[recalled]`.
 const SPEEDS: [u32; 24] = [
     5, 10, 20, 30, 40, 50, 60, 80, 100, 150, 200, 300, 400, 500, 600, 800, 1000, 1500, 2000, 2500, 3000,
     4000, 5000, 6000,
 ];
-/// Zones that every controller has: name and how far from the target the path may leave it, mm [recalled].
+/// Zones that every controller has: name and how far from the target the path may leave it, mm `[recalled]`.
 const ZONES: [(&str, f64); 15] = [
     ("z200", 200.0),
     ("z150", 150.0),
@@ -46,7 +46,7 @@ const ZONES: [(&str, f64); 15] = [
 ];
 /// External axes that are not there.
 const ABSENT: &str = "[9E9,9E9,9E9,9E9,9E9,9E9]";
-/// Words of the language [recalled].
+/// Words of the language `[recalled]`.
 const WORDS: &[&str] = &[
     "ALIAS",
     "AND",
@@ -222,7 +222,7 @@ fn line((point, blend): (&DraftPoint, f64), kept: &str) -> String {
     }
 }
 
-/// A speeddata: of the controller's own, or with its turning speed, deg/s, as theirs [recalled].
+/// A speeddata: of the controller's own, or with its turning speed, deg/s, as theirs `[recalled]`.
 fn speed_of(mm_s: f64) -> String {
     let ready = SPEEDS.iter().find(|ready| f64::from(**ready) == mm_s);
     ready.map_or_else(

@@ -11,7 +11,7 @@
 //! | `PR[1]`, `P[R[1]]` as a target | [`Target::Elsewhere`](super::Target::Elsewhere) |
 //!
 //! Turns are `floor((|angle| + 180 deg) / 360 deg)` with the sign of the angle. Source: the sample of the RoboDK post, and
-//! public listings out of controllers for tabs, `-.858`, unset values, groups and moves over two lines. [recalled] On some
+//! public listings out of controllers for tabs, `-.858`, unset values, groups and moves over two lines. `[recalled]` On some
 //! systems the three turns are those of axes 4, 5, 6; rows of `A`; how long names, remarks and programs may be.
 //!
 //! In reading order: `statement` the lines between /MN and /POS, `position` those behind, `frames` what registers tell of

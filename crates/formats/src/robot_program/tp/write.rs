@@ -8,14 +8,14 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::spelling::in_pieces;
 
-/// Positions of one program. [recalled]
+/// Positions of one program. `[recalled]`
 const MOST_POSITIONS: usize = 5000;
 
-/// Characters of a remark, and of the comment in the head. [recalled]
+/// Characters of a remark, and of the comment in the head. `[recalled]`
 const LONGEST_REMARK: usize = 30;
 const LONGEST_COMMENT: usize = 16;
 
-/// Characters of a name: 8 on old controllers, 36 since R-30iA; three of them number the parts of a long program. [recalled]
+/// Characters of a name: 8 on old controllers, 36 since R-30iA; three of them number the parts of a long program. `[recalled]`
 const LONGEST_NAME: [usize; 3] = [8, 36, 33];
 
 /// The register through which frame and tool are set.

@@ -12,7 +12,7 @@
 //! frame is a and the target b. Numbers may be computed from numbers. Moves that follow a signal (`servoj`, `speedl`, ...)
 //! have no target, and are problems. `v` of straight moves is m/s; a move with `t` says nothing of the tip.
 //!
-//! [recalled], not in a sample: order of arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`, `d2r`,
+//! `[recalled]`, not in a sample: order of arguments of `movep` and `movec`, `get_inverse_kin` and `qnear`, `d2r`,
 //! `pose_inv`, and that numbers beside poses that `write` chooses (accelerations, speed of joints) suit every arm.
 //!
 //! In reading order: `read` statements; `motion` moves; `value` what expressions mean; `spell` a pose; `write` the

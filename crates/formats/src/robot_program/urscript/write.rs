@@ -15,7 +15,7 @@ const MOST_FRAMES: u32 = 999;
 const JOINT: usize = 6;
 const SPEED: usize = 6;
 const BLEND: usize = 6;
-/// What moves take beside their targets, below what the maker's manual takes when nothing is told [recalled]: m/s^2,
+/// What moves take beside their targets, below what the maker's manual takes when nothing is told `[recalled]`: m/s^2,
 /// rad/s^2, rad/s.
 const ACCELERATION: &str = "a=1.2";
 const JOINT_PACE: &str = "a=1.4, v=0.5";

@@ -15,7 +15,7 @@
 //! An attribute that is left out is zero, as controllers write. Read is the program `start`, or the only one, or the file
 //! that comes first; what it calls is followed where it is given.
 //!
-//! Source: the RoboDK posts for VAL3, their data and their order of the words of a posture. [recalled] 99999 as no limit,
+//! Source: the RoboDK posts for VAL3, their data and their order of the words of a posture. `[recalled]` 99999 as no limit,
 //! length of names, `world` where no `fatherId` is told; elbows behind axis 1.
 //!
 //! In reading order: `tags` XML as far as it is needed, `data` points and what they count in, `code` moves as they stand,

@@ -8,7 +8,7 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::posture::Configuration;
 use crate::robot_program::spelling::in_pieces;
 
-/// Moves of one program. [recalled]
+/// Moves of one program. `[recalled]`
 const MOST_MOVES: usize = 2000;
 
 const LONGEST_REMARK: usize = 100;

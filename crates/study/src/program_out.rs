@@ -1,0 +1,240 @@
+//! A path of a study as a program of its robot: which points, how the arm comes to them and leaves them.
+//!
+//! ```text
+//! joints to a place above the first point -> straight down at the feed -> the cut, in fewer points -> straight up
+//! ```
+//!
+//! once for each stretch that is cut without a rapid. Targets count from the frame of the path, so that a part that lies
+//! elsewhere needs its frame taught, not the program made anew; compensation holds where it was worked out alone.
+//! Rapids of the program that the path came from are not followed: the arm goes up along the tool and over by its joints.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::Answers;
+use armill_core::nalgebra::Translation3;
+use armill_core::path::{Pace, Thinning, Track, thinned};
+use armill_core::robot::inverse::{ToolAt, postures};
+use armill_formats::robot_program::{Draft, DraftPoint, Language, Written, write};
+
+use crate::error::StudyError;
+use crate::file::resolve::{Setting, Study};
+
+/// How the program is to be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProgramWanted {
+    /// In which language.
+    pub language: Language,
+    /// What it is called.
+    pub name: String,
+    /// Number of the user frame on the controller.
+    pub frame_number: u32,
+    /// Number of the tool on the controller.
+    pub tool_number: u32,
+    /// How far straight moves between its points may leave the path, m.
+    pub within: f64,
+    /// How far above the part it begins and ends each cut, m.
+    pub retract: f64,
+    /// How near the tip must come before it goes on, m.
+    pub blend: f64,
+    /// Speed where the path tells none, m/s.
+    pub feed: Option<f64>,
+}
+
+/// Orientations between two points may differ by this from the path, rad: the lean of a cutter by a minute of arc.
+const TURN: f64 = 3e-4;
+
+/// The program along `track`, whose postures are in `answers`.
+///
+/// # Errors
+/// A point without posture or outside joint limits; a place above a cut that is out of reach; a path that tells no feed
+/// where none is given; what the language cannot hold.
+pub fn program(
+    study: &Study,
+    setting: &Setting,
+    (track, answers): (&Track, &Answers),
+    wanted: &ProgramWanted,
+) -> Result<Written, StudyError> {
+    let maker = Maker {
+        study,
+        setting,
+        track,
+        answers,
+        wanted,
+    };
+    let mut points = Vec::new();
+    for stretch in track.path.stretches() {
+        maker.stretch(stretch, &mut points)?;
+    }
+    let draft = Draft {
+        name: wanted.name.clone(),
+        remarks: vec![
+            format!("armill {}: {}", env!("CARGO_PKG_VERSION"), study.title),
+            format!("robot {}", study.robot.robot.name()),
+        ],
+        base_from_frame: track.placing.base_from_path,
+        frame_number: wanted.frame_number,
+        flange_from_tool: setting.flange_from_tool,
+        tool_number: wanted.tool_number,
+        points,
+    };
+    write(wanted.language, &draft).map_err(|error| StudyError::value(error.to_string(), HINT))
+}
+
+/// What to do where a language refuses a program.
+const HINT: &str =
+    "the name of the file is that of the program; see `armill compensate --help` for frame and tool";
+
+/// What a program is made from.
+struct Maker<'a> {
+    study: &'a Study,
+    setting: &'a Setting,
+    track: &'a Track,
+    answers: &'a Answers,
+    wanted: &'a ProgramWanted,
+}
+
+impl Maker<'_> {
+    /// Above, down, along, and up again.
+    fn stretch(&self, stretch: Range<usize>, points: &mut Vec<DraftPoint>) -> Result<(), StudyError> {
+        for index in stretch.clone() {
+            self.check(index)?;
+        }
+        let (first, last) = (stretch.start, stretch.end - 1);
+        let begin = DraftPoint {
+            speed: None,
+            blend: 0.0,
+            ..self.above(first)?
+        };
+        points.push(begin);
+        for index in self.kept(stretch) {
+            let at_end = index == first || index == last;
+            points.push(DraftPoint {
+                frame_from_tool: self.frame_from_tool(index),
+                joints: self.answers.joints_at(index).to_vec(),
+                branch: self.branch(index),
+                speed: Some(self.feed(index)?),
+                // A cut begins and ends where it is drawn.
+                blend: if at_end { 0.0 } else { self.wanted.blend },
+            });
+        }
+        points.push(self.above(last)?);
+        Ok(())
+    }
+
+    /// Points of a stretch that are enough: where the feed changes, and as many as keep to the path.
+    fn kept(&self, stretch: Range<usize>) -> Vec<usize> {
+        let points = &self.track.path.points;
+        let within = Thinning {
+            place: self.wanted.within,
+            turn: TURN,
+        };
+        let changes = (stretch.start + 1..stretch.end).filter(|i| points[*i].pace != points[i - 1].pace);
+        let mut ends: Vec<usize> = std::iter::once(stretch.start)
+            .chain(changes.map(|i| i - 1))
+            .chain([stretch.end - 1])
+            .collect();
+        ends.dedup();
+        let mut kept = vec![stretch.start];
+        for pair in ends.windows(2) {
+            let part = pair[0]..pair[1] + 1;
+            let poses: Vec<Isometry> = part.clone().map(|index| self.frame_from_tool(index)).collect();
+            let along: Vec<f64> = points[part].iter().map(|point| point.along).collect();
+            kept.extend(
+                thinned(&poses, &along, within)
+                    .into_iter()
+                    .skip(1)
+                    .map(|i| pair[0] + i),
+            );
+        }
+        kept
+    }
+
+    fn check(&self, index: usize) -> Result<(), StudyError> {
+        let line = self.track.path.points[index].line;
+        let refused = |why: String| {
+            StudyError::value(
+                format!("line {line}: {why}, so no program goes there"),
+                "move the part, or let `posture.search` look for a posture",
+            )
+        };
+        match &self.answers.points[index] {
+            Err(reason) => Err(refused(format!(
+                "no posture ({})",
+                reason.word().replace('_', " ")
+            ))),
+            Ok(held) if !held.within_limits() => {
+                let joint = &self.study.robot.robot.joints()[held.limit_joint].name;
+                Err(refused(format!("joint {joint} is outside its limits")))
+            }
+            Ok(_) => Ok(()),
+        }
+    }
+
+    /// The place above a point, and the joints there.
+    fn above(&self, index: usize) -> Result<DraftPoint, StudyError> {
+        let robot = &self.study.robot.robot;
+        let near = self.answers.joints_at(index);
+        let lift = Translation3::new(0.0, 0.0, -self.wanted.retract);
+        let pose = self.track.stop(index).base_from_tool * lift;
+        let tool = ToolAt {
+            flange_from_tool: &self.setting.flange_from_tool,
+            near: Some(near),
+            home: self.setting.home.as_deref(),
+        };
+        let all = postures(robot, &pose, tool).unwrap_or_default();
+        // In the turns that the joints have at the point below.
+        let beside = |q: &[f64]| -> Vec<f64> {
+            let turned = |(joint, (q, near)): (usize, (&f64, &f64))| match robot.slides(joint) {
+                true => *q,
+                false => q + TAU * ((near - q) / TAU).round(),
+            };
+            q.iter().zip(near).enumerate().map(turned).collect()
+        };
+        let away = |q: &[f64]| q.iter().zip(near).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let nearest = all
+            .iter()
+            .map(|posture| beside(&posture.joints))
+            .filter(|joints| robot.limit_margin(joints).is_none_or(|(_, margin)| margin >= 0.0))
+            .min_by(|a, b| away(a).total_cmp(&away(b)));
+        let joints = nearest.filter(|joints| away(joints) < FARTHEST).ok_or_else(|| {
+            let line = self.track.path.points[index].line;
+            let mm = self.wanted.retract * 1e3;
+            let message = format!("line {line}: the arm cannot go {mm} mm up from here as it stands");
+            StudyError::value(message, "a shorter --retract-mm")
+        })?;
+        Ok(DraftPoint {
+            frame_from_tool: self.track.placing.base_from_path.inverse() * pose,
+            joints,
+            branch: self.branch(index),
+            speed: Some(self.feed(index)?),
+            blend: 0.0,
+        })
+    }
+
+    fn frame_from_tool(&self, index: usize) -> Isometry {
+        self.track.placing.base_from_path.inverse() * self.track.stop(index).base_from_tool
+    }
+
+    fn branch(&self, index: usize) -> Option<armill_core::robot::Branch> {
+        self.answers.points[index].as_ref().ok()?.name.branch()
+    }
+
+    fn feed(&self, index: usize) -> Result<f64, StudyError> {
+        let told = match self.track.path.points[index].pace {
+            Pace::Feed(speed) => Some(speed),
+            Pace::Rapid | Pace::Untold => None,
+        };
+        told.or(self.wanted.feed).ok_or_else(|| {
+            let line = self.track.path.points[index].line;
+            StudyError::value(
+                format!("line {line}: the path tells no feed"),
+                "give one: --feed-mm-per-min 600",
+            )
+        })
+    }
+}
+
+/// A joint that has to turn farther than this to go up is in another posture there, rad.
+const FARTHEST: f64 = 1.0;
