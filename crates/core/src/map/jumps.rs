@@ -39,9 +39,9 @@ mod tests {
     use nalgebra::Point2;
 
     use super::*;
-    use crate::kernel::Held;
+    use crate::arms::answers_at;
     use crate::path::Shape;
-    use crate::robot::{Amount, Axis, Branch, Joint, Motion, PostureName, Unreachable};
+    use crate::robot::{Amount, Axis, Joint, Motion, Unreachable};
 
     /// A rail that carries a turning joint.
     fn robot() -> Robot {
@@ -52,33 +52,10 @@ mod tests {
         Robot::new("rail", motions, vec![Joint::plain("R"), Joint::plain("A")]).unwrap()
     }
 
-    fn answers(joints: &[[f64; 2]]) -> Answers {
-        let held = Held {
-            name: PostureName::Branch(Branch::ALL[0]),
-            limit_margin: 1.0,
-            limit_joint: 0,
-            singularity: None,
-            deciding_case: 0,
-            in_plane: 0.0,
-            in_plane_uncertainty: 0.0,
-            normal: 0.0,
-            full: 0.0,
-        };
-        Answers {
-            points: vec![Ok(held); joints.len()],
-            joints: joints.concat(),
-            deviations: Vec::new(),
-            shares: Vec::new(),
-            joint_count: 2,
-            case_count: 0,
-            share_count: 0,
-        }
-    }
-
     #[test]
     fn a_joint_that_turns_far_jumps_and_a_rail_that_slides_far_does_not() {
         let path = Shape::Polyline(vec![Point2::origin(), Point2::new(3.0, 0.0)]).sampled(1.0);
-        let mut answers = answers(&[[0.0, 0.0], [5.0, 0.49], [5.0, -0.2], [5.0, -0.1]]);
+        let mut answers = answers_at(&[[0.0, 0.0], [5.0, 0.49], [5.0, -0.2], [5.0, -0.1]]);
         let robot = robot();
         let found: Vec<Jump> = jumps(&robot, &path, &answers).collect();
         let [jump] = found[..] else {
@@ -104,7 +81,7 @@ mod tests {
             jumps(
                 &robot,
                 &path,
-                &answers(&[[0.0, 0.0], [0.0, 0.1], [0.0, 2.0], [0.0, 2.1]])
+                &answers_at(&[[0.0, 0.0], [0.0, 0.1], [0.0, 2.0], [0.0, 2.1]])
             )
             .count(),
             0

@@ -42,32 +42,9 @@ mod tests {
     use nalgebra::Point2;
 
     use super::*;
-    use crate::kernel::Held;
+    use crate::arms::answers_at;
     use crate::path::Shape;
-    use crate::robot::{Branch, PostureName, Unreachable};
-
-    fn answers(joints: &[[f64; 2]]) -> Answers {
-        let held = Held {
-            name: PostureName::Branch(Branch::ALL[0]),
-            limit_margin: 1.0,
-            limit_joint: 0,
-            singularity: None,
-            deciding_case: 0,
-            in_plane: 0.0,
-            in_plane_uncertainty: 0.0,
-            normal: 0.0,
-            full: 0.0,
-        };
-        Answers {
-            points: vec![Ok(held); joints.len()],
-            joints: joints.concat(),
-            deviations: Vec::new(),
-            shares: Vec::new(),
-            joint_count: 2,
-            case_count: 0,
-            share_count: 0,
-        }
-    }
+    use crate::robot::Unreachable;
 
     fn path(points: usize) -> SampledPath {
         let end = Point2::new(points as f64 - 1.0, 0.0);
@@ -83,25 +60,25 @@ mod tests {
                 [t.cos(), 0.01 * t + 3e-7 * (40.0 * t).sin()]
             })
             .collect();
-        assert_eq!(reversals(&path(401), &answers(&joints)), [6, 0]);
+        assert_eq!(reversals(&path(401), &answers_at(&joints)), [6, 0]);
     }
 
     #[test]
     fn a_joint_that_waits_and_goes_on_does_not_turn_back() {
         let at = [0.0, 0.0, 1.0, 2.0, 2.0, 3.0, 3.0, 2.0];
         let joints: Vec<[f64; 2]> = at.iter().map(|q| [*q, -q]).collect();
-        assert_eq!(reversals(&path(8), &answers(&joints)), [1, 1]);
+        assert_eq!(reversals(&path(8), &answers_at(&joints)), [1, 1]);
     }
 
     #[test]
     fn nothing_counts_across_a_rapid_or_a_point_without_posture() {
         let joints = [[0.0, 0.0], [1.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
-        let mut held = answers(&joints);
+        let mut held = answers_at(&joints);
         assert_eq!(reversals(&path(4), &held), [2, 0]);
         held.points[2] = Err(Unreachable::TooFar { by: 1.0 });
         assert_eq!(reversals(&path(4), &held), [0, 0]);
         let mut two = path(2);
         two.points.extend(two.points.clone());
-        assert_eq!(reversals(&two, &answers(&joints)), [0, 0]);
+        assert_eq!(reversals(&two, &answers_at(&joints)), [0, 0]);
     }
 }

@@ -6,10 +6,11 @@ pub mod other;
 use std::sync::LazyLock;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::kernel::{Answers, Held};
 use armill_core::nalgebra::Vector3;
 use armill_core::predict::{Deviation, predict_in_full};
 use armill_core::robot::joint::Sign;
-use armill_core::robot::{Amount, Axis, Joint, JointCompliance, Limits, Motion, Robot};
+use armill_core::robot::{Amount, Axis, Branch, Joint, JointCompliance, Limits, Motion, PostureName, Robot};
 use armill_core::source::{Arm, Standing, Unstable};
 use armill_core::spatial::Wrench;
 
@@ -318,4 +319,28 @@ pub fn predicted(arm: &Arm<'_>, q: &[f64], wrench: &Wrench) -> Result<Deviation,
 /// A tool that is bent and turned against the flange.
 pub fn bent_tool() -> Isometry {
     from_xyz_and_fixed_angles(Vector3::new(0.03, -0.02, 0.21), Vector3::new(0.2, -0.5, 0.9))
+}
+
+/// Answers of an arm of two joints that stands so, point after point, and deviates nowhere.
+pub fn answers_at(joints: &[[f64; 2]]) -> Answers {
+    let held = Held {
+        name: PostureName::Branch(Branch::ALL[0]),
+        limit_margin: 1.0,
+        limit_joint: 0,
+        singularity: None,
+        deciding_case: 0,
+        in_plane: 0.0,
+        in_plane_uncertainty: 0.0,
+        normal: 0.0,
+        full: 0.0,
+    };
+    Answers {
+        points: vec![Ok(held); joints.len()],
+        joints: joints.concat(),
+        deviations: Vec::new(),
+        shares: Vec::new(),
+        joint_count: 2,
+        case_count: 0,
+        share_count: 0,
+    }
 }

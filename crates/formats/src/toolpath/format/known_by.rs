@@ -3,38 +3,11 @@
 //! Lines come without blanks round them; capitals do not count. Many lines of a program are known by none of the tests;
 //! one line that is known decides.
 
+use crate::robot_program::Language;
 use crate::table::sheet::{cells, separator_of};
 
-/// The beginnings of lines that only programs of this language have.
-const ROBOT_LANGUAGES: &[(&str, &[&str])] = &[
-    (
-        "KUKA KRL",
-        &[
-            "&ACCESS", "&REL", "PTP {", "LIN {", "PTP_REL", "LIN_REL", "DEFDAT ", "PTP $", "$VEL.CP",
-        ],
-    ),
-    (
-        "ABB RAPID",
-        &[
-            "%%%",
-            "MODULE ",
-            "MOVEL ",
-            "MOVEJ ",
-            "MOVEABSJ ",
-            "PERS ",
-            "CONST ROBTARGET",
-            "CONST JOINTTARGET",
-        ],
-    ),
-    ("FANUC TP", &["/PROG", "/ATTR", "/MN", "/POS"]),
-    ("Yaskawa INFORM", &["/JOB", "//NAME", "//POS", "//INST", "///"]),
-    (
-        "URScript or Staubli VAL3",
-        &["MOVEL(", "MOVEJ(", "MOVEP(", "MOVEC(", "SET_TCP("],
-    ),
-    ("Staubli VAL3", &["<PROGRAM XMLNS", "<PROGRAMS XMLNS"]),
-    ("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "]),
-];
+/// The beginnings of lines of robots whose programs nobody here reads.
+const OTHER_ROBOTS: &[(&str, &[&str])] = &[("Comau PDL2", &["MOVE LINEAR", "MOVE JOINT", "MOVE TO "])];
 
 /// Words that only cutter locations begin a line with, before `/`.
 const APT_WORDS: &[&str] = &[
@@ -68,16 +41,21 @@ const APT_WORDS: &[&str] = &[
 ///
 /// By its first 24 characters.
 pub(super) fn robot_language(line: &str) -> Option<&'static str> {
-    let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
     // VAL3 keeps what a move returns: `nTraj=movel(...)`.
-    let begin = begin
-        .split_once("=MOVE")
-        .map_or(begin.clone(), |(_, rest)| format!("MOVE{rest}"));
-    let known = ROBOT_LANGUAGES.iter();
-    known
-        .clone()
-        .find(|(_, begins)| begins.iter().any(|known| begin.starts_with(known)))
-        .map(|(language, _)| *language)
+    let line = line
+        .split_once('=')
+        .map_or(line, |(name, rest)| if is_name(name) { rest } else { line });
+    let known = Language::of_line(line).map(Language::title);
+    known.or_else(|| {
+        let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
+        let begins = |(_, words): &&(&str, &[&str])| words.iter().any(|word| begin.starts_with(word));
+        OTHER_ROBOTS.iter().find(begins).map(|(language, _)| *language)
+    })
+}
+
+/// Letters, digits and underscores, nothing else.
+fn is_name(text: &str) -> bool {
+    text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
 }
 
 /// A line that begins with a word of cutter locations.
