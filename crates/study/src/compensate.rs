@@ -25,7 +25,7 @@ use serde::Serialize;
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Setting, Study, Subject};
-use crate::run::{Runner, runner};
+use crate::run::{Runner, passes, runner};
 
 /// What compensating the paths of a study brings.
 #[derive(Clone, Debug, Serialize)]
@@ -96,8 +96,7 @@ pub struct Commanded<'a> {
 /// Compensates every path of the study, or the one called `name`.
 ///
 /// # Errors
-/// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch; a study in which the
-/// load changes the arm.
+/// No such path; a robot without compliance; a path that misses its stock; cancelled by the watch.
 pub fn compensate<'a>(
     study: &'a Study,
     name: Option<&str>,
@@ -124,10 +123,13 @@ pub fn compensate<'a>(
     Ok(all)
 }
 
-/// Points that the progress of [`compensate`] ends at: a path is followed once, and twice or more on the way back.
+/// Points that the progress of [`compensate`] ends at: a path is followed, and about
+/// three times more on the way to the one that is commanded.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
     let of = |ask: &crate::file::resolve::Ask| match &ask.subject {
-        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => 4 * path.track.len(),
+        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => {
+            (passes(path) + 3) * path.track.len()
+        }
         _ => 0,
     };
     study.asks.iter().map(of).sum()

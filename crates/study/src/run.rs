@@ -115,17 +115,20 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Map(sheet) => sheet.grid.len(),
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
-        // A stock is cut in a pass of its own, and a search passes over the lattice once or twice.
-        Subject::Path(path) => {
-            let passes = match path.setting.search.map(|search| search.goal) {
-                Some(Goal::Worst) => 4,
-                Some(_) => 3,
-                None => 1,
-            };
-            path.track.len() * (passes + usize::from(path.has_stock()))
-        }
+        Subject::Path(path) => path.track.len() * passes(path),
     };
     study.asks.iter().map(of).sum()
+}
+
+/// How often a path is passed over until it is followed: a stock is cut in a pass of its own, and a search answers the path
+/// without it too and passes over the lattice once or twice.
+pub(crate) fn passes(path: &PathAsk) -> usize {
+    let searched = match path.setting.search.map(|search| search.goal) {
+        Some(Goal::Worst) => 3,
+        Some(_) => 2,
+        None => 0,
+    };
+    1 + searched + usize::from(path.has_stock())
 }
 
 /// All asks of the study, done in its order on the threads of the current rayon pool.

@@ -313,7 +313,12 @@ impl Walk<'_> {
     }
 
     fn told(&self, (cheapest, seen): (Cheapest, Seen)) -> PostureFound {
-        let spins = without_steps(&self.track.path, &self.search.spins, &cheapest.states);
+        let spins = without_steps(
+            &self.track.path,
+            &self.search.spins,
+            &cheapest.states,
+            &cheapest.breaks,
+        );
         let branch = |state: &Option<usize>| {
             state
                 .filter(|_| seen.named)

@@ -1,4 +1,7 @@
 //! Turns of the tool without the steps of the lattice that they were found on.
+//!
+//! Straight lines through the middles of the steps, so that no turn leaves the chain by more than half a step. Where the arm
+//! stops and takes another posture, and at rapids, a line ends and another begins.
 
 use std::f64::consts::TAU;
 
@@ -6,49 +9,134 @@ use super::posture::Spins;
 use crate::kernel::SLOTS;
 use crate::path::SampledPath;
 
-/// Turns of the chain without their steps: on each stretch straight lines through the middles of the steps, half a
-/// step from the chain at the most.
-pub(super) fn without_steps(path: &SampledPath, spins: &Spins, states: &[Option<usize>]) -> Vec<f64> {
-    let points = &path.points;
+/// The turn at each point, rad, of the chain with these `states`; `breaks` as the chain has them, rising.
+pub(super) fn without_steps(
+    path: &SampledPath,
+    spins: &Spins,
+    states: &[Option<usize>],
+    breaks: &[usize],
+) -> Vec<f64> {
+    let begins = |index: usize| path.begins(index) || breaks.binary_search(&index).is_ok();
     let mut turns: Vec<f64> = Vec::with_capacity(states.len());
     for (index, state) in states.iter().enumerate() {
         let here = state.map(|state| spins.at(state / SLOTS));
-        let before = turns.last().copied().filter(|_| !path.begins(index));
+        let before = turns.last().copied();
         turns.push(match (here, before) {
             // The shorter way round from the point before.
-            (Some(here), Some(before)) => here + TAU * ((before - here) / TAU).round(),
-            (Some(here), None) => here,
+            (Some(here), Some(before)) if !begins(index) => here + TAU * ((before - here) / TAU).round(),
+            (Some(here), _) => here,
             (None, before) => before.unwrap_or(0.0),
         });
     }
     let mut smooth = turns.clone();
-    for stretch in path.stretches() {
-        let last = stretch.end - 1;
-        let along = |index: usize| points[index].along;
-        // Where the line is, and its turn there: at the middle of each step, and at the ends.
-        let steps = (stretch.start..last).filter(|index| turns[*index] != turns[index + 1]);
-        let middles = steps.map(|index| {
-            let middle = |a: f64, b: f64| 0.5 * (a + b);
-            (
-                middle(along(index), along(index + 1)),
-                middle(turns[index], turns[index + 1]),
-            )
-        });
-        let begin = (along(stretch.start), turns[stretch.start]);
-        let knots: Vec<(f64, f64)> = std::iter::once(begin)
-            .chain(middles)
-            .chain([(along(last), turns[last])])
-            .collect();
-        let mut knot = 0;
-        for index in stretch {
-            while knot + 2 < knots.len() && knots[knot + 1].0 <= along(index) {
-                knot += 1;
-            }
-            let [(from, a), (to, b)] = [knots[knot], knots[knot + 1]];
-            if to > from {
-                smooth[index] = a + (b - a) * ((along(index) - from) / (to - from)).clamp(0.0, 1.0);
+    let starts: Vec<usize> = (0..states.len()).filter(|index| begins(*index)).collect();
+    let ends = starts.iter().skip(1).copied().chain([states.len()]);
+    for (start, end) in starts.iter().zip(ends) {
+        let along: Vec<f64> = path.points[*start..end].iter().map(|point| point.along).collect();
+        straighten(&along, spins.step, &mut smooth[*start..end]);
+    }
+    smooth
+}
+
+/// Lays straight lines through the middles of the steps of `turns`, which stand at these places.
+fn straighten(along: &[f64], step: f64, turns: &mut [f64]) {
+    let last = turns.len() - 1;
+    // Places and turns that the lines go through: the middle of a step; a change of several at once is made between its two
+    // points, but for half a step at either end.
+    let mut knots: Vec<(f64, f64)> = vec![(along[0], turns[0])];
+    for (index, pair) in turns.windows(2).enumerate() {
+        let by = pair[1] - pair[0];
+        if by == 0.0 {
+            continue;
+        }
+        let half = 0.5 * step * by.signum();
+        if by.abs() < 1.5 * step {
+            knots.push((0.5 * (along[index] + along[index + 1]), pair[0] + half));
+            continue;
+        }
+        for knot in [(along[index], pair[0] + half), (along[index + 1], pair[1] - half)] {
+            match knots.last_mut() {
+                // Steps on either side of a point: the line goes through the middle of both, the turn of the point.
+                Some(before) if before.0 == knot.0 && index > 0 => before.1 = 0.5 * (before.1 + knot.1),
+                _ => knots.push(knot),
             }
         }
     }
-    smooth
+    knots.push((along[last], turns[last]));
+    let mut knot = 0;
+    for (at, turn) in along.iter().zip(turns) {
+        while knot + 2 < knots.len() && knots[knot + 1].0 <= *at {
+            knot += 1;
+        }
+        let [(from, a), (to, b)] = [knots[knot], knots[knot + 1]];
+        if to > from {
+            *turn = a + (b - a) * ((at - from) / (to - from)).clamp(0.0, 1.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Point2;
+
+    use super::*;
+    use crate::arms::Stream;
+    use crate::path::Shape;
+
+    const SPINS: Spins = Spins {
+        first: -0.5,
+        step: 0.1,
+        count: 40,
+    };
+
+    fn path(points: usize) -> SampledPath {
+        let end = Point2::new(points as f64 - 1.0, 0.0);
+        Shape::Polyline(vec![Point2::origin(), end]).sampled(1.0)
+    }
+
+    fn states(turns: &[usize]) -> Vec<Option<usize>> {
+        turns.iter().map(|turn| Some(turn * SLOTS)).collect()
+    }
+
+    #[test]
+    fn a_staircase_becomes_a_line_and_its_ends_stay() {
+        let turns: Vec<usize> = (0..41).map(|i| i / 4).collect();
+        let smooth = without_steps(&path(41), &SPINS, &states(&turns), &[]);
+        assert!((smooth[0] - SPINS.at(0)).abs() < 1e-12 && (smooth[40] - SPINS.at(10)).abs() < 1e-12);
+        // A step in four points, 0.025 rad each; the last is half a step in half a point, and half of 0.025 before it.
+        assert!(
+            smooth
+                .windows(2)
+                .all(|pair| pair[1] >= pair[0] - 1e-12 && pair[1] - pair[0] < 0.0625 + 1e-12)
+        );
+    }
+
+    #[test]
+    fn no_turn_leaves_the_chain_by_more_than_half_a_step_even_at_breaks() {
+        let mut random = Stream(3);
+        for _ in 0..500 {
+            let count = 2 + (random.next() * 60.0) as usize;
+            let mut turn = 20_isize;
+            let mut breaks = Vec::new();
+            let turns: Vec<usize> = (0..count)
+                .map(|index| {
+                    if index > 0 && random.next() < 0.05 {
+                        breaks.push(index);
+                        turn = (random.next() * 40.0) as isize;
+                    } else if random.next() < 0.4 {
+                        turn = (turn + (random.next() * 7.0) as isize - 3).clamp(0, 39);
+                    }
+                    turn as usize
+                })
+                .collect();
+            let smooth = without_steps(&path(count), &SPINS, &states(&turns), &breaks);
+            for (smooth, turn) in smooth.iter().zip(&turns) {
+                // Roundings of turns of some radians.
+                assert!(
+                    (smooth - SPINS.at(*turn)).abs() < 0.5 * SPINS.step + 1e-12,
+                    "{turns:?} {breaks:?}"
+                );
+            }
+        }
+    }
 }
