@@ -1,6 +1,7 @@
 //! Where should the part lie, how should the arm hold the tool, what path should the program say?
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
+//! - [`placement`]: what a place of the part is worth.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
@@ -11,11 +12,13 @@ mod chain;
 pub mod compensation;
 mod lattice;
 mod links;
+pub mod placement;
 pub mod posture;
 mod reversals;
 mod smooth;
 
 pub use compensation::{Compensated, Compensation, compensated};
 pub use lattice::Lattice;
+pub use placement::{Merit, Placeable, PlacementGoal, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;
