@@ -19,6 +19,6 @@ mod smooth;
 
 pub use compensation::{Compensated, Compensation, compensated};
 pub use lattice::Lattice;
-pub use placement::{Merit, Placeable, PlacementGoal, on_part};
+pub use placement::{Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

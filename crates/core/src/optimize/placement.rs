@@ -12,12 +12,14 @@
 //!
 //! Forces are those of the path as drawn, as in [`super::posture`]; the answer at the place that was found looks at them again.
 
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::posture::{Counts, Goal, WITHIN};
+use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
 use crate::load::{LoadFrame, PathLoad};
-use crate::path::Track;
+use crate::path::{Spin, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
@@ -101,6 +103,63 @@ pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[us
         wrenches,
     };
     PlacedPath::new(points.collect(), pushes)
+}
+
+/// How a tool is turned about its axis where its part is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolTurn {
+    /// As the part is: along the feed, or where no axis is that of all points.
+    WithPart,
+    /// As [`tool_orientation`] has it in base, and by this angle (rad) more.
+    InBase {
+        /// The tool as it is judged on the part.
+        part_from_tool: UnitQuaternion<f64>,
+        /// That angle.
+        spin: f64,
+    },
+}
+
+impl ToolTurn {
+    /// That of the tool along `track`.
+    pub fn of(track: &Track) -> ToolTurn {
+        let steady = track.steady_normal().is_some() && !track.is_empty();
+        let given = || track.path.points.iter().any(|point| point.spin.is_some());
+        match track.placing.spin {
+            Spin::Fixed(spin) if steady && track.spins.is_none() => ToolTurn::in_base(track, spin),
+            Spin::Given(spin) if steady && track.spins.is_none() && !given() => {
+                ToolTurn::in_base(track, spin)
+            }
+            _ => ToolTurn::WithPart,
+        }
+    }
+
+    fn in_base(track: &Track, spin: f64) -> ToolTurn {
+        let pose = track.base_from_part.inverse() * track.stop(0).base_from_tool;
+        ToolTurn::InBase {
+            part_from_tool: pose.rotation,
+            spin,
+        }
+    }
+
+    /// The place where a part lies so, with the tool turned by `spin` (rad) beside the turn it has there.
+    pub fn lie(&self, base_from_part: Isometry, spin: f64) -> Lie {
+        let more = match self {
+            ToolTurn::WithPart => 0.0,
+            ToolTurn::InBase {
+                part_from_tool,
+                spin,
+            } => {
+                let judged = base_from_part.rotation * part_from_tool;
+                let axis = Unit::new_normalize(judged * Vector3::z());
+                let turn = judged.inverse() * tool_orientation(axis, *spin);
+                2.0 * turn.k.atan2(turn.w)
+            }
+        };
+        Lie {
+            base_from_part,
+            spin: spin + more,
+        }
+    }
 }
 
 impl Merit {
