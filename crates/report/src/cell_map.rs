@@ -78,11 +78,7 @@ pub struct CellMap {
 
 /// What cells that do not stand look like, with their words.
 const REASONS: [(Cell, &str, &str); 4] = [
-    (
-        Cell::OutsideJointLimits,
-        "#9a9a9a",
-        "outside the joint limits",
-    ),
+    (Cell::OutsideJointLimits, "#9a9a9a", "outside the joint limits"),
     (Cell::Singular, "#c9c9c9", "near a singularity"),
     (Cell::OutOfReach, "#f0f0f0", "out of reach"),
     (Cell::PointsLost, "#dcdcdc", "no posture at some points"),

@@ -75,6 +75,7 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
+pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
@@ -86,7 +87,6 @@ pub use marker::{Marker, MarkerKind};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialSeries};
-pub use cell_map::{Cell, CellMap};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};

@@ -5,13 +5,19 @@ use clap::Args;
 use super::posture::{CountsArgument, GoalArgument};
 use super::run::RunOptions;
 
-// What an option leaves out the study's own `[place]` says.
 #[derive(Debug, Args)]
 #[command(after_help = PLACE_EXAMPLES)]
 pub(crate) struct PlaceArguments {
     #[command(flatten)]
     pub run: RunOptions,
 
+    #[command(flatten)]
+    pub place: PlaceOptions,
+}
+
+// Where the part may lie; what an option leaves out the study's own `[place]` says.
+#[derive(Debug, Args)]
+pub(crate) struct PlaceOptions {
     /// The path to place, where the study asks for several
     #[arg(long, value_name = "NAME")]
     pub ask: Option<String>,
@@ -68,7 +74,9 @@ pub(crate) struct PlaceArguments {
 /// Two numbers, the least and the greatest.
 fn bounds(text: &str) -> Result<[f64; 2], String> {
     let number = |text: &str| text.trim().parse().ok().filter(|value: &f64| value.abs() <= 1e6);
-    let both = text.split_once(',').and_then(|(a, b)| Some([number(a)?, number(b)?]));
+    let both = text
+        .split_once(',')
+        .and_then(|(a, b)| Some([number(a)?, number(b)?]));
     both.ok_or_else(|| "two numbers up to 1e6, the least and the greatest, such as 700,1300".to_owned())
 }
 

@@ -12,7 +12,7 @@ use armill_study::{StudyError, output, studies};
 
 use super::run::{in_pool, results};
 use crate::Outcome;
-use crate::arguments::PlaceArguments;
+use crate::arguments::{PlaceArguments, PlaceOptions};
 use crate::progress::Progress;
 use crate::terminal::say;
 
@@ -23,7 +23,7 @@ use crate::terminal::say;
 pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
-    let placing = Placing::new(&study, wanted(arguments)?, u64::from(arguments.seed))?;
+    let placing = Placing::new(&study, wanted(&arguments.place)?, u64::from(arguments.place.seed))?;
     let beside = found.folder.join("place");
     let out = arguments.run.out.as_ref().unwrap_or(&beside);
     output::prepare(out)?;
@@ -33,7 +33,10 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
         progress.watch(|watch| placing.search(&mut journal, watch, &|best| progress.tell(best)))
     })??;
     if journal.taken() > 0 {
-        say(&format!("note: {} rounds were done before this start", journal.taken()));
+        say(&format!(
+            "note: {} rounds were done before this start",
+            journal.taken()
+        ));
     }
     let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
     write_atomically(out.join("placement.json"), json.as_bytes())?;
@@ -53,25 +56,25 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
 }
 
 /// What the options ask for.
-fn wanted(arguments: &PlaceArguments) -> Result<PlaceTable, StudyError> {
-    if let Some(margin) = arguments.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
+pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
+    if let Some(margin) = options.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
         let message = format!("--margin-deg: {margin} is outside 0 to 90");
         return Err(StudyError::value(message, "see `armill place --help`"));
     }
     Ok(PlaceTable {
-        ask: arguments.ask.clone(),
-        x_mm: arguments.x_mm,
-        y_mm: arguments.y_mm,
-        z_mm: arguments.z_mm,
-        turn_deg: arguments.turn_deg,
-        tilt_deg: arguments.tilt_deg,
-        roll_deg: arguments.roll_deg,
-        spin_deg: arguments.spin_deg,
+        ask: options.ask.clone(),
+        x_mm: options.x_mm,
+        y_mm: options.y_mm,
+        z_mm: options.z_mm,
+        turn_deg: options.turn_deg,
+        tilt_deg: options.tilt_deg,
+        roll_deg: options.roll_deg,
+        spin_deg: options.spin_deg,
         fixture: Vec::new(),
-        branch: arguments.branch.clone(),
-        counts: arguments.counts.map(Into::into),
-        goal: arguments.goal.map(Into::into),
-        margin_deg: arguments.margin_deg,
+        branch: options.branch.clone(),
+        counts: options.counts.map(Into::into),
+        goal: options.goal.map(Into::into),
+        margin_deg: options.margin_deg,
         least_wrist_deg: None,
     })
 }

@@ -334,7 +334,9 @@ fn is_singular(named: bool, found: &Found, (screws, wrist): (&[Twist], f64)) -> 
 
 /// Sine of the angle between upper arm and forearm of an ortho-parallel arm that stands so; 1 of others.
 fn elbow_bend(robot: &Robot, frames: &Frames) -> f64 {
-    let Some(form) = robot.ortho_parallel() else { return 1.0 };
+    let Some(form) = robot.ortho_parallel() else {
+        return 1.0;
+    };
     let axis = joint_axis(robot, frames, 1);
     let [shoulder, elbow] = [1, 2].map(|joint| frames.origin(joint));
     let wrist = frames.base_from_flange * form.flange_from_wrist;

@@ -123,7 +123,11 @@ impl PlacedPath {
     /// The wrenches at point `index`, told axes.
     fn wrenches(&self, index: usize) -> &[Wrench] {
         let Pushes { cases, wrenches, .. } = &self.pushes;
-        let first = if wrenches.len() == *cases { 0 } else { index * cases };
+        let first = if wrenches.len() == *cases {
+            0
+        } else {
+            index * cases
+        };
         &wrenches[first..][..*cases]
     }
 }
@@ -208,9 +212,7 @@ impl<'q> Judge<'q> {
                     }
                     any
                 });
-                std::array::from_fn(|slot| {
-                    (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2))
-                })
+                std::array::from_fn(|slot| (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2)))
             }
             Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, lie), is_open, worth),
         }

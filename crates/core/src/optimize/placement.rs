@@ -145,10 +145,7 @@ impl ToolTurn {
     pub fn lie(&self, base_from_part: Isometry, spin: f64) -> Lie {
         let more = match self {
             ToolTurn::WithPart => 0.0,
-            ToolTurn::InBase {
-                part_from_tool,
-                spin,
-            } => {
+            ToolTurn::InBase { part_from_tool, spin } => {
                 let judged = base_from_part.rotation * part_from_tool;
                 let axis = Unit::new_normalize(judged * Vector3::z());
                 let turn = judged.inverse() * tool_orientation(axis, *spin);

@@ -1,8 +1,8 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, Cell, Marker,
-    MarkerKind, PathPlot, PolarPlot, CellMap, ProcessMap, RadialSeries, Series, ShareBar, ShareBars,
+    Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, Envelope, ForcePlot, ForceTrace, Growth,
+    Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars,
     StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 

@@ -129,7 +129,7 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
 }
 
 /// What has the largest share, and how large.
-fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
+pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
     let largest = point
         .joint_share_um
         .iter()

@@ -158,11 +158,17 @@ impl PlaceTable {
             if fixture.tilt_deg.is_some() && fixture.rotation_deg.is_some() {
                 faults.push((
                     format!("fixture[{index}].rotation_deg"),
-                    format!("fixture `{}` has both `tilt_deg` and `rotation_deg`", fixture.name),
+                    format!(
+                        "fixture `{}` has both `tilt_deg` and `rotation_deg`",
+                        fixture.name
+                    ),
                     "remove one",
                 ));
             }
-            if self.fixture[..index].iter().any(|other| other.name == fixture.name) {
+            if self.fixture[..index]
+                .iter()
+                .any(|other| other.name == fixture.name)
+            {
                 faults.push((
                     format!("fixture[{index}].name"),
                     format!("there are two fixtures `{}`", fixture.name),

@@ -84,7 +84,11 @@ pub struct FrontAnswer {
 impl OutcomeAnswer {
     pub(super) fn of(merit: &Merit) -> OutcomeAnswer {
         OutcomeAnswer {
-            cost_um: if merit.cost.is_finite() { merit.cost * 1e6 } else { 0.0 },
+            cost_um: if merit.cost.is_finite() {
+                merit.cost * 1e6
+            } else {
+                0.0
+            },
             lost_points: merit.lost,
             branch: merit.branch.map(|branch| branch.to_string()),
         }
@@ -116,14 +120,14 @@ impl PlacementAnswer {
                 comes_to(&self.found),
                 self.counts,
                 branch(&self.found),
-                self.place(),
+                self.place_in_words(),
                 comes_to(&self.as_drawn),
                 branch(&self.as_drawn),
             ),
             lost => format!(
                 "{}: no place was found that the arm holds everywhere; the best, {}, loses {lost} of {} points{}.",
                 self.ask,
-                self.place(),
+                self.place_in_words(),
                 self.points,
                 branch(&self.found),
             ),
@@ -135,19 +139,33 @@ impl PlacementAnswer {
             .map(|free| free.degree)
             .collect();
         if !edges.is_empty() {
-            lines.push(format!("At a bound: {}. With more room there may be a better place.", edges.join(", ")));
+            lines.push(format!(
+                "At a bound: {}. With more room there may be a better place.",
+                edges.join(", ")
+            ));
         }
-        let grid = |grid: &super::GridAnswer| format!("{} places every {:.0} mm and {:.1} deg", grid.places, grid.pitch_mm, grid.pitch_deg);
+        let grid = |grid: &super::GridAnswer| {
+            format!(
+                "{} places every {:.0} mm and {:.1} deg",
+                grid.places, grid.pitch_mm, grid.pitch_deg
+            )
+        };
         let [near, wide] = [&self.certificate.near, &self.certificate.wide];
         lines.push(match near.better + wide.better {
-            0 => format!("None is better of {} around it, nor of {} over all that is free.", grid(near), grid(wide)),
-            better => format!("{better} places of the grids are better still: search again with another --seed."),
+            0 => format!(
+                "None is better of {} around it, nor of {} over all that is free.",
+                grid(near),
+                grid(wide)
+            ),
+            better => {
+                format!("{better} places of the grids are better still: search again with another --seed.")
+            }
         });
         lines
     }
 
-    /// The place in words.
-    fn place(&self) -> String {
+    /// The place in words: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
+    pub fn place_in_words(&self) -> String {
         let place = &self.place;
         let [x, y, z] = place.centre_mm;
         let mut words = match &self.fixture {
@@ -185,7 +203,10 @@ impl PlacementAnswer {
             lines += &format!("posture.branch = \"{branch}\"\n");
         }
         if place.spin_deg != 0.0 {
-            lines += &format!("spin_deg = {:.4} # of a program: program.spin_deg, this much more\n", place.spin_deg);
+            lines += &format!(
+                "spin_deg = {:.4} # of a program: program.spin_deg, this much more\n",
+                place.spin_deg
+            );
         }
         lines
     }

@@ -111,7 +111,10 @@ impl Searched<'_> {
             if places <= self.effort.grid as f64 {
                 return Grid {
                     first: vec![0.0; counts.len()],
-                    step: counts.iter().map(|count| 1.0 / (count - 1).max(1) as f64).collect(),
+                    step: counts
+                        .iter()
+                        .map(|count| 1.0 / (count - 1).max(1) as f64)
+                        .collect(),
                     counts,
                     pitch,
                 };

@@ -76,10 +76,18 @@ pub struct Found {
 }
 
 impl Found {
+    /// Whether the path is better there than as drawn.
+    pub fn is_better(&self) -> bool {
+        let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
+        (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
+    }
+
     /// Lets the study file lay its path there.
     pub fn lay(&self, file: &mut StudyFile) {
         let place = &self.answer.place;
-        let Some(ask) = file.ask.get_mut(self.ask) else { return };
+        let Some(ask) = file.ask.get_mut(self.ask) else {
+            return;
+        };
         ask.plane = Some(PlaneChange {
             centre_mm: Some(place.centre_mm),
             tilt_deg: place.tilt_deg,
@@ -111,6 +119,7 @@ struct Site<'a> {
 }
 
 /// The best place of one search.
+#[derive(Clone)]
 struct Best {
     site: usize,
     spot: Spot,
@@ -131,7 +140,11 @@ impl<'a> Placing<'a> {
         });
         let names = || -> String {
             let of_path = |ask: &&crate::file::resolve::Ask| matches!(ask.subject, Subject::Path(_));
-            let names = study.asks.iter().filter(of_path).map(|ask| format!("`{}`", ask.name));
+            let names = study
+                .asks
+                .iter()
+                .filter(of_path)
+                .map(|ask| format!("`{}`", ask.name));
             names.collect::<Vec<_>>().join(", ")
         };
         let (index, name, ask) = match &table.ask {
@@ -231,9 +244,15 @@ impl<'a> Placing<'a> {
         };
         journal.take_up(prepared.fingerprint(&goal));
         let drawn = Freedom::new(&self.ask.setting, turn, &PlaceTable::default());
-        let best = prepared.best((goal, effort), "", None, journal)?;
+        let mut best = prepared.best((goal, effort), "", None, journal)?;
+        let mut front = prepared.front(goal, &best, journal)?;
+        if let Some((_, first)) = front.first() {
+            best = first.clone();
+        }
         let (best, certificate) = prepared.certified(best, goal, journal)?;
-        let front = prepared.front(goal, &best, journal)?;
+        if let Some((_, first)) = front.first_mut() {
+            *first = best.clone();
+        }
         let as_asked = PlacementGoal {
             branches: match self.ask.setting.choice {
                 BranchChoice::Of(pattern) => pattern,
@@ -382,7 +401,9 @@ impl Prepared<'_> {
         let mut best: Option<Best> = None;
         for (site, of) in self.sites.iter().enumerate() {
             let searched = self.searched(&of.freedom, goal, effort);
-            let also = also.filter(|also| also.site == site).map(|also| also.spot.at.clone());
+            let also = also
+                .filter(|also| also.site == site)
+                .map(|also| also.spot.at.clone());
             let mut spots = Vec::new();
             let mut starts: Option<Vec<Spot>> = None;
             for round in 0..effort.rounds {
@@ -412,11 +433,16 @@ impl Prepared<'_> {
                 Ok(searched.floor(&valley.at, self.watch)?.at)
             })?;
             let spot = searched.judged(floor)?;
-            if best.as_ref().is_none_or(|best| spot.merit.beats(&best.spot.merit)) {
+            if best
+                .as_ref()
+                .is_none_or(|best| spot.merit.beats(&best.spot.merit))
+            {
                 best = Some(Best { site, spot });
             }
         }
-        best.ok_or_else(|| StudyError::value("there is no place to look at", "free a degree, or name fixtures"))
+        best.ok_or_else(|| {
+            StudyError::value("there is no place to look at", "free a degree, or name fixtures")
+        })
     }
 
     fn tell(&self, spots: &[Spot]) {
@@ -446,7 +472,11 @@ impl Prepared<'_> {
                 Ok(searched.floor(&better.at, self.watch)?.at)
             })?;
             let spot = searched.judged(floor)?;
-            best.spot = if spot.merit.beats(&better.merit) { spot } else { better };
+            best.spot = if spot.merit.beats(&better.merit) {
+                spot
+            } else {
+                better
+            };
             tried += 1;
         }
     }
@@ -462,11 +492,7 @@ impl Prepared<'_> {
         if best.spot.merit.lost > 0 {
             return Ok(front);
         }
-        let start = Best {
-            site: best.site,
-            spot: best.spot.clone(),
-        };
-        front.push((goal.margin, start));
+        front.push((goal.margin, best.clone()));
         for margin in MARGINS_DEG.map(f64::to_radians) {
             if margin <= goal.margin {
                 continue;
@@ -480,6 +506,12 @@ impl Prepared<'_> {
                 break;
             }
             front.push((margin, found));
+        }
+        // What keeps a wide margin keeps a narrow one too.
+        for index in (1..front.len()).rev() {
+            if front[index].1.spot.merit.beats(&front[index - 1].1.spot.merit) {
+                front[index - 1].1 = front[index].1.clone();
+            }
         }
         Ok(front)
     }

@@ -88,7 +88,11 @@ impl Searched<'_> {
         });
         let scale = |which: usize| {
             let (degree, [least, greatest]) = free[pair[which]];
-            let unit = if is_angle(degree) { 1.0_f64.to_degrees() } else { 1e3 };
+            let unit = if is_angle(degree) {
+                1.0_f64.to_degrees()
+            } else {
+                1e3
+            };
             move |part: f64| (least + (greatest - least) * part) * unit
         };
         let names = pair.map(|which| WORDS[free[which].0]);

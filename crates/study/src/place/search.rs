@@ -127,7 +127,9 @@ impl Searched<'_> {
         });
         let mut starts: Vec<Spot> = Vec::new();
         for spot in spots {
-            if starts.len() < self.effort.rounds && starts.iter().all(|other| apart(&other.at, &spot.at) > APART) {
+            if starts.len() < self.effort.rounds
+                && starts.iter().all(|other| apart(&other.at, &spot.at) > APART)
+            {
                 starts.push(spot);
             }
         }

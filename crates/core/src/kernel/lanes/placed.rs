@@ -259,7 +259,11 @@ impl Laid {
             told_in: pushes.told_in,
             cases: pushes.cases,
             wrenches: Vec::new(),
-            cases_of_all: if of_all { pushes.wrenches.clone() } else { Vec::new() },
+            cases_of_all: if of_all {
+                pushes.wrenches.clone()
+            } else {
+                Vec::new()
+            },
             moments: pushes.wrenches.iter().any(|w| w.moment != Vector3::zeros()),
         };
         for (block, points) in points.chunks(BLOCK).enumerate() {
@@ -424,7 +428,8 @@ const SIDE: usize = 16;
 impl Work<f64> for Tally<'_> {
     #[inline(always)]
     fn run<R: Real<Float = f64>>(self) {
-        let never = (flag::UNREACHABLE | flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER) as i32;
+        let never =
+            (flag::UNREACHABLE | flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER) as i32;
         let (plain, flipped) = (flag::OUTSIDE_LIMITS as i32, flag::OUTSIDE_LIMITS_FLIPPED as i32);
         let mut lost = [[0_i32; SIDE]; 2];
         let (mut worst, mut sum, mut above) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);

@@ -27,10 +27,7 @@ fn path(random: &mut Stream, [turned, each]: [bool; 2], told_in: ToldIn) -> Plac
             false => UnitQuaternion::identity(),
         };
         Sighted {
-            part_from_tool: Isometry::from_parts(
-                Translation3::from(random.vector(0.1)),
-                orientation * lean,
-            ),
+            part_from_tool: Isometry::from_parts(Translation3::from(random.vector(0.1)), orientation * lean),
             along: along.map(|along| lean * along),
         }
     });
@@ -106,7 +103,10 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     }
                     held += 1;
                     for (a, b) in [(a.worst, b.worst), (a.sum, b.sum), (a.above, b.above)] {
-                        assert!((a - b).abs() < 1e-10 * (b + 1e-4), "{name} {round} {slot}: {a} {b}");
+                        assert!(
+                            (a - b).abs() < 1e-10 * (b + 1e-4),
+                            "{name} {round} {slot}: {a} {b}"
+                        );
                     }
                 }
             }
