@@ -105,12 +105,10 @@ pub fn advise(
     let as_drawn = statistics(&drawn, &run(&drawn, quiet)?);
     let placed = placing.search(journal, watch, told)?;
     let moves = placed.is_better();
-    let there = found.read_changed(|file| {
-        if moves {
-            placed.lay(file);
-        }
-    })?;
-    let mut there = alone(there, name);
+    let mut there = match moves {
+        true => placed.study(found)?,
+        false => drawn,
+    };
     told("turns of the tool");
     let mut turned = there.clone();
     turned.search_postures(None)?;
@@ -151,7 +149,7 @@ pub fn advise(
         placement: placed.answer,
         moves,
         not_held: not_held(&there, (ask, of_path), &path),
-        turns: path.search,
+        turns: path.search.filter(|_| turns),
         compensated,
         limits: path.limits,
         compliance_assumed: study.compliance_is_assumed(),

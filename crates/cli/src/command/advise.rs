@@ -36,9 +36,12 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     })??;
     let json = serde_json::to_string_pretty(&advice.answer)? + "\n";
     write_atomically(out.join("advice.json"), json.as_bytes())?;
-    if !arguments.run.no_pictures {
-        output::write_pictures(&advice.pictures, out)?;
-    }
+    let drawn = if arguments.run.no_pictures {
+        &[][..]
+    } else {
+        &advice.pictures
+    };
+    output::write_pictures("placement-", drawn, out)?;
     let sentences = advice.answer.advice.join("\n");
     let outcome = results((&advice.study, beside.clone()), &arguments.run, |_| sentences)?;
     journal.done();

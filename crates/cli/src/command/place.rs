@@ -40,16 +40,18 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     }
     let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
     write_atomically(out.join("placement.json"), json.as_bytes())?;
-    if !arguments.run.no_pictures {
-        output::write_pictures(&placed.pictures, out)?;
-    }
-    let name = placing.name();
-    let mut there = found.read_changed(|file| placed.lay(file))?;
-    there.asks.retain(|ask| ask.name == name);
-    there.statements.clear();
+    let drawn = if arguments.run.no_pictures {
+        &[][..]
+    } else {
+        &placed.pictures
+    };
+    output::write_pictures("placement-", drawn, out)?;
+    let there = placed.study(&found)?;
     let outcome = results((&there, beside.clone()), &arguments.run, |_| {
         let lines = placed.answer.sentences().join("\n");
-        format!("{lines}\n\n{}", placed.answer.study_lines().trim_end())
+        format!("{lines}\n\n{}", placed.answer.study_lines())
+            .trim_end()
+            .to_owned()
     })?;
     journal.done();
     Ok(outcome)
@@ -66,7 +68,7 @@ pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
         x_mm: options.x_mm,
         y_mm: options.y_mm,
         z_mm: options.z_mm,
-        turn_deg: options.turn_deg,
+        heading_deg: options.heading_deg,
         tilt_deg: options.tilt_deg,
         roll_deg: options.roll_deg,
         spin_deg: options.spin_deg,
@@ -74,6 +76,7 @@ pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
         branch: options.branch.clone(),
         counts: options.counts.map(Into::into),
         goal: options.goal.map(Into::into),
+        sure: options.sure.map(Into::into),
         margin_deg: options.margin_deg,
         least_wrist_deg: None,
     })

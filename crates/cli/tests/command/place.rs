@@ -33,7 +33,7 @@ fn placement(cell: &Cell, out: &str) -> serde_json::Value {
 #[test]
 fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     let cell = cell("");
-    let args = ["place", "study.toml", "--x-mm", "700,1200", "--tilt-deg", "0,60"];
+    let args = ["place", "study.toml", "--x-mm", "700,1200", "--tilt-deg", "0,90"];
     let said = cell.armill(&args).fine();
     assert!(said.out.starts_with("ring: at most "), "{}", said.out);
     assert!(said.out.contains("; as drawn at most 1"), "{}", said.out);
@@ -41,7 +41,7 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     let placed = placement(&cell, "place");
     let cost = number(&placed["found"]["cost_um"]);
     assert!(cost < 0.5 * number(&placed["as_drawn"]["cost_um"]), "{placed}");
-    for picture in ["placement-front.svg", "placement-x-tilt.svg", "report.html"] {
+    for picture in ["placement-margin.svg", "placement-x-tilt.svg", "report.html"] {
         assert!(cell.at(&format!("place/{picture}")).exists(), "{picture}");
     }
     // Where nothing is kept that the search needed on its way.
@@ -61,7 +61,7 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     let largest = number(&there["paths"][0]["max_in_plane_um"]);
     assert!((largest - cost).abs() < 1e-3, "{largest} {cost}");
     // The margin costs: a front falls nowhere.
-    let front: Vec<f64> = placed["front"]
+    let front: Vec<f64> = placed["by_margin"]
         .as_array()
         .unwrap()
         .iter()
@@ -100,8 +100,8 @@ name = "far corner"
 centre_mm = [4000, 0, 800]
 [[place.fixture]]
 name = "vice"
-centre_mm = [900, 100, 800]
-tilt_deg = 30
+centre_mm = [800, 100, 1000]
+tilt_deg = 90
 [[place.fixture]]
 name = "table"
 centre_mm = [1050, 0, 800]
@@ -111,7 +111,7 @@ rotation_deg = [90, 0, -90]
     let said = cell.armill(&["place", "study.toml", "--no-pictures"]).fine();
     assert!(
         said.out
-            .contains("at fixture `vice`, centre (900.0, 100.0, 800.0) mm"),
+            .contains("at fixture `vice`, centre (800.0, 100.0, 1000.0) mm"),
         "{}",
         said.out
     );
@@ -134,7 +134,7 @@ fn where_no_place_holds_the_path_that_is_told() {
     );
     let placed = placement(&cell, "place");
     assert_eq!(placed["found"]["lost_points"], placed["points"]);
-    assert_eq!(placed["front"].as_array().unwrap().len(), 0);
+    assert_eq!(placed["by_margin"].as_array().unwrap().len(), 0);
 }
 
 #[test]
@@ -197,7 +197,7 @@ rotation_deg = [0, 0, 0]
 "#,
     );
     cell.armill(&["place", "study.toml"]).refused(&[
-        "study.toml:13:",
+        "study.toml:14:",
         "`x_mm` goes from 1200 to 700: there is nothing between",
         "`x_mm` beside fixtures",
         "`spin_deg` spans 600 deg",

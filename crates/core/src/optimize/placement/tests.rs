@@ -95,6 +95,7 @@ fn goal(goal: Goal) -> PlacementGoal {
         branches: BranchPattern::default(),
         margin: 0.0,
         wrist: 0.05,
+        sure: Sure::Nominal,
     }
 }
 
@@ -276,4 +277,72 @@ fn a_watch_stops_the_judging() {
     };
     let lie = ToolTurn::WithPart.lie(drawn(), 0.0);
     assert_eq!(placeable.merits(&[lie], None, watch), Err(Cancelled));
+}
+
+/// The differences that the uncertainty is made of against those of arms whose compliances are drawn at random: the spread of
+/// the cost of 4000 such arms.
+#[test]
+fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
+    let cell = Cell::new();
+    let mut joints = cell.robot.compliance().unwrap().to_vec();
+    for (k, joint) in joints.iter_mut().enumerate() {
+        joint.standard_uncertainty = joint.value * (0.02 + 0.01 * k as f64);
+    }
+    let mut question = cell.question();
+    question.arm.compliance = &joints;
+    question.doubt.relative = 0.03;
+    let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
+    let path = on_part((&track, &load), Counts::InPlane, &[0, 7, 15, 30]);
+    let placeable = |sure| Placeable {
+        question: &question,
+        path: &path,
+        goal: PlacementGoal {
+            sure,
+            ..goal(Goal::Worst)
+        },
+    };
+    let lie = ToolTurn::of(&track).lie(drawn(), 0.0);
+    let told = placeable(Sure::Nominal).appraised(&lie);
+    let branch = told.merit.branch.unwrap();
+    let mut random = Stream(99);
+    // Twelve evenly drawn numbers less six are near to normal; so the sum of twelve from -1 to 1 halved.
+    let mut normal = || (0..4).map(|_| random.vector(0.5).sum()).sum::<f64>();
+    let costs: Vec<f64> = (0..4000)
+        .map(|_| {
+            let mut other = joints.clone();
+            for joint in &mut other {
+                joint.value += joint.standard_uncertainty * normal();
+            }
+            let mut question = question;
+            question.arm.compliance = &other;
+            let one = Placeable {
+                question: &question,
+                path: &path,
+                goal: PlacementGoal {
+                    branches: branch.into(),
+                    ..goal(Goal::Worst)
+                },
+            };
+            one.appraised(&lie).merit.cost * (1.0 + 0.03 * normal())
+        })
+        .collect();
+    let mean = costs.iter().sum::<f64>() / costs.len() as f64;
+    let spread = (costs.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / costs.len() as f64).sqrt();
+    // A standard deviation of 4000 is known to 1.1 %; the largest of some points bends the propagation a little.
+    assert!(
+        (told.uncertainty - spread).abs() < 0.05 * spread,
+        "{} {spread}",
+        told.uncertainty
+    );
+    let compared = |sure| {
+        let all = placeable(sure).merits(&[lie], None, Watch::NONE).unwrap();
+        all[0].unwrap().cost
+    };
+    let (cost, u) = (told.merit.cost, told.uncertainty);
+    assert!((compared(Sure::PlusTwoSigma) - (cost + 2.0 * u)).abs() < 1e-15);
+    assert!((compared(Sure::WithinLimit(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
+    assert_eq!(compared(Sure::Nominal), cost);
+    // Phi(-1) and Phi(1.96) of tables of the normal distribution.
+    let above = |z: f64| told.probability_above(cost - z * u).unwrap();
+    assert!((above(-1.0) - 0.158_655_3).abs() < 1e-7 && (above(1.96) - 0.975_002_1).abs() < 1e-7);
 }
