@@ -21,7 +21,7 @@ mod sureness;
 
 pub use compensation::{Compensated, Compensation, compensated};
 pub use lattice::Lattice;
-pub use placement::{Appraisal, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+pub use placement::{Appraisal, Holding, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;
 pub use sureness::Sure;
