@@ -15,7 +15,7 @@ pub mod posture;
 mod reversals;
 mod smooth;
 
-pub use compensation::{Compensated, Compensation, compensated};
+pub use compensation::{Compensated, Compensation, compensated, left_by};
 pub use lattice::Lattice;
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;
