@@ -80,11 +80,7 @@ fn wanted(arguments: &CompensateArguments) -> Result<Option<(PathBuf, ProgramWan
         .extension()
         .and_then(|ending| ending.to_str())
         .map(str::to_lowercase);
-    let language = Language::ALL.into_iter().find(|language| {
-        ending
-            .as_deref()
-            .is_some_and(|ending| language.endings().contains(&ending))
-    });
+    let language = ending.as_deref().and_then(Language::of_ending);
     let language = language.ok_or_else(|| {
         let message = format!(
             "--program: the ending of {} is that of no language",

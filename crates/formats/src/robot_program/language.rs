@@ -115,6 +115,13 @@ impl Language {
             .find(|language| language.beginnings().iter().any(|known| begin.starts_with(known)))
     }
 
+    /// The language whose files end with this; lower case.
+    pub fn of_ending(ending: &str) -> Option<Language> {
+        Language::ALL
+            .into_iter()
+            .find(|language| language.endings().contains(&ending))
+    }
+
     /// The language of these files, by their first's lines, or its ending.
     ///
     /// # Errors
@@ -130,9 +137,7 @@ impl Language {
         };
         let of_name = || {
             let ending = texts.first().and_then(ending)?;
-            Language::ALL
-                .into_iter()
-                .find(|language| language.endings().contains(&ending.as_str()))
+            Language::of_ending(&ending)
         };
         // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
         let val3 = of_name().filter(|language| *language == Language::Val3);
