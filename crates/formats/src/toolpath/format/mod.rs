@@ -56,7 +56,7 @@ pub struct Wanted<'a> {
 }
 
 /// So much of a file tells its format, bytes.
-const HEAD_BYTES: u64 = 256 * 1024;
+pub const HEAD_BYTES: u64 = 256 * 1024;
 /// So many lines of a file are looked at; headers of remarks are longer in no file we know.
 const MOST_LINES: usize = 2000;
 
