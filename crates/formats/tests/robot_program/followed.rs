@@ -29,9 +29,8 @@ fn arm() -> Robot {
     opw::read("arm.yaml", "arm", IRB_6700).unwrap().robot
 }
 
-fn cell<'a>(robot: &'a Robot, flange_from_tool: Isometry) -> Cell<'a> {
+fn cell(flange_from_tool: Isometry) -> Cell {
     Cell {
-        robot,
         flange_from_tool,
         base_from_controller: Isometry::identity(),
         controller_from_frame: None,
@@ -53,14 +52,13 @@ fn krl(lines: &str) -> RobotProgram {
 }
 
 /// What keeps these lines of KRL from being followed.
-fn lacks(lines: &str, cell: &Cell<'_>) -> Vec<FollowError> {
-    follow(&krl(lines), cell).expect_err(lines)
+fn lacks(lines: &str, cell: &Cell) -> Vec<FollowError> {
+    follow(&krl(lines), &arm(), cell).expect_err(lines)
 }
 
 #[test]
 fn one_list_of_poses_is_one_path_from_every_language() {
-    let robot = arm();
-    let cell = cell(&robot, kuka(TOOL));
+    let cell = cell(kuka(TOOL));
     for file in [
         "KUKA_KRC4.src",
         "Fanuc_R30iA.LS",
@@ -70,7 +68,7 @@ fn one_list_of_poses_is_one_path_from_every_language() {
         let Some(program) = same_poses::sample(file) else {
             return;
         };
-        let followed = follow(&program, &cell).unwrap();
+        let followed = follow(&program, &arm(), &cell).unwrap();
         let cuts: Vec<&FollowedMove> = followed.moves.iter().rev().take(8).rev().collect();
         for (found, [x, y, z]) in cuts.iter().zip(PLACES) {
             let [a, b, c] = TURN;
@@ -98,12 +96,11 @@ fn joints_of_rapid_stand_where_its_poses_do() {
     let Some(program) = same_poses::sample("ABB_RAPID_IRC5.mod") else {
         return;
     };
-    let robot = arm();
     let tool = from_xyz_and_fixed_angles(
         Vector3::new(0.38, 0.0, 0.2),
         Vector3::new(0.0, 90_f64.to_radians(), 0.0),
     );
-    let followed = follow(&program, &cell(&robot, tool)).unwrap();
+    let followed = follow(&program, &arm(), &cell(tool)).unwrap();
     let pose = |index: usize| base_from_tool(&followed, &followed.moves[index]);
     // MoveAbsJ, then MoveL to a place beside it: x and z are the same there, and the orientation is that of MoveL's further
     // on. Of the joints six decimals of a degree are told, of places three of a millimetre: 3 m of arm make 5e-8 m of the
@@ -135,8 +132,7 @@ fn joints_of_rapid_stand_where_its_poses_do() {
 
 #[test]
 fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
-    let robot = arm();
-    let plain = cell(&robot, Isometry::identity());
+    let plain = cell(Isometry::identity());
     let moves = "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\nLIN {X 5,Y 2,Z 3,A 0,B 0,C 0}";
     let frame = kuka([100.0, 20.0, 3.0, 30.0, 0.0, 0.0]);
     let told = krl(&format!("$BASE={{X 100,Y 20,Z 3,A 30,B 0,C 0}}\n{moves}"));
@@ -144,7 +140,7 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
         base_from_controller: Isometry::translation(0.0, 0.0, 0.45),
         ..plain
     };
-    let found = follow(&told, &raised).unwrap();
+    let found = follow(&told, &arm(), &raised).unwrap();
     same_poses::same(&found.base_from_path, &(raised.base_from_controller * frame));
     assert!(
         found
@@ -166,7 +162,7 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
         controller_from_frame: Some(frame),
         ..raised
     };
-    let found = follow(&krl(&numbered), &given).unwrap();
+    let found = follow(&krl(&numbered), &arm(), &given).unwrap();
     same_poses::same(&found.base_from_path, &(raised.base_from_controller * frame));
     // One frame is given: neither a second one nor none at all.
     let two = format!("{numbered}\n$BASE=BASE_DATA[4]\nLIN {{X 5,Y 2,Z 3,A 0,B 0,C 0}}");
@@ -184,22 +180,21 @@ fn a_frame_that_is_told_holds_and_one_by_number_is_the_cells() {
 
 #[test]
 fn a_frame_that_is_replaced_takes_along_what_lies_beside_it() {
-    let robot = arm();
     let instead = kuka([900.0, 0.0, 300.0, 45.0, 10.0, 0.0]);
     let replaced = Cell {
         base_from_path: Some(instead),
-        ..cell(&robot, Isometry::identity())
+        ..cell(Isometry::identity())
     };
     let two = "$BASE={X 100,Y 20,Z 3,A 30,B 0,C 0}\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n$BASE={X 110,Y 20,Z 3,A 30,B 0,C 0}\n\
         LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
-    let found = follow(&krl(two), &replaced).unwrap();
+    let found = follow(&krl(two), &arm(), &replaced).unwrap();
     assert_eq!(found.base_from_path, instead);
     let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -30_f64.to_radians());
     let beside = found.moves[1].next.end - found.moves[0].next.end;
     assert!((beside - turn * Vector3::new(0.01, 0.0, 0.0)).norm() < 1e-15);
     // Home in the robot's own base, cuts in a frame by number: what is cut is what is placed.
     let home = "$BASE=$NULLFRAME\nPTP {X 1000,Y 0,Z 1000,A 0,B 90,C 0}\n$BASE=BASE_DATA[2]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
-    let found = follow(&krl(home), &replaced).unwrap();
+    let found = follow(&krl(home), &arm(), &replaced).unwrap();
     assert_eq!(found.base_from_path, instead);
     let at_home = found.base_from_path * found.moves[0].next.end;
     assert!((at_home - Point3::new(1.0, 0.0, 1.0)).norm() < 1e-14);
@@ -209,15 +204,14 @@ fn a_frame_that_is_replaced_takes_along_what_lies_beside_it() {
 
 #[test]
 fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
-    let robot = arm();
-    let cell = cell(&robot, kuka([0.0, 0.0, 150.0, 0.0, 0.0, 0.0]));
+    let cell = cell(kuka([0.0, 0.0, 150.0, 0.0, 0.0, 0.0]));
     // KUKA's tools often have x along the cutter.
     let lines = |x: &str| {
         format!(
             "$BASE=$NULLFRAME\n$TOOL={{X {x},Y 0,Z 150,A 0,B -90,C 0}}\nLIN {{X 800,Y 0,Z 500,A 0,B 90,C 0}}\nLIN {{X 900,Y 0,Z 500,A 0,B 90,C 0}}"
         )
     };
-    let found = follow(&krl(&lines("0.004")), &cell).unwrap();
+    let found = follow(&krl(&lines("0.004")), &arm(), &cell).unwrap();
     let at = base_from_tool(&found, &found.moves[1]);
     // Its x points down, and so does z of the cell's tool.
     assert!((at * Vector3::z() + Vector3::z()).norm() < 1e-14, "{at}");
@@ -251,7 +245,7 @@ fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
         "$BASE=$NULLFRAME\n$TOOL=$NULLFRAME\nPTP {{X 800,Y 0,Z 500,A 0,B 90,C 0}}\n{}",
         lines("0")
     );
-    let found = follow(&krl(&rapid), &cell).unwrap();
+    let found = follow(&krl(&rapid), &arm(), &cell).unwrap();
     let flange = kuka([800.0, 0.0, 500.0, 0.0, 90.0, 0.0]);
     same_poses::same(
         &base_from_tool(&found, &found.moves[0]),
@@ -259,6 +253,7 @@ fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
     );
     let numbered = follow(
         &krl(&lines("0").replace("{X 0,Y 0,Z 150,A 0,B -90,C 0}", "TOOL_DATA[4]")),
+        &arm(),
         &cell,
     )
     .unwrap();
@@ -274,7 +269,6 @@ fn a_tool_with_the_same_tip_may_have_other_axes_and_one_with_another_is_told() {
 
 #[test]
 fn arcs_pass_their_via_points_and_flat_ones_are_straight() {
-    let robot = arm();
     let pose = |place: &str| format!("{{{place},A 0,B 180,C 0}}");
     let lines = format!(
         "$BASE=$NULLFRAME\nPTP {}\nCIRC {},{}\nCIRC {},{}",
@@ -284,7 +278,7 @@ fn arcs_pass_their_via_points_and_flat_ones_are_straight() {
         pose("X 1150,Y 0,Z 500"),
         pose("X 1200,Y 0,Z 500"),
     );
-    let found = follow(&krl(&lines), &cell(&robot, Isometry::identity())).unwrap();
+    let found = follow(&krl(&lines), &arm(), &cell(Isometry::identity())).unwrap();
     let Course::Arc(arc) = found.moves[1].next.course else {
         panic!("{:?}", found.moves[1]);
     };
@@ -313,10 +307,10 @@ fn what_goes_to_or_comes_from_an_unknown_place_is_left_out_and_said() {
         )
     };
     let text = format!("{listing}{}{}/END\n", position(1, 900), position(2, 950));
-    let robot = arm();
     let found = follow(
         &crate::program(&[("a.ls", &text)]).unwrap(),
-        &cell(&robot, Isometry::identity()),
+        &arm(),
+        &cell(Isometry::identity()),
     )
     .unwrap();
     let cuts: Vec<(usize, bool)> = found
@@ -340,11 +334,10 @@ fn what_goes_to_or_comes_from_an_unknown_place_is_left_out_and_said() {
 
 #[test]
 fn joints_of_another_arm_are_told() {
-    let robot = arm();
     let lines = "$BASE=$NULLFRAME\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}";
     let mut program = krl(lines);
     program.moves[0].target = armill_formats::robot_program::Target::Joints(vec![0.0; 7]);
-    let told = follow(&program, &cell(&robot, Isometry::identity())).unwrap_err();
+    let told = follow(&program, &arm(), &cell(Isometry::identity())).unwrap_err();
     assert_eq!(
         told[0].to_string(),
         "line 3: 7 joint positions, where robot `arm` has 6 joints"

@@ -1,7 +1,6 @@
 //! What a program does not tell of the cell that it runs in, and where its frames and tools lie there.
 
 use armill_core::frame::{Isometry, fixed_angles};
-use armill_core::robot::Robot;
 
 use super::angle;
 use super::error::FollowError;
@@ -9,10 +8,8 @@ use crate::robot_program::number::fixed;
 use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Target};
 
 /// The cell that a program runs in. Lengths m.
-#[derive(Clone, Copy, Debug)]
-pub struct Cell<'a> {
-    /// The arm that runs it.
-    pub robot: &'a Robot,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
     /// Flange to the tool centre point, z from the spindle to the tip.
     pub flange_from_tool: Isometry,
     /// Base to where the controller counts from.
@@ -45,7 +42,7 @@ pub(super) struct Placed {
     turned: f64,
 }
 
-impl Cell<'_> {
+impl Cell {
     /// Where the frames of `program` lie.
     ///
     /// # Errors

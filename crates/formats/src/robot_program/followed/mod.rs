@@ -27,9 +27,9 @@ use std::collections::BTreeMap;
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::path::{Course, Move, Pace, ToldSpin};
-use armill_core::robot::BranchPattern;
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::{posture_at, tool_on};
+use armill_core::robot::{BranchPattern, Robot};
 
 pub use self::cell::Cell;
 use self::circle::{Through, through};
@@ -62,14 +62,15 @@ pub struct FollowedMove {
     pub via: Option<Point3<f64>>,
 }
 
-/// The moves of `program` in `cell`.
+/// The moves of `program`, that `robot` runs in `cell`.
 ///
 /// # Errors
 /// Everything that the program does not tell and the cell does not either: frames by their numbers, a tool with another
 /// tip; joints of another robot.
-pub fn follow(program: &RobotProgram, cell: &Cell<'_>) -> Result<Followed, Vec<FollowError>> {
+pub fn follow(program: &RobotProgram, robot: &Robot, cell: &Cell) -> Result<Followed, Vec<FollowError>> {
     let placed = cell.placed(program)?;
     let mut follower = Follower {
+        robot,
         cell,
         placed: &placed,
         stands: None,
@@ -120,7 +121,8 @@ impl Place {
 }
 
 struct Follower<'a> {
-    cell: &'a Cell<'a>,
+    robot: &'a Robot,
+    cell: &'a Cell,
     placed: &'a cell::Placed,
     /// Where the move before has ended, if that is known.
     stands: Option<Isometry>,
@@ -210,7 +212,7 @@ impl Follower<'_> {
                 }))
             }
             Target::Joints(joints) => {
-                let robot = self.cell.robot;
+                let robot = self.robot;
                 if joints.len() != robot.joints().len() {
                     return Err(FollowError::Joints {
                         line: told.line,
@@ -236,8 +238,8 @@ impl Follower<'_> {
             return;
         }
         let pattern = match &told.target {
-            Target::Joints(joints) if joints.len() == self.cell.robot.joints().len() => {
-                let posture = posture_at(self.cell.robot, joints, &self.cell.flange_from_tool);
+            Target::Joints(joints) if joints.len() == self.robot.joints().len() => {
+                let posture = posture_at(self.robot, joints, &self.cell.flange_from_tool);
                 posture.name.branch().map(BranchPattern::from)
             }
             Target::Pose { branch, .. } => Some(*branch).filter(|branch| *branch != BranchPattern::default()),

@@ -25,13 +25,23 @@ pub(super) fn read(
     table: &ProgramTable,
     file: &ProgramFile<'_>,
 ) -> Result<Option<ReadProgram>, StudyError> {
-    if table.frame_mm_deg.is_some() {
-        let message = format!("`{}` is no program of a robot", table.file);
-        places.problem(
-            "program.frame_mm_deg",
-            message,
+    let of_robots = [
+        (
+            "frame_mm_deg",
+            table.frame_mm_deg.is_some(),
             "part_from_path_mm_deg tells where it lies on the part",
-        );
+        ),
+        (
+            "cuts_up_to_mm_per_min",
+            table.cuts_up_to_mm_per_min.is_some(),
+            "its rapids are told in the program",
+        ),
+    ];
+    for (key, _, hint) in of_robots.iter().filter(|(_, given, _)| *given) {
+        let message = format!("`{key}`: `{}` is no program of a robot", table.file);
+        places.problem(&format!("program.{key}"), message, hint);
+    }
+    if of_robots.iter().any(|(_, given, _)| *given) {
         return Ok(None);
     }
     let opened = match File::open(&file.path) {

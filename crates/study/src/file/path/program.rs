@@ -59,6 +59,9 @@ pub struct ProgramTable {
     /// turns about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub frame_mm_deg: Option<[f64; 6]>,
+    /// Programs of robots: straight and circular moves faster than this cut nothing, as moves of the joints do.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub cuts_up_to_mm_per_min: Option<f64>,
     /// Where the tool points.
     pub tool_axis: Option<ToolAxisName>,
     /// How the tool is turned about its axis.
@@ -215,7 +218,8 @@ pub(super) fn read(
         let message = format!("{shown} has no cutting move");
         let hint = match &found.robot {
             Some(_) => {
-                "moves of the joints cut nothing, and straight ones only from a place that the program tells"
+                "moves of the joints cut nothing, nor those above `cuts_up_to_mm_per_min`, and straight ones only from a place \
+                 that the program tells"
             }
             None => "rapids alone cut nothing",
         };

@@ -13,7 +13,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use armill_core::kernel::BranchChoice;
-use armill_core::path::{PathBuilder, SampledPath, Sampling, Step, TooManyPoints};
+use armill_core::path::{Pace, PathBuilder, SampledPath, Sampling, Step, TooManyPoints};
 use armill_core::robot::{BranchPattern, Robot};
 use armill_formats::robot_program::{
     Cell, FollowError, Followed, FollowedMove, Language, ProgramText, RobotProgram, follow,
@@ -36,8 +36,8 @@ pub struct RobotPath {
     pub followed: Followed,
     /// The points of each of those moves, in order.
     pub spans: Vec<Span>,
-    /// How finely it is cut into points.
-    pub sampling: Sampling,
+    /// What it does not tell of the cell.
+    pub cell: Cell,
 }
 
 /// The points that a move becomes.
@@ -85,12 +85,20 @@ pub(super) fn read(
     };
     let program = language.read(texts)?;
     let clean = places.problems.is_empty();
-    let Some(cell) = cell.filter(|_| clean) else {
+    let Some((robot, setting)) = cell.filter(|_| clean) else {
         return Ok(None);
     };
-    let Some(followed) = followed(places, (&program, table), cell) else {
+    let cell = cell_of(table, (robot, setting));
+    let Some(mut followed) = followed(places, &program, (&table.file, robot, &cell)) else {
         return Ok(None);
     };
+    if let Some(fastest) = table.cuts_up_to_mm_per_min {
+        let fastest = fastest / 60e3;
+        let is_faster = |pace| matches!(pace, Pace::Feed(speed) if speed > fastest * (1.0 + 1e-9));
+        for of in followed.moves.iter_mut().filter(|of| is_faster(of.next.pace)) {
+            of.next.pace = Pace::Rapid;
+        }
+    }
     let (path, spans) = match sampled(&followed.moves, file.sampling) {
         Ok(found) => found,
         Err(error) => {
@@ -105,7 +113,7 @@ pub(super) fn read(
             program,
             followed,
             spans,
-            sampling: file.sampling,
+            cell,
         })),
     }))
 }
@@ -183,32 +191,31 @@ fn ending(path: &Path) -> String {
     ending.unwrap_or_default().to_lowercase()
 }
 
-/// The program in the cell of this setting; `None` where it has problems, told at their places.
-fn followed(
-    places: &mut Places<'_>,
-    (program, table): (&RobotProgram, &ProgramTable),
-    (robot, setting): (&Robot, &Setting),
-) -> Option<Followed> {
+/// What the study tells of the cell.
+fn cell_of(table: &ProgramTable, (robot, setting): (&Robot, &Setting)) -> Cell {
     let given = |pose: &Option<[f64; 6]>| pose.as_ref().map(pose_mm_deg);
-    let cell = Cell {
-        robot,
+    Cell {
         flange_from_tool: setting.flange_from_tool,
         base_from_controller: base_from_controller(robot),
         controller_from_frame: given(&table.frame_mm_deg),
         base_from_path: given(&table.part_from_path_mm_deg)
             .map(|part_from_path| setting.plane.base_from_part * part_from_path),
-    };
-    match follow(program, &cell) {
-        Ok(followed) => Some(followed),
-        Err(errors) => {
-            for error in errors {
-                let (key, hint) = advice(&error);
-                let message = format!("{}: {error}", table.file);
-                places.problem(key, message, &hint);
-            }
-            None
-        }
     }
+}
+
+/// The program in this cell; `None` where it has problems, told at their places.
+fn followed(
+    places: &mut Places<'_>,
+    program: &RobotProgram,
+    (file, robot, cell): (&str, &Robot, &Cell),
+) -> Option<Followed> {
+    let told = follow(program, robot, cell).map_err(|errors| {
+        for error in errors {
+            let (key, hint) = advice(&error);
+            places.problem(key, format!("{file}: {error}"), &hint);
+        }
+    });
+    told.ok()
 }
 
 /// Where in a study an error is mended, and how.
