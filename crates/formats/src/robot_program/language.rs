@@ -3,6 +3,7 @@
 use armill_core::frame::Isometry;
 
 use super::program::RobotProgram;
+use super::spelling::Anew;
 use super::text::ProgramText;
 use super::{inform, krl, rapid, tp, urscript, val3};
 use crate::document::{Problem, Problems};
@@ -169,8 +170,8 @@ impl Language {
     }
 
     /// Spells a pose (frame to tool) in place of `before`, which spells another target of the same program: what is said
-    /// there beside the pose stays.
-    pub(super) fn spell(self, pose: &Isometry, before: &str, out: &mut String) {
+    /// there beside stays, and its orientation where the place alone is new.
+    pub(super) fn spell(self, pose: (&Isometry, Anew), before: &str, out: &mut String) {
         match self {
             Language::Krl => krl::spell(pose, before, out),
             Language::Rapid => rapid::spell(pose, before, out),
