@@ -1,12 +1,13 @@
 //! The program of a robot that a path came from, with its targets moved so that the tool goes where the path is drawn.
 //!
 //! ```text
-//! target' = target + frame_from_path (commanded - drawn) at the point where its move ends
+//! target' = target + frame_from_path x        x nearest, over all points, to commanded - drawn   (core: `optimize::nodes`)
 //! ```
 //!
-//! Places alone are written anew, and orientations as they stand; all other bytes stay. Between its targets the robot goes
-//! straight or on an arc as before, so what the arm yields there otherwise than at the ends is left: the program that was
-//! written is read again, followed again in the same points, and told by what its tool then leaves.
+//! Places alone are written anew; orientations and all other bytes stay. Between its targets the robot goes straight or on
+//! an arc as before, and one target may be asked to different places: at a corner by forces that turn with the feed, or by
+//! several moves. What is left then is told: the program that was written is read again, followed again in the same
+//! points, and judged by what its tool leaves.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,15 +15,14 @@ use std::path::Path;
 use armill_core::frame::Isometry;
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
-use armill_core::optimize::left_by;
-use armill_core::path::{Sampler, Sampling, Track};
-use armill_formats::robot_program::{
-    FollowedMove, Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow,
-};
+use armill_core::optimize::{Shares, fitted, left_by};
+use armill_core::path::{Move, Sampler, Sampling, Track};
+use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow};
 use serde::Serialize;
 
 use crate::compensate::{ErrorAnswer, paths};
 use crate::error::StudyError;
+use crate::file::path::robot_program::Span;
 use crate::file::path::{PathAsk, RobotPath};
 use crate::file::resolve::Study;
 use crate::run::{Followed, Runner};
@@ -157,36 +157,62 @@ type Key = (usize, usize);
 /// By how much targets are to be moved.
 #[derive(Default)]
 struct Wishes {
-    /// For each, by where it is spelled: every move that asks for one, its line and by how much, m, in the frame of the
-    /// target.
-    targets: BTreeMap<Key, Vec<(u32, Vector3<f64>)>>,
-    /// Lines of cuts that begin or end at joints.
+    /// Each target that is moved, by where it is spelled.
+    targets: BTreeMap<Key, Wish>,
+    /// Lines of cuts that begin, end or pass where joints are told.
     joints: Vec<u32>,
 }
 
-impl Wishes {
-    /// The mean of what is asked of the target that is spelled here.
-    fn mean(&self, spelled: &Spelled) -> Option<Vector3<f64>> {
-        let asked = self.targets.get(&key(spelled))?;
-        Some(asked.iter().map(|(_, by)| by).sum::<Vector3<f64>>() / asked.len() as f64)
-    }
+/// By how much one target is to be moved.
+struct Wish {
+    /// Which node of the fit it is.
+    node: usize,
+    /// Path to the frame that it counts in.
+    path_from_frame: Isometry,
+    /// Every move that goes there: its line, and what it alone asks for, m, path.
+    asked: Vec<(u32, Vector3<f64>)>,
+    /// What all points ask for together, m, path.
+    by: Vector3<f64>,
+}
 
+impl Wishes {
     /// The target, moved; as it is where nobody asks.
     fn moved(&self, target: &Target) -> Option<Isometry> {
         let Target::Pose { pose, spelled, .. } = target else {
             return None;
         };
-        let by = self.mean(spelled).unwrap_or_else(Vector3::zeros);
+        let by = self
+            .targets
+            .get(&key(spelled))
+            .map_or_else(Vector3::zeros, |wish| {
+                wish.path_from_frame.rotation.inverse() * wish.by
+            });
         Some(Translation3::from(by) * pose)
     }
 
-    fn ask(&mut self, target: &Target, line: u32, by: Option<Vector3<f64>>) {
-        match (target, by) {
-            (Target::Pose { spelled, .. }, Some(by)) => {
-                self.targets.entry(key(spelled)).or_default().push((line, by));
+    /// The node of a target that a cut touches, which asks for `by` there; none of one told in joints.
+    fn ask(
+        &mut self,
+        (target, line): (&Target, u32),
+        path_from_frame: Option<Isometry>,
+        by: Vector3<f64>,
+    ) -> Option<usize> {
+        let node = self.targets.len();
+        match (target, path_from_frame) {
+            (Target::Pose { spelled, .. }, Some(path_from_frame)) => {
+                let wish = self.targets.entry(key(spelled)).or_insert_with(|| Wish {
+                    node,
+                    path_from_frame,
+                    asked: Vec::new(),
+                    by,
+                });
+                wish.asked.push((line, by));
+                Some(wish.node)
             }
-            (Target::Joints(_), _) => self.joints.push(line),
-            _ => {}
+            _ => {
+                self.joints.push(line);
+                None
+            }
         }
     }
 }
@@ -202,7 +228,15 @@ fn via(of: &RobotMove) -> Option<&Target> {
     }
 }
 
-/// The files of a program, and what they were asked for.
+/// The points of a move, each with the part of the way to it.
+fn parts(span: &Span) -> impl Iterator<Item = (usize, f64)> + use<> {
+    let (pieces, end) = (span.pieces, span.points.end);
+    span.points
+        .clone()
+        .map(move |index| (index, 1.0 - (end - 1 - index) as f64 / pieces as f64))
+}
+
+/// The files of a program.
 type Files = Vec<(String, Vec<u8>)>;
 
 impl Writer<'_> {
@@ -235,31 +269,54 @@ impl Writer<'_> {
     /// By how much each target is to be moved.
     fn wishes(&self) -> Wishes {
         let mut wishes = Wishes::default();
-        let moves = self.robot.followed.moves.iter().zip(&self.robot.spans);
-        for (of, span) in moves {
+        let (mut shares, mut wanted) = (Vec::new(), Vec::new());
+        // The node at which the tip stands.
+        let mut from = None;
+        for (of, span) in self.robot.followed.moves.iter().zip(&self.robot.spans) {
             let told = &self.robot.program.moves[of.index];
-            if let Some(end) = span.end {
-                wishes.ask(&told.target, told.line, self.correction(of, end));
+            let end = span.end.and_then(|end| {
+                wishes.ask(
+                    (&told.target, told.line),
+                    of.path_from_frame,
+                    self.correction(end),
+                )
+            });
+            let passed = via(told).zip(of.via).and_then(|(via, at)| {
+                let (nearest, part) = self.nearest(span, &at)?;
+                // At an end of the arc it would say nothing of its middle.
+                let node = wishes.ask((via, told.line), of.path_from_frame, self.correction(nearest))?;
+                ((0.0..1.0).contains(&part) && part > 0.0).then_some((node, part))
+            });
+            for (index, t) in parts(span) {
+                shares.push(match passed {
+                    Some((via, part)) => Shares::bent([from, Some(via), end], part, t),
+                    None => Shares::straight(from, end, t),
+                });
+                wanted.push(self.correction(index));
             }
-            if let (Some(via), Some(at)) = (via(told), of.via) {
-                let nearest = self.nearest(span.points.clone(), &at);
-                let by = nearest.and_then(|point| self.correction(of, point));
-                wishes.ask(via, told.line, by);
-            }
+            from = end;
+        }
+        let mut start = vec![Vector3::zeros(); wishes.targets.len()];
+        for wish in wishes.targets.values() {
+            start[wish.node] = wish.by;
+        }
+        let found = fitted(start, &shares, &wanted);
+        for wish in wishes.targets.values_mut() {
+            wish.by = found[wish.node];
         }
         wishes
     }
 
-    /// What a point of the path is moved by, in the frame that the target of this move counts in, m.
-    fn correction(&self, of: &FollowedMove, point: usize) -> Option<Vector3<f64>> {
+    /// What a point of the path is to be moved by, m, path.
+    fn correction(&self, point: usize) -> Vector3<f64> {
         let [drawn, commanded] = [&self.ask.track, self.commanded].map(|track| track.path.points[point].at);
-        Some(of.path_from_frame?.rotation.inverse() * (commanded - drawn))
+        commanded - drawn
     }
 
-    /// The point of a stretch of the path that is nearest to a place.
-    fn nearest(&self, points: std::ops::Range<usize>, at: &Point3<f64>) -> Option<usize> {
-        let away = |point: &usize| (self.ask.track.path.points[*point].at - at).norm_squared();
-        points.min_by(|a, b| away(a).total_cmp(&away(b)))
+    /// The point of a move that is nearest to a place, and the part of the way there.
+    fn nearest(&self, span: &Span, at: &Point3<f64>) -> Option<(usize, f64)> {
+        let away = |point: usize| (self.ask.track.path.points[point].at - at).norm_squared();
+        parts(span).min_by(|a, b| away(a.0).total_cmp(&away(b.0)))
     }
 
     /// The path as these files tell it, point for point; `None` if they tell another one.
@@ -282,7 +339,7 @@ impl Writer<'_> {
             .zip(&self.robot.followed.moves)
             .zip(&self.robot.spans);
         for ((found, before), span) in moves {
-            let next = armill_core::path::Move {
+            let next = Move {
                 pace: before.next.pace,
                 ..found.next
             };
@@ -300,14 +357,14 @@ impl Writer<'_> {
 
     fn notes(&self, wishes: &Wishes) -> Vec<String> {
         let mut notes = Vec::new();
-        for asked in wishes.targets.values() {
-            let mean = asked.iter().map(|(_, by)| by).sum::<Vector3<f64>>() / asked.len() as f64;
-            let farthest = asked.iter().map(|(_, by)| (by - mean).norm()).fold(0.0, f64::max);
+        for wish in wishes.targets.values().filter(|wish| wish.asked.len() > 1) {
+            let away = wish.asked.iter().map(|(_, alone)| (alone - wish.by).norm());
+            let farthest = away.fold(0.0, f64::max);
             if farthest > ONE_PLACE {
-                let lines: Vec<String> = asked.iter().map(|(line, _)| line.to_string()).collect();
+                let lines: Vec<String> = wish.asked.iter().map(|(line, _)| line.to_string()).collect();
                 notes.push(format!(
-                    "the moves of lines {} go to one target, which lies in the mean of what they ask for, up to {:.1} µm from it; a target for each \
-                     would do better",
+                    "the moves of lines {} go to one target, which lies up to {:.1} µm from where each would have it: a target of its own for each would do \
+                     better",
                     lines.join(", "),
                     farthest * 1e6
                 ));

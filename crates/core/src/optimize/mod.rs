@@ -2,6 +2,7 @@
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
+//! - [`nodes`]: the same by a few targets with straight moves between them.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
 //! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `lattice`: what a picture
@@ -11,11 +12,13 @@ mod chain;
 pub mod compensation;
 mod lattice;
 mod links;
+pub mod nodes;
 pub mod posture;
 mod reversals;
 mod smooth;
 
 pub use compensation::{Compensated, Compensation, compensated, left_by};
 pub use lattice::Lattice;
+pub use nodes::{Shares, fitted};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

@@ -473,6 +473,10 @@ mod tests {
             oriented(begin, start([0.0; 3])),
             oriented(end, cut([0.01, 0.0, 0.0], Course::Line)),
         ];
+        // The same orientation told twice is the same at every point, to the bit.
+        let still = [moves[0], oriented(begin, cut([0.01, 0.0, 0.0], Course::Line))];
+        let mut spins = points(FINE, &still).into_iter().map(|point| point.spin);
+        assert!(spins.all(|spin| spin == still[0].spin));
         let points = points(FINE, &moves);
         assert_eq!(points.len(), 11);
         for (index, point) in points.iter().enumerate() {
@@ -484,13 +488,6 @@ mod tests {
             assert!((found.inverse() * wanted).vector().norm() < 1e-14);
             assert_eq!(point.axis, Some(spindle(&found)));
         }
-        // The same orientation told twice is the same at every point, to the bit.
-        let still = [moves[0], oriented(begin, cut([0.01, 0.0, 0.0], Course::Line))];
-        assert!(
-            super::tests::points(FINE, &still)
-                .iter()
-                .all(|point| point.spin == still[0].spin)
-        );
     }
 
     #[test]
