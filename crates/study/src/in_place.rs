@@ -16,7 +16,7 @@ use armill_core::frame::Isometry;
 use armill_core::load::PathLoad;
 use armill_core::nalgebra::{Point3, Translation3, Vector3};
 use armill_core::optimize::{Shares, fitted, left_by};
-use armill_core::path::{Move, Sampler, Sampling, Track};
+use armill_core::path::{Move, Sampler, Sampling, Spin, Track};
 use armill_formats::robot_program::{Motion, Moved, ProgramText, RobotMove, Spelled, Target, follow};
 use serde::Serialize;
 
@@ -71,8 +71,9 @@ pub(crate) fn in_place(
     let Some(robot) = ask.source.robot() else {
         return Ok(None);
     };
-    if followed.turned.is_some() {
-        let why = "`posture.search` turns the tool otherwise than the program does";
+    let placing = &ask.track.placing;
+    if followed.turned.is_some() || placing.keeps_axis || placing.spin != Spin::Given(0.0) {
+        let why = "the study turns the tool otherwise than the program does (`posture.search`, `program.spin`, `program.tool_axis`)";
         return Ok(Some(Err(why.to_owned())));
     }
     let writer = Writer {
