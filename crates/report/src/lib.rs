@@ -12,7 +12,7 @@
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
-//! | how may the tool be turned along the path? | [`PostureLattice`] |
+//! | how may the tool be turned along the path; what lies around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
@@ -36,7 +36,6 @@ mod region;
 mod force_plot;
 mod path_plot;
 mod polar_plot;
-mod posture_lattice;
 mod process_map;
 mod track;
 mod vector_field;
@@ -50,6 +49,7 @@ pub mod html;
 #[cfg(feature = "png")]
 pub mod raster;
 
+mod cell_map;
 mod chart;
 mod colour_bar;
 mod contours;
@@ -75,6 +75,7 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
+pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
@@ -86,7 +87,6 @@ pub use marker::{Marker, MarkerKind};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialSeries};
-pub use posture_lattice::{LatticeCell, PostureLattice};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};

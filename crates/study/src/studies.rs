@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 
 use crate::error::StudyError;
-use crate::file::resolve::{Study, read};
+use crate::file::format::StudyFile;
+use crate::file::resolve::{Study, read, read_changed};
 use crate::library;
 
 /// A study as it was found.
@@ -29,6 +30,14 @@ impl FoundStudy {
     /// Every problem of the file.
     pub fn read(&self) -> Result<Study, StudyError> {
         read(&self.shown, &self.folder, &self.bytes)
+    }
+
+    /// The study with what `change` makes of its file, checked.
+    ///
+    /// # Errors
+    /// Every problem of the file.
+    pub fn read_changed(&self, change: impl FnOnce(&mut StudyFile)) -> Result<Study, StudyError> {
+        read_changed((&self.shown, &self.folder), &self.bytes, change)
     }
 }
 

@@ -18,7 +18,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::chain::{Beginning, Chain, Cheapest, MOST_STEPS, Together, Turns};
@@ -107,7 +107,7 @@ const CHUNK: usize = 256;
 /// Points of the lattice that are kept.
 const KEPT: usize = 800;
 /// Part of a deviation within the limit that still counts, so that of chains within it the better is taken.
-const WITHIN: f64 = 1e-3;
+pub(super) const WITHIN: f64 = 1e-3;
 
 /// The postures that hold the tool along `track` under `load` as `search` asks. What `question` says of cases, normal, doubt and
 /// choice is not looked at.
@@ -263,15 +263,7 @@ impl Walk<'_> {
             .collect();
         let mut cases = vec![Wrench::ZERO; self.load.case_count()];
         self.track.wrenches(self.load, index, &mut cases);
-        let normal = stop.normal.into_inner();
-        let along = match self.search.counts {
-            Counts::InPlane => {
-                let across = some_across(&normal);
-                [across, normal.cross(&across)]
-            }
-            Counts::CrossTrack => [self.track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
-            Counts::Axial => [normal, Vector3::zeros()],
-        };
+        let along = self.search.counts.along((self.track, index), stop.normal);
         let push = Push { cases: &cases, along };
         maker.fill(&poses, &push, column);
         if maker.slots_are_branches() && self.search.branches != BranchPattern::default() {
@@ -332,6 +324,26 @@ impl Walk<'_> {
             spins,
             lost: seen.lost,
             breaks: cheapest.breaks,
+        }
+    }
+}
+
+impl Counts {
+    /// Directions that the deviation counts along at point `index` of `track`, whose normal is this, base; of length 1, or 0
+    /// where one is enough.
+    pub(super) fn along(
+        self,
+        (track, index): (&Track, usize),
+        normal: Unit<Vector3<f64>>,
+    ) -> [Vector3<f64>; 2] {
+        let normal = normal.into_inner();
+        match self {
+            Counts::InPlane => {
+                let across = some_across(&normal);
+                [across, normal.cross(&across)]
+            }
+            Counts::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
+            Counts::Axial => [normal, Vector3::zeros()],
         }
     }
 }

@@ -129,7 +129,7 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
 }
 
 /// What has the largest share, and how large.
-fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
+pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
     let largest = point
         .joint_share_um
         .iter()
@@ -147,7 +147,7 @@ fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
 }
 
 /// A deviation with the digits that mean something.
-pub(super) fn micrometres(um: f64) -> String {
+pub(crate) fn micrometres(um: f64) -> String {
     if um == um.round() && um < 1e6 {
         format!("{um:.0}")
     } else if um.abs() < 10.0 {

@@ -105,6 +105,7 @@ impl Resolver<'_> {
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
             ("program", AskKind::Path, t.program.is_some()),
+            ("spin_deg", AskKind::Path, t.spin_deg.is_some()),
             ("cut", AskKind::Path, t.cut.is_some()),
             ("posture.search", AskKind::Path, search.is_some()),
         ];

@@ -6,11 +6,12 @@
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
 //! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; [`posture_search`] the turns of the tool that are tried along paths; `places` tells problems where they stand.
+//! [`positioner`]; [`posture_search`] the turns of the tool that are tried along paths, [`placement`] where a part may lie; `places` tells problems where they stand.
 
 pub mod compliance;
 pub mod format;
 pub mod path;
+pub mod placement;
 pub mod positioner;
 pub mod posture_search;
 pub mod quantities;

@@ -24,6 +24,7 @@ use super::format::{AskTable, StatementTable, StudyFile};
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::path::PathAsk;
+use super::placement::PlaceTable;
 use super::places::Places;
 use super::positioner;
 use crate::error::StudyError;
@@ -42,6 +43,8 @@ pub struct Study {
     pub own_compliance: Option<OwnCompliance>,
     /// What is asked.
     pub asks: Vec<Ask>,
+    /// Where the part may lie.
+    pub place: Option<PlaceTable>,
     /// What others state.
     pub statements: Vec<StatementTable>,
 }
@@ -170,8 +173,21 @@ impl Setting {
 ///
 /// A study without asks means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
+    read_changed((shown, folder), bytes, |_| ())
+}
+
+/// [`read`], with what `change` makes of the file before it is worked out; problems stand where the file as it is has them.
+///
+/// # Errors
+/// As of [`read`].
+pub fn read_changed(
+    (shown, folder): (&str, &Path),
+    bytes: &[u8],
+    change: impl FnOnce(&mut StudyFile),
+) -> Result<Study, StudyError> {
     let document = Document::from_bytes(shown, bytes)?;
-    let file: StudyFile = document.read()?;
+    let mut file: StudyFile = document.read()?;
+    change(&mut file);
     let mut places = Places::new(&document, None);
     let robot = find_robot(&mut places, &file, folder)?;
     let mut problems = std::mem::take(&mut places.problems);
@@ -201,6 +217,21 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
         memory::check_asks(&mut places, robot, &asks);
     }
     check_statements(&mut places, &file, &asks);
+    if let Some(place) = &file.place {
+        for (key, message, hint) in place.faults() {
+            places.problem(&format!("place.{key}"), message, hint);
+        }
+        let is_it = |ask: &Ask, name: &String| ask.name == *name && matches!(ask.subject, Subject::Path(_));
+        let all_read = asks.len() == tables.len();
+        if let Some(name) = place
+            .ask
+            .as_ref()
+            .filter(|name| all_read && !asks.iter().any(|ask| is_it(ask, name)))
+        {
+            let message = format!("the study has no path called `{name}`");
+            places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
+        }
+    }
     problems.append(&mut places.problems);
     problems.extend(unfit_names(&document, &file));
     Problems::from(without_repeats(problems)).into_result()?;
@@ -218,6 +249,7 @@ pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyErro
         own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
         robot,
         asks,
+        place: file.place,
         statements: file.statement,
     })
 }
