@@ -115,7 +115,7 @@ fn what_is_wrong_with_a_program_of_a_robot_is_told_with_what_mends_it() {
             "",
             by_number.as_str(),
             &[
-                "line 5: places count from frame 3 of the controller",
+                "line 7: places count from frame 3 of the controller",
                 "frame_mm_deg = [x, y, z",
             ][..],
         ),
