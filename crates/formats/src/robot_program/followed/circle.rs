@@ -28,7 +28,7 @@ pub(super) fn through([begin, via, end]: [Point3<f64>; 3]) -> Through {
     let n = u.cross(&v);
     // Two points that are one leave the radius open: 0/0.
     let radius = u.norm() * v.norm() * (u - v).norm() / (2.0 * n.norm());
-    if !(radius < LARGEST_RADIUS) {
+    if radius.is_nan() || radius >= LARGEST_RADIUS {
         return Through::Line;
     }
     let centre =
