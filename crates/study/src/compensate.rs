@@ -9,7 +9,7 @@
 //! | `feed_mm_per_min` | mm/min | speed towards the point; empty where the program tells none |
 //! | `rapid` | - | 1 where a rapid leads to the point |
 //!
-//! A path that a program of a robot told comes back as that program too, with its targets moved ([`in_place`](mod@in_place)).
+//! A path that a program of a robot told comes back as that program too, with its targets moved ([`crate::in_place`]).
 //!
 //! What is taken off is the elastic deviation (and what gravity adds, where the study has it) under the mean of the load
 //! cases, of a cut under its force as drawn; what the cases leave is told as the rest.
