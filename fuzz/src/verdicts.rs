@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{Course, Pace, Step};
+use armill_core::path::{Course, Pace, Step, ToldSpin};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
 use armill_formats::convention::Convention;
@@ -274,7 +274,11 @@ fn judge_step(step: Step) {
         }
     };
     assert!(next.end.iter().all(|value| value.is_finite()), "{next:?}");
-    assert!(next.spin.is_none_or(f64::is_finite), "{next:?}");
+    let spin = next.spin.map(|spin| match spin {
+        ToldSpin::Angle(angle) => angle,
+        ToldSpin::Orientation(turned) => turned.coords.sum(),
+    });
+    assert!(spin.is_none_or(f64::is_finite), "{next:?}");
     // A direction is normalised once and turned a few times.
     assert!(
         next.axis.is_none_or(|axis| (axis.norm() - 1.0).abs() < 1e-9),

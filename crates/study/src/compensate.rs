@@ -9,6 +9,8 @@
 //! | `feed_mm_per_min` | mm/min | speed towards the point; empty where the program tells none |
 //! | `rapid` | - | 1 where a rapid leads to the point |
 //!
+//! A path that a program of a robot told comes back as that program too, with its targets moved ([`crate::in_place`]).
+//!
 //! What is taken off is the elastic deviation (and what gravity adds, where the study has it) under the mean of the load
 //! cases, of a cut under its force as drawn; what the cases leave is told as the rest.
 
@@ -25,6 +27,7 @@ use serde::Serialize;
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Setting, Study, Subject};
+use crate::in_place::{InPlace, InPlaceAnswer, in_place};
 use crate::run::{Runner, passes, runner};
 
 /// What compensating the paths of a study brings.
@@ -61,6 +64,10 @@ pub struct CompensatedPath {
     pub outside_joint_limits: usize,
     /// File of the commanded path.
     pub file: String,
+    /// The program that the path came from, with its targets moved; none of another path, and where `notes` say why.
+    pub in_place: Option<InPlaceAnswer>,
+    /// What a user must know, each a sentence.
+    pub notes: Vec<String>,
 }
 
 /// Distances of the tool from the drawn path, over all points and load cases.
@@ -91,6 +98,8 @@ pub struct Commanded<'a> {
     pub csv: Vec<u8>,
     /// Before and after along the path, as SVG.
     pub picture: String,
+    /// Files of the program that the path came from, with its targets moved.
+    pub program: Vec<(String, Vec<u8>)>,
 }
 
 /// Compensates every path of the study, or the one called `name`.
@@ -103,11 +112,7 @@ pub fn compensate<'a>(
     watch: Watch<'_>,
 ) -> Result<Vec<Commanded<'a>>, StudyError> {
     let runner = runner(study, watch)?;
-    let paths = study.asks.iter().filter_map(|ask| match &ask.subject {
-        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => Some((&ask.name, &**path)),
-        _ => None,
-    });
-    let all: Vec<Commanded<'a>> = paths
+    let all: Vec<Commanded<'a>> = paths(study, name)
         .map(|(name, path)| of_path(&runner, name, path))
         .collect::<Result<_, _>>()?;
     if all.is_empty() {
@@ -126,13 +131,22 @@ pub fn compensate<'a>(
 /// Points that the progress of [`compensate`] ends at: a path is followed, and about
 /// three times more on the way to the one that is commanded.
 pub fn point_count(study: &Study, name: Option<&str>) -> usize {
-    let of = |ask: &crate::file::resolve::Ask| match &ask.subject {
-        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => {
-            (passes(path) + 3) * path.track.len()
-        }
-        _ => 0,
+    let of = |(_, path): (&str, &PathAsk)| {
+        let again = usize::from(path.source.robot().is_some());
+        (passes(path) + 3 + again) * path.track.len()
     };
-    study.asks.iter().map(of).sum()
+    paths(study, name).map(of).sum()
+}
+
+/// The paths of the study, or the one called `name`.
+pub(crate) fn paths<'a>(
+    study: &'a Study,
+    name: Option<&str>,
+) -> impl Iterator<Item = (&'a str, &'a PathAsk)> {
+    study.asks.iter().filter_map(move |ask| match &ask.subject {
+        Subject::Path(path) if name.is_none_or(|name| name == ask.name) => Some((ask.name.as_str(), &**path)),
+        _ => None,
+    })
 }
 
 fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Commanded<'a>, StudyError> {
@@ -147,6 +161,18 @@ fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Comm
         Compensation::USUAL,
         runner.watch,
     )?;
+    let rewritten = in_place(runner, ask, (&followed, &load), &found.track)?;
+    let (in_place, notes) = match rewritten {
+        None => (None, Vec::new()),
+        Some(Ok(written)) => (Some(written), Vec::new()),
+        Some(Err(why)) => (
+            None,
+            vec![format!(
+                "{}: the program itself is not written again: {why}",
+                ask.shown()
+            )],
+        ),
+    };
     let before = &followed.along.answers;
     let file = format!("{}.commanded.csv", crate::output::slug(name));
     let correction = |index: usize| {
@@ -170,19 +196,27 @@ fn of_path<'a>(runner: &Runner<'_>, name: &str, ask: &'a PathAsk) -> Result<Comm
             .filter(|(_, held)| !held.within_limits())
             .count(),
         file,
+        in_place: in_place.as_ref().map(|written| written.told.clone()),
+        notes,
     };
     Ok(Commanded {
-        picture: picture(name, drawn, (&before.deviations, before.case_count), &found),
+        picture: picture(
+            name,
+            drawn,
+            (&before.deviations, before.case_count),
+            (&found, in_place.as_ref()),
+        ),
         csv: csv::write(&table(name, &found.track)?),
         setting: &ask.setting,
         path: (found.track, found.along.answers),
         told,
+        program: in_place.map_or_else(Vec::new, |written| written.files),
     })
 }
 
 impl ErrorAnswer {
     /// Of these distances from the path, m, base, so many a point.
-    fn of(track: &Track, errors: &[Vector3<f64>], cases: usize) -> ErrorAnswer {
+    pub(crate) fn of(track: &Track, errors: &[Vector3<f64>], cases: usize) -> ErrorAnswer {
         let parts = |at: usize| track.parts(at / cases, &errors[at]);
         let largest = |of: &dyn Fn(Parts) -> f64| {
             let sizes = (0..errors.len()).map(|at| of(parts(at)).abs());
@@ -261,7 +295,7 @@ fn picture(
     name: &str,
     drawn: &Track,
     (before, cases): (&[Vector3<f64>], usize),
-    found: &Compensated,
+    (found, in_place): (&Compensated, Option<&InPlace>),
 ) -> String {
     let points = &drawn.path.points;
     let handful = points.len().div_ceil(MOST_POINTS).max(1);
@@ -278,16 +312,20 @@ fn picture(
             .collect(),
     };
     let after = found.along.answers.case_count;
+    let mut all = vec![
+        series("as drawn", before, cases),
+        series("compensated", &found.residual, after),
+    ];
+    all.extend(
+        in_place.map(|written| series("compensated in the program's own moves", &written.residual, after)),
+    );
     PathPlot {
         title: format!("{name}: compensated"),
         subtitle: "how far the tool goes from the drawn path, as predicted; the largest of the load cases"
             .to_owned(),
         position_label: "along the path (mm)".to_owned(),
         quantity: "distance from the drawn path (µm)".to_owned(),
-        series: vec![
-            series("as drawn", before, cases),
-            series("compensated", &found.residual, after),
-        ],
+        series: all,
         envelope: None,
         limit_um: None,
     }

@@ -19,6 +19,7 @@ pub mod error;
 pub mod file;
 pub mod forces;
 pub mod identify;
+pub mod in_place;
 pub mod joint_unit;
 pub mod library;
 pub mod materials;

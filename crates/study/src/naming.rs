@@ -22,6 +22,14 @@ pub fn base_from_counted(robot: &Robot, name: &str) -> Result<Isometry, String> 
     })
 }
 
+/// Name of the frame that a controller counts from, where that is not `base_link`.
+const CONTROLLER: &str = "controller";
+
+/// Where the controller of this robot counts from, in base.
+pub(crate) fn base_from_controller(robot: &Robot) -> Isometry {
+    base_from_counted(robot, CONTROLLER).unwrap_or_else(|_| Isometry::identity())
+}
+
 /// The posture that `words` ask for: a branch completed by the nominal one, `nominal`, or `best`.
 ///
 /// # Errors

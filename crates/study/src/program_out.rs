@@ -5,7 +5,8 @@
 //! ```
 //!
 //! once for each stretch that is cut without a rapid. Targets count from the frame of the path, so that a part that lies
-//! elsewhere needs its frame taught, not the program made anew; compensation holds where it was worked out alone.
+//! elsewhere needs its frame taught, not the program made anew; compensation holds where it was worked out alone. That frame
+//! is told from where the controller counts (frame `controller` of the robot file, else `base_link`).
 //! Rapids of the program that the path came from are not followed: the arm goes up along the tool and over by its joints.
 
 use std::f64::consts::TAU;
@@ -20,6 +21,7 @@ use armill_formats::robot_program::{Draft, DraftPoint, Language, Written, write}
 
 use crate::error::StudyError;
 use crate::file::resolve::{Setting, Study};
+use crate::naming::base_from_controller;
 
 /// How the program is to be.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,7 +75,7 @@ pub fn program(
             format!("armill {}: {}", env!("CARGO_PKG_VERSION"), study.title),
             format!("robot {}", study.robot.robot.name()),
         ],
-        base_from_frame: track.placing.base_from_path,
+        base_from_frame: base_from_controller(&study.robot.robot).inverse() * track.placing.base_from_path,
         frame_number: wanted.frame_number,
         flange_from_tool: setting.flange_from_tool,
         tool_number: wanted.tool_number,

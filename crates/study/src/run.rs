@@ -187,7 +187,8 @@ fn nothing_cut(ask: &PathAsk, stock: &Stock) -> StudyError {
 
 /// The robot of the study, and who watches.
 pub(crate) struct Runner<'a> {
-    robot: &'a Robot,
+    /// The arm.
+    pub robot: &'a Robot,
     compliance: &'a [JointCompliance],
     /// Who hears of the work.
     pub watch: Watch<'a>,

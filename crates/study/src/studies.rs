@@ -2,7 +2,10 @@
 //!
 //! A folder means the `study.toml` in it. What is on disk comes before an example of the same name.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
+
+use armill_formats::toolpath::format::{Format, HEAD_BYTES};
 
 use crate::error::StudyError;
 use crate::file::format::StudyFile;
@@ -52,11 +55,48 @@ pub fn find(given: &Path) -> Result<FoundStudy, StudyError> {
     if !file.exists() {
         return example(given, &shown);
     }
+    refuse_program(&file)?;
     let bytes = std::fs::read(&file).map_err(|error| {
         StudyError::value(format!("cannot read {shown}: {error}"), "give a readable file")
     })?;
     let folder = file.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);
     Ok(FoundStudy { shown, folder, bytes })
+}
+
+/// A study that runs; FILE is filled in.
+const SMALLEST: &str = r#"a program tells neither its robot nor what pushes on the tool. Write a study.toml beside it, such as
+
+    format = 1
+    robot = "yaskawa/mh12"            # `armill robots` lists them
+    limit_um = 100
+    tool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }
+    plane = { centre_mm = [1000, 0, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+    load = { frame = "feed", cases_n = [[-60, 40, 25]] }
+    [[ask]]
+    kind = "path"
+    program = { file = "FILE" }
+
+  and name its folder here."#;
+
+/// Tells that a program was given where a study belongs.
+fn refuse_program(file: &Path) -> Result<(), StudyError> {
+    let is_study = file.extension().is_some_and(|ending| ending == "toml");
+    let mut head = Vec::new();
+    let opened = std::fs::File::open(file).map(|file| file.take(HEAD_BYTES));
+    let read = opened.and_then(|mut begin| begin.read_to_end(&mut head));
+    if is_study || read.is_err() {
+        return Ok(());
+    }
+    let what = match Format::of(file, &String::from_utf8_lossy(&head)) {
+        Ok(Format::Robot(language)) => format!("a program of a robot ({})", language.title()),
+        Ok(_) => "a tool path".to_owned(),
+        Err(_) => return Ok(()),
+    };
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    Err(StudyError::value(
+        format!("{} is {what}, not a study", file.display()),
+        SMALLEST.replace("FILE", &name),
+    ))
 }
 
 /// The example `given`, with or without its folder `studies`.

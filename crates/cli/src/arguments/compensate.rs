@@ -1,4 +1,6 @@
 //! `armill compensate STUDY`: the paths that must be commanded so that the tool goes where it is drawn.
+//!
+//! A program of a robot alone lacks robot, tool and load: it is compensated through a study that follows it.
 
 use std::path::PathBuf;
 
@@ -11,6 +13,8 @@ Examples:
   armill compensate cell --ask ring --out fixed
   armill compensate cell --ask ring --program ring.src --frame 3 --tool 2
 The ending of --program is the language: .src KUKA, .mod ABB, .jbi Yaskawa, .ls FANUC, .script UR, .pjx Staubli.
+A path that follows a program of a robot (program = { file = \"part.src\" }) brings that program too, under its own name, with
+its targets moved and every other byte as it was. A program alone tells no robot and no load: put it into a study.
 The table NAME.commanded.csv is a path that `program.file` of a study reads, with spin = \"given\".")]
 pub(crate) struct CompensateArguments {
     /// Folder with a study.toml, the file itself, or the name of an example study

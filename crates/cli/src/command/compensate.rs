@@ -7,7 +7,8 @@ use std::path::PathBuf;
 
 use armill_formats::file::{create_folder, write_atomically};
 use armill_formats::robot_program::Language;
-use armill_study::compensate::{CompensationAnswer, compensate};
+use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
+use armill_study::in_place::check_folder;
 use armill_study::program_out::{ProgramWanted, program};
 use armill_study::{StudyError, output, studies};
 
@@ -28,6 +29,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         .out
         .clone()
         .unwrap_or_else(|| found.folder.join("compensated"));
+    check_folder(&study, arguments.ask.as_deref(), &out)?;
     output::prepare(&out)?;
     let progress = Progress::new(armill_study::compensate::point_count(
         &study,
@@ -38,6 +40,9 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         write_atomically(out.join(&one.told.file), &one.csv)?;
         let picture = one.told.file.replace(".commanded.csv", "-compensated.svg");
         write_atomically(out.join(picture), one.picture.as_bytes())?;
+        for (name, bytes) in &one.program {
+            write_atomically(out.join(name), bytes)?;
+        }
     }
     if let Some((folder, wanted)) = &wanted {
         let [one] = &commanded[..] else {
@@ -80,11 +85,7 @@ fn wanted(arguments: &CompensateArguments) -> Result<Option<(PathBuf, ProgramWan
         .extension()
         .and_then(|ending| ending.to_str())
         .map(str::to_lowercase);
-    let language = Language::ALL.into_iter().find(|language| {
-        ending
-            .as_deref()
-            .is_some_and(|ending| language.endings().contains(&ending))
-    });
+    let language = ending.as_deref().and_then(Language::of_ending);
     let language = language.ok_or_else(|| {
         let message = format!(
             "--program: the ending of {} is that of no language",
@@ -121,6 +122,26 @@ fn wanted(arguments: &CompensateArguments) -> Result<Option<(PathBuf, ProgramWan
     Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), wanted)))
 }
 
+/// What came of the program that a path came from.
+fn in_place(path: &CompensatedPath) -> Vec<String> {
+    let written = path.in_place.iter().map(|told| {
+        format!(
+            "{}: {} written with {} targets moved: in its own moves {:.2} µm ({:.2} µm rms)",
+            path.name,
+            told.files.join(", "),
+            told.moved_targets,
+            told.after.max_um,
+            told.after.rms_um
+        )
+    });
+    let notes = path
+        .in_place
+        .iter()
+        .flat_map(|told| &told.notes)
+        .chain(&path.notes);
+    written.chain(notes.map(|note| format!("note: {note}"))).collect()
+}
+
 fn as_text(answer: &CompensationAnswer) -> String {
     let mut lines: Vec<String> = answer
         .paths
@@ -142,6 +163,7 @@ fn as_text(answer: &CompensationAnswer) -> String {
             path.name, path.unreached, path.points, path.outside_joint_limits
         ));
     }
+    lines.extend(answer.paths.iter().flat_map(in_place));
     lines.push("Elastic deviation alone, as predicted: backlash and calibration are not in it.".to_owned());
     if answer.compliance_assumed {
         lines.push(

@@ -105,7 +105,7 @@ fn turns_that_are_searched_for_are_part_of_the_path() {
 
 #[test]
 fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
-    use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
+    use armill_formats::robot_program::{Frame, Motion, ProgramText, Speed, Target, read};
     let cell = cell("file = \"ring.ngc\", limits = false", "");
     // Two cuts with a rapid between them.
     cell.file(
@@ -129,6 +129,11 @@ fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
             .unwrap();
         let text = ProgramText::new(&name.display().to_string(), &std::fs::read(&name).unwrap());
         let program = read(vec![text]).unwrap();
+        // The zero lies at 500 mm above the floor, and the controller counts from 450 mm.
+        if let Frame::Told(frame) = program.moves[program.moves.len() - 1].frame {
+            let z = frame.translation.vector.z;
+            assert!((z - 0.05).abs() < 1e-9 || z.abs() < 1e-12, "{ending}: {z}");
+        }
         let linear: Vec<_> = program
             .moves
             .iter()
@@ -175,6 +180,142 @@ fn a_program_of_the_robot_goes_along_the_commanded_path_and_up_between_cuts() {
         "5000",
     ])
     .refused(&["the arm cannot go 5000 mm up from here"]);
+}
+
+/// A cut in the language of KUKA; the controller of the arm counts from 450 mm above the floor.
+const KRL: &str = "&ACCESS RVP\r\nDEF part ( ) ; \u{fc}ber\r\n$BASE={X 1000,Y 0,Z 50,A 0,B 0,C 0}\r\n$TOOL={X 0,Y 0,Z 150,A 0,B 0,C 0}\r\n\
+    PTP {X -40,Y -40,Z 0,A 0,B 180,C 0,S 2,T 35}\r\n$VEL.CP=0.01\r\nLIN {X 40,Y -40,Z 0,A 0,B 180,C 0} C_DIS ; side\r\n\
+    CIRC {X 60,Y 0,Z 0,A 0,B 180,C 0},{X 40,Y 40,Z 0,A 0,B 180,C 0}\r\nLIN {X -40,Y 40,Z 0,A 0,B 180,C 0}\r\n\
+    LIN {X -40,Y -40,Z 0,A 0,B 180,C 0}\r\nPTP {X -40,Y -40,Z 60,A 0,B 180,C 0,S 2,T 35}\r\nEND\r\n";
+
+#[test]
+fn a_program_of_a_robot_comes_back_with_its_targets_moved_and_nothing_else() {
+    use armill_formats::robot_program::{ProgramText, read};
+    let cell = cell("file = \"part.src\", limits = false", "");
+    cell.file("part.src", KRL);
+    // A force that stays as it is: only what the posture changes is left between the targets.
+    let study = std::fs::read_to_string(cell.at("study.toml")).unwrap();
+    cell.file("study.toml", study.replace("frame = \"feed\"\n", ""));
+    let told = cell
+        .armill(&["compensate", "study.toml", "--json", "--out", "c"])
+        .fine()
+        .json();
+    let path = &told["paths"][0];
+    let of = |key: &str| number(&path[key]["max_um"]);
+    let placed = number(&path["in_place"]["after"]["max_um"]);
+    assert!(of("before") > 500.0 && of("after") < 0.01, "{path}");
+    // 80 mm of way change the compliance by some percent.
+    assert!(placed < 0.03 * of("before"), "{placed} um");
+    assert_eq!(path["in_place"]["moved_targets"], 6);
+    let written = std::fs::read_to_string(cell.at("c/part.src")).unwrap();
+    let places = |text: &str| {
+        let program = read(vec![ProgramText::new("part.src", text.as_bytes())]).unwrap();
+        let poses = program
+            .moves
+            .iter()
+            .map(|of| of.target.pose().unwrap().translation.vector);
+        poses.collect::<Vec<_>>()
+    };
+    let (before, after) = (places(KRL), places(&written));
+    let moved: Vec<f64> = before
+        .iter()
+        .zip(&after)
+        .map(|(a, b)| (a - b).norm() * 1e6)
+        .collect();
+    // The place above the part cuts nothing and stays; all others move by about what the arm yields.
+    assert_eq!(moved[5], 0.0);
+    assert!(
+        moved[..5].iter().all(|by| (by / of("before") - 1.0).abs() < 0.2),
+        "{moved:?}"
+    );
+    // Without the numbers of places it is the same text, byte for byte.
+    let rest = |text: &str| -> String {
+        let mut out = String::new();
+        let mut rest = text;
+        while let Some(at) = rest.find(['X', 'Y', 'Z']) {
+            let (head, tail) = rest.split_at(at + 1);
+            out.push_str(head);
+            rest = tail.trim_start_matches(|c: char| " -.0123456789".contains(c));
+        }
+        out + rest
+    };
+    assert_eq!(rest(KRL), rest(&written));
+    assert_ne!(KRL, written);
+    // The program that was written, run as it stands, deviates onto the drawn one: as was told.
+    cell.file(
+        "again.toml",
+        study
+            .replace("frame = \"feed\"\n", "")
+            .replace("part.src", "c/part.src"),
+    );
+    cell.armill(&["run", "study.toml", "--no-pictures", "--out", "drawn"])
+        .fine();
+    cell.armill(&["run", "again.toml", "--no-pictures", "--out", "again"])
+        .fine();
+    let table = |folder: &str| {
+        let text = std::fs::read_to_string(cell.at(&format!("{folder}/ring.csv"))).unwrap();
+        let names: Vec<String> = text
+            .lines()
+            .next()
+            .unwrap()
+            .split(',')
+            .map(str::to_owned)
+            .collect();
+        let at = |row: &str, name: &str| -> f64 {
+            let cells: Vec<&str> = row.split(',').collect();
+            cells[names.iter().position(|known| known == name).unwrap()]
+                .parse()
+                .unwrap()
+        };
+        let place = |row: &str| {
+            ["x", "y", "z"].map(|axis| {
+                at(row, &format!("{axis}_mm")) * 1e3 + at(row, &format!("deviation_{axis}_case_1_um"))
+            })
+        };
+        let first = text.lines().nth(1).unwrap();
+        (
+            place(first),
+            ["x_mm", "y_mm", "z_mm"].map(|name| at(first, name) * 1e3),
+        )
+    };
+    let ((stands, _), (_, drawn)) = (table("again"), table("drawn"));
+    let apart: f64 = stands
+        .iter()
+        .zip(drawn)
+        .map(|(a, b)| (a - b).powi(2))
+        .sum::<f64>()
+        .sqrt();
+    assert!(apart <= placed + 1.0, "{apart} um, {placed} um told");
+    // Over itself it is not written.
+    cell.armill(&["compensate", "study.toml", "--out", "."])
+        .refused(&["part.src is the program that was read"]);
+}
+
+#[test]
+fn what_keeps_a_program_from_being_written_in_place_is_said() {
+    let cell = cell("file = \"part.src\", limits = false", "");
+    cell.file(
+        "part.src",
+        KRL.replace("LIN {X -40,Y 40,Z 0,A 0,B 180,C 0}", "LIN_REL {X -80}"),
+    );
+    let said = cell.armill(&["compensate", "study.toml"]).fine();
+    // A step from a target that moves is written as a place of its own.
+    assert!(said.out.contains("part.src written with"), "{}", said.out);
+    let search = "posture = { search = { turns_deg = [0, 10], step_deg = 10 } }\n";
+    let study = std::fs::read_to_string(cell.at("study.toml")).unwrap();
+    cell.file("study.toml", format!("{study}{search}"));
+    let said = cell.armill(&["compensate", "study.toml", "--out", "s"]).fine();
+    assert!(
+        said.out
+            .contains("the program itself is not written again: the study turns the tool"),
+        "{}",
+        said.out
+    );
+    assert!(!cell.at("s/part.src").exists());
+    cell.armill(&["compensate", "part.src"]).refused(&[
+        "part.src is a program of a robot (KUKA KRL), not a study",
+        "program = { file = \"part.src\" }",
+    ]);
 }
 
 #[test]

@@ -109,6 +109,26 @@ pub fn compensated(
     })
 }
 
+/// What is left where another path is commanded in place of the drawn one: along it, and the deviation from the drawn
+/// path, as [`Compensated::residual`].
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+///
+/// # Panics
+/// If the two differ in their number of points, or the load does not [cover](PathLoad::covers) them.
+pub fn left_by(
+    question: &Question<'_>,
+    (drawn, commanded): (&Track, &Track),
+    (load, choices): (&PathLoad, &[(usize, BranchChoice)]),
+    watch: Watch<'_>,
+) -> Result<(AlongPath, Vec<Vector3<f64>>), Cancelled> {
+    assert_eq!(drawn.len(), commanded.len(), "a command for each point");
+    let along = along_postures(question, (commanded, as_drawn(load)), choices.to_vec(), watch)?;
+    let residual = residual(drawn, commanded, &along.answers);
+    Ok((along, residual))
+}
+
 /// Deviation from the drawn path, m, base: what the tool deviates by, and what the command was moved by.
 fn residual(drawn: &Track, commanded: &Track, answers: &Answers) -> Vec<Vector3<f64>> {
     let mut residual = vec![Vector3::zeros(); answers.deviations.len()];

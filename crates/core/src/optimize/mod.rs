@@ -3,6 +3,7 @@
 //! - [`posture`]: turn of the tool and branch along a path.
 //! - [`placement`]: what a place of the part is worth.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
+//! - [`nodes`]: the same by a few targets with straight moves between them.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
 //! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `lattice`: what a picture
@@ -13,14 +14,16 @@ mod chain;
 pub mod compensation;
 mod lattice;
 mod links;
+pub mod nodes;
 pub mod placement;
 pub mod posture;
 mod reversals;
 mod smooth;
 mod sureness;
 
-pub use compensation::{Compensated, Compensation, compensated};
+pub use compensation::{Compensated, Compensation, compensated, left_by};
 pub use lattice::Lattice;
+pub use nodes::{Shares, fitted};
 pub use placement::{Appraisal, Holding, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

@@ -20,7 +20,7 @@ use super::sureness::{Sure, one_off};
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
 use crate::load::{LoadFrame, PathLoad};
-use crate::path::{Spin, Track};
+use crate::path::{Spin, ToldSpin, Track};
 use crate::robot::{Branch, BranchPattern, JointCompliance};
 use crate::source::Arm;
 use crate::spatial::Wrench;
@@ -132,7 +132,7 @@ pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[us
 /// How a tool is turned about its axis where its part is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolTurn {
-    /// As the part is: along the feed, and where no axis is that of all points.
+    /// As the part is: along the feed, where whole orientations are told, and where no axis is that of all points.
     WithPart,
     /// As [`tool_orientation`] has it in base, and by this angle (rad) more.
     InBase {
@@ -154,7 +154,12 @@ impl ToolTurn {
         // Under one axis all points turn alike: what holds of the first holds of all.
         let spin = first.and_then(|first| match track.placing.spin {
             Spin::Fixed(angle) => Some(angle),
-            Spin::Given(angle) => Some(angle + first.spin.unwrap_or(0.0)),
+            Spin::Given(angle) => match first.spin {
+                Some(ToldSpin::Angle(told)) => Some(angle + told),
+                // A whole orientation is told on the part.
+                Some(ToldSpin::Orientation(_)) => None,
+                None => Some(angle),
+            },
             Spin::AlongFeed(_) => None,
         });
         match spin {

@@ -30,7 +30,7 @@ pub use cutting::{Cutting, CuttingForces, ForcesTold, Met, NoForces};
 pub use drilled::Drill;
 pub use feature::{Became, FeatureKind, Strayed, became};
 pub use placing::{Placing, Spin};
-pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step};
+pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step, ToldSpin};
 pub use roundness::{Roundness, roundness};
 pub use sampled::{PathBuilder, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};

@@ -10,6 +10,7 @@
 
 use nalgebra::{Isometry3, Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
 
+use super::program::ToldSpin;
 use super::sampler::PathPoint;
 use crate::frame::{Isometry, tool_orientation};
 use crate::load::Advance;
@@ -22,8 +23,8 @@ pub enum Spin {
     Fixed(f64),
     /// By this angle (rad) from x of the tool along the feed.
     AlongFeed(f64),
-    /// By what the program tells at each point, and this angle (rad) more, from where [`tool_orientation`] has it; by this
-    /// angle alone where the program tells nothing.
+    /// By what the program tells at each point, and this angle (rad) more: from where [`tool_orientation`] has it, or from
+    /// the whole orientation that is told; by this angle alone where the program tells nothing.
     Given(f64),
 }
 
@@ -69,7 +70,11 @@ impl Placing {
         let axis = -self.spindle(point);
         let rotation = match self.spin {
             Spin::Fixed(angle) => tool_orientation(axis, angle),
-            Spin::Given(angle) => tool_orientation(axis, angle + point.spin.unwrap_or(0.0)),
+            Spin::Given(angle) => match point.spin {
+                Some(ToldSpin::Orientation(told)) => self.oriented(&told, axis, angle),
+                Some(ToldSpin::Angle(told)) => tool_orientation(axis, angle + told),
+                None => tool_orientation(axis, angle),
+            },
             Spin::AlongFeed(angle) => {
                 let tool = axis.into_inner();
                 let x = self.across(point).unwrap_or_else(|| self.unspun_x(point));
@@ -80,6 +85,23 @@ impl Placing {
         };
         let tip = self.base_from_path * point.at;
         Isometry3::from_parts(tip.coords.into(), rotation)
+    }
+
+    /// The orientation `path_from_tool` in base, turned about the tool by `angle`; the shorter way over where the tool is held
+    /// along another axis than that tells.
+    fn oriented(
+        &self,
+        path_from_tool: &UnitQuaternion<f64>,
+        axis: Unit<Vector3<f64>>,
+        angle: f64,
+    ) -> UnitQuaternion<f64> {
+        let told = self.base_from_path.rotation * path_from_tool;
+        let held = match self.keeps_axis {
+            false => Some(told),
+            true => UnitQuaternion::rotation_between(&(told * Vector3::z()), &axis).map(|over| over * told),
+        };
+        let about_axis = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+        held.map_or_else(|| tool_orientation(axis, angle), |held| held * about_axis)
     }
 
     /// Axes of the feed frame at `point`, in base.
@@ -205,9 +227,37 @@ mod tests {
     }
 
     #[test]
+    fn a_whole_orientation_is_that_of_the_tool_in_the_cell() {
+        let told = UnitQuaternion::from_euler_angles(2.0, -0.4, 1.0);
+        let axis = -(told * Vector3::z());
+        let point = PathPoint {
+            spin: Some(ToldSpin::Orientation(told)),
+            ..point(Vector3::x(), Some(axis))
+        };
+        let given = placing(Spin::Given(0.0));
+        let apart =
+            |one: UnitQuaternion<f64>, other: UnitQuaternion<f64>| (one.inverse() * other).vector().norm();
+        let pose = given.base_from_tool(&point);
+        assert!(apart(pose.rotation, given.base_from_path.rotation * told) < 1e-15);
+        assert!((pose * Vector3::z() + given.spindle(&point).into_inner()).norm() < 1e-14);
+        let more = placing(Spin::Given(0.7)).base_from_tool(&point);
+        let turned = pose.rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.7);
+        assert!(apart(more.rotation, turned) < 1e-14);
+        // Held upright it comes there the shorter way: by the angle between the axes, and no farther.
+        let upright = Placing {
+            keeps_axis: true,
+            ..given
+        };
+        let held = upright.base_from_tool(&point);
+        assert!((held * Vector3::z() + upright.spindle(&point).into_inner()).norm() < 1e-14);
+        let way = held.rotation.angle_to(&pose.rotation);
+        assert!((way - axis.angle(&Vector3::z())).abs() < 1e-12);
+    }
+
+    #[test]
     fn a_given_spin_is_added_to_the_fixed_one() {
         let told = PathPoint {
-            spin: Some(0.3),
+            spin: Some(ToldSpin::Angle(0.3)),
             ..point(Vector3::x(), Some(Vector3::new(0.2, 0.1, 1.0)))
         };
         let given = placing(Spin::Given(0.4)).base_from_tool(&told);

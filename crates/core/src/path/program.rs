@@ -3,7 +3,7 @@
 //! Readers give [`Step`]s one by one, so a program of any length can be followed without room for all of it. All in the
 //! frame of the path: the workpiece zero that the program counts from. m, rad, s.
 
-use nalgebra::{Point3, Unit, Vector3};
+use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
 
 /// What a program tells next.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,15 +49,23 @@ pub struct Move {
     pub end: Point3<f64>,
     /// The tool at its end, from the tip towards the spindle; `None` where the program says nothing of it.
     pub axis: Option<Unit<Vector3<f64>>>,
-    /// How the tool is turned about its axis at its end, rad, by the right hand about the direction from spindle to tip;
-    /// `None` where the program says nothing of it.
-    pub spin: Option<f64>,
+    /// How the tool is turned about its axis at its end; `None` where the program says nothing of it.
+    pub spin: Option<ToldSpin>,
     /// What it follows.
     pub course: Course,
     /// How fast.
     pub pace: Pace,
     /// Its line in the program, from 1.
     pub line: u32,
+}
+
+/// How a program tells the turn of the tool about its axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToldSpin {
+    /// By this angle from spin zero, rad, by the right hand about the direction from spindle to tip.
+    Angle(f64),
+    /// With the whole orientation, path to tool: its z is the direction from spindle to tip.
+    Orientation(UnitQuaternion<f64>),
 }
 
 /// What a move follows from the end of the one before.

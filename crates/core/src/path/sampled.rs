@@ -103,6 +103,11 @@ impl PathBuilder {
         }
     }
 
+    /// How many points there are so far.
+    pub fn point_count(&self) -> usize {
+        self.path.points.len()
+    }
+
     /// Takes the next step of the program.
     pub fn take(&mut self, step: Step) {
         let next = match step {

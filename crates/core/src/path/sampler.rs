@@ -2,12 +2,14 @@
 //!
 //! A chord over the angle `phi` of a circle of radius `r` leaves it by `r (1 - cos(phi / 2))`; pieces of a move are
 //! equal. The tool axis turns evenly from the one of the move before to its own; so does the spin, the shorter way round.
+//! Where whole orientations are told the tool turns evenly about one axis, `R(t) = R_0 exp(t log(R_0^-1 R_1))`, as
+//! controllers of robots do: spins alone would jump where the tool passes the direction that they have no zero in.
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Point3, Rotation3, Unit, Vector3};
+use nalgebra::{Point3, Rotation3, Unit, UnitQuaternion, Vector3};
 
-use super::program::{Arc, Course, Move, Pace};
+use super::program::{Arc, Course, Move, Pace, ToldSpin};
 
 /// How finely moves are cut into points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,8 +27,8 @@ pub struct PathPoint {
     pub at: Point3<f64>,
     /// The tool, from the tip towards the spindle, if the program tells it.
     pub axis: Option<Unit<Vector3<f64>>>,
-    /// How the tool is turned about its axis, rad, if the program tells it.
-    pub spin: Option<f64>,
+    /// How the tool is turned about its axis, if the program tells it.
+    pub spin: Option<ToldSpin>,
     /// Where the tip is going.
     pub direction: Unit<Vector3<f64>>,
     /// Distance along all cutting moves before, m.
@@ -50,7 +52,7 @@ pub struct Sampler {
 struct Stands {
     at: Point3<f64>,
     axis: Option<Unit<Vector3<f64>>>,
-    spin: Option<f64>,
+    spin: Option<ToldSpin>,
     /// Whether the last move was a cut that ended here: its end is a point already.
     cutting: bool,
 }
@@ -79,23 +81,45 @@ impl Sampler {
 
     /// Gives `out` the points of the next move: of a cut its start, where no cut led there, and then one at the end of
     /// each piece; of a rapid nothing. The first move of a program says where the tip stands and has no points.
-    pub fn points(&mut self, next: &Move, mut out: impl FnMut(PathPoint)) {
+    pub fn points(&mut self, next: &Move, out: impl FnMut(PathPoint)) {
+        let sampling = self.sampling;
+        self.cut(next, |way| way.pieces(&sampling), out);
+    }
+
+    /// As [`Sampler::points`], a cut in so many pieces: those that it had before its ends were moved by a hair.
+    pub fn points_in(&mut self, next: &Move, pieces: usize, out: impl FnMut(PathPoint)) {
+        self.cut(next, |_| pieces, out);
+    }
+
+    fn cut(&mut self, next: &Move, pieces: impl Fn(&Way) -> usize, mut out: impl FnMut(PathPoint)) {
         let axis = next.axis.or(self.stands.and_then(|stands| stands.axis));
         let spin = next.spin.or(self.stands.and_then(|stands| stands.spin));
         if let Some(from) = self.stands.filter(|_| next.pace.cuts()) {
             let way = Way::of(&from, next, axis);
-            let pieces = way.pieces(&self.sampling);
+            let pieces = if way.length > 0.0 { pieces(&way) } else { 0 };
             if pieces == 0 {
-                // A move to where the tip stands: nothing is cut, and no direction is told.
-                self.stands = Some(Stands { axis, spin, ..from });
+                // A move to where the tip stands: nothing is cut, and no direction is told. A tool that is turned there
+                // stands otherwise than the cut before has left it, so that the next cut has a start of its own.
+                let turned = matches!(spin, Some(ToldSpin::Orientation(_))) && spin != from.spin;
+                let cutting = from.cutting && !turned;
+                self.stands = Some(Stands {
+                    axis,
+                    spin,
+                    cutting,
+                    ..from
+                });
                 return;
             }
             for piece in usize::from(from.cutting)..=pieces {
                 let part = piece as f64 / pieces as f64;
+                let spin = spin.map(|spin| spun(from.spin, spin, part));
                 out(PathPoint {
                     at: way.at(part),
-                    axis: way.axis(part),
-                    spin: spin.map(|spin| spun(from.spin, spin, part)),
+                    axis: match spin {
+                        Some(ToldSpin::Orientation(turned)) => Some(spindle(&turned)),
+                        Some(ToldSpin::Angle(_)) | None => way.axis(part),
+                    },
+                    spin,
                     direction: way.direction(part),
                     along: self.along + way.length * part,
                     pace: next.pace,
@@ -113,10 +137,24 @@ impl Sampler {
     }
 }
 
-/// The spin on the way from the one before to `to`, the shorter way round, rad.
-fn spun(from: Option<f64>, to: f64, part: f64) -> f64 {
-    let by = to - from.unwrap_or(to);
-    to - (by - TAU * (by / TAU).round()) * (1.0 - part)
+/// The spin on the way from the one before to `to`, the shorter way round; as `to` all the way where both are told
+/// otherwise.
+fn spun(from: Option<ToldSpin>, to: ToldSpin, part: f64) -> ToldSpin {
+    match (from, to) {
+        (Some(ToldSpin::Angle(from)), ToldSpin::Angle(to)) => {
+            let by = to - from;
+            ToldSpin::Angle(to - (by - TAU * (by / TAU).round()) * (1.0 - part))
+        }
+        (Some(ToldSpin::Orientation(from)), ToldSpin::Orientation(to)) if part < 1.0 && from != to => {
+            ToldSpin::Orientation(from.try_slerp(&to, part, f64::MIN_POSITIVE).unwrap_or(to))
+        }
+        _ => to,
+    }
+}
+
+/// From the tip towards the spindle, of a tool of this orientation.
+fn spindle(path_from_tool: &UnitQuaternion<f64>) -> Unit<Vector3<f64>> {
+    -(path_from_tool * Vector3::z_axis())
 }
 
 /// One move, laid out.
@@ -387,7 +425,7 @@ mod tests {
     #[test]
     fn the_spin_turns_evenly_the_shorter_way_and_stays_where_nothing_is_told() {
         let spun = |deg: Option<f64>, at: Move| Move {
-            spin: deg.map(f64::to_radians),
+            spin: deg.map(|deg| ToldSpin::Angle(deg.to_radians())),
             ..at
         };
         let moves = [
@@ -401,7 +439,10 @@ mod tests {
         };
         let told: Vec<f64> = points(sampling, &moves)
             .iter()
-            .map(|point| point.spin.unwrap().to_degrees())
+            .map(|point| match point.spin {
+                Some(ToldSpin::Angle(spin)) => spin.to_degrees(),
+                other => panic!("{other:?}"),
+            })
             .collect();
         // From 350 deg on to 370 deg, told as 10.
         let expected = [-10.0, -5.0, 0.0, 5.0, 10.0, 10.0];
@@ -411,6 +452,82 @@ mod tests {
         }
         let silent = [start([0.0; 3]), cut([4e-3, 0.0, 0.0], Course::Line)];
         assert!(points(sampling, &silent).iter().all(|point| point.spin.is_none()));
+    }
+
+    /// The tool in this orientation.
+    fn oriented(orientation: UnitQuaternion<f64>, at: Move) -> Move {
+        Move {
+            axis: Some(spindle(&orientation)),
+            spin: Some(ToldSpin::Orientation(orientation)),
+            ..at
+        }
+    }
+
+    #[test]
+    fn whole_orientations_turn_evenly_about_one_axis_through_the_direction_that_spins_have_no_zero_in() {
+        // The tool swings through base y, where spin zero jumps by half a turn.
+        let begin = UnitQuaternion::from_euler_angles(-1.4, 0.0, 0.3);
+        let by = Vector3::new(-0.35, 0.1, 0.4);
+        let end = begin * UnitQuaternion::from_scaled_axis(by);
+        let moves = [
+            oriented(begin, start([0.0; 3])),
+            oriented(end, cut([0.01, 0.0, 0.0], Course::Line)),
+        ];
+        // The same orientation told twice is the same at every point, to the bit.
+        let still = [moves[0], oriented(begin, cut([0.01, 0.0, 0.0], Course::Line))];
+        let mut spins = points(FINE, &still).into_iter().map(|point| point.spin);
+        assert!(spins.all(|spin| spin == still[0].spin));
+        let points = points(FINE, &moves);
+        assert_eq!(points.len(), 11);
+        for (index, point) in points.iter().enumerate() {
+            let Some(ToldSpin::Orientation(found)) = point.spin else {
+                panic!("{point:?}");
+            };
+            let wanted = begin * UnitQuaternion::from_scaled_axis(by * (index as f64 / 10.0));
+            // The exponential is another way to the same; both lose some roundings.
+            assert!((found.inverse() * wanted).vector().norm() < 1e-14);
+            assert_eq!(point.axis, Some(spindle(&found)));
+        }
+    }
+
+    #[test]
+    fn a_tool_that_turns_where_it_stands_begins_anew_there() {
+        let turned = UnitQuaternion::from_euler_angles(0.1, 0.2, 0.3);
+        let moves = [
+            oriented(UnitQuaternion::identity(), start([0.0; 3])),
+            oriented(UnitQuaternion::identity(), cut([0.01, 0.0, 0.0], Course::Line)),
+            oriented(turned, cut([0.01, 0.0, 0.0], Course::Line)),
+            oriented(turned, cut([0.01, 0.0, 0.0], Course::Line)),
+            oriented(turned, cut([0.02, 0.0, 0.0], Course::Line)),
+        ];
+        let mut sampler = Sampler::new(FINE);
+        let counted: usize = moves
+            .iter()
+            .map(|next| {
+                let count = sampler.count(next);
+                sampler.points(next, |_| ());
+                count
+            })
+            .sum();
+        let points = points(FINE, &moves);
+        assert_eq!((points.len(), counted), (11 + 11, 22));
+        assert_eq!(
+            (points[10].at, points[10].along),
+            (points[11].at, points[11].along)
+        );
+        assert_eq!(points[11].spin, Some(ToldSpin::Orientation(turned)));
+    }
+
+    #[test]
+    fn a_cut_moved_by_a_hair_keeps_its_points_where_it_is_given_their_number() {
+        let moves = [start([0.0; 3]), cut([0.01 + 1e-7, 0.0, 0.0], Course::Line)];
+        let mut sampler = Sampler::new(FINE);
+        let mut points = Vec::new();
+        sampler.points_in(&moves[0], 0, |point| points.push(point));
+        assert_eq!(sampler.count(&moves[1]), 12);
+        sampler.points_in(&moves[1], 10, |point| points.push(point));
+        assert_eq!(points.len(), 11);
+        assert_eq!(points[10].at, moves[1].end);
     }
 
     proptest! {

@@ -12,7 +12,7 @@ pub struct Draft {
     pub name: String,
     /// What its head tells a reader: who made it from what.
     pub remarks: Vec<String>,
-    /// Robot base to the user frame that targets count in.
+    /// Where the controller counts from to the user frame that targets count in.
     pub base_from_frame: Isometry,
     /// Number of that frame on the controller.
     pub frame_number: u32,

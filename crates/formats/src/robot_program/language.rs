@@ -3,6 +3,7 @@
 use armill_core::frame::Isometry;
 
 use super::program::RobotProgram;
+use super::spelling::Anew;
 use super::text::ProgramText;
 use super::{inform, krl, rapid, tp, urscript, val3};
 use crate::document::{Problem, Problems};
@@ -115,6 +116,13 @@ impl Language {
             .find(|language| language.beginnings().iter().any(|known| begin.starts_with(known)))
     }
 
+    /// The language whose files end with this; lower case.
+    pub fn of_ending(ending: &str) -> Option<Language> {
+        Language::ALL
+            .into_iter()
+            .find(|language| language.endings().contains(&ending))
+    }
+
     /// The language of these files, by their first's lines, or its ending.
     ///
     /// # Errors
@@ -130,9 +138,7 @@ impl Language {
         };
         let of_name = || {
             let ending = texts.first().and_then(ending)?;
-            Language::ALL
-                .into_iter()
-                .find(|language| language.endings().contains(&ending.as_str()))
+            Language::of_ending(&ending)
         };
         // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
         let val3 = of_name().filter(|language| *language == Language::Val3);
@@ -164,8 +170,8 @@ impl Language {
     }
 
     /// Spells a pose (frame to tool) in place of `before`, which spells another target of the same program: what is said
-    /// there beside the pose stays.
-    pub(super) fn spell(self, pose: &Isometry, before: &str, out: &mut String) {
+    /// there beside stays, and its orientation where the place alone is new.
+    pub(super) fn spell(self, pose: (&Isometry, Anew), before: &str, out: &mut String) {
         match self {
             Language::Krl => krl::spell(pose, before, out),
             Language::Rapid => rapid::spell(pose, before, out),

@@ -14,7 +14,7 @@
 //! ([`RobotProgram::with_poses`]).
 //!
 //! In reading order: [`Language`]; `program` what is read; `text` files as bytes and as characters; `rewrite` the same
-//! program with other poses; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
+//! program with other poses; `followed` a program as the moves of a path; `draft` what is written; `posture`, `number` how controllers tell postures and numbers;
 //! `told` what is told beside moves; `tokens` what the texts of three languages are made of; `spelling` lines, numbers as
 //! they stand, and others in their places; `arc_row` arcs that are told point by point.
 
@@ -27,6 +27,7 @@ pub mod val3;
 
 mod arc_row;
 mod draft;
+mod followed;
 mod language;
 mod number;
 mod posture;
@@ -40,6 +41,7 @@ mod told;
 mod trials;
 
 pub use draft::{Draft, DraftError, DraftPoint, Written};
+pub use followed::{Cell, FollowError, Followed, FollowedMove, follow};
 pub use language::Language;
 pub use program::{Frame, Motion, RobotMove, RobotProgram, Speed, Spelled, Target};
 pub use rewrite::{Moved, RewriteError};

@@ -8,6 +8,7 @@
 use armill_core::frame::Isometry;
 
 use super::program::{Frame, Motion, RobotProgram, Spelled, Target};
+use super::spelling::Anew;
 use super::text::ProgramText;
 
 /// Where a move shall go instead: frame to tool, in the frame that its targets count in.
@@ -73,22 +74,23 @@ const WRITTEN: [f64; 2] = [1e-6, 3e-5];
 const SAME_PLACE: f64 = 0.5e-6;
 
 impl RobotProgram {
-    /// The files with the targets of these moves spelled anew.
+    /// The files with the targets of these moves spelled anew; an orientation that stays is left as it is spelled.
     ///
     /// # Errors
     /// See [`RewriteError`].
     pub fn with_poses(&self, moved: &[Moved]) -> Result<Vec<(String, Vec<u8>)>, RewriteError> {
-        let mut edits: Vec<(&Spelled, Isometry, u32)> = Vec::with_capacity(moved.len());
+        let mut edits: Vec<(&Spelled, (Isometry, Anew), u32)> = Vec::with_capacity(moved.len());
         for one in moved {
             let of = &self.moves[one.index];
             if let (Motion::Circular { via }, Some(pose)) = (&of.motion, one.via) {
-                edits.push((spelled(via, of.line)?, pose, of.line));
+                edits.push((spelled(via, of.line)?, (pose, anew(via, &pose)), of.line));
             }
-            edits.push((spelled(&of.target, of.line)?, one.target, of.line));
+            let anew = anew(&of.target, &one.target);
+            edits.push((spelled(&of.target, of.line)?, (one.target, anew), of.line));
         }
         edits.sort_by_key(|(spelled, _, _)| (spelled.text, spelled.bytes.start));
         for pair in edits.windows(2) {
-            let [(one, at, line), (other, there, other_line)] = pair else {
+            let [(one, (at, _), line), (other, (there, _), other_line)] = pair else {
                 continue;
             };
             let apart = (at.translation.vector - there.translation.vector).norm();
@@ -103,10 +105,10 @@ impl RobotProgram {
         let files = self.texts.iter().enumerate().map(|(index, file)| {
             let mut text = String::with_capacity(file.text().len());
             let mut done = 0;
-            for (spelled, pose, _) in edits.iter().filter(|(spelled, ..)| spelled.text == index) {
+            for (spelled, (pose, anew), _) in edits.iter().filter(|(spelled, ..)| spelled.text == index) {
                 text.push_str(&file.text()[done..spelled.bytes.start]);
                 self.language
-                    .spell(pose, &file.text()[spelled.bytes.clone()], &mut text);
+                    .spell((pose, *anew), &file.text()[spelled.bytes.clone()], &mut text);
                 done = spelled.bytes.end;
             }
             text.push_str(&file.text()[done..]);
@@ -156,6 +158,18 @@ impl RobotProgram {
             }
         }
         Ok(())
+    }
+}
+
+/// Orientations that differ by less are one: sine of half the angle.
+const SAME_TURN: f64 = 1e-12;
+
+/// What of this target is new.
+fn anew(target: &Target, moved: &Isometry) -> Anew {
+    let turned = |pose: &Isometry| (pose.rotation.inverse() * moved.rotation).vector().norm();
+    match target.pose() {
+        Some(pose) if turned(pose) < SAME_TURN => Anew::Place,
+        _ => Anew::Pose,
     }
 }
 

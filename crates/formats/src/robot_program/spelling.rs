@@ -130,6 +130,22 @@ pub(super) fn decimals(text: &str) -> usize {
         .min(MOST_DECIMALS)
 }
 
+/// What of a target is spelled anew.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anew {
+    /// Place and orientation.
+    Pose,
+    /// The place alone: the orientation stays as it is spelled, where it is.
+    Place,
+}
+
+impl Anew {
+    /// Whether this number of a pose is: x, y, z, then those of the orientation.
+    pub fn holds(self, index: usize) -> bool {
+        self == Anew::Pose || index < 3
+    }
+}
+
 /// `before` with other numbers in the places of its own, in the order of the text: each with as many decimals as it had,
 /// or as many as are asked for if that is more, and as wide as it was with the blanks before it.
 pub(super) fn respelled(before: &str, numbers: &[(Range<usize>, f64, usize)], out: &mut String) {

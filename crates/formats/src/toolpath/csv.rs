@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 use std::io::BufRead;
 
 use armill_core::nalgebra::{Point3, Unit, Vector3};
-use armill_core::path::{Course, DepthOfCut, Move, Operation, Pace, Step};
+use armill_core::path::{Course, DepthOfCut, Move, Operation, Pace, Step, ToldSpin};
 
 use super::Summary;
 use super::direction::{LARGEST, direction};
@@ -324,7 +324,7 @@ impl Table {
         out(Step::Move(Move {
             end,
             axis,
-            spin: row.spin,
+            spin: row.spin.map(ToldSpin::Angle),
             course: Course::Line,
             pace: match (row.rapid, row.feed) {
                 (true, _) => Pace::Rapid,

@@ -3,6 +3,7 @@
 use armill_core::path::{Course, Move, Step};
 
 use super::format::Format;
+use crate::robot_program::{Followed, RobotProgram};
 
 /// What a program held.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,6 +33,16 @@ impl Summary {
             arcs: 0,
             notes: Vec::new(),
         }
+    }
+
+    /// Of a program of a robot, as it is followed.
+    pub fn of_robot(program: &RobotProgram, followed: &Followed) -> Summary {
+        let mut summary = Summary::new(Format::Robot(program.language));
+        for found in &followed.moves {
+            summary.count(&Step::Move(found.next));
+        }
+        summary.notes = [program.notes.as_slice(), &followed.notes].concat();
+        summary
     }
 
     /// Counts a step.

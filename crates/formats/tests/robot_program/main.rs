@@ -5,6 +5,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 mod drafts;
+mod followed;
 mod hostile;
 mod krl;
 mod other_makers;

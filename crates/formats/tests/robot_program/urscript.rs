@@ -111,7 +111,7 @@ fn rewriting_changes_the_bytes_of_targets_alone() {
     );
     let files = keeps_the_rest(&program, |pose| *pose);
     let text = String::from_utf8(files[0].1.clone()).unwrap();
-    let wanted = "p[0.200000, 0.300000,0.300000 ,0.000000,3.100000,0.000000], a=1.2, v=0.1) # \u{fc}ber\r\n";
+    let wanted = "p[0.200000, 0.300000,0.300000 ,0,3.1,0], a=1.2, v=0.1) # \u{fc}ber\r\n";
     assert!(text.contains(wanted), "{text}");
 }
 

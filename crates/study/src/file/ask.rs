@@ -79,7 +79,8 @@ impl Resolver<'_> {
             AskKind::Volume => self.volume(places, setting),
             AskKind::Path => {
                 let table = (self.table, plane.step_mm);
-                let path = path::resolve(places, table, self.folder, (setting, push))?;
+                let cell = (self.folder, self.robot.map(|found| &found.robot));
+                let path = path::resolve(places, table, cell, (setting, push))?;
                 path.and_then(|path| {
                     let of = (self.robot?, &path.setting, path.load.case_count());
                     memory::check_points(places, "step_mm", path.track.len() as f64, of)?;

@@ -194,6 +194,16 @@ impl<'a> Placing<'a> {
                 first
             }
         };
+        let stays = ask
+            .source
+            .robot()
+            .is_some_and(|robot| robot.cell.base_from_path.is_none());
+        if stays {
+            let message =
+                format!("`{name}` follows a program of a robot, which lies where its frame is told");
+            let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] lays its frame on the plane, which can be moved";
+            return Err(StudyError::value(message, hint));
+        }
         let faults = table.faults();
         if let Some((_, _, hint)) = faults.first() {
             let messages: Vec<&str> = faults.iter().map(|(_, message, _)| message.as_str()).collect();

@@ -1,7 +1,7 @@
 //! Tool path programs in a study: the same numbers as shapes of the same form, features, forces from the cut, errors.
 //!
 //! `deviation`: under a load that is given; `cut`: under forces of the cut; `stock`: where the cutter meets it;
-//! `turned`: turns of the tool that are searched for; `refused`: what is wrong.
+//! `turned`: turns of the tool that are searched for; `robot`: programs of robots; `refused`: what is wrong.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic)]
@@ -9,6 +9,7 @@
 mod cut;
 mod deviation;
 mod refused;
+mod robot;
 mod stock;
 mod turned;
 

@@ -108,6 +108,22 @@ fn rms(vectors: &[Vector3<f64>]) -> f64 {
 }
 
 #[test]
+fn what_a_command_leaves_is_the_residual_of_its_compensation_and_all_of_the_deviation_without_one() {
+    let load = feed_load(&[[-60.0, 40.0, 25.0], [-20.0, 40.0, 5.0]]);
+    let cell = Cell::new();
+    let found = cell.compensated(&load);
+    let left = |commanded: &Track| {
+        cell.with([1.0; 6], |question| {
+            left_by(question, (&track(), commanded), (&load, &CHOICES), Watch::NONE).unwrap()
+        })
+    };
+    assert_eq!(left(&found.track).1, found.residual);
+    let (along, residual) = left(&track());
+    assert_eq!(along.answers.deviations, residual);
+    assert!(residual[0].norm() > 1e-5);
+}
+
+#[test]
 fn the_tool_goes_where_the_path_is_drawn() {
     let cell = Cell::new();
     let load = feed_load(&[[-60.0, 40.0, 25.0]]);

@@ -29,7 +29,7 @@ mod write;
 
 use armill_core::frame::Isometry;
 
-use super::spelling::{Part, respelled};
+use super::spelling::{Anew, Part, respelled};
 use crate::convention::Convention;
 
 pub use read::read;
@@ -39,12 +39,13 @@ pub use write::write;
 const DECIMALS: [usize; 2] = [3, 4];
 
 /// Spells a pose in place of `before`, six numbers between commas.
-pub(super) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(super) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     let whole = Part { at: 0, text: before };
     let numbers: Vec<_> = whole
         .split(|c| c == ',')
         .zip(Convention::Yaskawa.numbers_of(pose))
         .enumerate()
+        .filter(|(index, _)| anew.holds(*index))
         .map(|(index, (part, value))| (part.trimmed().range(), value, DECIMALS[index / 3]))
         .collect();
     respelled(before, &numbers, out);

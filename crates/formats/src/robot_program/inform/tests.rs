@@ -173,12 +173,12 @@ fn what_is_passed_over_and_matters_is_noted_with_its_line() {
 fn other_poses_change_nothing_but_the_numbers_of_positions() {
     let program = program(JOB);
     let within = [MICROMETRE, angle_of_decimals(4)];
-    // Angles of two decimals are written with four, others as they were.
+    // An orientation that stays is left as it stands.
     let again = moved_alone(&program, &Isometry::identity(), within);
     assert!(
         again.texts[0]
             .text()
-            .contains("C00003=120.000,0.000,50.000,180.0000,0.0000,0.0000,12.5\r\n")
+            .contains("C00003=120.000,0.000,50.000,180.00,0.00,0.00,12.5\r\n")
     );
     let by = Isometry::new(Vector3::new(1e-4, -2e-5, 3.3e-5), Vector3::new(0.01, 0.02, -0.03));
     moved_alone(&program, &by, within);

@@ -8,6 +8,7 @@ use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
 use crate::robot_program::posture::Configuration;
+use crate::robot_program::spelling::Anew;
 use crate::robot_program::tokens::{Cursor, Kind, decimals, tokens};
 
 /// The components of a pose, in the order of [`Convention::Kuka`].
@@ -223,7 +224,7 @@ fn bits(text: &str) -> Option<i64> {
 
 /// Spells a pose in place of `before`: an aggregate with its other components, a relative move, or what was computed
 /// from points.
-pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     let numbers = Convention::Kuka.numbers_of(pose);
     let found = tokens(before, &SYNTAX);
     let mut cursor = Cursor::new(before, &found);
@@ -240,6 +241,13 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
     if composed && !closed {
         return whole(&numbers, out);
     }
+    // Of an orientation that is told in part the rest comes from the move before, which may be spelled otherwise now.
+    let told = found
+        .iter()
+        .filter(|token| token.kind == Kind::Word)
+        .filter(|token| POSE[3..].contains(&before[token.span()].to_ascii_uppercase().as_str()))
+        .count();
+    let anew = if matches!(told, 0 | 3) { anew } else { Anew::Pose };
     let mut done = 0;
     let mut last = None;
     let mut spelled = [false; 6];
@@ -257,6 +265,10 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
             continue;
         };
         let end = cursor.before();
+        (last, spelled[index]) = (Some(end), true);
+        if !anew.holds(index) {
+            continue;
+        }
         out.push_str(&before[done..start]);
         // `A-5` is a component, `A5` would be an axis.
         if out.ends_with(|c: char| c.is_alphanumeric()) {
@@ -268,9 +280,11 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
             numbers[index],
             decimals(&before[start..end], least, MOST_DECIMALS),
         );
-        (done, last, spelled[index]) = (end, Some(end), true);
+        done = end;
     }
-    let missing: Vec<usize> = (0..6).filter(|index| !spelled[*index]).collect();
+    let missing: Vec<usize> = (0..6)
+        .filter(|index| !spelled[*index] && anew.holds(*index))
+        .collect();
     let last = last.unwrap_or(before.len());
     // What was left out follows the last that was told; nothing between them was written yet.
     if !missing.is_empty() {

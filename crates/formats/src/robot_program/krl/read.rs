@@ -157,7 +157,8 @@ impl<'a> Reader<'a> {
                     format!("`{word}`: what it governs is read once, as it stands"),
                 );
             }
-            _ if is_like_a_move(&word) && matches!(follows, Some(Kind::Word | Kind::Mark('{'))) => {
+            // No other statement has a place behind its word.
+            _ if follows == Some(Kind::Mark('{')) || is_like_a_move(&word) && follows == Some(Kind::Word) => {
                 let message = format!("`{word}` is a move that is not understood");
                 let hint = "understood are PTP, LIN, CIRC, SPTP, SLIN, SCIRC, SPL and PTP_REL, LIN_REL";
                 self.told.problem(self.here(), first.span(), message, hint);

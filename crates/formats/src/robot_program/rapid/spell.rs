@@ -7,6 +7,7 @@ use armill_core::frame::Isometry;
 use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
+use crate::robot_program::spelling::Anew;
 use crate::robot_program::tokens::{Cursor, Kind, decimals, tokens};
 
 /// Decimals at least, of mm and of a quaternion, and at most.
@@ -16,7 +17,7 @@ const MOST_DECIMALS: usize = 12;
 
 /// Spells a pose in place of `before`: number for number in a robtarget; where a name stands, or a place beside one, a
 /// robtarget with the posture and the external axes of that name.
-pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     let numbers = Convention::Abb.numbers_of(pose);
     let (place, turn) = numbers.split_at(3);
     let (mut base, mut entries) = (before.trim(), Vec::new());
@@ -41,7 +42,10 @@ pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut S
             out.push_str(&before[..begin + first.start]);
             list(place, &base[first.clone()], MM, out);
             out.push_str(&base[first.end..second.start]);
-            list(turn, &base[second.clone()], QUATERNION, out);
+            match anew {
+                Anew::Pose => list(turn, &base[second.clone()], QUATERNION, out),
+                Anew::Place => out.push_str(&base[second.clone()]),
+            }
             out.push_str(&before[begin + second.end..]);
         }
         (_, entries) => {

@@ -26,7 +26,7 @@ mod write;
 
 use armill_core::frame::Isometry;
 
-use super::spelling::{Part, respelled};
+use super::spelling::{Anew, Part, respelled};
 use crate::convention::Convention;
 
 pub use read::read;
@@ -39,7 +39,7 @@ const KEYS: [&str; 6] = ["X", "Y", "Z", "W", "P", "R"];
 const DECIMALS: usize = 3;
 
 /// Spells a pose in place of `before`: `X = 1.0 mm, Y = ..., R = 2.0`.
-pub(super) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(super) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     let values = Convention::Fanuc.numbers_of(pose);
     let whole = Part { at: 0, text: before };
     let numbers: Vec<_> = whole
@@ -47,7 +47,8 @@ pub(super) fn spell(pose: &Isometry, before: &str, out: &mut String) {
         .filter_map(|field| {
             let (key, number) = position::field(field)?;
             let index = KEYS.iter().position(|known| key.eq_ignore_ascii_case(known))?;
-            Some((number.range(), values[index], DECIMALS))
+            anew.holds(index)
+                .then(|| (number.range(), values[index], DECIMALS))
         })
         .collect();
     respelled(before, &numbers, out);

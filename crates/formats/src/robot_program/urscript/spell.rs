@@ -5,6 +5,7 @@ use armill_core::frame::Isometry;
 use super::SYNTAX;
 use crate::convention::Convention;
 use crate::robot_program::number::{fixed, write_fixed};
+use crate::robot_program::spelling::Anew;
 use crate::robot_program::tokens::{Cursor, decimals, tokens};
 
 /// Decimals at least, of m and rad: a micrometre, and the posts' own.
@@ -24,11 +25,12 @@ pub(super) fn whole(pose: &Isometry, out: &mut String) {
 }
 
 /// Spells a pose in place of `before`: number for number where six stand there, else anew.
-pub(in crate::robot_program) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(in crate::robot_program) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     match places(before) {
         Some(places) => {
             let mut done = 0;
-            for (place, number) in places.into_iter().zip(numbers(pose)) {
+            let all = places.into_iter().zip(numbers(pose)).enumerate();
+            for (_, (place, number)) in all.filter(|(index, _)| anew.holds(*index)) {
                 out.push_str(&before[done..place.start]);
                 write_fixed(
                     out,

@@ -30,7 +30,7 @@ mod write;
 use armill_core::frame::Isometry;
 
 use super::number::fixed;
-use super::spelling::{Part, respelled};
+use super::spelling::{Anew, Part, respelled};
 use crate::convention::Convention;
 
 pub use read::read;
@@ -45,12 +45,13 @@ const DECIMALS: [usize; 2] = [3, 4];
 /// Spells a pose in place of `before`, the attributes of a value: ` key="0" x="1.000" ... shoulder="lefty"`.
 ///
 /// An attribute that was left out for zero is written where it no longer is.
-pub(super) fn spell(pose: &Isometry, before: &str, out: &mut String) {
+pub(super) fn spell((pose, anew): (&Isometry, Anew), before: &str, out: &mut String) {
     let values = Convention::Staubli.numbers_of(pose);
     let attributes = tags::attributes(Part { at: 0, text: before });
     let mut numbers = Vec::new();
     let mut missing = String::new();
-    for (index, (key, value)) in KEYS.iter().zip(values).enumerate() {
+    let keys = KEYS.iter().zip(values).enumerate();
+    for (index, (key, value)) in keys.filter(|(index, _)| anew.holds(*index)) {
         let decimals = DECIMALS[index / 3];
         match attributes.iter().find(|attribute| attribute.name == *key) {
             Some(attribute) => numbers.push((attribute.value.range(), value, decimals)),

@@ -153,10 +153,10 @@ fn the_spin_is_told_in_degrees_or_radians_and_an_empty_cell_tells_none() {
     let found = moves("x_mm,y_mm,z_mm,spin_deg\n0,0,0,-90\n1,0,0,\n");
     assert_eq!(
         [found[0].spin, found[1].spin],
-        [Some(-std::f64::consts::FRAC_PI_2), None]
+        [Some(ToldSpin::Angle(-std::f64::consts::FRAC_PI_2)), None]
     );
     let found = moves("x_mm,y_mm,z_mm,spin_rad\n0,0,0,0.25\n");
-    assert_eq!(found[0].spin, Some(0.25));
+    assert_eq!(found[0].spin, Some(ToldSpin::Angle(0.25)));
     let wrong = problems("x_mm,y_mm,z_mm,spin\n0,0,0,1\n");
     assert!(
         wrong.contains("without unit") && wrong.contains("`spin_deg`"),

@@ -37,19 +37,28 @@ const APT_WORDS: &[&str] = &[
     "CUTCOM",
 ];
 
+/// A language of robots.
+pub(super) enum Robots {
+    /// One that is read.
+    Read(Language),
+    /// One that is not, by its name.
+    Other(&'static str),
+}
+
 /// The language of robots that a line belongs to.
 ///
 /// By its first 24 characters.
-pub(super) fn robot_language(line: &str) -> Option<&'static str> {
+pub(super) fn robot_language(line: &str) -> Option<Robots> {
     // VAL3 keeps what a move returns: `nTraj=movel(...)`.
     let line = line
         .split_once('=')
         .map_or(line, |(name, rest)| if is_name(name) { rest } else { line });
-    let known = Language::of_line(line).map(Language::title);
-    known.or_else(|| {
+    let known = Language::of_line(line);
+    known.map(Robots::Read).or_else(|| {
         let begin: String = line.chars().take(24).collect::<String>().to_uppercase();
         let begins = |(_, words): &&(&str, &[&str])| words.iter().any(|word| begin.starts_with(word));
-        OTHER_ROBOTS.iter().find(begins).map(|(language, _)| *language)
+        let other = OTHER_ROBOTS.iter().find(begins);
+        other.map(|(language, _)| Robots::Other(language))
     })
 }
 

@@ -6,7 +6,10 @@
 //! | table | a first line of names with `x`, `y` and `z` | `.csv`, `.tsv` |
 //! | G-code | lines of letters with numbers: `N10 G1 X5` | `.nc`, `.ngc`, `.gcode`, `.tap`, `.cnc`, `.mpf`, `.eia`, `.iso`, `.min` |
 //!
-//! Programs of robots are known and refused. `known_by`: what lines of a program show.
+//! | program of a robot | lines that only its language has | those of its [`Language`] |
+//!
+//! What a program of a robot goes to depends on its robot: it is known here, and read by
+//! [`robot_program`](crate::robot_program). `known_by`: what lines of a program show.
 
 mod known_by;
 
@@ -15,10 +18,11 @@ use std::path::Path;
 
 use armill_core::path::Step;
 
-use self::known_by::{is_apt, is_gcode, is_header, robot_language};
+use self::known_by::{Robots, is_apt, is_gcode, is_header, robot_language};
 use super::gcode::{self, Lookup, Rotaries, ToolTable};
 use super::{LengthUnit, Summary, apt, csv};
 use crate::document::{Problem, Problems};
+use crate::robot_program::Language;
 use crate::table::sheet::is_remark;
 
 /// A kind of tool path file.
@@ -30,6 +34,8 @@ pub enum Format {
     Apt,
     /// A table of points.
     Csv,
+    /// A program of a robot.
+    Robot(Language),
 }
 
 /// What a user may say of a program where it is silent.
@@ -50,7 +56,7 @@ pub struct Wanted<'a> {
 }
 
 /// So much of a file tells its format, bytes.
-const HEAD_BYTES: u64 = 256 * 1024;
+pub const HEAD_BYTES: u64 = 256 * 1024;
 /// So many lines of a file are looked at; headers of remarks are longer in no file we know.
 const MOST_LINES: usize = 2000;
 
@@ -59,7 +65,7 @@ const MOST_LINES: usize = 2000;
 /// With problems the steps given so far are worth nothing.
 ///
 /// # Errors
-/// A format that nobody here reads; every problem of the file.
+/// A format that nobody here reads, or a program of a robot, which needs its robot; every problem of the file.
 pub fn read(
     path: &str,
     mut reader: impl BufRead,
@@ -91,6 +97,12 @@ pub fn read(
             };
             gcode::read(path, whole, &wanted, out)
         }
+        Format::Robot(language) => Err(Problem::of_file(
+            path,
+            format!("this is a program of a robot ({})", language.title()),
+            "it is no path without its robot: `robot_program::read`, then `follow`",
+        )
+        .into()),
     }
 }
 
@@ -101,6 +113,7 @@ impl Format {
             Format::Gcode => "gcode",
             Format::Apt => "apt",
             Format::Csv => "csv",
+            Format::Robot(language) => language.name(),
         }
     }
 
@@ -110,7 +123,8 @@ impl Format {
     /// G-code; then the ending.
     ///
     /// # Errors
-    /// A program of a robot, and a file of which neither content nor name tells what it is.
+    /// A program of a robot in a language that nobody here reads, and a file of which neither content nor name tells what it
+    /// is.
     pub fn of(path: &Path, text: &str) -> Result<Format, Problems> {
         let refused = |message: String, hint: &str| {
             let path = path.display().to_string();
@@ -129,13 +143,24 @@ impl Format {
                 .filter(|line| !line.is_empty())
                 .take(MOST_LINES)
         };
-        if let Some(language) = lines().find_map(robot_language) {
-            let hint = "programs of robots come in a later version: give the path as the CAM system writes it, as cutter \
-                        locations (APT, CLSF), G-code or CSV";
-            return refused(
-                format!("this is a program of a robot ({language}), not a tool path"),
-                hint,
-            );
+        let ending = path
+            .extension()
+            .and_then(|ending| ending.to_str())
+            .map(str::to_lowercase)
+            .unwrap_or_default();
+        let of_ending = Language::of_ending(&ending);
+        match lines().find_map(robot_language) {
+            // The moves of VAL3 are spelled as those of URScript; the endings of its files are its own.
+            Some(Robots::Read(_)) if of_ending == Some(Language::Val3) => {
+                return Ok(Format::Robot(Language::Val3));
+            }
+            Some(Robots::Read(language)) => return Ok(Format::Robot(language)),
+            Some(Robots::Other(language)) => {
+                let hint = "its language is not read: give the path as the CAM system writes it, as cutter locations (APT, \
+                            CLSF), G-code or CSV";
+                return refused(format!("this is a program of a robot ({language})"), hint);
+            }
+            None => {}
         }
         if lines().any(is_apt) {
             return Ok(Format::Apt);
@@ -146,22 +171,15 @@ impl Format {
         if lines().any(is_gcode) {
             return Ok(Format::Gcode);
         }
-        let ending = path
-            .extension()
-            .and_then(|ending| ending.to_str())
-            .map(str::to_lowercase);
-        match ending.as_deref() {
-            Some("apt" | "aptsource" | "cl" | "cls" | "clsf" | "cldata") => Ok(Format::Apt),
-            Some("csv" | "tsv") => Ok(Format::Csv),
-            Some("nc" | "ngc" | "gcode" | "tap" | "cnc" | "mpf" | "eia" | "iso" | "min") => Ok(Format::Gcode),
-            Some("src" | "dat" | "mod" | "prg" | "ls" | "jbi" | "script" | "pgx") => refused(
-                "this looks like a program of a robot".to_owned(),
-                "programs of robots come in a later version: give cutter locations (APT, CLSF), G-code or CSV",
-            ),
+        match (ending.as_str(), of_ending) {
+            (_, Some(language)) => Ok(Format::Robot(language)),
+            ("apt" | "aptsource" | "cl" | "cls" | "clsf" | "cldata", _) => Ok(Format::Apt),
+            ("csv" | "tsv", _) => Ok(Format::Csv),
+            ("nc" | "ngc" | "gcode" | "tap" | "cnc" | "mpf" | "eia" | "iso" | "min", _) => Ok(Format::Gcode),
             _ => refused(
                 "neither content nor name tells what tool path this is".to_owned(),
-                "understood are G-code, cutter locations (APT, CLSF) and CSV: give it the ending of its format, such as \
-                 `.nc`, `.apt` or `.csv`",
+                "understood are G-code, cutter locations (APT, CLSF), CSV and programs of robots (KRL, RAPID, INFORM, TP, \
+                 URScript, VAL3): give it the ending of its format, such as `.nc`, `.apt`, `.csv` or `.src`",
             ),
         }
     }

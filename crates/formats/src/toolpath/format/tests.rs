@@ -38,25 +38,30 @@ fn the_name_tells_where_content_does_not() {
 }
 
 #[test]
-fn programs_of_robots_are_known_and_refused() {
+fn programs_of_robots_are_known_by_their_lines() {
     for (text, language) in [
-        ("&ACCESS RVP\nDEF part()\n", "KUKA KRL"),
-        ("; part\nLIN {X 1,Y 2}\n", "KUKA KRL"),
-        ("%%%\n VERSION:1\n%%%\nMODULE m\n", "ABB RAPID"),
-        ("  MoveL p1,v100,fine,tool0;\n", "ABB RAPID"),
-        ("/PROG  PART\n/ATTR\n", "FANUC TP"),
-        ("/JOB\n//NAME PART\n", "Yaskawa INFORM"),
-        ("def part():\n  movel(p[1,2,3,0,0,0])\n", "URScript"),
+        ("&ACCESS RVP\nDEF part()\n", Language::Krl),
+        ("; part\nLIN {X 1,Y 2}\n", Language::Krl),
+        ("%%%\n VERSION:1\n%%%\nMODULE m\n", Language::Rapid),
+        ("  MoveL p1,v100,fine,tool0;\n", Language::Rapid),
+        ("/PROG  PART\n/ATTR\n", Language::Tp),
+        ("/JOB\n//NAME PART\n", Language::Inform),
+        ("def part():\n  movel(p[1,2,3,0,0,0])\n", Language::UrScript),
         (
             "<?xml version=\"1.0\"?>\n<Programs xmlns=\"x\">\n",
-            "Staubli VAL3",
+            Language::Val3,
         ),
     ] {
-        let told = of("part.txt", text).unwrap_err();
-        assert!(
-            told.contains(language) && told.contains("come in a later version"),
-            "{text}: {told}"
-        );
+        assert_eq!(of("part.txt", text), Ok(Format::Robot(language)), "{text}");
+        let told = read("part.txt", text.as_bytes(), &Wanted::default(), &mut |_| ()).unwrap_err();
+        assert!(told.to_string().contains(language.title()), "{told}");
     }
-    assert!(of("a.src", "hello\n").unwrap_err().contains("program of a robot"));
+    assert_eq!(of("a.src", "hello\n"), Ok(Format::Robot(Language::Krl)));
+    let val3 = "nTraj=movel(pPoint[0],tTool[0],mNomSpeed)\n";
+    assert_eq!(of("start.pgx", val3), Ok(Format::Robot(Language::Val3)));
+    let comau = of("a.pdl", "PROGRAM a\nMOVE LINEAR TO p1\n").unwrap_err();
+    assert!(
+        comau.contains("Comau PDL2") && comau.contains("not read"),
+        "{comau}"
+    );
 }

@@ -2,6 +2,7 @@
 
 mod refusals;
 
+use armill_core::frame::Isometry;
 use armill_formats::robot_program::{Draft, Frame, Language, Motion, RobotProgram, Speed, Target, write};
 use proptest::prelude::*;
 
@@ -98,7 +99,7 @@ fn a_module_has_its_points_in_the_data_file() {
         (first.motion.clone(), first.speed),
         (Motion::Joint, Speed::Joints)
     );
-    let base = armill_core::frame::Isometry::identity();
+    let base = Isometry::identity();
     assert_eq!((first.frame, first.tool), (Frame::Told(base), Frame::Numbered(3)));
     let Target::Pose { branch, turns, .. } = &second.target else {
         panic!("{second:?}");
@@ -155,10 +156,24 @@ fn rewriting_changes_the_bytes_of_targets_alone() {
 #[test]
 fn decimals_are_three_and_four_or_those_that_stand_there() {
     let program = of("LIN {Z 3.123456, C 0,X 1 ,Y 2.5,B -0.00001,A 0,E1 7}");
-    let files = keeps_the_rest(&program, |pose| *pose);
-    let text = String::from_utf8(files[0].1.clone()).unwrap();
-    let wanted = "LIN {Z 3.123456, C 0.0000,X 1.000 ,Y 2.500,B -0.00001,A 0.0000,E1 7}";
-    assert!(text.contains(wanted), "{text}");
+    // Turned by half a degree, and left as it stands where it is not.
+    let turned = |pose: &Isometry| {
+        let turn = kuka([0.0, 0.0, 0.0, 0.5, 0.0, 0.0]).rotation;
+        Isometry::from_parts(pose.translation, turn * pose.rotation)
+    };
+    for (files, wanted) in [
+        (
+            keeps_the_rest(&program, turned),
+            "LIN {Z 3.123456, C 0.0000,X 1.000 ,Y 2.500,B -0.00001,A 0.5000,E1 7}",
+        ),
+        (
+            keeps_the_rest(&program, |pose| *pose),
+            "LIN {Z 3.123456, C 0,X 1.000 ,Y 2.500,B -0.00001,A 0,E1 7}",
+        ),
+    ] {
+        let text = String::from_utf8(files[0].1.clone()).unwrap();
+        assert!(text.contains(wanted), "{text}");
+    }
 }
 
 #[test]
@@ -167,8 +182,7 @@ fn bytes_of_latin_1_stay() {
     let text = armill_formats::robot_program::ProgramText::new("a.src", bytes);
     let program = armill_formats::robot_program::read(vec![text]).unwrap();
     let files = keeps_the_rest(&program, |pose| *pose);
-    let wanted =
-        b"DEF A()\r\n; \xfcber\r\nLIN {X 1.000,Y 2.000,Z 3.000,A 0.0000,B 0.0000,C 0.0000} ; \xe4\r\nEND\r\n";
+    let wanted = b"DEF A()\r\n; \xfcber\r\nLIN {X 1.000,Y 2.000,Z 3.000,A 0,B 0,C 0} ; \xe4\r\nEND\r\n";
     assert_eq!(files[0].1, wanted);
 }
 
@@ -258,7 +272,7 @@ fn points_are_composed_with_frames_and_written_whole() {
     let text = String::from_utf8(files[0].1.clone()).unwrap();
     assert!(
         text.contains(
-            "P1={X 1.000,Y 2.000,Z 3.000,A 0.0000,B 0.0000,C 0.0000}\nLIN {X 1.000,Y 2.000,Z -47.000,"
+            "P1={X 1.000,Y 2.000,Z 3.000,A 0,B 0,C 0}\nLIN {X 1.000,Y 2.000,Z -47.000,A 0.0000,B 0.0000,C 0.0000}"
         ),
         "{text}"
     );

@@ -39,7 +39,7 @@ pub struct OperationAnswer {
 impl ProgramAnswer {
     /// `None` of a shape.
     pub(super) fn of(ask: &PathAsk, found: &PathFound) -> Option<ProgramAnswer> {
-        let PathSource::Program { file, summary } = &ask.source else {
+        let PathSource::Program { file, summary, .. } = &ask.source else {
             return None;
         };
         Some(ProgramAnswer {

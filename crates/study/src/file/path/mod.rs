@@ -5,15 +5,17 @@
 //! program.file                              part_from_path_mm_deg, tool_axis, spin
 //! ```
 //!
-//! `shape` and [`program`] give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given
+//! `shape` and [`program`] (`machine_program`, [`robot_program`]) give its points, [`feature`] marks stretches of them; `load` puts on what pushes: given
 //! cases, a [`cut`], a [`drill`], or [`measured`] forces.
 
 pub mod cut;
 pub mod drill;
 pub mod feature;
 mod load;
+mod machine_program;
 pub mod measured;
 pub mod program;
+pub mod robot_program;
 mod shape;
 
 pub use cut::Cut;
@@ -21,11 +23,13 @@ pub use drill::DrillCut;
 pub use feature::FeatureTable;
 pub(super) use load::Push;
 pub use measured::MeasuredForces;
+pub use robot_program::RobotPath;
 
 use std::path::Path;
 
 use armill_core::load::PathLoad;
 use armill_core::path::{ForcesTold, Placing, Shape, Spin, Track};
+use armill_core::robot::Robot;
 use armill_formats::toolpath::Summary;
 
 use super::format::AskTable;
@@ -69,7 +73,19 @@ pub enum PathSource {
         file: String,
         /// What was read.
         summary: Summary,
+        /// What only a program of a robot has.
+        robot: Option<Box<RobotPath>>,
     },
+}
+
+impl PathSource {
+    /// The program of a robot, if it is one.
+    pub fn robot(&self) -> Option<&RobotPath> {
+        match self {
+            PathSource::Program { robot, .. } => robot.as_deref(),
+            PathSource::Shape(_) => None,
+        }
+    }
 }
 
 impl PathAsk {
@@ -110,8 +126,8 @@ impl PathAsk {
 pub(super) fn resolve(
     places: &mut Places<'_>,
     (table, step_mm): (&AskTable, f64),
-    folder: &Path,
-    (setting, push): (Option<Setting>, Option<Push<'_>>),
+    (folder, robot): (&Path, Option<&Robot>),
+    (mut setting, push): (Option<Setting>, Option<Push<'_>>),
 ) -> Result<Option<PathAsk>, StudyError> {
     if usize::from(table.program.is_some()) + shape::count(table) != 1 {
         let hint = "circle = { radius_mm = 100 }, line, polyline_mm, rectangle, or program = { file = \"part.ngc\" }";
@@ -119,14 +135,19 @@ pub(super) fn resolve(
         return Ok(None);
     }
     let (path, source) = match &table.program {
-        Some(of) => match program::read(places, of, folder)? {
-            Some((path, summary)) => (
-                path,
-                PathSource::Program {
+        Some(of) => match program::read(places, of, (folder, robot.zip(setting.as_ref())))? {
+            Some(mut found) => {
+                if let (Some(program), Some(robot), Some(setting)) = (&found.robot, robot, &mut setting) {
+                    let note = robot_program::take_posture(setting, &program.followed, robot);
+                    found.summary.notes.extend(note);
+                }
+                let source = PathSource::Program {
                     file: of.file.clone(),
-                    summary,
-                },
-            ),
+                    summary: found.summary,
+                    robot: found.robot,
+                };
+                (found.path, source)
+            }
             None => return Ok(None),
         },
         None => match shape::resolve(places, table, step_mm) {
@@ -139,7 +160,7 @@ pub(super) fn resolve(
     };
     let base_from_part = setting.plane.base_from_part;
     let placing = match &table.program {
-        Some(of) => program::placing(of, &base_from_part),
+        Some(of) => program::placing(of, &base_from_part, source.robot()),
         None => Placing {
             spin: Spin::Fixed(table.spin_deg.unwrap_or(0.0).to_radians()),
             ..Placing::on_plane(&setting.plane)

@@ -1,39 +1,47 @@
-//! A tool path program: its file, where it lies on the part, how the tool is turned, how finely it is cut into points.
+//! A program that a path follows: its file, where it lies on the part, how the tool is turned, how finely it is cut into
+//! points.
 //!
 //! | frame | what it is |
 //! |---|---|
 //! | `path` | what the program counts from, moved by `part_from_path_mm_deg` |
 //! | `part` | origin at the centre of the plane, z its outward normal |
 //!
+//! A program of a robot tells its frame in the base of the robot itself; see `robot_program`.
+//!
 //! Lines become points at most `step_mm` apart, arcs so many that no chord leaves them by more than `chord_error_mm`.
 //! The reader hands its steps on one by one; at most `MOST_POINTS` points are made of them.
 
 use std::fs::File;
-use std::io::BufReader;
-use std::path::Path;
+use std::io::Read;
+use std::path::{Path, PathBuf};
 
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
-use armill_core::path::{PathBuilder, Placing, SampledPath, Sampling, Spin};
-use armill_formats::toolpath::apt::Dialect;
-use armill_formats::toolpath::format::{self, Wanted};
-use armill_formats::toolpath::gcode::{Rotaries, ToolTable};
-use armill_formats::toolpath::{LengthUnit, Summary};
+use armill_core::path::{Placing, SampledPath, Sampling, Spin, TooManyPoints};
+use armill_core::robot::Robot;
+use armill_formats::robot_program::Language;
+use armill_formats::toolpath::Summary;
+use armill_formats::toolpath::format::{Format, HEAD_BYTES};
+use armill_formats::toolpath::gcode::Rotaries;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::drill::DrillTable;
 use super::feature::{FeatureTable, features_have_points};
+use super::machine_program;
 use super::measured::MeasuredTable;
+use super::robot_program::{self, RobotPath};
 use crate::StudyError;
 use crate::file::places::Places;
 use crate::file::quantities::{pose_mm_deg, positive};
+use crate::file::resolve::Setting;
 
 /// A program that the tool follows.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ProgramTable {
-    /// Its file, relative to the study: G-code, APT-CL or CLSF, or a CSV of points.
+    /// Its file, relative to the study: G-code, APT-CL or CLSF, a CSV of points, or a program of a robot (KRL, RAPID, INFORM,
+    /// TP, URScript; of VAL3 the folder).
     pub file: String,
     /// Unit of lengths where the file does not tell.
     pub unit: Option<UnitName>,
@@ -47,6 +55,13 @@ pub struct ProgramTable {
     /// then turns about the fixed axes x, y, z in degrees.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub part_from_path_mm_deg: Option<[f64; 6]>,
+    /// Programs of robots: the frame that the program calls by its number, as the controller has it: x, y, z in mm, then
+    /// turns about the fixed axes x, y, z in degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub frame_mm_deg: Option<[f64; 6]>,
+    /// Programs of robots: straight and circular moves faster than this cut nothing, as moves of the joints do.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub cuts_up_to_mm_per_min: Option<f64>,
     /// Where the tool points.
     pub tool_axis: Option<ToolAxisName>,
     /// How the tool is turned about its axis.
@@ -107,7 +122,7 @@ pub enum RotariesName {
 
 impl RotariesName {
     /// As the reader of G-code knows them.
-    fn rotaries(self) -> Rotaries {
+    pub(super) fn rotaries(self) -> Rotaries {
         match self {
             RotariesName::TableAc => Rotaries::table_ac(),
             RotariesName::TableBc => Rotaries::table_bc(),
@@ -135,28 +150,39 @@ pub enum SpinName {
     Fixed,
     /// With the feed.
     AlongFeed,
-    /// As the program tells at each point: column `spin_deg` of a CSV.
+    /// As the program tells at each point: column `spin_deg` of a CSV, the orientations of a program of a robot.
     Given,
 }
 
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
 /// What to do where a file is not found.
-const BESIDE_STUDY: &str = "the path counts from the folder of the study";
+pub(super) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
 /// Greatest distance of points where the study says nothing, mm.
 const STEP_MM: f64 = 1.0;
 
-/// The points of the program of this table; `None` where it has problems, told at their places.
+/// A program as points.
+pub(super) struct ReadProgram {
+    /// Its points.
+    pub path: SampledPath,
+    /// What was read.
+    pub summary: Summary,
+    /// What only a program of a robot has.
+    pub robot: Option<Box<RobotPath>>,
+}
+
+/// The points of the program of this table; `None` where it has problems, told at their places. A program of a robot is
+/// followed by the robot of `cell`; without, it is read alone.
 ///
 /// # Errors
 /// The problems of its file.
 pub(super) fn read(
     places: &mut Places<'_>,
     table: &ProgramTable,
-    folder: &Path,
-) -> Result<Option<(SampledPath, Summary)>, StudyError> {
+    (folder, cell): (&Path, Option<(&Robot, &Setting)>),
+) -> Result<Option<ReadProgram>, StudyError> {
     let chord_error = positive(
         places,
         "program.chord_error_mm",
@@ -174,116 +200,128 @@ pub(super) fn read(
     let (Some(chord_error), Some(step)) = (chord_error, step) else {
         return Ok(None);
     };
-    let file_path = folder.join(&table.file);
-    if file_path.is_dir() {
-        let message = format!("{} is a folder", file_path.display());
-        places.problem("program.file", message, "name the file in it");
-        return Ok(None);
-    }
-    let file = match File::open(&file_path) {
-        Ok(file) => file,
-        Err(error) => {
-            let message = format!("cannot read {}: {error}", file_path.display());
-            places.problem("program.file", message, BESIDE_STUDY);
-            return Ok(None);
-        }
+    let file = ProgramFile {
+        path: folder.join(&table.file),
+        folder,
+        sampling: Sampling { chord_error, step },
     };
-    let unit = table.unit.map(|unit| match unit {
-        UnitName::Mm => LengthUnit::Millimetre,
-        UnitName::Inch => LengthUnit::Inch,
-    });
-    let tools = match &table.tool_table {
+    let shown = file.path.display().to_string();
+    let found = match file.robot_language(places) {
+        Some(Some(language)) => robot_program::read(places, (table, language), (&file, cell))?,
+        Some(None) => machine_program::read(places, table, &file)?,
         None => None,
-        Some(name) => {
-            let path = folder.join(name);
-            let Some(text) = text_of(places, "program.tool_table", &path) else {
-                return Ok(None);
-            };
-            Some(ToolTable::read(
-                &path.display().to_string(),
-                &text,
-                unit.unwrap_or_default(),
-            )?)
-        }
     };
-    // A subroutine that is not in the program lies beside it in a file of its own, as LinuxCNC has it.
-    let beside = file_path.parent().unwrap_or(folder).to_owned();
-    let subroutine = |name: &str| {
-        let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
-        let file = beside.join(format!("{name}.ngc"));
-        plain.then(|| std::fs::read_to_string(file).ok()).flatten()
+    let Some(found) = found else {
+        return Ok(None);
     };
-    let wanted = Wanted {
-        unit,
-        dialect: table.dialect.map(|dialect| match dialect {
-            DialectName::Nx => Dialect::Nx,
-            DialectName::SolidWorks => Dialect::SolidWorks,
-        }),
-        rotaries: table.rotaries.map(RotariesName::rotaries),
-        tools,
-        subroutines: Some(&subroutine),
-        ..Wanted::default()
-    };
-    let mut builder = PathBuilder::new(Sampling { chord_error, step }, MOST_POINTS);
-    let shown = file_path.display().to_string();
-    let summary = format::read(&shown, BufReader::new(file), &wanted, &mut |step| {
-        builder.take(step);
-    })?;
-    let path = match builder.finish() {
-        Ok(path) => path,
-        Err(error) => {
-            let message = format!("{shown} gives {error}");
-            let hint = "a larger step, or a part of the program";
-            places.problem("program.step_mm", message, hint);
-            return Ok(None);
-        }
-    };
-    if path.points.is_empty() {
+    if found.path.points.is_empty() {
         let message = format!("{shown} has no cutting move");
-        places.problem("program.file", message, "rapids alone cut nothing");
+        let hint = match &found.robot {
+            Some(_) => {
+                "moves of the joints cut nothing, nor those above `cuts_up_to_mm_per_min`, and straight ones only from a place \
+                 that the program tells"
+            }
+            None => "rapids alone cut nothing",
+        };
+        places.problem("program.file", message, hint);
         return Ok(None);
     }
     if table.spin == Some(SpinName::Given)
-        && let Some(silent) = path.points.iter().find(|point| point.spin.is_none())
+        && let Some(silent) = found.path.points.iter().find(|point| point.spin.is_none())
     {
         let message = format!("{shown}: line {} tells no spin", silent.line);
-        let hint =
-            "a CSV tells it in a column `spin_deg`; for other programs: spin = \"fixed\" or \"along-feed\"";
+        let hint = "a CSV tells it in a column `spin_deg`, a program of a robot by itself; for others: spin = \"fixed\" or \
+                    \"along-feed\"";
         places.problem("program.spin", message, hint);
         return Ok(None);
     }
-    if !features_have_points(places, table, &path.points) {
+    if !features_have_points(places, table, &found.path.points) {
         return Ok(None);
     }
-    Ok(Some((path, summary)))
+    Ok(Some(found))
+}
+
+/// The file of a program, and how it is read.
+pub(super) struct ProgramFile<'a> {
+    /// Where it lies.
+    pub path: PathBuf,
+    /// That of the study.
+    pub folder: &'a Path,
+    /// How finely it is cut into points.
+    pub sampling: Sampling,
+}
+
+impl ProgramFile<'_> {
+    /// The language of robots that it is written in, if it is; `None` where it cannot be read, told at its place.
+    fn robot_language(&self, places: &mut Places<'_>) -> Option<Option<Language>> {
+        if self.path.is_dir() {
+            // A project of VAL3 is a folder.
+            let is_project = |name: &str| Path::new(name).extension().is_some_and(|ending| ending == "pjx");
+            let entries = std::fs::read_dir(&self.path).into_iter().flatten().flatten();
+            let mut names = entries.map(|entry| entry.file_name().to_string_lossy().to_lowercase());
+            if names.any(|name| is_project(&name)) {
+                return Some(Some(Language::Val3));
+            }
+            let message = format!("{} is a folder", self.path.display());
+            places.problem("program.file", message, "name the file in it");
+            return None;
+        }
+        let mut head = Vec::new();
+        let read = File::open(&self.path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+        if let Err(error) = read {
+            let message = format!("cannot read {}: {error}", self.path.display());
+            places.problem("program.file", message, BESIDE_STUDY);
+            return None;
+        }
+        match Format::of(&self.path, &String::from_utf8_lossy(&head)) {
+            Ok(Format::Robot(language)) => Some(Some(language)),
+            // What is none at all its reader says.
+            _ => Some(None),
+        }
+    }
+
+    /// Tells that it gives more points than memory holds.
+    pub fn too_many(&self, places: &mut Places<'_>, error: TooManyPoints) {
+        let message = format!("{} gives {error}", self.path.display());
+        places.problem(
+            "program.step_mm",
+            message,
+            "a larger step, or a part of the program",
+        );
+    }
 }
 
 /// Where the program lies, and how the tool is turned on it.
 ///
 /// Without `tool_axis` and `spin` the tool points where the program says, and keeps one turn about its axis.
-pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry) -> Placing {
+///
+/// A program of a robot lies where it says, and tells whole orientations.
+pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry, robot: Option<&RobotPath>) -> Placing {
     let part_from_path = table
         .part_from_path_mm_deg
         .as_ref()
         .map_or_else(Isometry::identity, pose_mm_deg);
+    let (base_from_path, axis) = match robot {
+        None => (
+            base_from_part * part_from_path,
+            part_from_path.rotation.inverse() * Vector3::z_axis(),
+        ),
+        Some(robot) => {
+            let base_from_path = robot.followed.base_from_path;
+            let normal = base_from_part.rotation * Vector3::z_axis();
+            (base_from_path, base_from_path.rotation.inverse() * normal)
+        }
+    };
     let spin = table.spin_deg.unwrap_or(0.0).to_radians();
     Placing {
-        base_from_path: base_from_part * part_from_path,
-        axis: part_from_path.rotation.inverse() * Vector3::z_axis(),
+        base_from_path,
+        axis,
         keeps_axis: table.tool_axis == Some(ToolAxisName::Normal),
         spin: match table.spin {
+            None if robot.is_some() => Spin::Given(spin),
             None | Some(SpinName::Fixed) => Spin::Fixed(spin),
             Some(SpinName::AlongFeed) => Spin::AlongFeed(spin),
             Some(SpinName::Given) => Spin::Given(spin),
         },
     }
-}
-
-/// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.
-fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
-    let tell = |error: std::io::Error| {
-        let message = format!("cannot read {}: {error}", path.display());
-        places.problem(key, message, BESIDE_STUDY);
-    };
-    std::fs::read_to_string(path).map_err(tell).ok()
 }

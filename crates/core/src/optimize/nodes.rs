@@ -1,0 +1,192 @@
+//! Which values at a few nodes bring what is interpolated between them nearest to what is wanted at many points?
+//!
+//! ```text
+//! min_x  sum_i | c_i - sum_k w_ik x_k |^2        W^T W x = W^T c, by conjugate gradients with the diagonal before them
+//! ```
+//!
+//! | symbol | meaning |
+//! |---|---|
+//! | `x_k` | value at node k |
+//! | `c_i` | value wanted at point i |
+//! | `w_ik` | share of node k at point i: of a straight move `1 - t` and `t`, of an arc the parabola through three |
+//!
+//! From any start the error shrinks by the condition of `W^T W`, which is about that of hat functions: some tens of rounds
+//! for any number of nodes. Source: Hestenes, Stiefel 1952.
+
+use nalgebra::Vector3;
+
+/// The shares of nodes at one point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shares {
+    /// Index of a node and its share; none is left out with `None`.
+    pub of: [Option<(usize, f64)>; 3],
+}
+
+impl Shares {
+    /// On the way between two nodes, at the part `t` of it; a node that is held where it is is `None`.
+    pub fn straight(from: Option<usize>, to: Option<usize>, t: f64) -> Shares {
+        Shares {
+            of: [from.map(|node| (node, 1.0 - t)), to.map(|node| (node, t)), None],
+        }
+    }
+
+    /// On the way through three nodes, the second at the part `p` of it.
+    pub fn bent([from, via, to]: [Option<usize>; 3], p: f64, t: f64) -> Shares {
+        let share = |node: Option<usize>, share: f64| node.map(|node| (node, share));
+        Shares {
+            of: [
+                share(from, (t - p) * (t - 1.0) / p),
+                share(via, t * (t - 1.0) / (p * (p - 1.0))),
+                share(to, t * (t - p) / (1.0 - p)),
+            ],
+        }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.of.iter().flatten().copied()
+    }
+}
+
+/// Rounds at most.
+const ROUNDS: usize = 200;
+/// The normal equations hold to this part of their right side.
+const HOLDS: f64 = 1e-10;
+
+/// Values at nodes, from `start` on, nearest to `wanted` at points with these shares. A node that no point hears of keeps
+/// its start.
+///
+/// # Panics
+/// If points and shares differ in number, or a share names no node.
+pub fn fitted(start: Vec<Vector3<f64>>, shares: &[Shares], wanted: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
+    assert_eq!(shares.len(), wanted.len(), "a value for each point");
+    let count = start.len();
+    let at = |x: &[Vector3<f64>], shares: &Shares| -> Vector3<f64> {
+        shares.iter().map(|(node, share)| x[node] * share).sum()
+    };
+    let back = |of: &dyn Fn(usize) -> Vector3<f64>| {
+        let mut sums = vec![Vector3::zeros(); count];
+        for (index, shares) in shares.iter().enumerate() {
+            let value = of(index);
+            shares
+                .iter()
+                .for_each(|(node, share)| sums[node] += value * share);
+        }
+        sums
+    };
+    let mut diagonal = vec![0.0; count];
+    for (node, share) in shares.iter().flat_map(Shares::iter) {
+        diagonal[node] += share * share;
+    }
+    let scaled = |r: &[Vector3<f64>]| -> Vec<Vector3<f64>> {
+        let one = |(r, d): (&Vector3<f64>, &f64)| if *d > 0.0 { r / *d } else { Vector3::zeros() };
+        r.iter().zip(&diagonal).map(one).collect()
+    };
+    let dot =
+        |a: &[Vector3<f64>], b: &[Vector3<f64>]| -> f64 { a.iter().zip(b).map(|(a, b)| a.dot(b)).sum() };
+    let mut x = start;
+    let size = back(&|index| wanted[index]);
+    let enough = HOLDS * HOLDS * dot(&size, &scaled(&size));
+    let mut r = back(&|index| wanted[index] - at(&x, &shares[index]));
+    let mut z = scaled(&r);
+    let mut p = z.clone();
+    let mut rho = dot(&r, &z);
+    for _ in 0..ROUNDS {
+        if rho <= enough {
+            break;
+        }
+        let q = back(&|index| at(&p, &shares[index]));
+        let alpha = rho / dot(&p, &q);
+        for node in 0..count {
+            x[node] += p[node] * alpha;
+            r[node] -= q[node] * alpha;
+        }
+        z = scaled(&r);
+        let next = dot(&r, &z);
+        let beta = next / rho;
+        for node in 0..count {
+            p[node] = z[node] + p[node] * beta;
+        }
+        rho = next;
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Straight moves between `nodes`, each in so many pieces.
+    fn polyline(nodes: usize, pieces: usize) -> Vec<Shares> {
+        let ends = (0..nodes - 1).flat_map(|k| {
+            (1..=pieces).map(move |i| Shares::straight(Some(k), Some(k + 1), i as f64 / pieces as f64))
+        });
+        std::iter::once(Shares::straight(Some(0), Some(1), 0.0))
+            .chain(ends)
+            .collect()
+    }
+
+    fn value(shares: &Shares, x: &[Vector3<f64>]) -> Vector3<f64> {
+        shares.iter().map(|(node, share)| x[node] * share).sum()
+    }
+
+    #[test]
+    fn what_nodes_can_make_they_make() {
+        let x: Vec<Vector3<f64>> = (0..40)
+            .map(|k| Vector3::new((0.7 * f64::from(k)).sin(), f64::from(k % 3), -1.0))
+            .collect();
+        let mut shares = polyline(40, 25);
+        let three = [Some(3), Some(17), Some(21)];
+        shares.extend((0..9).map(|i| Shares::bent(three, 0.4, f64::from(i) / 8.0)));
+        let wanted: Vec<_> = shares.iter().map(|shares| value(shares, &x)).collect();
+        let found = fitted(vec![Vector3::zeros(); 40], &shares, &wanted);
+        let apart = found
+            .iter()
+            .zip(&x)
+            .map(|(a, b)| (a - b).norm())
+            .fold(0.0, f64::max);
+        // The residual holds to 1e-10; the condition of hat functions is below ten.
+        assert!(apart < 1e-8, "{apart}");
+    }
+
+    #[test]
+    fn a_jump_in_the_middle_is_shared_by_both_sides() {
+        let shares = polyline(3, 100);
+        let wanted: Vec<_> = (0..201)
+            .map(|i| Vector3::new(if i <= 100 { 1.0 } else { -1.0 }, 0.0, 0.0))
+            .collect();
+        let found = fitted(vec![Vector3::zeros(); 3], &shares, &wanted);
+        // By symmetry nothing at the corner; beside it the line nearest to a constant: 3/2 at its end.
+        assert!(
+            found[1].norm() < 0.02 && (found[0].x - 1.5).abs() < 0.02,
+            "{found:?}"
+        );
+        let left = |x: &[Vector3<f64>]| -> f64 {
+            let rest = shares.iter().zip(&wanted);
+            rest.map(|(shares, wanted)| (value(shares, x) - wanted).norm_squared())
+                .sum()
+        };
+        // No neighbour is better.
+        for node in 0..3 {
+            for by in [-1e-3, 1e-3] {
+                let mut other = found.clone();
+                other[node].x += by;
+                assert!(left(&other) > left(&found));
+            }
+        }
+    }
+
+    #[test]
+    fn held_ends_stay_and_what_nobody_hears_of_keeps_its_start() {
+        let shares: Vec<Shares> = (0..11)
+            .map(|i| Shares::straight(None, Some(0), f64::from(i) / 10.0))
+            .collect();
+        let wanted: Vec<_> = (0..11)
+            .map(|i| Vector3::new(0.0, f64::from(i) / 10.0, 0.0))
+            .collect();
+        let start = vec![Vector3::zeros(), Vector3::new(7.0, 0.0, 0.0)];
+        let found = fitted(start, &shares, &wanted);
+        assert!((found[0] - Vector3::y()).norm() < 1e-12);
+        assert_eq!(found[1].x, 7.0);
+        assert!(fitted(Vec::new(), &[], &[]).is_empty());
+    }
+}

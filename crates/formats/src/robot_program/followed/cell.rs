@@ -1,0 +1,232 @@
+//! What a program does not tell of the cell that it runs in, and where its frames and tools lie there.
+
+use armill_core::frame::{Isometry, fixed_angles};
+
+use super::angle;
+use super::error::FollowError;
+use crate::robot_program::number::fixed;
+use crate::robot_program::program::{Frame, Motion, RobotMove, RobotProgram, Target};
+
+/// The cell that a program runs in. Lengths m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cell {
+    /// Flange to the tool centre point, z from the spindle to the tip.
+    pub flange_from_tool: Isometry,
+    /// Base to where the controller counts from.
+    pub base_from_controller: Isometry,
+    /// From there to the frame that the program calls by number, or does not tell.
+    pub controller_from_frame: Option<Isometry>,
+    /// Base to where the frame of the first target lies in truth, whatever the program says of it.
+    pub base_from_path: Option<Isometry>,
+}
+
+/// Tips farther apart than this are two, m.
+const SAME_TIP: f64 = 1e-5;
+/// Tools turned farther than this against each other are told, rad: 0.01 deg.
+const SAME_TURN: f64 = 1.75e-4;
+
+/// Where frames and tools of a program lie.
+pub(super) struct Placed {
+    /// Base to the frame of the first target.
+    pub base_from_path: Isometry,
+    flange_from_tool: Isometry,
+    base_from_controller: Isometry,
+    controller_from_frame: Option<Isometry>,
+    /// What the first target counts from, and its line.
+    first: Option<(Frame, u32)>,
+    /// Where that lies by the cell's word.
+    replaced: Option<Isometry>,
+    /// Numbers of tools that are taken for the cell's; `None` of one without.
+    taken: Vec<Option<u32>>,
+    /// How far the axes of the program's tool are turned against those of the cell's, rad, farthest.
+    turned: f64,
+}
+
+impl Cell {
+    /// Where the frames of `program` lie.
+    ///
+    /// # Errors
+    /// Frames that nobody tells, or both; cuts with another tip.
+    pub(super) fn placed(&self, program: &RobotProgram) -> Result<Placed, Vec<FollowError>> {
+        let poses = || program.moves.iter().filter(|told| tells_pose(told));
+        // Rapids may come from a home in another frame: what is cut decides.
+        let first = poses()
+            .find(|told| told.motion != Motion::Joint)
+            .or_else(|| poses().next());
+        let mut known: Vec<(Frame, u32)> = Vec::new();
+        for told in first.into_iter().chain(poses()) {
+            if !known.iter().any(|(frame, _)| *frame == told.frame) {
+                known.push((told.frame, told.line));
+            }
+        }
+        let mut errors = self.lacks(&known);
+        let mut placed = Placed {
+            base_from_path: self.base_from_controller,
+            flange_from_tool: self.flange_from_tool,
+            base_from_controller: self.base_from_controller,
+            controller_from_frame: self.controller_from_frame,
+            first: known.first().copied(),
+            replaced: self.base_from_path,
+            taken: Vec::new(),
+            turned: 0.0,
+        };
+        let mut tips: Vec<Frame> = Vec::new();
+        for told in poses() {
+            if !tips.contains(&told.tool) {
+                match placed.tcp_from_tool(told) {
+                    Ok(between) => placed.hear_tool(told, &between),
+                    Err(error) => errors.push(error),
+                }
+                if told.motion != Motion::Joint {
+                    tips.push(told.tool);
+                }
+            }
+        }
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        if let Some(first) = first {
+            placed.base_from_path = placed.base_from_frame(first);
+        }
+        Ok(placed)
+    }
+
+    /// What is not known of these frames, that of the path first.
+    fn lacks(&self, frames: &[(Frame, u32)]) -> Vec<FollowError> {
+        let Some((first, first_line)) = frames.first().copied() else {
+            return Vec::new();
+        };
+        let mut open = frames
+            .iter()
+            .filter(|(frame, _)| !matches!(frame, Frame::Told(_)));
+        let several = |other: &(Frame, u32), line: u32| FollowError::Several {
+            lines: [line, other.1],
+        };
+        if self.base_from_path.is_some() {
+            let others = open.filter(|(frame, _)| *frame != first);
+            return others.map(|other| several(other, first_line)).collect();
+        }
+        if self.controller_from_frame.is_some() {
+            return match open.next() {
+                None => vec![FollowError::Told { line: first_line }],
+                Some((_, line)) => open.map(|other| several(other, *line)).collect(),
+            };
+        }
+        open.map(|(frame, line)| match frame {
+            Frame::Numbered(number) => FollowError::Numbered {
+                line: *line,
+                number: *number,
+            },
+            _ => FollowError::Untold { line: *line },
+        })
+        .collect()
+    }
+}
+
+impl Placed {
+    /// Base to what the targets of this move count from.
+    pub fn base_from_frame(&self, told: &RobotMove) -> Isometry {
+        let by_program = |frame: &Frame| match frame {
+            Frame::Told(frame) => self.base_from_controller * frame,
+            Frame::Numbered(_) | Frame::Untold => {
+                self.base_from_controller * self.controller_from_frame.unwrap_or_else(Isometry::identity)
+            }
+        };
+        let (Some(base_from_first), Some((first, _))) = (self.replaced, self.first) else {
+            return by_program(&told.frame);
+        };
+        match (first, told.frame) {
+            (first, frame) if first == frame => base_from_first,
+            // What lies beside it goes with it.
+            (Frame::Told(_), frame) => base_from_first * by_program(&first).inverse() * by_program(&frame),
+            (_, frame) => by_program(&frame),
+        }
+    }
+
+    /// The program's tool at this move to the cell's.
+    ///
+    /// # Errors
+    /// A cut with another tip.
+    pub fn tcp_from_tool(&self, told: &RobotMove) -> Result<Isometry, FollowError> {
+        let Frame::Told(flange_from_tcp) = told.tool else {
+            return Ok(Isometry::identity());
+        };
+        let between = flange_from_tcp.inverse() * self.flange_from_tool;
+        let apart = between.translation.vector.norm();
+        if told.motion == Motion::Joint || apart <= SAME_TIP {
+            return Ok(between);
+        }
+        let [x, y, z, rx, ry, rz] = mm_deg(&flange_from_tcp);
+        Err(FollowError::Tip {
+            line: told.line,
+            told_mm: format!("{x}, {y}, {z}"),
+            apart_mm: apart * 1e3,
+            tool_mm_deg: format!("[{x}, {y}, {z}, {rx}, {ry}, {rz}]"),
+        })
+    }
+
+    fn hear_tool(&mut self, told: &RobotMove, between: &Isometry) {
+        if told.motion == Motion::Joint {
+            return;
+        }
+        match told.tool {
+            Frame::Told(_) => {
+                let turned = angle(&between.rotation, &Isometry::identity().rotation);
+                self.turned = self.turned.max(turned);
+            }
+            Frame::Numbered(number) => self.taken.push(Some(number)),
+            Frame::Untold => self.taken.push(None),
+        }
+    }
+
+    /// What a user must know of frames and tools, each a sentence.
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if let (Some((Frame::Told(frame), line)), None) = (self.first, self.replaced) {
+            let numbers = mm_deg(&frame).join(", ");
+            notes.push(format!(
+                "line {line}: the program tells its frame ({numbers} mm, deg from where the controller counts): the plane of the study does not move \
+                 it"
+            ));
+        }
+        for number in &self.taken {
+            notes.push(match number {
+                Some(number) => format!("tool {number} of the controller is taken to be the study's"),
+                None => "the program tells no tool: that of the study is taken".to_owned(),
+            });
+        }
+        if self.turned > SAME_TURN {
+            notes.push(format!(
+                "the axes of the program's tool are turned by {:.2} deg against those of the study's, whose z is the direction of the tool",
+                self.turned.to_degrees()
+            ));
+        }
+        notes
+    }
+}
+
+/// Whether a target or via point of this move is told as a pose.
+fn tells_pose(told: &RobotMove) -> bool {
+    let via = match &told.motion {
+        Motion::Circular { via } => via.pose(),
+        Motion::Joint | Motion::Linear => None,
+    };
+    let Target::Pose { .. } = &told.target else {
+        return via.is_some();
+    };
+    true
+}
+
+/// Decimals of a frame or tool in sentences, mm and deg.
+const DECIMALS: usize = 3;
+
+/// x, y, z in mm and turns about fixed x, y, z in deg.
+fn mm_deg(pose: &Isometry) -> [String; 6] {
+    let at = pose.translation.vector * 1e3;
+    let turned = fixed_angles(&pose.rotation).map(f64::to_degrees);
+    [at.x, at.y, at.z, turned.x, turned.y, turned.z].map(|value| {
+        let said = fixed(value, DECIMALS);
+        let short = said.trim_end_matches('0').trim_end_matches('.');
+        short.to_owned()
+    })
+}

@@ -1,0 +1,116 @@
+//! A program of a machine tool, cutter locations or a table of points as a path: its reader and what the study tells it.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_core::path::PathBuilder;
+use armill_formats::toolpath::LengthUnit;
+use armill_formats::toolpath::apt::Dialect;
+use armill_formats::toolpath::format::{self, Wanted};
+use armill_formats::toolpath::gcode::ToolTable;
+
+use super::program::{
+    BESIDE_STUDY, DialectName, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
+};
+use crate::StudyError;
+use crate::file::places::Places;
+
+/// The points of the program; `None` where it has problems, told at their places.
+///
+/// # Errors
+/// The problems of its file.
+pub(super) fn read(
+    places: &mut Places<'_>,
+    table: &ProgramTable,
+    file: &ProgramFile<'_>,
+) -> Result<Option<ReadProgram>, StudyError> {
+    let of_robots = [
+        (
+            "frame_mm_deg",
+            table.frame_mm_deg.is_some(),
+            "part_from_path_mm_deg tells where it lies on the part",
+        ),
+        (
+            "cuts_up_to_mm_per_min",
+            table.cuts_up_to_mm_per_min.is_some(),
+            "its rapids are told in the program",
+        ),
+    ];
+    for (key, _, hint) in of_robots.iter().filter(|(_, given, _)| *given) {
+        let message = format!("`{key}`: `{}` is no program of a robot", table.file);
+        places.problem(&format!("program.{key}"), message, hint);
+    }
+    if of_robots.iter().any(|(_, given, _)| *given) {
+        return Ok(None);
+    }
+    let opened = match File::open(&file.path) {
+        Ok(opened) => opened,
+        Err(error) => {
+            let message = format!("cannot read {}: {error}", file.path.display());
+            places.problem("program.file", message, BESIDE_STUDY);
+            return Ok(None);
+        }
+    };
+    let unit = table.unit.map(|unit| match unit {
+        UnitName::Mm => LengthUnit::Millimetre,
+        UnitName::Inch => LengthUnit::Inch,
+    });
+    let tools = match &table.tool_table {
+        None => None,
+        Some(name) => {
+            let path = file.folder.join(name);
+            let Some(text) = text_of(places, "program.tool_table", &path) else {
+                return Ok(None);
+            };
+            Some(ToolTable::read(
+                &path.display().to_string(),
+                &text,
+                unit.unwrap_or_default(),
+            )?)
+        }
+    };
+    // A subroutine that is not in the program lies beside it in a file of its own, as LinuxCNC has it.
+    let beside = file.path.parent().unwrap_or(file.folder).to_owned();
+    let subroutine = |name: &str| {
+        let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
+        let path = beside.join(format!("{name}.ngc"));
+        plain.then(|| std::fs::read_to_string(path).ok()).flatten()
+    };
+    let wanted = Wanted {
+        unit,
+        dialect: table.dialect.map(|dialect| match dialect {
+            DialectName::Nx => Dialect::Nx,
+            DialectName::SolidWorks => Dialect::SolidWorks,
+        }),
+        rotaries: table.rotaries.map(RotariesName::rotaries),
+        tools,
+        subroutines: Some(&subroutine),
+        ..Wanted::default()
+    };
+    let mut builder = PathBuilder::new(file.sampling, MOST_POINTS);
+    let shown = file.path.display().to_string();
+    let summary = format::read(&shown, BufReader::new(opened), &wanted, &mut |step| {
+        builder.take(step);
+    })?;
+    match builder.finish() {
+        Ok(path) => Ok(Some(ReadProgram {
+            path,
+            summary,
+            robot: None,
+        })),
+        Err(error) => {
+            file.too_many(places, error);
+            Ok(None)
+        }
+    }
+}
+
+/// The text of a file that the study names by `key`; `None` where it cannot be read, told at its place.
+fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
+    let tell = |error: std::io::Error| {
+        let message = format!("cannot read {}: {error}", path.display());
+        places.problem(key, message, BESIDE_STUDY);
+    };
+    std::fs::read_to_string(path).map_err(tell).ok()
+}
