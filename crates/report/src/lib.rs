@@ -14,6 +14,7 @@
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
 //! | how may the tool be turned along the path? | [`PostureLattice`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
+//! | which cell holds the tolerance? | [`Comparison`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
@@ -41,6 +42,7 @@ mod process_map;
 mod track;
 mod vector_field;
 
+mod comparison;
 mod ellipse;
 mod shares;
 
@@ -60,6 +62,7 @@ mod limit;
 mod line;
 mod line_label;
 mod marker;
+mod rows;
 mod surface;
 
 mod advances;
@@ -76,6 +79,7 @@ mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
 pub use colour::ColourScale;
+pub use comparison::{ComparedCell, Comparison};
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};

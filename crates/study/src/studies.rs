@@ -4,8 +4,10 @@
 
 use std::path::{Path, PathBuf};
 
+use armill_formats::robot::RobotDescription;
+
 use crate::error::StudyError;
-use crate::file::resolve::{Study, read};
+use crate::file::resolve::{Study, read, read_for};
 use crate::library;
 
 /// A study as it was found.
@@ -26,6 +28,16 @@ impl FoundStudy {
     /// Every problem of the file.
     pub fn read(&self) -> Result<Study, StudyError> {
         read(&self.shown, &self.folder, &self.bytes)
+    }
+
+    /// The study with this robot in place of its own; its compliances, homes and statements, which speak of that one, are
+    /// left out.
+    ///
+    /// # Errors
+    /// Every problem of the file; a robot that it cannot be asked for.
+    pub fn read_for(&self, robot: &RobotDescription) -> Result<Study, StudyError> {
+        let shown = format!("{} (with {})", self.shown, robot.robot.name());
+        read_for(Some(robot.clone()), (&shown, &self.folder), &self.bytes)
     }
 }
 

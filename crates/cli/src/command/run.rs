@@ -60,7 +60,10 @@ pub(super) fn results(
 }
 
 /// Runs `work` on this many threads, or on as many as there are processors; the numbers are the same.
-fn in_pool<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, StudyError> {
+pub(super) fn in_pool<T: Send>(
+    threads: Option<u16>,
+    work: impl FnOnce() -> T + Send,
+) -> Result<T, StudyError> {
     let Some(threads) = threads else { return Ok(work()) };
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(usize::from(threads))

@@ -1,9 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrow, ArrowCase, AxisLabels, ColourScale, Envelope, ForcePlot, ForceTrace, Growth, LatticeCell, Marker,
-    MarkerKind, PathPlot, PolarPlot, PostureLattice, ProcessMap, RadialSeries, Series, ShareBar, ShareBars,
-    StiffnessEllipse, Stretch, TrackMap, VectorField,
+    Arrow, ArrowCase, AxisLabels, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot, ForceTrace,
+    Growth, LatticeCell, Marker, MarkerKind, PathPlot, PolarPlot, PostureLattice, ProcessMap, RadialSeries,
+    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -27,6 +27,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("posture_lattice", posture_lattice().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
+        ("comparison", comparison().to_svg()),
         ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
     ]
@@ -304,5 +305,40 @@ fn ellipse() -> StiffnessEllipse {
         },
         growth: Growth::Left,
         compliance_um_per_n: [[0.42, 0.11], [0.11, 0.23]],
+    }
+}
+
+/// Three cells, one of which is known badly and one that does not reach everything.
+fn comparison() -> Comparison {
+    let cell = |label: &str, [mean, p95, largest, u]: [f64; 4], note: &str, result: &str| ComparedCell {
+        label: label.into(),
+        note: note.into(),
+        mean_um: Some(mean),
+        p95_um: Some(p95),
+        largest_um: Some(largest),
+        largest_uncertainty_um: Some(u),
+        limit_um: Some(40.0),
+        result: result.into(),
+    };
+    Comparison {
+        title: "Rim of a housing: which cell holds the tolerance".into(),
+        subtitle: "mean, 95 % and largest deviation; best first".into(),
+        quantity: "in-plane deviation (µm)".into(),
+        result: "within".into(),
+        cells: vec![
+            cell("large arm", [12.0, 19.0, 24.0, 3.0], "", "100.0 %"),
+            cell(
+                "large arm, long tool",
+                [22.0, 37.0, 52.0, 14.0],
+                "compliance assumed",
+                "91.5 %",
+            ),
+            cell(
+                "small arm",
+                [41.0, 66.0, 83.0, 8.0],
+                "12 of 240 points out of reach",
+                "38.0 %",
+            ),
+        ],
     }
 }

@@ -21,7 +21,7 @@ mod cautions;
 mod map;
 pub(crate) mod path;
 mod point;
-mod sentence;
+pub(crate) mod sentence;
 mod statement;
 mod volume;
 

@@ -130,24 +130,18 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
 
 /// What has the largest share, and how large.
 fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
-    let largest = point
-        .joint_share_um
-        .iter()
-        .enumerate()
-        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    largest.map_or_else(String::new, |(i, share)| {
+    point.largest_share().map_or_else(String::new, |(i, part)| {
         let is_joint = i < study.robot.robot.joints().len();
         let name = format!("{} {}", if is_joint { "joint" } else { "the" }, shares_of[i]);
-        if point.in_plane_um > 0.0 {
-            format!("{name} ({:.0} %)", share / point.in_plane_um * 100.0)
-        } else {
-            name
+        match part {
+            Some(part) => format!("{name} ({:.0} %)", part * 100.0),
+            None => name,
         }
     })
 }
 
 /// A deviation with the digits that mean something.
-pub(super) fn micrometres(um: f64) -> String {
+pub(crate) fn micrometres(um: f64) -> String {
     if um == um.round() && um < 1e6 {
         format!("{um:.0}")
     } else if um.abs() < 10.0 {

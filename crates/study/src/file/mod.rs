@@ -6,7 +6,7 @@
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
 //! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; [`posture_search`] the turns of the tool that are tried along paths; `places` tells problems where they stand.
+//! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried along paths; `places` tells problems where they stand.
 
 pub mod compliance;
 pub mod format;
@@ -20,4 +20,5 @@ pub mod stiffness;
 mod ask;
 mod memory;
 mod names;
+mod other_robot;
 mod places;

@@ -23,6 +23,7 @@ use super::compliance::{self, OwnCompliance};
 use super::format::{AskTable, StatementTable, StudyFile};
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
+use super::other_robot;
 use super::path::PathAsk;
 use super::places::Places;
 use super::positioner;
@@ -170,10 +171,25 @@ impl Setting {
 ///
 /// A study without asks means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
+    read_for(None, (shown, folder), bytes)
+}
+
+/// [`read`], with this robot in place of the study's own where one is given: see [`super::other_robot`].
+///
+/// # Errors
+/// As [`read`]; a robot that the study cannot be asked for.
+pub(crate) fn read_for(
+    other: Option<RobotDescription>,
+    (shown, folder): (&str, &Path),
+    bytes: &[u8],
+) -> Result<Study, StudyError> {
     let document = Document::from_bytes(shown, bytes)?;
-    let file: StudyFile = document.read()?;
+    let mut file: StudyFile = document.read()?;
     let mut places = Places::new(&document, None);
-    let robot = find_robot(&mut places, &file, folder)?;
+    if let Some(robot) = &other {
+        other_robot::put(&mut places, &mut file, robot)?;
+    }
+    let robot = find_robot(&mut places, &file, folder, other)?;
     let mut problems = std::mem::take(&mut places.problems);
     let mut asks = Vec::new();
     let default_ask = [whole_plane()];
@@ -241,8 +257,8 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
-/// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not
-/// found, told at its place.
+/// The robot of the study, or the one that is given in its place, with its compliances and its positioner where the study
+/// brings them; `None` where it is not found, told at its place.
 ///
 /// # Errors
 /// The problems of a robot file; compliances or a positioner that the robot refuses.
@@ -250,8 +266,10 @@ fn find_robot(
     places: &mut Places<'_>,
     file: &StudyFile,
     folder: &Path,
+    given: Option<RobotDescription>,
 ) -> Result<Option<RobotDescription>, StudyError> {
-    let mut found = match robots::find(&file.robot, folder) {
+    let found = given.map_or_else(|| robots::find(&file.robot, folder), Ok);
+    let mut found = match found {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
             places.problem("robot", message, &hint);

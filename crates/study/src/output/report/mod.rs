@@ -5,7 +5,7 @@
 //! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `inputs` with `cut`; `cells`: numbers in
 //! tables.
 
-mod cells;
+pub(crate) mod cells;
 mod cut;
 mod inputs;
 mod paths;

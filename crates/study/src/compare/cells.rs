@@ -1,0 +1,173 @@
+//! Which cells are compared: studies as they stand, and each of them with other robots in place of its own.
+//!
+//! | given | cells | called |
+//! |---|---|---|
+//! | studies | each as it stands | by their folders |
+//! | one study, robots | as it stands, then with each robot | by their robots |
+//! | studies, robots | each as it stands and with each robot | `FOLDER`, `FOLDER with ROBOT` |
+//!
+//! A robot that is a study's own makes no second cell of it.
+
+use std::path::{Path, PathBuf};
+
+use armill_formats::document::{Problem, Problems};
+use armill_formats::robot::RobotDescription;
+
+use crate::error::StudyError;
+use crate::file::resolve::Study;
+use crate::robots;
+use crate::studies::{self, FoundStudy};
+
+/// Cells that are compared at most: more lines no picture shows.
+const MOST_CELLS: usize = 40;
+
+/// One set-up to compare.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// What it is called.
+    pub name: String,
+    /// What errors call its study.
+    pub shown: String,
+    /// What is asked of it.
+    pub study: Study,
+}
+
+/// The cells that these studies (folders, files, names of examples) make with these robots (of the library, or files
+/// relative to the current folder).
+///
+/// # Errors
+/// What is wrong in any study or robot, all together; fewer than two cells, or too many; a study twice.
+pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, StudyError> {
+    let mut errors = Vec::new();
+    let mut keep = |error| errors.push(error);
+    let mut others: Vec<RobotDescription> = Vec::new();
+    for name in robot_names {
+        match robots::find(name, Path::new(".")) {
+            Ok(robot)
+                if others
+                    .iter()
+                    .any(|other| other.robot.name() == robot.robot.name()) =>
+            {
+                let message = format!("--robot: `{name}` is given twice");
+                keep(StudyError::value(message, "each robot once"));
+            }
+            Ok(robot) => others.push(robot),
+            Err(error) => keep(error),
+        }
+    }
+    let mut found: Vec<FoundStudy> = Vec::new();
+    for path in given {
+        match studies::find(path) {
+            Ok(study) if found.iter().any(|other| same_file(&other.shown, &study.shown)) => {
+                let message = format!("the study {} is given twice", study.shown);
+                keep(StudyError::value(
+                    message,
+                    "each study once; a robot in its place: --robot NAME",
+                ));
+            }
+            Ok(study) => found.push(study),
+            Err(error) => keep(error),
+        }
+    }
+    let labels = labels(&found);
+    let mut cells = Vec::new();
+    for (study, label) in found.iter().zip(labels) {
+        match study.read() {
+            Ok(own) => {
+                let others = others
+                    .iter()
+                    .filter(|robot| robot.robot.name() != own.robot.robot.name());
+                for robot in others.clone() {
+                    match study.read_for(robot) {
+                        Ok(swapped) => cells.push((Some(robot), label.clone(), study, swapped)),
+                        Err(error) => keep(error),
+                    }
+                }
+                // The study as it stands comes before its other robots.
+                let at = cells.iter().position(|(_, of, ..)| *of == label);
+                cells.insert(at.unwrap_or(cells.len()), (None, label, study, own));
+            }
+            Err(error) => keep(error),
+        }
+    }
+    together(errors)?;
+    let one_study = found.len() == 1;
+    let cells: Vec<Cell> = cells
+        .into_iter()
+        .map(|(robot, label, of, study)| Cell {
+            name: match robot {
+                _ if one_study => study.robot.robot.name().to_owned(),
+                Some(robot) => format!("{label} with {}", robot.robot.name()),
+                None => label,
+            },
+            shown: of.shown.clone(),
+            study,
+        })
+        .collect();
+    match cells.len() {
+        0 | 1 => Err(StudyError::value(
+            "one study with its own robot is one cell: there is nothing to compare it with",
+            "another study, or the same with another robot: --robot kuka/kr120r2500pro (`armill robots` lists them)",
+        )),
+        n if n > MOST_CELLS => Err(StudyError::value(
+            format!("{n} cells are more than the {MOST_CELLS} that can be told apart"),
+            "compare in groups",
+        )),
+        _ => Ok(cells),
+    }
+}
+
+/// Whether two studies are one file, however their paths are written.
+fn same_file(a: &str, b: &str) -> bool {
+    let whole = |shown: &str| std::fs::canonicalize(shown).unwrap_or_else(|_| PathBuf::from(shown));
+    whole(a) == whole(b)
+}
+
+/// What studies are called: by their folders, by their whole paths where folders have the same name.
+fn labels(found: &[FoundStudy]) -> Vec<String> {
+    let short = |study: &FoundStudy| {
+        let file = Path::new(&study.shown);
+        let plain = file.file_name().is_some_and(|name| name == "study.toml");
+        let of = if plain { file.parent() } else { None };
+        let name = of.and_then(Path::file_name).or(file.file_stem());
+        name.map_or_else(|| study.shown.clone(), |name| name.to_string_lossy().into_owned())
+    };
+    let short: Vec<String> = found.iter().map(short).collect();
+    let unlike = |i: usize| short.iter().filter(|other| **other == short[i]).count() == 1;
+    (0..found.len())
+        .map(|i| match unlike(i) {
+            true => short[i].clone(),
+            false => found[i].shown.clone(),
+        })
+        .collect()
+}
+
+/// Nothing where nothing is wrong; else the problems of all files, or where no file is wrong everything else in one.
+fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
+    let (mut problems, mut values): (Vec<Problem>, Vec<[String; 2]>) = (Vec::new(), Vec::new());
+    for error in errors {
+        match error {
+            StudyError::Problems(of_file) => {
+                problems.extend(
+                    of_file
+                        .into_iter()
+                        .filter(|problem| !problems.contains(problem))
+                        .collect::<Vec<_>>(),
+                );
+            }
+            StudyError::Value { message, hint } => values.push([message, hint]),
+            other => return Err(other),
+        }
+    }
+    if let Some([message, hint]) = values.into_iter().reduce(|[a, b], [message, hint]| {
+        let hint = if b.contains(&hint) {
+            b
+        } else {
+            format!("{b}; {hint}")
+        };
+        [format!("{a}; {message}"), hint]
+    }) {
+        return Err(StudyError::value(message, hint));
+    }
+    Ok(Problems::from(problems).into_result()?)
+}
