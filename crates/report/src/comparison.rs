@@ -114,10 +114,10 @@ impl Comparison {
 
     /// The three marks, then the limit: one that all share by its value.
     fn entries(&self, most: f64) -> Vec<Entry> {
-        let grey = "#5a5a5a";
+        let grey = MUTED;
         let mut entries = vec![
             Entry::new(Key::Dot(Style::fill(grey)), "mean"),
-            Entry::new(Key::Pieces(vec![Style::line(grey, 10.0)]), "95 % of the points"),
+            Entry::new(Key::Stroke(Style::line(grey, 3.0)), "95 % of the points"),
             Entry::new(Key::Diamond(largest_style(grey)), "largest, ± u"),
         ];
         let mut limits: Vec<f64> = self

@@ -29,6 +29,8 @@ pub(crate) enum Key {
     /// A line of several pieces, one after the other: one thing in several colours. Not checked: that there is
     /// a piece.
     Pieces(Vec<Style>),
+    /// An upright stroke.
+    Stroke(Style),
     /// A filled dot.
     Dot(Style),
     /// A diamond.
@@ -64,6 +66,10 @@ impl Key {
                     let from = x + 2.0 + piece * k as f64;
                     svg.line([from, middle], [from + piece, middle], style);
                 }
+            }
+            Self::Stroke(style) => {
+                let [x, y] = centre;
+                svg.line([x, y - 7.0], [x, y + 7.0], style);
             }
             Self::Dot(style) => svg.circle(centre, 3.5, style),
             Self::Diamond(style) => svg.polygon(&diamond(centre, 5.0), style),

@@ -9,6 +9,7 @@
 
 mod assumed;
 mod cell;
+mod compare;
 mod compensate;
 mod documents;
 mod forces;

@@ -15,6 +15,7 @@ use super::sentence;
 use super::traits::TraitAnswer;
 use super::{Comparable, Compared, Entry};
 use crate::answer::StudyAnswer;
+use crate::file::path::PathAsk;
 use crate::file::resolve::Subject;
 
 /// The whole comparison.
@@ -204,7 +205,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
     let path = |entry: &Entry| {
         let asks = &of.cells[entry.cell].study.asks;
         asks.iter().find_map(|ask| match &ask.subject {
-            Subject::Path(path) if ask.name == name => Some(&path.track.path),
+            Subject::Path(path) if ask.name == name => Some(&**path),
             _ => None,
         })
     };
@@ -214,15 +215,14 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
     let unlike = |entry: &Entry| {
         let other = path(entry)?;
         let [here, there] = [first, entry].map(|entry| &of.cells[entry.cell].name);
-        let pairs = reference.points.iter().zip(&other.points);
+        let pairs = reference
+            .track.path.points.iter().zip(&other.track.path.points);
         let apart = pairs.map(|(a, b)| (a.at - b.at).norm()).fold(0.0, f64::max);
-        if reference.points.len() == other.points.len() && apart <= SAME {
+        if reference.track.len() == other.track.len() && apart <= SAME {
             return None;
         }
-        let size = |path: &armill_core::path::SampledPath| {
-            format!("{} points over {:.1} mm", path.points.len(), path.length() * 1e3)
-        };
-        let how = match reference.points.len() == other.points.len() {
+        let size = |path: &PathAsk| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
+        let how = match reference.track.len() == other.track.len() {
             true => format!("points lie up to {:.3} mm apart", apart * 1e3),
             false => format!("{} against {}", size(reference), size(other)),
         };

@@ -159,14 +159,11 @@ fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
             other => return Err(other),
         }
     }
-    if let Some([message, hint]) = values.into_iter().reduce(|[a, b], [message, hint]| {
-        let hint = if b.contains(&hint) {
-            b
-        } else {
-            format!("{b}; {hint}")
-        };
-        [format!("{a}; {message}"), hint]
-    }) {
+    // Each with its own hint, as if they were told one after the other.
+    let told = values.into_iter().reduce(|[first, hint], [message, next_hint]| {
+        [format!("{first}\n  help: {hint}\nerror: {message}"), next_hint]
+    });
+    if let Some([message, hint]) = told {
         return Err(StudyError::value(message, hint));
     }
     Ok(Problems::from(problems).into_result()?)

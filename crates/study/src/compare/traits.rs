@@ -68,7 +68,7 @@ pub(super) fn of_path(study: &Study, ask: &PathAsk) -> Vec<(&'static str, String
     let points = format!(
         "{} points over {:.1} mm",
         ask.track.len(),
-        ask.track.path.length() * 1e3
+        ask.length() * 1e3
     );
     let pushes = match (&ask.cut, &ask.drill, &ask.measured) {
         (_, _, Some(measured)) => format!("measured: {}", measured.table.file),

@@ -94,6 +94,12 @@ impl PathAsk {
         }
     }
 
+    /// Length of all cuts, or of the shape, m.
+    pub fn length(&self) -> f64 {
+        self.shape()
+            .map_or_else(|| self.track.path.length(), Shape::length)
+    }
+
     /// The shape, if it is one.
     pub fn shape(&self) -> Option<&Shape> {
         match &self.source {
