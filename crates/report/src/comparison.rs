@@ -93,15 +93,17 @@ impl Comparison {
         let head = [rows.area.right() + 8.0, rows.area.y - 6.0];
         page.svg
             .text(head, &self.result, &Text::new(SMALL_PX).colour(MUTED));
+        let top = |k: usize| rows.area.y + ROW_PX * k as f64;
         for (k, cell) in self.cells.iter().enumerate() {
-            let top = rows.area.y + ROW_PX * k as f64;
-            page.svg
-                .layer("compared-cell", 1.0, |svg| draw_cell(svg, &rows, (k, cell), top));
-            let limit = finite(cell.limit_um).filter(near);
-            if let Some(limit) = limit {
+            if let Some(limit) = finite(cell.limit_um).filter(near) {
                 let x = rows.x(limit);
-                page.svg.line([x, top], [x, top + ROW_PX], &limit::style());
+                page.svg.line([x, top(k)], [x, top(k) + ROW_PX], &limit::style());
             }
+        }
+        for (k, cell) in self.cells.iter().enumerate() {
+            page.svg.layer("compared-cell", 1.0, |svg| {
+                draw_cell(svg, &rows, (k, cell), top(k));
+            });
         }
         let zero = rows.x(0.0);
         page.svg.line(

@@ -150,9 +150,15 @@ fn row(cell: &CellNumbers) -> Vec<String> {
     ]
 }
 
-/// In what the cells differ besides their robots, a line each.
+/// What has columns of the table.
+const IN_COLUMNS: [&str; 3] = ["robot", "compliance", "tolerance"];
+
+/// In what the cells differ besides what the table has, a line each.
 fn differences(ask: &ComparedAnswer) -> Vec<String> {
-    let differing = ask.traits.iter().filter(|one| one.differs && one.what != "robot");
+    let differing = ask
+        .traits
+        .iter()
+        .filter(|one| one.differs && !IN_COLUMNS.contains(&one.what));
     differing
         .map(|one| {
             let of = ask.cells.iter().zip(&one.of);

@@ -215,8 +215,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
     let unlike = |entry: &Entry| {
         let other = path(entry)?;
         let [here, there] = [first, entry].map(|entry| &of.cells[entry.cell].name);
-        let pairs = reference
-            .track.path.points.iter().zip(&other.track.path.points);
+        let pairs = reference.track.path.points.iter().zip(&other.track.path.points);
         let apart = pairs.map(|(a, b)| (a.at - b.at).norm()).fold(0.0, f64::max);
         if reference.track.len() == other.track.len() && apart <= SAME {
             return None;

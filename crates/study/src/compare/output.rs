@@ -162,12 +162,7 @@ fn pictures(compared: &Compared) -> Vec<Picture> {
 fn ranges(ask: &ComparedAnswer) -> Picture {
     let cell = |cell: &CellNumbers| ComparedCell {
         label: cell.cell.clone(),
-        note: match (cell.compliance_assumed, cell.points - cell.reached) {
-            (true, 0) => "compliance assumed".to_owned(),
-            (true, n) => format!("compliance assumed; {n} points out of reach"),
-            (false, 0) => String::new(),
-            (false, n) => format!("{n} of {} points out of reach", cell.points),
-        },
+        note: note(cell),
         mean_um: cell.mean_in_plane_um,
         p95_um: cell.p95_in_plane_um,
         largest_um: cell.max_in_plane_um,
@@ -190,6 +185,19 @@ fn ranges(ask: &ComparedAnswer) -> Picture {
         ),
         svg: picture.to_svg(),
     }
+}
+
+/// What speaks against a cell, in a few words.
+fn note(cell: &CellNumbers) -> String {
+    let of_all = |points: usize, what: &str| {
+        (points > 0).then(|| format!("{points} of {} points {what}", cell.points))
+    };
+    let told = [
+        cell.compliance_assumed.then(|| "compliance assumed".to_owned()),
+        of_all(cell.points - cell.reached, "out of reach"),
+        of_all(cell.reached - cell.inside_joint_limits, "outside joint limits"),
+    ];
+    told.into_iter().flatten().collect::<Vec<_>>().join("; ")
 }
 
 /// The deviation along a path, a line a cell.

@@ -56,7 +56,10 @@ pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
     let holds = if all(1.0) {
         format!("every cell holds {limit} µm on {whole}, {} best", first.cell)
     } else if all(0.0) {
-        format!("no cell holds {limit} µm at any point of {of}, {} comes nearest", first.cell)
+        format!(
+            "no cell holds {limit} µm at any point of {of}, {} comes nearest",
+            first.cell
+        )
     } else {
         holds.join(", ")
     };

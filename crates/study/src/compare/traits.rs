@@ -65,11 +65,7 @@ pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) ->
 
 /// A path.
 pub(super) fn of_path(study: &Study, ask: &PathAsk) -> Vec<(&'static str, String)> {
-    let points = format!(
-        "{} points over {:.1} mm",
-        ask.track.len(),
-        ask.length() * 1e3
-    );
+    let points = format!("{} points over {:.1} mm", ask.track.len(), ask.length() * 1e3);
     let pushes = match (&ask.cut, &ask.drill, &ask.measured) {
         (_, _, Some(measured)) => format!("measured: {}", measured.table.file),
         (_, Some(drill), None) => format!("drilling {}", drill.material.name),
