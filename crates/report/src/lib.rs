@@ -11,6 +11,7 @@
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
+//! | where does each hole come out? | [`HoleMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
 //! | how may the tool be turned along the path? | [`PostureLattice`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
@@ -30,6 +31,7 @@
 //! sources into one file. The example `gallery` draws every picture from made-up values.
 
 mod grid;
+mod hole_map;
 mod map;
 mod map_series;
 mod region;
@@ -84,6 +86,7 @@ pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use grid::{Grid, PointState};
+pub use hole_map::{HoleMap, HoleMark};
 pub use map::{DeviationMap, Overlay};
 pub use map_series::{MapSeries, Panel};
 pub use marker::{Marker, MarkerKind};

@@ -1,6 +1,7 @@
 //! Where should the part lie, how should the arm hold the tool, what path should the program say?
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
+//! - [`holes`]: the same at points that no path joins.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
@@ -9,6 +10,7 @@
 
 mod chain;
 pub mod compensation;
+pub mod holes;
 mod lattice;
 mod links;
 pub mod posture;
@@ -16,6 +18,7 @@ mod reversals;
 mod smooth;
 
 pub use compensation::{Compensated, Compensation, compensated};
+pub use holes::{HolesFound, holes_held};
 pub use lattice::Lattice;
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

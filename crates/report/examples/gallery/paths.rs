@@ -2,8 +2,8 @@
 
 use armill_report::{
     Arrow, ArrowCase, AxisLabels, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot, ForceTrace,
-    Growth, LatticeCell, Marker, MarkerKind, PathPlot, PolarPlot, PostureLattice, ProcessMap, RadialSeries,
-    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
+    Growth, HoleMap, HoleMark, LatticeCell, Marker, MarkerKind, PathPlot, PolarPlot, PostureLattice,
+    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -23,6 +23,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
         ("track_map", track_map().to_svg()),
+        ("hole_map", hole_map().to_svg()),
         ("process_map", process_map().to_svg()),
         ("posture_lattice", posture_lattice().to_svg()),
         ("force_plot", force_plot().to_svg()),
@@ -340,5 +341,32 @@ fn comparison() -> Comparison {
                 "38.0 %",
             ),
         ],
+    }
+}
+
+/// A panel of holes, worse to the right; one corner is out of reach.
+fn hole_map() -> HoleMap {
+    let hole = |k: u32| {
+        let [x, y] = [60.0 * f64::from(k % 7), 50.0 * f64::from(k / 7)];
+        let error_um = [12.0 + 0.06 * x, -6.0 + 0.05 * y - 0.02 * x];
+        let lost = x > 300.0 && y > 140.0;
+        HoleMark {
+            at_mm: [x, y],
+            error_um,
+            deviation_um: (!lost).then(|| error_um[0].hypot(error_um[1])),
+            name: if k == 6 { "1".into() } else { String::new() },
+        }
+    };
+    HoleMap {
+        title: "Rivet holes of a panel".into(),
+        subtitle: "drill of 6 mm, each hole in its best posture".into(),
+        axes: AxisLabels {
+            horizontal: "x (mm)".into(),
+            vertical: "y (mm)".into(),
+        },
+        quantity: "deviation across the hole (µm)".into(),
+        limit_um: Some(30.0),
+        scale: ColourScale::Viridis,
+        holes: (0..28).map(hole).collect(),
     }
 }

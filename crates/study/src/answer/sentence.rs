@@ -7,6 +7,7 @@
 //!
 //! After ± stands the standard uncertainty. Where nothing is reached the sentence says that instead.
 
+use super::holes::HolesAnswer;
 use super::map::MapAnswer;
 use super::path::PathAnswer;
 use super::point::PointAnswer;
@@ -16,14 +17,14 @@ use crate::file::resolve::{Study, Subject};
 /// The answer to the first thing that was asked.
 pub(super) fn answer(
     study: &Study,
-    maps: &[MapAnswer],
-    paths: &[PathAnswer],
-    volumes: &[VolumeAnswer],
+    (maps, paths): (&[MapAnswer], &[PathAnswer]),
+    (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
 ) -> String {
     let first = study.asks.first().and_then(|ask| match ask.subject {
         Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
         Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
         Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
+        Subject::Holes(_) => holes.first().map(|holes| of_holes(study, holes)),
     });
     let sentence = first.unwrap_or_else(|| "Nothing was asked.".to_owned());
     if study.compliance_is_assumed() {
@@ -125,6 +126,32 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
         culprit(study, worst, &path.setting.shares_of),
         path.fraction_within * 100.0,
         micrometres(path.setting.limit_um),
+    )
+}
+
+/// How many holes hold, the largest deviation with its hole, and what is out of reach.
+fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
+    let Some(worst) = holes.worst_holes.first() else {
+        return format!(
+            "The robot reaches none of the {} holes ({}, branch {}).",
+            holes.holes, holes.name, holes.branch
+        );
+    };
+    let lost = match holes.unreached {
+        0 => String::new(),
+        n => format!("; {n} cannot be drilled"),
+    };
+    format!(
+        "{}: {} of {} holes hold {} µm, each in its best posture; hole {} comes out {} ± {} µm beside its place, mostly by {}; holes are up to {} µm too deep or too shallow{lost}.",
+        holes.name,
+        holes.counts.within,
+        holes.holes,
+        micrometres(holes.setting.limit_um),
+        worst.hole,
+        micrometres(worst.point.in_plane_um),
+        micrometres(worst.point.in_plane_u_um),
+        culprit(study, &worst.point, &holes.setting.shares_of),
+        micrometres(holes.max_depth_um.unwrap_or(0.0)),
     )
 }
 

@@ -66,7 +66,7 @@ pub struct CellAnswer {
 pub struct ComparedAnswer {
     /// Its name; of a section with the label.
     pub name: String,
-    /// `path`, `map` or `volume`.
+    /// `path`, `holes`, `map` or `volume`.
     pub kind: &'static str,
     /// Which cell is best, in a sentence.
     pub answer: String,
@@ -94,7 +94,7 @@ impl CellAnswer {
     }
 }
 
-/// All entries by name, paths first, then maps, then volumes, each kind in the order given.
+/// All entries by name, paths first, then holes, maps and volumes, each kind in the order given.
 pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<CellAnswer>) -> Compared {
     let mut groups: Vec<Vec<Entry>> = Vec::new();
     for entry in entries {
@@ -109,7 +109,7 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
     }
     let place = |group: &Vec<Entry>| {
         let kind = group.first().map(|first| first.asked.kind);
-        ["path", "map", "volume"]
+        ["path", "holes", "map", "volume"]
             .into_iter()
             .position(|one| Some(one) == kind)
     };
@@ -206,6 +206,7 @@ fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
         let asks = &of.cells[entry.cell].study.asks;
         asks.iter().find_map(|ask| match &ask.subject {
             Subject::Path(path) if ask.name == name => Some(&**path),
+            Subject::Holes(holes) if ask.name == name => Some(&holes.path),
             _ => None,
         })
     };

@@ -16,6 +16,7 @@ pub(super) fn kind(subject: &Subject) -> &'static str {
         Subject::Sections(_) => "sections",
         Subject::Volume(..) => "volume",
         Subject::Path(_) => "path",
+        Subject::Holes(_) => "holes",
     }
 }
 

@@ -97,7 +97,7 @@ pub fn compare(of: &Comparable, watch: Watch<'_>) -> Result<Compared, StudyError
 /// What one cell has to say of each name.
 fn of_cell(cell: usize, study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Vec<Entry> {
     let (mut maps, mut paths) = (answer.maps.iter(), answer.paths.iter());
-    let mut volumes = answer.volumes.iter();
+    let (mut volumes, mut holes) = (answer.volumes.iter(), answer.holes.iter());
     let mut entries = Vec::new();
     let mut add = |asked: Option<Asked>, traits: Vec<(&'static str, String)>, curve| {
         entries.extend(asked.map(|asked| Entry {
@@ -136,6 +136,12 @@ fn of_cell(cell: usize, study: &Study, done: &[Done<'_>], answer: &StudyAnswer) 
                     .map(|told| Asked::path(told, (ask, &found.along.answers)));
                 let curve = Curve::along(ask, &found.along.answers);
                 add(asked, traits::of_path(study, ask), Some(curve));
+            }
+            Found::Holes(ask, found) => {
+                let asked = holes
+                    .next()
+                    .map(|told| Asked::holes(told, ask.path.setting.limit, &found.answers));
+                add(asked, traits::of_holes(study, ask), None);
             }
         }
     }

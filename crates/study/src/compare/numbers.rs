@@ -7,7 +7,9 @@ use armill_core::kernel::Answers;
 use armill_core::map::Counts;
 use serde::Serialize;
 
-use crate::answer::{CountsAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer};
+use crate::answer::{
+    CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
+};
 use crate::file::path::PathAsk;
 
 /// One ask in one cell.
@@ -55,7 +57,7 @@ pub struct CellNumbers {
 pub(super) struct Asked {
     /// Its name; of a section with the label.
     pub name: String,
-    /// `path`, `map` or `volume`.
+    /// `path`, `holes`, `map` or `volume`.
     pub kind: &'static str,
     /// Its numbers; cell and robot are still to be named.
     pub numbers: CellNumbers,
@@ -74,6 +76,16 @@ impl Asked {
                 told.worst.as_ref(),
                 &told.setting,
             ),
+        }
+    }
+
+    /// A set of holes against a limit, m.
+    pub(super) fn holes(told: &HolesAnswer, limit: f64, answers: &Answers) -> Asked {
+        let worst = told.worst_holes.first().map(|worst| &worst.point);
+        Asked {
+            name: told.name.clone(),
+            kind: "holes",
+            numbers: numbers((&told.branch, limit), answers, worst, &told.setting),
         }
     }
 

@@ -80,7 +80,7 @@ fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
         column("ask", "name of the ask", text(&|(ask, _)| ask.name.clone())),
         column(
             "kind",
-            "path, map or volume",
+            "path, holes, map or volume",
             text(&|(ask, _)| ask.kind.to_owned()),
         ),
         column("cell", "best first", text(&|(_, cell)| cell.cell.clone())),

@@ -16,6 +16,7 @@ use crate::answer::sentence::micrometres;
 pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
     let (whole, of) = match kind {
         "path" => ("the whole path", "the path"),
+        "holes" => ("all holes", "the holes"),
         "map" => ("the whole plane", "the plane"),
         _ => ("the whole box", "the box"),
     };

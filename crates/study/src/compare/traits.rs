@@ -9,6 +9,7 @@ use armill_core::nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::answer::sentence::micrometres;
+use crate::file::holes::HolesAsk;
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Setting, Sheet, Study};
 use crate::model_words::parts;
@@ -65,7 +66,21 @@ pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) ->
 
 /// A path.
 pub(super) fn of_path(study: &Study, ask: &PathAsk) -> Vec<(&'static str, String)> {
-    let points = format!("{} points over {:.1} mm", ask.track.len(), ask.length() * 1e3);
+    let (count, mm) = (ask.track.len(), ask.length() * 1e3);
+    along(study, ask, format!("{count} points over {mm:.1} mm"))
+}
+
+/// Holes.
+pub(super) fn of_holes(study: &Study, ask: &HolesAsk) -> Vec<(&'static str, String)> {
+    let (count, turns) = (ask.path.track.len(), ask.search.spins.count);
+    along(
+        study,
+        &ask.path,
+        format!("{count} holes, {turns} turns tried at each"),
+    )
+}
+
+fn along(study: &Study, ask: &PathAsk, points: String) -> Vec<(&'static str, String)> {
     let pushes = match (&ask.cut, &ask.drill, &ask.measured) {
         (_, _, Some(measured)) => format!("measured: {}", measured.table.file),
         (_, Some(drill), None) => format!("drilling {}", drill.material.name),

@@ -5,11 +5,12 @@
 //! ```
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
-//! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
+//! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
 //! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried along paths; `places` tells problems where they stand.
 
 pub mod compliance;
 pub mod format;
+pub mod holes;
 pub mod path;
 pub mod positioner;
 pub mod posture_search;

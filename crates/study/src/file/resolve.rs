@@ -21,6 +21,7 @@ use armill_formats::robot::RobotDescription;
 use super::ask::Resolver;
 use super::compliance::{self, OwnCompliance};
 use super::format::{AskTable, StatementTable, StudyFile};
+use super::holes::HolesAsk;
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::other_robot;
@@ -64,6 +65,7 @@ impl Study {
             Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
             Subject::Volume(setting, _) => Some(setting),
             Subject::Path(path) => Some(&path.setting),
+            Subject::Holes(holes) => Some(&holes.path.setting),
         })
     }
 }
@@ -88,6 +90,8 @@ pub enum Subject {
     Volume(Setting, BoxGrid),
     /// A path.
     Path(Box<PathAsk>),
+    /// Holes.
+    Holes(Box<HolesAsk>),
 }
 
 /// A plane with its grid.

@@ -14,11 +14,12 @@
 //! ```
 //!
 //! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
-//! `path` with `along`, `lattice`, `limits`, `arm`, `report`: what they show.
+//! `path` with `along`, `holes`, `lattice`, `limits`, `arm`, `report`: what they show.
 
 pub(crate) mod along;
 mod arm;
 mod folder;
+mod holes;
 mod lattice;
 mod limits;
 mod path;
@@ -87,8 +88,9 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 10] = [
-    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "process", "forces",
+const PICTURES: [&str; 13] = [
+    "holes", "cells", "turns", "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
+    "process", "forces",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.

@@ -19,7 +19,7 @@ mod shape;
 pub use cut::Cut;
 pub use drill::DrillCut;
 pub use feature::FeatureTable;
-pub(super) use load::Push;
+pub(super) use load::{Push, put_on};
 pub use measured::MeasuredForces;
 
 use std::path::Path;
@@ -70,6 +70,11 @@ pub enum PathSource {
         /// What was read.
         summary: Summary,
     },
+    /// A list of holes, which no path joins.
+    Holes {
+        /// Its file, as the study calls it; none where the study lists them itself.
+        file: Option<String>,
+    },
 }
 
 impl PathAsk {
@@ -91,6 +96,7 @@ impl PathAsk {
             PathSource::Shape(Shape::Circle { .. }) => "circle",
             PathSource::Shape(Shape::Polyline(_)) => "line",
             PathSource::Program { file, .. } => file,
+            PathSource::Holes { file } => file.as_deref().unwrap_or("holes"),
         }
     }
 
@@ -104,7 +110,7 @@ impl PathAsk {
     pub fn shape(&self) -> Option<&Shape> {
         match &self.source {
             PathSource::Shape(shape) => Some(shape),
-            PathSource::Program { .. } => None,
+            PathSource::Program { .. } | PathSource::Holes { .. } => None,
         }
     }
 }
@@ -168,6 +174,6 @@ pub(super) fn resolve(
             .map_or_else(Vec::new, |of| of.feature.clone()),
         setting,
     };
-    let pushes = load::put_on(places, push, folder, &mut ask)?;
+    let pushes = put_on(places, push, folder, &mut ask)?;
     Ok(pushes.then_some(ask))
 }

@@ -142,7 +142,7 @@ pub enum SpinName {
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
 /// What to do where a file is not found.
-const BESIDE_STUDY: &str = "the path counts from the folder of the study";
+pub(in crate::file) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
 /// Greatest distance of points where the study says nothing, mm.
@@ -152,7 +152,7 @@ const STEP_MM: f64 = 1.0;
 ///
 /// # Errors
 /// The problems of its file.
-pub(super) fn read(
+pub(in crate::file) fn read(
     places: &mut Places<'_>,
     table: &ProgramTable,
     folder: &Path,
@@ -261,7 +261,7 @@ pub(super) fn read(
 /// Where the program lies, and how the tool is turned on it.
 ///
 /// Without `tool_axis` and `spin` the tool points where the program says, and keeps one turn about its axis.
-pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry) -> Placing {
+pub(in crate::file) fn placing(table: &ProgramTable, base_from_part: &Isometry) -> Placing {
     let part_from_path = table
         .part_from_path_mm_deg
         .as_ref()
