@@ -1,7 +1,7 @@
 //! The command as a user meets it: one program with all its tests, so that it is linked once.
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `documents` (every page is run). Commands: `run`,
-//! `pose`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `forces`. What goes wrong: `refused`,
+//! `pose`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `forces`, `compare`, `holes`. What goes wrong: `refused`,
 //! `terminal`, `killed`.
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -13,6 +13,7 @@ mod compare;
 mod compensate;
 mod documents;
 mod forces;
+mod holes;
 mod identify;
 mod import;
 #[cfg(unix)]

@@ -42,6 +42,14 @@ pub(super) fn kind_name(kind: AskKind) -> &'static str {
     }
 }
 
+/// What one of this kind is called in a sentence.
+pub(super) fn kind_noun(kind: AskKind) -> &'static str {
+    match kind {
+        AskKind::Holes => "set of holes",
+        other => kind_name(other),
+    }
+}
+
 /// One ask against its study.
 pub(super) struct Resolver<'a> {
     pub file: &'a StudyFile,
@@ -110,10 +118,9 @@ impl Resolver<'_> {
         let t = self.table;
         let search = t.posture.as_ref().and_then(|posture| posture.search.as_ref());
         // What two kinds have belongs to the one that is asked.
-        let tool = if t.kind == AskKind::Holes {
-            t.kind
-        } else {
-            AskKind::Path
+        let with_tool = match t.kind {
+            AskKind::Holes => AskKind::Holes,
+            _ => AskKind::Path,
         };
         let given = [
             ("distances_mm", AskKind::Sections, t.distances_mm.is_some()),
@@ -124,18 +131,18 @@ impl Resolver<'_> {
             ("polyline_mm", AskKind::Path, t.polyline_mm.is_some()),
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
-            ("program", tool, t.program.is_some()),
+            ("program", with_tool, t.program.is_some()),
             ("cut", AskKind::Path, t.cut.is_some()),
-            ("posture.search", tool, search.is_some()),
+            ("posture.search", with_tool, search.is_some()),
             ("holes", AskKind::Holes, t.holes.is_some()),
         ];
         let load = t.load.as_ref().or(self.file.load.as_ref());
-        if t.kind != tool && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
-            let message = format!("a {} has no feed that a load could turn with", kind_name(t.kind));
+        if t.kind != with_tool && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
+            let message = format!("a {} has no feed that a load could turn with", kind_noun(t.kind));
             places.problem("load.frame", message, "`base` or `part`; `feed` along a path");
         }
         for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
-            let message = format!("`{key}` means nothing to a {}", kind_name(t.kind));
+            let message = format!("`{key}` means nothing to a {}", kind_noun(t.kind));
             let hint = format!(
                 "it belongs to kind = \"{}\"; the grid of a map is plane.step_mm",
                 kind_name(*kind)

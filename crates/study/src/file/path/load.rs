@@ -24,7 +24,7 @@ use super::drill::{self, DrillTable};
 use super::measured::{self, MeasuredTable, SynchroniseName};
 use super::{PathAsk, PathSource};
 use crate::StudyError;
-use crate::file::ask::kind_name;
+use crate::file::ask::kind_noun;
 use crate::file::format::{AskKind, AskTable, LoadTable, StudyFile};
 use crate::file::places::Places;
 
@@ -84,7 +84,7 @@ impl<'a> Push<'a> {
         if let (Some((_, first, _)), Some((key, second, _))) = (brought.next(), brought.next()) {
             places.problem(
                 key,
-                format!("this {} has {first} and {second}", kind_name(ask.kind)),
+                format!("this {} has {first} and {second}", kind_noun(ask.kind)),
                 "remove one",
             );
         }
