@@ -146,7 +146,10 @@ impl HoleMap {
         }
         if !hole.name.is_empty() {
             let text = Text::new(SMALL_PX).bold().halo(3.0);
-            svg.text([x, y - RING_PX - 4.0], &hole.name, &text.middle());
+            // On the side that the arrow does not take.
+            let up = hole.error_um[1] <= 0.0 || value(hole).is_none();
+            let by = if up { -RING_PX - 4.0 } else { RING_PX + 12.0 };
+            svg.text([x, y + by], &hole.name, &text.middle());
         }
     }
 

@@ -160,7 +160,12 @@ fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (Co
         });
         curves.extend(entry.curve);
     }
-    notes.extend(sentence::doubts(&numbers));
+    let of_arm = |one: &&TraitAnswer| ["robot", "compliance"].contains(&one.what);
+    let same_arm = |index: usize| {
+        let mut arms = traits.iter().filter(of_arm);
+        arms.all(|one| one.of[index] == one.of[index + 1])
+    };
+    notes.extend(sentence::doubts(&numbers, same_arm));
     let told = ComparedAnswer {
         answer: sentence::ranking(&name, kind, &numbers),
         name,

@@ -11,12 +11,12 @@
 //! Cells stand best first: by the part of all points that holds the tolerance inside the joint limits, then by the points
 //! that are reached there, then by the largest deviation.
 //!
-//! `cells`: which cells; `common`: what they ask alike; `numbers`: a cell in numbers; `traits`: in what cells differ;
+//! `cells`: which cells; `asked_alike`: what is asked of several; `numbers`: a cell in numbers; `traits`: in what cells differ;
 //! `curve`: the deviation along a path; `answer`: all of it; `sentence`: which is best, in words; `output`: files.
 
 mod answer;
+mod asked_alike;
 mod cells;
-mod common;
 mod curve;
 mod numbers;
 mod output;
@@ -59,7 +59,7 @@ pub struct Compared {
 /// # Errors
 /// They have none.
 pub fn comparable(mut cells: Vec<Cell>) -> Result<Comparable, StudyError> {
-    let left_out = common::keep(&mut cells)?;
+    let left_out = asked_alike::keep(&mut cells)?;
     Ok(Comparable { cells, left_out })
 }
 

@@ -43,6 +43,7 @@ pub struct HolesTable {
     /// Directions out of the part, same axes, of any length: one a hole or one for all; the normal of the plane if left
     /// out.
     #[schemars(length(max = 100_000), inner(inner(range(min = -1e6, max = 1e6))))]
+    // unit: directions, of any length
     pub normals: Option<Vec<[f64; 3]>>,
     /// A CSV of them in place of `at_mm`, relative to the study: columns x_mm, y_mm, z_mm, and i, j, k out of the part.
     pub file: Option<String>,

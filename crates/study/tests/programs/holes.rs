@@ -212,7 +212,7 @@ fn what_holes_cannot_be_is_told_at_its_place() {
     refused(
         &with("holes = { at_mm = [[0, 0, 0]], normals = [[0, 0, 0]] }"),
         &[],
-        &["study.toml:10:", "a normal without length"],
+        &["study.toml:12:", "a normal without length"],
     );
     refused(
         &with("holes = { file = \"none.csv\" }"),
