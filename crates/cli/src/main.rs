@@ -35,6 +35,7 @@ fn main() -> ExitCode {
         Command::Materials(materials) => command::materials::run(materials),
         Command::Pose(pose) => command::pose::run(pose),
         Command::Posture(posture) => command::posture::run(posture),
+        Command::Place(place) => command::place::run(place),
         Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Forces(forces) => command::forces::run(forces),

@@ -22,8 +22,14 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar for this many points; drawn only on a terminal, at most ten times a second.
     pub(crate) fn new(points: usize) -> Progress {
-        let bar = ProgressBar::with_draw_target(Some(points as u64), ProgressDrawTarget::stderr_with_hz(10));
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} points, {eta} left {msg}") {
+        Progress::of("points", points)
+    }
+
+    /// The same of things with another name.
+    pub(crate) fn of(things: &str, count: usize) -> Progress {
+        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr_with_hz(10));
+        let template = format!("{{bar:40}} {{pos}}/{{len}} {things}, {{eta}} left {{msg}}");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         Progress {

@@ -13,7 +13,7 @@
 //! | where on a tool path, seen from above? | [`TrackMap`] |
 //! | where does each hole come out? | [`HoleMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
-//! | how may the tool be turned along the path? | [`PostureLattice`] |
+//! | how may the tool be turned along the path; what lies around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell holds the tolerance? | [`Comparison`] |
 //! | which joint is to blame? | [`ShareBars`] |
@@ -39,7 +39,6 @@ mod region;
 mod force_plot;
 mod path_plot;
 mod polar_plot;
-mod posture_lattice;
 mod process_map;
 mod track;
 mod vector_field;
@@ -54,6 +53,7 @@ pub mod html;
 #[cfg(feature = "png")]
 pub mod raster;
 
+mod cell_map;
 mod chart;
 mod colour_bar;
 mod contours;
@@ -80,6 +80,7 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
+pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use comparison::{ComparedCell, Comparison};
 pub use ellipse::StiffnessEllipse;
@@ -93,7 +94,6 @@ pub use marker::{Marker, MarkerKind};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};
 pub use polar_plot::{PolarPlot, RadialSeries};
-pub use posture_lattice::{LatticeCell, PostureLattice};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};

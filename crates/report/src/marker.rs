@@ -47,12 +47,17 @@ pub(crate) fn draw_marker(svg: &mut Svg, plane: &Plane, marker: &Marker) {
         return;
     }
     let at = plane.at(marker.at_mm);
-    match marker.kind {
-        MarkerKind::Point => svg.circle(at, 3.5, &style(marker.kind)),
-        MarkerKind::Best => svg.polygon(&diamond(at, 7.0), &style(marker.kind)),
-    }
+    draw_sign(svg, at, marker.kind);
     if !marker.name.is_empty() {
         write_on_map(svg, [at[0], at[1] - NAME_ABOVE_PX], &marker.name);
+    }
+}
+
+/// Draws the sign of a place that is marked.
+pub(crate) fn draw_sign(svg: &mut Svg, at: Point, kind: MarkerKind) {
+    match kind {
+        MarkerKind::Point => svg.circle(at, 3.5, &style(kind)),
+        MarkerKind::Best => svg.polygon(&diamond(at, 7.0), &style(kind)),
     }
 }
 

@@ -1,8 +1,9 @@
 //! What a user asks of armill, from the file to the answer.
 //!
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
-//! ([`answer`]), and written as tables, pictures and a report ([`output`]). [`compare`] puts several side by side. [`pose`] answers for a single pose,
-//! [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces.
+//! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
+//! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
+//! [`place`] finds where a part may lie best.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
 //! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and
@@ -27,6 +28,7 @@ pub mod new;
 pub mod number;
 pub mod output;
 pub mod pendant;
+pub mod place;
 pub mod pose;
 pub mod program_out;
 pub mod robot_answers;

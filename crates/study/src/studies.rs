@@ -4,10 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
-use armill_formats::robot::RobotDescription;
-
 use crate::error::StudyError;
-use crate::file::resolve::{Study, read, read_for};
+use crate::file::format::StudyFile;
+use crate::file::resolve::{Study, read, read_changed};
 use crate::library;
 
 /// A study as it was found.
@@ -30,14 +29,12 @@ impl FoundStudy {
         read(&self.shown, &self.folder, &self.bytes)
     }
 
-    /// The study with this robot in place of its own; its compliances, homes and statements, which speak of that one, are
-    /// left out.
+    /// The study with what `change` makes of its file, checked.
     ///
     /// # Errors
-    /// Every problem of the file; a robot that it cannot be asked for.
-    pub fn read_for(&self, robot: &RobotDescription) -> Result<Study, StudyError> {
-        let shown = format!("{} (with {})", self.shown, robot.robot.name());
-        read_for(Some(robot.clone()), (&shown, &self.folder), &self.bytes)
+    /// Every problem of the file.
+    pub fn read_changed(&self, change: impl FnOnce(&mut StudyFile)) -> Result<Study, StudyError> {
+        read_changed((&self.shown, &self.folder), &self.bytes, change)
     }
 }
 

@@ -17,6 +17,7 @@ mod forces;
 mod identify;
 mod materials;
 mod new;
+mod place;
 mod pose;
 mod posture;
 mod robots;
@@ -30,6 +31,7 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
+pub(crate) use place::PlaceArguments;
 pub(crate) use pose::PoseArguments;
 pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
@@ -73,6 +75,8 @@ pub(crate) enum Command {
     Pose(Box<PoseArguments>),
     /// The best turn of the tool and branch along the paths of a study
     Posture(PostureArguments),
+    /// Where the part should lie so that a path deviates least
+    Place(Box<PlaceArguments>),
     /// The paths to command so that the tool goes where it is drawn
     Compensate(CompensateArguments),
     /// Joint compliances from load tests, and which tests to do
@@ -99,6 +103,7 @@ impl Command {
             Command::Materials(a) => a.json,
             Command::Pose(a) => a.json,
             Command::Posture(a) => a.run.json,
+            Command::Place(a) => a.run.json,
             Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,

@@ -1,6 +1,6 @@
 //! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
 //!
-//! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `compensate`, `identify`,
+//! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `compensate`, `identify`,
 //! `forces`, `completions`. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
@@ -17,6 +17,7 @@ pub(crate) mod forces;
 pub(crate) mod identify;
 pub(crate) mod materials;
 pub(crate) mod new;
+pub(crate) mod place;
 pub(crate) mod pose;
 pub(crate) mod posture;
 pub(crate) mod robots;

@@ -248,7 +248,7 @@ fn what_cannot_be_compared_is_refused_with_what_to_do() {
     refused(
         &["heavy.toml", "--robot", "fanuc/r2000ic"],
         &[
-            "heavy.toml (with fanuc/r2000ic):",
+            "heavy.toml (with fanuc/r2000ic): gravity",
             "joints of yaskawa/mh12, not of fanuc/r2000ic",
         ],
     );

@@ -20,9 +20,9 @@ use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
 use crate::load::Doubt;
 use crate::predict::deviation_of;
-use crate::robot::forward::{Frames, forward_into};
+use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
-use crate::robot::{Branch, PostureName, Singularity};
+use crate::robot::{Branch, PostureName, Robot, Singularity};
 use crate::source::{Arm, Standing};
 use crate::spatial::{Twist, Wrench};
 
@@ -113,10 +113,19 @@ impl Column {
 
 /// Makes columns; one a thread.
 pub struct Columns<'q> {
+    keeping: Keeping<'q>,
+    way: Way<'q>,
+}
+
+/// The arm, and how far it keeps from where it may not stand.
+#[derive(Clone, Copy)]
+struct Keeping<'q> {
     arm: Arm<'q>,
     home: Option<&'q [f64]>,
+    /// Least bend of the wrist, rad.
     wrist: f64,
-    way: Way<'q>,
+    /// Least distance of every joint from its limits and of the elbow from stretched, rad.
+    margin: f64,
 }
 
 /// By lanes or one after the other.
@@ -141,37 +150,57 @@ impl<'q> Columns<'q> {
             choice: BranchChoice::Best,
         };
         let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
-        let way = match lanes {
-            Some(form) => Way::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
-            None => Way::General(Box::new(OneByOne {
+        match lanes {
+            Some(form) => Columns {
+                keeping: Keeping {
+                    arm,
+                    home,
+                    wrist,
+                    margin: 0.0,
+                },
+                way: Way::Lanes(Box::new(Batch::new(&question, form, Backend::fastest()))),
+            },
+            None => Columns::one_by_one(arm, home, [wrist, 0.0]),
+        }
+    }
+
+    /// [`Columns::new`] for any arm, one pose after the other; every joint also stays `margin` (rad) away from its limits, and
+    /// of an ortho-parallel arm the elbow so far from stretched and folded.
+    pub(super) fn one_by_one(
+        arm: Arm<'q>,
+        home: Option<&'q [f64]>,
+        [wrist, margin]: [f64; 2],
+    ) -> Columns<'q> {
+        Columns {
+            keeping: Keeping {
+                arm,
+                home,
+                wrist,
+                margin,
+            },
+            way: Way::General(Box::new(OneByOne {
                 finder: Finder::new(arm.robot),
                 frames: Frames::for_robot(arm.robot),
                 standing: Standing::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
             })),
-        };
-        Columns {
-            arm,
-            home,
-            wrist,
-            way,
         }
     }
 
     /// Whether slots are branches, in the order of [`Branch::ALL`]; otherwise they are the postures that were found, of one
     /// pose in another order than of the next.
     pub fn slots_are_branches(&self) -> bool {
-        self.arm.robot.inverse().has_branches()
+        self.keeping.arm.robot.inverse().has_branches()
     }
 
     /// Fills `out` with the postures of these poses under `push`.
     pub fn fill(&mut self, poses: &[Isometry], push: &Push<'_>, out: &mut Column) {
-        let joint_count = self.arm.robot.joints().len();
+        let joint_count = self.keeping.arm.robot.joints().len();
         out.clear(poses.len(), joint_count);
         match &mut self.way {
             Way::Lanes(batch) => {
                 batch.push(push.cases, &push.along);
-                let least = self.wrist.sin().powi(2);
+                let least = self.keeping.wrist.sin().powi(2);
                 for (block, poses) in poses.chunks(POINTS).enumerate() {
                     let first = block * POINTS;
                     batch.each_posture(poses, |four, of| {
@@ -194,7 +223,7 @@ impl<'q> Columns<'q> {
             }
             Way::General(one_by_one) => {
                 for (i, pose) in poses.iter().enumerate() {
-                    one_by_one.pose((self.arm, self.home, self.wrist), pose, push, (i, out));
+                    one_by_one.pose(&self.keeping, pose, push, (i, out));
                 }
             }
         }
@@ -226,15 +255,16 @@ struct OneByOne<'q> {
 impl OneByOne<'_> {
     fn pose(
         &mut self,
-        (arm, home, wrist): (Arm<'_>, Option<&[f64]>, f64),
+        keeping: &Keeping<'_>,
         pose: &Isometry,
         push: &Push<'_>,
         (index, out): (usize, &mut Column),
     ) {
+        let arm = keeping.arm;
         let wanted = Wanted {
             base_from_flange: pose * self.tool_from_flange,
             near: None,
-            home,
+            home: keeping.home,
         };
         // What was found at the pose before is no guide: columns may come in any order.
         self.finder.forget();
@@ -253,13 +283,16 @@ impl OneByOne<'_> {
             let joint_count = one.joints.len();
             out.joints[slot * joint_count..][..joint_count].copy_from_slice(&one.joints);
             let margin = arm.robot.limit_margin(&one.joints);
-            let stand = if margin.is_some_and(|(_, margin)| margin < -AT_LIMIT) {
+            let stand = if margin.is_some_and(|(_, margin)| margin < keeping.margin - AT_LIMIT) {
                 Stand::OutsideLimits
             } else {
                 forward_into(arm.robot, &one.joints, &mut self.frames);
                 let tcp = pose.translation.vector.into();
                 self.standing.stand_in(&one.joints, &self.frames, &tcp);
-                if is_singular(named, one, (self.standing.screws(), wrist)) {
+                let wrist = keeping.wrist.max(keeping.margin);
+                if is_singular(named, one, (self.standing.screws(), wrist))
+                    || elbow_bend(arm.robot, &self.frames) < keeping.margin.sin()
+                {
                     Stand::Singular
                 } else {
                     Stand::Holds
@@ -297,6 +330,19 @@ fn is_singular(named: bool, found: &Found, (screws, wrist): (&[Twist], f64)) -> 
         }
         (singularity, _) => singularity.is_some(),
     }
+}
+
+/// Sine of the angle between upper arm and forearm of an ortho-parallel arm that stands so; 1 of others.
+fn elbow_bend(robot: &Robot, frames: &Frames) -> f64 {
+    let Some(form) = robot.ortho_parallel() else {
+        return 1.0;
+    };
+    let axis = joint_axis(robot, frames, 1);
+    let [shoulder, elbow] = [1, 2].map(|joint| frames.origin(joint));
+    let wrist = frames.base_from_flange * form.flange_from_wrist;
+    let across = |v: Vector3<f64>| v - axis * axis.dot(&v);
+    let (upper, fore) = (across(elbow - shoulder), across(wrist - elbow));
+    upper.cross(&fore).norm() / (upper.norm() * fore.norm())
 }
 
 #[cfg(test)]

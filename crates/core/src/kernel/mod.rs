@@ -8,7 +8,7 @@
 //! gives the same bits.
 //!
 //! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
-//! points that each have a load of their own; `column`: every posture of a few poses.
+//! points that each have a load of their own; `column`: every posture of a few poses; `placed`: a path wherever its part lies.
 
 mod answer;
 mod at_joints;
@@ -18,6 +18,7 @@ mod general;
 #[allow(clippy::needless_range_loop)]
 pub mod lanes;
 mod loaded;
+mod placed;
 mod question;
 mod solver;
 
@@ -25,6 +26,7 @@ pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, at_joints};
 pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
+pub use placed::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

@@ -2,6 +2,7 @@
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
 //! - [`holes`]: the same at points that no path joins.
+//! - [`placement`]: what a place of the part is worth.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
@@ -13,6 +14,7 @@ pub mod compensation;
 pub mod holes;
 mod lattice;
 mod links;
+pub mod placement;
 pub mod posture;
 mod reversals;
 mod smooth;
@@ -20,5 +22,6 @@ mod smooth;
 pub use compensation::{Compensated, Compensation, compensated};
 pub use holes::{HolesFound, holes_held};
 pub use lattice::Lattice;
+pub use placement::{Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;

@@ -18,7 +18,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::chain::{Beginning, Chain, Cheapest, MOST_STEPS, Together, Turns};
@@ -106,7 +106,7 @@ const CHUNK: usize = 256;
 /// Points of the lattice that are kept.
 const KEPT: usize = 800;
 /// Part of a deviation within the limit that still counts, so that of chains within it the better is taken.
-const WITHIN: f64 = 1e-3;
+pub(super) const WITHIN: f64 = 1e-3;
 
 /// The postures that hold the tool along `track` under `load` as `search` asks. What `question` says of cases, normal, doubt and
 /// choice is not looked at.
@@ -309,6 +309,26 @@ impl Walk<'_> {
     }
 }
 
+impl Counts {
+    /// Directions that the deviation counts along at point `index` of `track`, whose normal is this, base; of length 1, or 0
+    /// where one is enough.
+    pub(super) fn along(
+        self,
+        (track, index): (&Track, usize),
+        normal: Unit<Vector3<f64>>,
+    ) -> [Vector3<f64>; 2] {
+        let normal = normal.into_inner();
+        match self {
+            Counts::InPlane => {
+                let across = some_across(&normal);
+                [across, normal.cross(&across)]
+            }
+            Counts::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
+            Counts::Axial => [normal, Vector3::zeros()],
+        }
+    }
+}
+
 impl PostureFound {
     /// The branches of the path, each with the point that it begins at, for [`crate::map::along_postures`].
     pub fn choices(&self) -> Vec<(usize, BranchChoice)> {
@@ -366,15 +386,7 @@ pub(super) fn fill(
     let poses: Vec<Isometry> = (0..search.spins.count)
         .map(|turn| stop.base_from_tool * about_z(search.spins.at(turn)))
         .collect();
-    let normal = stop.normal.into_inner();
-    let along = match search.counts {
-        Counts::InPlane => {
-            let across = some_across(&normal);
-            [across, normal.cross(&across)]
-        }
-        Counts::CrossTrack => [track.base_from_feed(index) * Vector3::y(), Vector3::zeros()],
-        Counts::Axial => [normal, Vector3::zeros()],
-    };
+    let along = search.counts.along((track, index), stop.normal);
     let push = Push { cases: &cases, along };
     maker.fill(&poses, &push, column);
     if maker.slots_are_branches() && search.branches != BranchPattern::default() {

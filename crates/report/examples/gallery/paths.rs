@@ -1,9 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrow, ArrowCase, AxisLabels, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot, ForceTrace,
-    Growth, HoleMap, HoleMark, LatticeCell, Marker, MarkerKind, PathPlot, PolarPlot, PostureLattice,
-    ProcessMap, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
+    Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot,
+    ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries,
+    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -25,7 +25,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("track_map", track_map().to_svg()),
         ("hole_map", hole_map().to_svg()),
         ("process_map", process_map().to_svg()),
-        ("posture_lattice", posture_lattice().to_svg()),
+        ("cell_map", cell_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
         ("comparison", comparison().to_svg()),
@@ -135,22 +135,22 @@ fn process_map() -> ProcessMap {
 }
 
 /// Turns of the tool that limits bound from above and a singularity cuts in two; the turn chosen goes round its end.
-fn posture_lattice() -> PostureLattice {
+fn cell_map() -> CellMap {
     let along_mm: Vec<f64> = (0..160).map(|k| f64::from(k) * 5.0).collect();
     let turns_deg: Vec<f64> = (-36..36).map(|k| f64::from(k) * 5.0).collect();
     let cell = |along: f64, turn: f64| {
         let wave = (along / 130.0).sin();
         if turn > 110.0 + 30.0 * wave && turn < 160.0 {
-            LatticeCell::OutsideJointLimits
+            Cell::OutsideJointLimits
         } else if (turn - 20.0 - 0.1 * along).abs() < 4.0 {
-            LatticeCell::Singular
+            Cell::Singular
         } else if along > 620.0 && turn < -90.0 {
-            LatticeCell::OutOfReach
+            Cell::OutOfReach
         } else {
-            LatticeCell::Holds(60.0 + 25.0 * wave + 20.0 * (turn.to_radians() - 0.004 * along).cos())
+            Cell::Holds(60.0 + 25.0 * wave + 20.0 * (turn.to_radians() - 0.004 * along).cos())
         }
     };
-    PostureLattice {
+    CellMap {
         title: "rim: how the tool may be turned along the path".to_owned(),
         subtitle: "front elbow-up no-flip, the force of the cut".to_owned(),
         quantity: "deviation across the tool (µm)".to_owned(),
@@ -158,10 +158,17 @@ fn posture_lattice() -> PostureLattice {
             .iter()
             .flat_map(|along| turns_deg.iter().map(move |turn| cell(*along, *turn)))
             .collect(),
-        chosen_deg: along_mm.iter().map(|along| -100.0 - 0.2 * along).collect(),
-        along_mm,
-        turns_deg,
+        chosen: along_mm.iter().map(|along| -100.0 - 0.2 * along).collect(),
+        chosen_word: "turn chosen".to_owned(),
+        period: Some(360.0),
+        labels: AxisLabels {
+            horizontal: "along the path (mm)".to_owned(),
+            vertical: "turn of the tool (deg)".to_owned(),
+        },
+        across: along_mm,
+        up: turns_deg,
         limit_um: Some(80.0),
+        marks: Vec::new(),
     }
 }
 

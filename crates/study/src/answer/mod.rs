@@ -34,6 +34,7 @@ pub use path::{
     ProgramAnswer, RestAnswer, StockAnswer, WorstPoint,
 };
 pub use point::{PointAnswer, SettingAnswer};
+pub(crate) use sentence::micrometres;
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 

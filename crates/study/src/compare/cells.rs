@@ -14,7 +14,9 @@ use armill_formats::document::{Problem, Problems};
 use armill_formats::robot::RobotDescription;
 
 use crate::error::StudyError;
+use crate::file::other_robot;
 use crate::file::resolve::Study;
+use crate::library;
 use crate::robots;
 use crate::studies::{self, FoundStudy};
 
@@ -40,18 +42,17 @@ pub struct Cell {
 pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, StudyError> {
     let mut errors = Vec::new();
     let mut keep = |error| errors.push(error);
-    let mut others: Vec<RobotDescription> = Vec::new();
+    let mut others: Vec<Other> = Vec::new();
     for name in robot_names {
         match robots::find(name, Path::new(".")) {
-            Ok(robot)
-                if others
-                    .iter()
-                    .any(|other| other.robot.name() == robot.robot.name()) =>
-            {
+            Ok(robot) if others.iter().any(|other| other.name() == robot.robot.name()) => {
                 let message = format!("--robot: `{name}` is given twice");
                 keep(StudyError::value(message, "each robot once"));
             }
-            Ok(robot) => others.push(robot),
+            Ok(robot) => others.push(Other {
+                found_as: wherever(name),
+                robot,
+            }),
             Err(error) => keep(error),
         }
     }
@@ -74,12 +75,12 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
     for (study, label) in found.iter().zip(labels) {
         match study.read() {
             Ok(own) => {
-                let others = others
+                for other in others
                     .iter()
-                    .filter(|robot| robot.robot.name() != own.robot.robot.name());
-                for robot in others.clone() {
-                    match study.read_for(robot) {
-                        Ok(swapped) => cells.push((Some(robot), label.clone(), study, swapped)),
+                    .filter(|other| other.name() != own.robot.robot.name())
+                {
+                    match other.in_place(study) {
+                        Ok(swapped) => cells.push((Some(other), label.clone(), study, swapped)),
                         Err(error) => keep(error),
                     }
                 }
@@ -97,7 +98,7 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
         .map(|(robot, label, of, study)| Cell {
             name: match robot {
                 _ if one_study => study.robot.robot.name().to_owned(),
-                Some(robot) => format!("{label} with {}", robot.robot.name()),
+                Some(other) => format!("{label} with {}", other.name()),
                 None => label,
             },
             shown: of.shown.clone(),
@@ -114,6 +115,51 @@ pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, Stu
             "compare in groups",
         )),
         _ => Ok(cells),
+    }
+}
+
+/// A robot to put in place of others.
+struct Other {
+    /// What a study finds it by.
+    found_as: String,
+    robot: RobotDescription,
+}
+
+impl Other {
+    fn name(&self) -> &str {
+        self.robot.robot.name()
+    }
+
+    /// This study with it.
+    ///
+    /// # Errors
+    /// Every problem of the file, with the robot's name behind that of the file; a study that cannot be asked for it.
+    fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
+        let study = FoundStudy {
+            shown: format!("{} (with {})", study.shown, self.name()),
+            ..study.clone()
+        };
+        let mut fits = Ok(());
+        let read = study.read_changed(|file| {
+            fits = other_robot::put(file, (&self.found_as, &self.robot));
+        });
+        match fits {
+            Err(StudyError::Value { message, hint }) => {
+                Err(StudyError::value(format!("{}: {message}", study.shown), hint))
+            }
+            Err(other) => Err(other),
+            Ok(()) => read,
+        }
+    }
+}
+
+/// What a study in any folder finds a robot by: the name in the library, else the whole path of its file.
+fn wherever(name: &str) -> String {
+    let path =
+        || std::path::absolute(name).map_or_else(|_| name.to_owned(), |path| path.display().to_string());
+    match library::robot(name) {
+        Some(_) => name.to_owned(),
+        None => path(),
     }
 }
 

@@ -132,6 +132,7 @@ impl Resolver<'_> {
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
             ("program", with_tool, t.program.is_some()),
+            ("spin_deg", AskKind::Path, t.spin_deg.is_some()),
             ("cut", AskKind::Path, t.cut.is_some()),
             ("posture.search", with_tool, search.is_some()),
             ("holes", AskKind::Holes, t.holes.is_some()),

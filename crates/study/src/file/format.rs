@@ -10,6 +10,7 @@ use serde::Deserialize;
 use super::holes::HolesTable;
 use super::path::cut::CutTable;
 use super::path::program::ProgramTable;
+use super::placement::PlaceTable;
 use super::posture_search::SearchTable;
 use crate::compliance_class::ComplianceClass;
 
@@ -54,6 +55,8 @@ pub struct StudyFile {
     #[schemars(length(max = 200))]
     #[serde(default)]
     pub ask: Vec<AskTable>,
+    /// Where the part may lie, for `armill place`.
+    pub place: Option<PlaceTable>,
     /// Figures published by others, to stand beside ours.
     #[schemars(length(max = 1000))]
     #[serde(default)]
@@ -322,6 +325,9 @@ pub struct AskTable {
     pub step_mm: Option<f64>,
     /// Path: another cut.
     pub cut: Option<CutTable>,
+    /// Path: by what angle the tool is turned about its axis on a shape; of a program that is `program.spin_deg`.
+    #[schemars(range(min = -360.0, max = 360.0))]
+    pub spin_deg: Option<f64>,
     /// Path: a tool path program, and how the tool follows it; holes: those that it drills.
     pub program: Option<ProgramTable>,
     /// Holes: a list of them.

@@ -6,12 +6,14 @@
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
 //! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried along paths; `places` tells problems where they stand.
+//! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
+//! along paths, [`placement`] where a part may lie; `places` tells problems where they stand.
 
 pub mod compliance;
 pub mod format;
 pub mod holes;
 pub mod path;
+pub mod placement;
 pub mod positioner;
 pub mod posture_search;
 pub mod quantities;
@@ -21,5 +23,5 @@ pub mod stiffness;
 mod ask;
 mod memory;
 mod names;
-mod other_robot;
+pub(crate) mod other_robot;
 mod places;

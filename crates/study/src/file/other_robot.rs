@@ -5,40 +5,34 @@
 //! | `[compliance]` | left out: the values are the own robot's. Of a robot that has none the class of its payload, marked as assumed |
 //! | `home_deg` of postures | left out: joints are counted along another chain |
 //! | `[[statement]]` | left out: they speak of the own robot |
-//! | `gravity.reference_joints_deg` | a problem: nothing tells how the other arm stood when the tool was set |
+//! | `[gravity]` | refused: nothing tells how the other arm stood when the tool was set |
 //! | plane, tool, load, cut, tolerance, positioner, branch | stay: what the other arm does not reach is told as out of reach |
 
 use armill_formats::robot::RobotDescription;
 
 use super::format::{ComplianceTable, PostureTable, StudyFile};
-use super::places::Places;
 use crate::compliance_class::ComplianceClass;
 use crate::error::StudyError;
 
-/// Makes `file` one for `robot`.
+/// Makes `file` one for this robot, which is found as `name`.
 ///
 /// # Errors
-/// A robot without compliance that no class stands for.
-pub(super) fn put(
-    places: &mut Places<'_>,
-    file: &mut StudyFile,
-    robot: &RobotDescription,
-) -> Result<(), StudyError> {
-    let name = robot.robot.name();
-    if file.gravity.is_some() {
-        let message = format!(
-            "gravity.reference_joints_deg are joints of {}, not of {name}",
-            file.robot
-        );
-        let hint = "where gravity counts, compare with a study of its own for each robot";
-        places.problem("gravity.reference_joints_deg", message, hint);
-    }
-    name.clone_into(&mut file.robot);
+/// A study that counts gravity; a robot without compliance that no class stands for.
+pub(crate) fn put(file: &mut StudyFile, (name, robot): (&str, &RobotDescription)) -> Result<(), StudyError> {
+    let own = std::mem::replace(&mut file.robot, name.to_owned());
     file.compliance = assumed(robot)?;
     file.statement.clear();
     let of_asks = file.ask.iter_mut().map(|ask| &mut ask.posture);
     for posture in of_asks.chain([&mut file.posture]) {
         leave_home(posture);
+    }
+    if file.gravity.take().is_some() {
+        let message = format!(
+            "gravity.reference_joints_deg are joints of {own}, not of {}",
+            robot.robot.name()
+        );
+        let hint = "where gravity counts, compare with a study of its own for each robot";
+        return Err(StudyError::value(message, hint));
     }
     Ok(())
 }

@@ -24,8 +24,8 @@ use super::format::{AskTable, StatementTable, StudyFile};
 use super::holes::HolesAsk;
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
-use super::other_robot;
 use super::path::PathAsk;
+use super::placement::PlaceTable;
 use super::places::Places;
 use super::positioner;
 use crate::error::StudyError;
@@ -44,6 +44,8 @@ pub struct Study {
     pub own_compliance: Option<OwnCompliance>,
     /// What is asked.
     pub asks: Vec<Ask>,
+    /// Where the part may lie.
+    pub place: Option<PlaceTable>,
     /// What others state.
     pub statements: Vec<StatementTable>,
 }
@@ -175,25 +177,23 @@ impl Setting {
 ///
 /// A study without asks means one map of its plane, called `map`.
 pub fn read(shown: &str, folder: &Path, bytes: &[u8]) -> Result<Study, StudyError> {
-    read_for(None, (shown, folder), bytes)
+    read_changed((shown, folder), bytes, |_| ())
 }
 
-/// [`read`], with this robot in place of the study's own where one is given: see [`super::other_robot`].
+/// [`read`], with what `change` makes of the file before it is worked out; problems stand where the file as it is has them.
 ///
 /// # Errors
-/// As [`read`]; a robot that the study cannot be asked for.
-pub(crate) fn read_for(
-    other: Option<RobotDescription>,
+/// As of [`read`].
+pub fn read_changed(
     (shown, folder): (&str, &Path),
     bytes: &[u8],
+    change: impl FnOnce(&mut StudyFile),
 ) -> Result<Study, StudyError> {
     let document = Document::from_bytes(shown, bytes)?;
     let mut file: StudyFile = document.read()?;
+    change(&mut file);
     let mut places = Places::new(&document, None);
-    if let Some(robot) = &other {
-        other_robot::put(&mut places, &mut file, robot)?;
-    }
-    let robot = find_robot(&mut places, &file, folder, other)?;
+    let robot = find_robot(&mut places, &file, folder)?;
     let mut problems = std::mem::take(&mut places.problems);
     let mut asks = Vec::new();
     let default_ask = [whole_plane()];
@@ -221,6 +221,11 @@ pub(crate) fn read_for(
         memory::check_asks(&mut places, robot, &asks);
     }
     check_statements(&mut places, &file, &asks);
+    if let Some(place) = &file.place {
+        for (key, message, hint) in place.faults() {
+            places.problem(&format!("place.{key}"), message, hint);
+        }
+    }
     problems.append(&mut places.problems);
     problems.extend(unfit_names(&document, &file));
     Problems::from(without_repeats(problems)).into_result()?;
@@ -238,6 +243,7 @@ pub(crate) fn read_for(
         own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
         robot,
         asks,
+        place: file.place,
         statements: file.statement,
     })
 }
@@ -261,8 +267,8 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
-/// The robot of the study, or the one that is given in its place, with its compliances and its positioner where the study
-/// brings them; `None` where it is not found, told at its place.
+/// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not
+/// found, told at its place.
 ///
 /// # Errors
 /// The problems of a robot file; compliances or a positioner that the robot refuses.
@@ -270,10 +276,8 @@ fn find_robot(
     places: &mut Places<'_>,
     file: &StudyFile,
     folder: &Path,
-    given: Option<RobotDescription>,
 ) -> Result<Option<RobotDescription>, StudyError> {
-    let found = given.map_or_else(|| robots::find(&file.robot, folder), Ok);
-    let mut found = match found {
+    let mut found = match robots::find(&file.robot, folder) {
         Ok(found) => found,
         Err(StudyError::Value { message, hint }) => {
             places.problem("robot", message, &hint);

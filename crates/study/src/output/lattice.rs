@@ -2,7 +2,7 @@
 
 use armill_core::kernel::Stand;
 use armill_core::optimize::{Counts, PostureSearch};
-use armill_report::{LatticeCell, PostureLattice};
+use armill_report::{AxisLabels, Cell, CellMap};
 
 use super::pictures::Picture;
 use crate::file::path::PathAsk;
@@ -20,10 +20,10 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
     });
     let turns = lattice.spins.len();
     let cell = |(deviation, stand): (&f64, &Stand)| match stand {
-        Stand::Holds => LatticeCell::Holds(deviation * 1e6),
-        Stand::OutsideLimits => LatticeCell::OutsideJointLimits,
-        Stand::Singular => LatticeCell::Singular,
-        Stand::Unstable | Stand::OutOfReach => LatticeCell::OutOfReach,
+        Stand::Holds => Cell::Holds(deviation * 1e6),
+        Stand::OutsideLimits => Cell::OutsideJointLimits,
+        Stand::Singular => Cell::Singular,
+        Stand::Unstable | Stand::OutOfReach => Cell::OutOfReach,
     };
     let cells = |column: &usize| {
         let at = column * turns..(column + 1) * turns;
@@ -38,14 +38,14 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
             .binary_search_by_key(&index, |(lost, _)| *lost)
             .is_err()
     };
-    let drawing = PostureLattice {
+    let drawing = CellMap {
         title: format!("{name}: how the tool may be turned along the path"),
         subtitle,
         quantity: quantity(search).to_owned(),
-        along_mm: columns.iter().map(|c| points[of_column(c)].along * 1e3).collect(),
-        turns_deg: lattice.spins.iter().map(|spin| spin.to_degrees()).collect(),
+        across: columns.iter().map(|c| points[of_column(c)].along * 1e3).collect(),
+        up: lattice.spins.iter().map(|spin| spin.to_degrees()).collect(),
         cells: columns.iter().flat_map(cells).collect(),
-        chosen_deg: columns
+        chosen: columns
             .iter()
             .map(of_column)
             .map(|index| {
@@ -57,6 +57,13 @@ pub(super) fn picture(name: &str, subtitle: String, ask: &PathAsk, found: &PathF
             })
             .collect(),
         limit_um: Some(ask.setting.limit * 1e6),
+        labels: AxisLabels {
+            horizontal: "along the path (mm)".to_owned(),
+            vertical: "turn of the tool (deg)".to_owned(),
+        },
+        chosen_word: "turn chosen".to_owned(),
+        period: Some(360.0),
+        marks: Vec::new(),
     };
     Some(Picture {
         name: format!("{}-turns", super::slug(name)),

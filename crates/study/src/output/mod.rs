@@ -241,6 +241,22 @@ pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Re
     })
 }
 
+/// Writes pictures that are not those of an ask into `out`.
+///
+/// # Errors
+/// A file cannot be written; a picture cannot be drawn in pixels.
+pub fn write_pictures(pictures: &[Picture], out: &Path) -> Result<(), StudyError> {
+    for picture in pictures {
+        #[cfg(feature = "png")]
+        write_atomically(
+            out.join(format!("{}.png", picture.name)),
+            &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
+        )?;
+        write_atomically(out.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
+    }
+    Ok(())
+}
+
 /// The answer as JSON, one line.
 ///
 /// # Errors

@@ -40,15 +40,7 @@ fn lanes_tell_what_one_pose_after_the_other_tells() {
         let arm = arm(&robot, &tool);
         let mut lanes = Columns::new(arm, None, WRIST);
         assert!(matches!(lanes.way, Way::Lanes(_)));
-        let mut plain = Columns {
-            way: Way::General(Box::new(OneByOne {
-                finder: Finder::new(&robot),
-                frames: Frames::for_robot(&robot),
-                standing: Standing::new(arm),
-                tool_from_flange: tool.inverse(),
-            })),
-            ..Columns::new(arm, None, WRIST)
-        };
+        let mut plain = Columns::one_by_one(arm, None, [WRIST, 0.0]);
         let (mut one, mut other) = (Column::default(), Column::default());
         for round in 0..40 {
             let (cases, along) = push(&mut random);

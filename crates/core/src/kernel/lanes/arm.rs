@@ -9,6 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 use crate::frame::Isometry;
 use crate::robot::Robot;
 use crate::robot::inverse::OrthoParallel;
+use crate::robot::inverse::two_links::NEAR_SINGULAR;
 
 /// Half a range that no joint leaves: joints without limits have it.
 pub(super) const UNLIMITED: f64 = 1e6;
@@ -35,6 +36,8 @@ pub(super) struct Arm {
     pub tool_from_axis_5: Vector3<f64>,
     /// From the wrist centre to the TCP, tool axes.
     pub lever: Vector3<f64>,
+    /// Sine of the elbow's bend below which the arm counts as near its stretched or folded pose.
+    pub near_elbow: f64,
 }
 
 /// How a joint counts and how far it goes: `q = gain phi + start - coupling`.
@@ -92,7 +95,16 @@ impl Arm {
             tool_from_axis_6: tool_from_flange * arm.flange_from_axis_6,
             tool_from_axis_5: tool_from_flange * arm.flange_from_axis_5,
             lever: -(tool_from_flange * arm.flange_from_wrist).coords,
+            near_elbow: NEAR_SINGULAR,
         }
+    }
+
+    /// Ends every joint's range this much (rad) before its limits, and calls the elbow stretched or folded so much sooner.
+    pub fn keep_away(&mut self, margin: f64) {
+        for joint in &mut self.joints {
+            joint.half = (joint.half - margin).max(0.0);
+        }
+        self.near_elbow = NEAR_SINGULAR.max(margin.sin());
     }
 
     /// Rotation of base vectors into the arm's axes.

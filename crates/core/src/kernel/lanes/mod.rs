@@ -8,7 +8,7 @@
 //! answers, for [`super::evaluate`]).
 //!
 //! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
-//! as whole answers use it), `column` (every posture of a block under one load).
+//! as whole answers use it), `column` (every posture of a block under one load), `placed` (a path judged where its part lies).
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -64,6 +64,7 @@ mod envelope;
 mod flexibility;
 mod forward;
 mod limits;
+mod placed;
 mod points;
 mod positions;
 mod prepared;
@@ -78,6 +79,7 @@ pub use arrays::{Arrays, Envelopes, Poses};
 pub use backend::{Backend, Precision};
 pub use batch::Batch;
 
+pub(super) use placed::{Laid, Placer, Tallied};
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;

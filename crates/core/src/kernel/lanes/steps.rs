@@ -108,24 +108,25 @@ impl<T: Precision> Batch<T> {
     }
 
     /// Solves the aimed block with these signs everywhere.
-    pub(super) fn solve(&mut self, [shoulder, elbow]: [f64; 2], still: bool) {
-        self.sign(0, shoulder);
-        self.reach(still);
-        self.sign(1, elbow);
-        self.bend(still);
+    pub(super) fn solve(&mut self, signs: [f64; 2], still: bool) {
+        self.solve_after(false, signs, still);
     }
 
     /// Solves the aimed block for one of [`FOUR`] after the other; true where the shoulder is that of the one before.
     pub(super) fn solve_in_turn(&mut self, four: usize, still: bool) -> bool {
-        let [shoulder, elbow] = FOUR[four];
-        let same_shoulder = four > 0 && FOUR[four - 1][0] == shoulder;
+        let same_shoulder = four > 0 && FOUR[four - 1][0] == FOUR[four][0];
+        self.solve_after(same_shoulder, FOUR[four], still);
+        same_shoulder
+    }
+
+    /// Solves the aimed block with these signs everywhere; the shoulder may be that of the time before.
+    pub(super) fn solve_after(&mut self, same_shoulder: bool, [shoulder, elbow]: [f64; 2], still: bool) {
         if !same_shoulder {
             self.sign(0, shoulder);
             self.reach(still);
         }
         self.sign(1, elbow);
         self.bend(still);
-        same_shoulder
     }
 
     /// Solves the aimed block with the signs that its postures have.
@@ -181,6 +182,12 @@ impl<T: Precision> Batch<T> {
 
     /// Envelope of the solved block, joint limits flagged; without a place to go it stays in the scratch.
     pub(super) fn envelope(&mut self, still: bool, to: Option<[&mut Plane<T>; 2]>) {
+        self.limit(still);
+        self.largest(still, to);
+    }
+
+    /// Flags the joint limits of the solved block, plain and flipped.
+    pub(super) fn limit(&mut self, still: bool) {
         let (prepared, backend) = (&self.prepared, self.backend);
         let Scratch {
             aims,
@@ -189,8 +196,8 @@ impl<T: Precision> Batch<T> {
             ..
         } = &mut *self.scratch;
         match &prepared.cosines {
-            Some(limits) if still => limit::<T, true>(backend, limits, aims, postures),
-            Some(limits) => limit::<T, false>(backend, limits, aims, postures),
+            Some(limits) if still => limit_by_cosines::<T, true>(backend, limits, aims, postures),
+            Some(limits) => limit_by_cosines::<T, false>(backend, limits, aims, postures),
             None => {
                 backend.run(Position {
                     prepared,
@@ -202,7 +209,6 @@ impl<T: Precision> Batch<T> {
                 backend.run(LimitsByPositions { positions, postures });
             }
         }
-        self.largest(still, to);
     }
 
     /// Largest deviation of the load cases in the solved block; without a place to go it stays in the scratch.
@@ -309,7 +315,7 @@ impl<T: Precision> Batch<T> {
 }
 
 /// Flags the joint limits, told by cosines.
-fn limit<T: Precision, const STILL: bool>(
+fn limit_by_cosines<T: Precision, const STILL: bool>(
     backend: Backend,
     limits: &CosineLimits,
     aims: &Aims<T>,

@@ -14,7 +14,7 @@ mod feature;
 pub(crate) mod limits;
 mod measured;
 mod program;
-mod search;
+pub(crate) mod search;
 mod worst;
 
 pub use cut::{CutAnswer, RestAnswer, StockAnswer};

@@ -155,7 +155,7 @@ fn lost(points: &[PathPoint], lost: &[(usize, Stand)]) -> Vec<LostAnswer> {
 }
 
 /// As the study calls it.
-fn counts_word(counts: Counts) -> &'static str {
+pub(crate) fn counts_word(counts: Counts) -> &'static str {
     match counts {
         Counts::InPlane => "in-plane",
         Counts::CrossTrack => "cross-track",
@@ -164,7 +164,7 @@ fn counts_word(counts: Counts) -> &'static str {
 }
 
 /// As the study calls it.
-fn goal_word(goal: Goal) -> &'static str {
+pub(crate) fn goal_word(goal: Goal) -> &'static str {
     match goal {
         Goal::Worst => "worst",
         Goal::Mean => "mean",

@@ -25,7 +25,7 @@ pub use measured::MeasuredForces;
 use std::path::Path;
 
 use armill_core::load::PathLoad;
-use armill_core::path::{ForcesTold, Placing, Shape, Track};
+use armill_core::path::{ForcesTold, Placing, Shape, Spin, Track};
 use armill_formats::toolpath::Summary;
 
 use super::format::AskTable;
@@ -152,8 +152,16 @@ pub(super) fn resolve(
     let base_from_part = setting.plane.base_from_part;
     let placing = match &table.program {
         Some(of) => program::placing(of, &base_from_part),
-        None => Placing::on_plane(&setting.plane),
+        None => Placing {
+            spin: Spin::Fixed(table.spin_deg.unwrap_or(0.0).to_radians()),
+            ..Placing::on_plane(&setting.plane)
+        },
     };
+    if table.program.is_some() && table.spin_deg.is_some() {
+        let hint = "say it of the program: program.spin_deg";
+        places.problem("spin_deg", "`spin_deg` turns the tool on a shape", hint);
+        return Ok(None);
+    }
     let mut ask = PathAsk {
         source,
         track: Track {

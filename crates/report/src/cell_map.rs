@@ -1,4 +1,5 @@
-//! How the tool may be turned along a path: deviation over path and turn, what stands in the way, and the turn that was chosen.
+//! A quantity over two others, cell by cell: coloured where it is known, grey where something stands in the way, with a curve
+//! that was chosen and places that are marked.
 //!
 //! ```text
 //!  turn     ┌──────────────────┐
@@ -8,8 +9,8 @@
 //!            along the path (mm)
 //! ```
 //!
-//! Nothing is interpolated: a cell is a point of the lattice, as wide as half the way to its neighbours. Neighbours of one
-//! look in a column are one rectangle.
+//! Nothing is interpolated: a cell is as wide as half the way to its neighbours. Neighbours of one look in a column are one
+//! rectangle.
 
 use crate::axis::extent;
 use crate::chart::Chart;
@@ -18,6 +19,7 @@ use crate::colour_bar::ColourBar;
 use crate::grid::is_steady;
 use crate::legend::{Entry, Key};
 use crate::levels::Levels;
+use crate::marker::{Marker, draw_sign, marker_entries};
 use crate::page::{BORDER_PX, Heading};
 use crate::plane::AxisLabels;
 use crate::svg::{Rect, Style, Svg};
@@ -28,12 +30,12 @@ const AREA_PX: [f64; 2] = [560.0, 320.0];
 const SEAM_PX: f64 = 0.3;
 /// Deviations beyond this many times the limit have one colour.
 const MOST_LIMITS: f64 = 4.0;
-const NOTHING: &str = "There is nothing to draw: no turn of the tool is held anywhere.";
+const NOTHING: &str = "There is nothing to draw: no cell has a value.";
 
-/// What a posture at a point and turn comes to.
+/// What is known of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LatticeCell {
-    /// It stands; its deviation in um.
+pub enum Cell {
+    /// The quantity there, um.
     Holds(f64),
     /// A joint is outside its limits.
     OutsideJointLimits,
@@ -41,41 +43,48 @@ pub enum LatticeCell {
     Singular,
     /// It is out of reach, or gives way under the load.
     OutOfReach,
+    /// Some points have no posture.
+    PointsLost,
 }
 
-/// What a picture of turns along a path shows.
+/// What a picture of cells shows.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PostureLattice {
+pub struct CellMap {
     /// First line, bold.
     pub title: String,
     /// Second line.
     pub subtitle: String,
     /// What is drawn, with its unit: `in-plane deviation (µm)`.
     pub quantity: String,
-    /// Distance along the path of each column in mm, rising steadily; at least two.
-    pub along_mm: Vec<f64>,
-    /// Turns in degrees, rising steadily; at least two.
-    pub turns_deg: Vec<f64>,
-    /// The cells, column after column, each from the first turn to the last.
-    pub cells: Vec<LatticeCell>,
-    /// The turn chosen at each column, deg; NaN where there is none.
-    pub chosen_deg: Vec<f64>,
+    /// What the axes are, with their units.
+    pub labels: AxisLabels,
+    /// Place of each column, rising steadily; at least two.
+    pub across: Vec<f64>,
+    /// Place of each row, rising steadily; at least two.
+    pub up: Vec<f64>,
+    /// The cells, column after column, each from the first row to the last.
+    pub cells: Vec<Cell>,
+    /// A curve: its height at each column, NaN where it has none; no curve if empty.
+    pub chosen: Vec<f64>,
+    /// What that is, for the legend.
+    pub chosen_word: String,
+    /// The height after which the curve begins anew, such as 360 of an angle in degrees.
+    pub period: Option<f64>,
+    /// Marked places, in the units of the axes.
+    pub marks: Vec<Marker>,
     /// Permissible deviation in um, where there is one.
     pub limit_um: Option<f64>,
 }
 
 /// What cells that do not stand look like, with their words.
-const REASONS: [(LatticeCell, &str, &str); 3] = [
-    (
-        LatticeCell::OutsideJointLimits,
-        "#9a9a9a",
-        "outside the joint limits",
-    ),
-    (LatticeCell::Singular, "#c9c9c9", "near a singularity"),
-    (LatticeCell::OutOfReach, "#f0f0f0", "out of reach"),
+const REASONS: [(Cell, &str, &str); 4] = [
+    (Cell::OutsideJointLimits, "#9a9a9a", "outside the joint limits"),
+    (Cell::Singular, "#c9c9c9", "near a singularity"),
+    (Cell::OutOfReach, "#f0f0f0", "out of reach"),
+    (Cell::PointsLost, "#dcdcdc", "no posture at some points"),
 ];
 
-impl PostureLattice {
+impl CellMap {
     /// The picture as a complete SVG document; values that cannot be drawn give one that says why.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
@@ -84,7 +93,7 @@ impl PostureLattice {
         }
         let shown = self.shown();
         let levels = Levels::covering(shown.iter().flatten().copied());
-        let ranges = extent(edges(&self.along_mm)).zip(extent(edges(&self.turns_deg)));
+        let ranges = extent(edges(&self.across)).zip(extent(edges(&self.up)));
         let (Some(levels), Some((across, up))) = (levels, ranges) else {
             return heading.notice(NOTHING);
         };
@@ -97,18 +106,24 @@ impl PostureLattice {
         let chart = Chart::beside_axis(AREA_PX, across.into(), up.into());
         let mut page = heading.page(bar.beside(chart.area).right() + BORDER_PX);
         let chart = chart.lowered_to(page.top_px + 4.0);
-        let labels = AxisLabels {
-            horizontal: "along the path (mm)".to_owned(),
-            vertical: "turn of the tool (deg)".to_owned(),
-        };
-        chart.draw_axes(&mut page.svg, &labels);
+        chart.draw_axes(&mut page.svg, &self.labels);
         page.svg.clipped(chart.area, |svg| {
             self.draw_cells(svg, &chart, &levels, &shown);
             self.draw_chosen(svg, &chart);
+            for mark in &self.marks {
+                draw_sign(svg, chart.at(mark.at_mm), mark.kind);
+            }
         });
         page.svg.rect(chart.area, &Style::line(INK, 1.0));
         bar.draw(&mut page.svg, bar.beside(chart.area));
-        let mut entries = vec![Entry::new(Key::Line(chosen_styles().into()), "turn chosen")];
+        let mut entries = Vec::new();
+        if !self.chosen.is_empty() {
+            entries.push(Entry::new(
+                Key::Line(chosen_styles().into()),
+                self.chosen_word.as_str(),
+            ));
+        }
+        entries.extend(marker_entries(&self.marks));
         for (cell, colour, word) in REASONS {
             if self.cells.contains(&cell) {
                 entries.push(Entry::new(Key::field(colour), word));
@@ -119,12 +134,12 @@ impl PostureLattice {
 
     /// Why there is nothing to draw; `None` where there is something.
     fn obstacle(&self) -> Option<&'static str> {
-        let [columns, turns] = [self.along_mm.len(), self.turns_deg.len()];
-        if columns < 2 || turns < 2 || self.cells.len() != columns * turns || self.chosen_deg.len() != columns
-        {
+        let [columns, rows] = [self.across.len(), self.up.len()];
+        let curve = self.chosen.is_empty() || self.chosen.len() == columns;
+        if columns < 2 || rows < 2 || self.cells.len() != columns * rows || !curve {
             return Some(NOTHING);
         }
-        if !(is_steady(&self.along_mm) && is_steady(&self.turns_deg)) {
+        if !(is_steady(&self.across) && is_steady(&self.up)) {
             return Some("The values along an axis neither rise steadily nor fall steadily.");
         }
         None
@@ -134,16 +149,16 @@ impl PostureLattice {
     fn shown(&self) -> Vec<Option<f64>> {
         let most = self.limit_um.filter(|limit| *limit > 0.0);
         let most = most.map_or(f64::INFINITY, |limit| MOST_LIMITS * limit);
-        let of = |cell: &LatticeCell| match cell {
-            LatticeCell::Holds(um) if um.is_finite() => Some(um.min(most)),
+        let of = |cell: &Cell| match cell {
+            Cell::Holds(um) if um.is_finite() => Some(um.min(most)),
             _ => None,
         };
         self.cells.iter().map(of).collect()
     }
 
     fn draw_cells(&self, svg: &mut Svg, chart: &Chart, levels: &Levels, shown: &[Option<f64>]) {
-        let (across, up) = (edges(&self.along_mm), edges(&self.turns_deg));
-        let turns = self.turns_deg.len();
+        let (across, up) = (edges(&self.across), edges(&self.up));
+        let turns = self.up.len();
         let colour = |at: usize| match shown[at] {
             Some(um) => {
                 let bands = levels.edge_um.iter().filter(|edge| **edge <= um).count();
@@ -175,22 +190,25 @@ impl PostureLattice {
         }
     }
 
-    /// The turn chosen, a line from column to column, broken where it goes round and where there is none.
+    /// The curve, a line from column to column, broken where it goes round and where there is none.
     fn draw_chosen(&self, svg: &mut Svg, chart: &Chart) {
-        let [low, high] = [self.turns_deg[0], self.turns_deg[self.turns_deg.len() - 1]];
-        let inside = |deg: f64| {
-            let turned = deg - 360.0 * ((deg - low) / 360.0).floor();
-            if deg >= low && deg <= high { deg } else { turned }
+        let [low, high] = [self.up[0], self.up[self.up.len() - 1]];
+        let inside = |height: f64| match self.period {
+            Some(period) if !(height >= low && height <= high) => {
+                height - period * ((height - low) / period).floor()
+            }
+            _ => height,
         };
+        let half = self.period.map_or(f64::INFINITY, |period| period / 2.0);
         let mut run: Vec<[f64; 2]> = Vec::new();
         let mut runs = Vec::new();
-        for (along, deg) in self.along_mm.iter().zip(&self.chosen_deg) {
-            let at = [*along, inside(*deg)];
-            let goes_on = run.last().is_none_or(|before| (at[1] - before[1]).abs() < 180.0);
-            if !deg.is_finite() || !goes_on {
+        for (along, height) in self.across.iter().zip(&self.chosen) {
+            let at = [*along, inside(*height)];
+            let goes_on = run.last().is_none_or(|before| (at[1] - before[1]).abs() < half);
+            if !height.is_finite() || !goes_on {
                 runs.push(std::mem::take(&mut run));
             }
-            if deg.is_finite() {
+            if height.is_finite() {
                 run.push(at);
             }
         }
@@ -224,26 +242,32 @@ fn chosen_styles() -> [Style; 2] {
 mod tests {
     use super::*;
 
-    fn lattice() -> PostureLattice {
-        let turns_deg: Vec<f64> = (-9..9).map(|k| f64::from(k) * 20.0).collect();
-        let along_mm: Vec<f64> = (0..40).map(|k| f64::from(k) * 2.5).collect();
+    fn lattice() -> CellMap {
+        let up: Vec<f64> = (-9..9).map(|k| f64::from(k) * 20.0).collect();
+        let across: Vec<f64> = (0..40).map(|k| f64::from(k) * 2.5).collect();
         let cell = |along: f64, turn: f64| match turn {
-            turn if turn > 130.0 => LatticeCell::OutsideJointLimits,
-            turn if turn < -150.0 => LatticeCell::OutOfReach,
-            turn => LatticeCell::Holds(40.0 + 0.3 * along + 0.1 * turn),
+            turn if turn > 130.0 => Cell::OutsideJointLimits,
+            turn if turn < -150.0 => Cell::OutOfReach,
+            turn => Cell::Holds(40.0 + 0.3 * along + 0.1 * turn),
         };
-        PostureLattice {
+        CellMap {
             title: "rim".to_owned(),
             quantity: "in-plane deviation (µm)".to_owned(),
-            cells: along_mm
+            cells: across
                 .iter()
-                .flat_map(|along| turns_deg.iter().map(move |turn| cell(*along, *turn)))
+                .flat_map(|along| up.iter().map(move |turn| cell(*along, *turn)))
                 .collect(),
-            chosen_deg: along_mm.iter().map(|along| -140.0 - along).collect(),
-            along_mm,
-            turns_deg,
+            chosen: across.iter().map(|along| -140.0 - along).collect(),
+            across,
+            up,
             limit_um: Some(60.0),
-            ..PostureLattice::default()
+            labels: AxisLabels {
+                horizontal: "along the path (mm)".to_owned(),
+                vertical: "turn of the tool (deg)".to_owned(),
+            },
+            chosen_word: "turn chosen".to_owned(),
+            period: Some(360.0),
+            ..CellMap::default()
         }
     }
 
@@ -264,9 +288,9 @@ mod tests {
         let mut odd = lattice();
         // From -140 over -180, which is 180, to -237 deg.
         let round = lines(&odd.to_svg());
-        odd.chosen_deg = vec![-100.0; 40];
+        odd.chosen = vec![-100.0; 40];
         let straight = lines(&odd.to_svg());
-        odd.chosen_deg = vec![f64::NAN; 40];
+        odd.chosen = vec![f64::NAN; 40];
         let none = lines(&odd.to_svg());
         assert_eq!((round - none, straight - none), (4, 2));
     }
@@ -274,20 +298,20 @@ mod tests {
     #[test]
     fn what_cannot_be_drawn_says_so() {
         for odd in [
-            PostureLattice::default(),
-            PostureLattice {
-                chosen_deg: Vec::new(),
+            CellMap::default(),
+            CellMap {
+                chosen: vec![0.0; 3],
                 ..lattice()
             },
-            PostureLattice {
-                cells: vec![LatticeCell::Singular; 40 * 18],
+            CellMap {
+                cells: vec![Cell::Singular; 40 * 18],
                 ..lattice()
             },
         ] {
             assert!(odd.to_svg().contains("nothing to draw"));
         }
-        let still = PostureLattice {
-            along_mm: vec![1.0; 40],
+        let still = CellMap {
+            across: vec![1.0; 40],
             ..lattice()
         };
         assert!(still.to_svg().contains("neither rise steadily"));

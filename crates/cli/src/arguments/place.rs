@@ -1,0 +1,83 @@
+//! `armill place STUDY`: where the part should lie so that a path deviates least.
+
+use clap::Args;
+
+use super::posture::{CountsArgument, GoalArgument};
+use super::run::RunOptions;
+
+// What an option leaves out the study's own `[place]` says.
+#[derive(Debug, Args)]
+#[command(after_help = PLACE_EXAMPLES)]
+pub(crate) struct PlaceArguments {
+    #[command(flatten)]
+    pub run: RunOptions,
+
+    /// The path to place, where the study asks for several
+    #[arg(long, value_name = "NAME")]
+    pub ask: Option<String>,
+
+    /// Least and greatest x of the plane's centre [without any bound: 300 mm to all sides]
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub x_mm: Option<[f64; 2]>,
+
+    /// Its y
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub y_mm: Option<[f64; 2]>,
+
+    /// Its z
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub z_mm: Option<[f64; 2]>,
+
+    /// Turn of the part about the vertical, beside where it lies
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub turn_deg: Option<[f64; 2]>,
+
+    /// Tilt, as plane.tilt_deg
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub tilt_deg: Option<[f64; 2]>,
+
+    /// Turn of the part about the plane's normal, beside where it lies
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub roll_deg: Option<[f64; 2]>,
+
+    /// Turn of the tool about its axis, the same all along, beside the one it has
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub spin_deg: Option<[f64; 2]>,
+
+    /// Branches that may be taken: words of a branch, or `any`
+    #[arg(long, value_name = "WORDS")]
+    pub branch: Option<String>,
+
+    /// What shall be least
+    #[arg(long)]
+    pub goal: Option<GoalArgument>,
+
+    /// Which part of the deviation counts
+    #[arg(long)]
+    pub counts: Option<CountsArgument>,
+
+    /// How far every joint stays from its limits, the elbow from stretched, the wrist from straight [default: 0]
+    #[arg(long, value_name = "DEG")]
+    pub margin_deg: Option<f64>,
+
+    /// Seed of the search: the same seed gives the same place
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub seed: u32,
+}
+
+/// Two numbers, the least and the greatest.
+fn bounds(text: &str) -> Result<[f64; 2], String> {
+    let number = |text: &str| text.trim().parse().ok().filter(|value: &f64| value.abs() <= 1e6);
+    let both = text
+        .split_once(',')
+        .and_then(|(a, b)| Some([number(a)?, number(b)?]));
+    both.ok_or_else(|| "two numbers up to 1e6, the least and the greatest, such as 700,1300".to_owned())
+}
+
+const PLACE_EXAMPLES: &str = "\
+Examples:
+  armill place cell --x-mm 700,1300 --y-mm -400,400
+  armill place cell --x-mm 700,1300 --z-mm 400,1200 --tilt-deg -60,90 --branch any --spin-deg -180,180
+  armill place cell --margin-deg 5 --goal mean --ask rim
+The result is that of `armill run` with the path at the place found, in the folder `place`, with placement.json beside it.
+A search that was stopped goes on where it was when it is started again.";

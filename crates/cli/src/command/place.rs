@@ -1,0 +1,83 @@
+//! `armill place`: where the part should lie so that a path deviates least.
+//!
+//! `--out` (`place` beside the study) takes the results of the path at the place that was found, as `armill run` writes them, and
+//! before them `placement.json` with the pictures of the search. While it searches, `place.rounds` there keeps what is done:
+//! started again after it was stopped, the search goes on from there. Stdout has the place in sentences, and the lines of a
+//! study that lay the path there.
+
+use armill_formats::file::write_atomically;
+use armill_study::file::placement::PlaceTable;
+use armill_study::place::{Journal, Placing};
+use armill_study::{StudyError, output, studies};
+
+use super::run::{in_pool, results};
+use crate::Outcome;
+use crate::arguments::PlaceArguments;
+use crate::progress::Progress;
+use crate::terminal::say;
+
+/// Searches, and runs the path at the place that was found.
+///
+/// # Errors
+/// No study there, or its problems; no such path; bounds that leave nothing; a folder where nothing can be written.
+pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
+    let found = studies::find(&arguments.run.study)?;
+    let study = found.read()?;
+    let placing = Placing::new(&study, wanted(arguments)?, u64::from(arguments.seed))?;
+    let beside = found.folder.join("place");
+    let out = arguments.run.out.as_ref().unwrap_or(&beside);
+    output::prepare(out)?;
+    let mut journal = Journal::kept_in(out.join("place.rounds"));
+    let placed = in_pool(arguments.run.threads, || {
+        let progress = Progress::of("places", placing.place_count());
+        progress.watch(|watch| placing.search(&mut journal, watch, &|best| progress.tell(best)))
+    })??;
+    if journal.taken() > 0 {
+        say(&format!(
+            "note: {} rounds were done before this start",
+            journal.taken()
+        ));
+    }
+    let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
+    write_atomically(out.join("placement.json"), json.as_bytes())?;
+    if !arguments.run.no_pictures {
+        output::write_pictures(&placed.pictures, out)?;
+    }
+    let name = placing.name();
+    let mut there = found.read_changed(|file| placed.lay(file))?;
+    there.asks.retain(|ask| ask.name == name);
+    there.statements.clear();
+    let outcome = results((&there, beside.clone()), &arguments.run, |_| {
+        let lines = placed.answer.sentences().join("\n");
+        format!("{lines}\n\n{}", placed.answer.study_lines().trim_end())
+    })?;
+    journal.done();
+    Ok(outcome)
+}
+
+/// What the options ask for.
+fn wanted(arguments: &PlaceArguments) -> Result<PlaceTable, StudyError> {
+    if let Some(margin) = arguments
+        .margin_deg
+        .filter(|margin| !(0.0..=90.0).contains(margin))
+    {
+        let message = format!("--margin-deg: {margin} is outside 0 to 90");
+        return Err(StudyError::value(message, "see `armill place --help`"));
+    }
+    Ok(PlaceTable {
+        ask: arguments.ask.clone(),
+        x_mm: arguments.x_mm,
+        y_mm: arguments.y_mm,
+        z_mm: arguments.z_mm,
+        turn_deg: arguments.turn_deg,
+        tilt_deg: arguments.tilt_deg,
+        roll_deg: arguments.roll_deg,
+        spin_deg: arguments.spin_deg,
+        fixture: Vec::new(),
+        branch: arguments.branch.clone(),
+        counts: arguments.counts.map(Into::into),
+        goal: arguments.goal.map(Into::into),
+        margin_deg: arguments.margin_deg,
+        least_wrist_deg: None,
+    })
+}

@@ -1,0 +1,293 @@
+//! A path on a part, judged where the part lies: what a search for a placement asks ten thousand times.
+//!
+//! The points, the directions that count and the wrenches are told on the part once; a place ([`Lie`]) then tells where the
+//! part lies and how far the tool is turned. Each of the arm's postures is judged over all points ([`Judged`]).
+//!
+//! Ortho-parallel arms that yield at their drives alone go through lanes; any other arm takes one pose after the other. Both
+//! tell the same to rounding (`tests`).
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::column::{Column, Columns, Push, SLOTS, Stand};
+use super::lanes::{Laid, Placer, Tallied};
+use super::question::{BranchChoice, Question};
+use crate::frame::Isometry;
+use crate::load::Doubt;
+use crate::robot::{Branch, BranchPattern};
+use crate::source::Arm;
+use crate::spatial::Wrench;
+
+/// A point of a path as it is on the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sighted {
+    /// The tool there, with its turn before any other.
+    pub part_from_tool: Isometry,
+    /// Directions that its deviation counts along, part axes; of length 1, or 0 where one is enough.
+    pub along: [Vector3<f64>; 2],
+}
+
+/// The axes that wrenches are told in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToldIn {
+    /// Those of the robot's base: they stay where they are wherever the part lies.
+    Base,
+    /// Those of the part: they lie as it does.
+    Part,
+}
+
+/// Wrenches on the tool at the TCP.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pushes {
+    /// Their axes.
+    pub told_in: ToldIn,
+    /// How many at each point.
+    pub cases: usize,
+    /// So many for all points, or so many for each, point after point.
+    pub wrenches: Vec<Wrench>,
+}
+
+/// Where a part lies, and how far the tool is turned about its axis beside the turn it has there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lie {
+    /// The part in base.
+    pub base_from_part: Isometry,
+    /// Turn of the tool, rad.
+    pub spin: f64,
+}
+
+/// How far postures keep from where they may not stand, and what deviation is tolerated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Keeping {
+    /// Least distance of every joint from its limits, of the elbow from stretched or folded, of the wrist from straight, rad.
+    pub margin: f64,
+    /// Least bend of the wrist, rad.
+    pub wrist: f64,
+    /// Deviations above it are summed, m.
+    pub limit: f64,
+}
+
+/// What one posture makes of all points.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Judged {
+    /// Points where it does not stand.
+    pub lost: usize,
+    /// Largest deviation that counts where it stands, m.
+    pub worst: f64,
+    /// Sum of the deviations there, m.
+    pub sum: f64,
+    /// Sum of what is above the limit, m.
+    pub above: f64,
+}
+
+/// A path on a part.
+#[derive(Debug)]
+pub struct PlacedPath {
+    points: Vec<Sighted>,
+    pushes: Pushes,
+    laid: Laid,
+}
+
+impl PlacedPath {
+    /// These points under these wrenches.
+    ///
+    /// # Panics
+    /// If the wrenches are neither those of all points nor those of each, or there is none.
+    pub fn new(points: Vec<Sighted>, pushes: Pushes) -> PlacedPath {
+        let told = pushes.wrenches.len();
+        assert!(
+            pushes.cases > 0 && (told == pushes.cases || told == pushes.cases * points.len()),
+            "wrenches of all points or of each"
+        );
+        PlacedPath {
+            laid: Laid::new(&points, &pushes),
+            points,
+            pushes,
+        }
+    }
+
+    /// How many points.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.points.is_empty()
+    }
+
+    /// Load cases a point.
+    pub fn case_count(&self) -> usize {
+        self.pushes.cases
+    }
+
+    /// The wrenches at point `index`, told axes.
+    fn wrenches(&self, index: usize) -> &[Wrench] {
+        let Pushes { cases, wrenches, .. } = &self.pushes;
+        let first = if wrenches.len() == *cases {
+            0
+        } else {
+            index * cases
+        };
+        &wrenches[first..][..*cases]
+    }
+}
+
+/// Judges places; one a thread.
+pub struct Judge<'q> {
+    keeping: Keeping,
+    way: Way<'q>,
+}
+
+/// By lanes or one after the other.
+enum Way<'q> {
+    Lanes(Box<Placer>),
+    General(Box<Columns<'q>>),
+}
+
+impl<'q> Judge<'q> {
+    /// For this arm. `home`: see [`Question::home`].
+    pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, keeping: Keeping) -> Judge<'q> {
+        let none = [Wrench::ZERO];
+        let question = Question {
+            arm,
+            home,
+            cases: &none,
+            doubt: Doubt::NONE,
+            normal: Vector3::z_axis(),
+            choice: BranchChoice::Best,
+        };
+        let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
+        Judge {
+            keeping,
+            way: match lanes {
+                Some(form) => Way::Lanes(Box::new(Placer::new(&question, form, &keeping))),
+                None => Judge::general(arm, home, keeping),
+            },
+        }
+    }
+
+    fn general(arm: Arm<'q>, home: Option<&'q [f64]>, keeping: Keeping) -> Way<'q> {
+        Way::General(Box::new(Columns::one_by_one(
+            arm,
+            home,
+            [keeping.wrist, keeping.margin],
+        )))
+    }
+
+    /// Whether the eight that are judged are branches, in the order of [`Branch::ALL`]. Of other arms the first alone means
+    /// something: the best posture at each point, whichever that is.
+    pub fn tells_branches(&self) -> bool {
+        match &self.way {
+            Way::Lanes(_) => true,
+            Way::General(columns) => columns.slots_are_branches(),
+        }
+    }
+
+    /// What each posture makes of the points of `path` where the part lies so. Branches outside `open` are given up at once,
+    /// those that `worth` says no to after some points; what is told of them is that of the points so far.
+    pub fn judge(
+        &mut self,
+        path: &PlacedPath,
+        lie: &Lie,
+        open: BranchPattern,
+        mut worth: impl FnMut(&Judged) -> bool,
+    ) -> [Option<Judged>; SLOTS] {
+        let is_open: [bool; SLOTS] = std::array::from_fn(|slot| open.matches(Branch::ALL[slot]));
+        match &mut self.way {
+            Way::Lanes(placer) => {
+                let judged = |tallied: &Tallied, flip: usize| Judged {
+                    lost: tallied.lost[flip],
+                    worst: tallied.worst,
+                    sum: tallied.sum,
+                    above: tallied.above,
+                };
+                let mut given_up = [false; SLOTS];
+                let tallied = placer.judge(&path.laid, lie, |four, tallied| {
+                    let mut any = false;
+                    for flip in 0..2 {
+                        let slot = 2 * four + flip;
+                        let open = is_open[slot] && !given_up[slot] && worth(&judged(tallied, flip));
+                        given_up[slot] = !open;
+                        any |= open;
+                    }
+                    any
+                });
+                std::array::from_fn(|slot| (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2)))
+            }
+            Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, lie), is_open, worth),
+        }
+    }
+}
+
+/// Points after which it is asked whether to go on.
+const SOME: usize = 20;
+
+/// [`Judge::judge`] one pose after the other.
+fn one_by_one(
+    (columns, limit): (&mut Columns<'_>, f64),
+    (path, lie): (&PlacedPath, &Lie),
+    mut open: [bool; SLOTS],
+    mut worth: impl FnMut(&Judged) -> bool,
+) -> [Option<Judged>; SLOTS] {
+    let named = columns.slots_are_branches();
+    if !named {
+        // One for whatever posture is best at each point.
+        open = std::array::from_fn(|slot| slot == 0);
+    }
+    let mut judged = [Judged::default(); SLOTS];
+    let mut column = Column::default();
+    let axes = match path.pushes.told_in {
+        ToldIn::Base => UnitQuaternion::identity(),
+        ToldIn::Part => lie.base_from_part.rotation,
+    };
+    let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
+    let mut cases = vec![Wrench::ZERO; path.case_count()];
+    for (index, point) in path.points.iter().enumerate() {
+        for (case, told) in cases.iter_mut().zip(path.wrenches(index)) {
+            *case = Wrench {
+                force: axes * told.force,
+                moment: axes * told.moment,
+            };
+        }
+        let pose = lie.base_from_part * point.part_from_tool * spin;
+        let push = Push {
+            cases: &cases,
+            along: point.along.map(|along| lie.base_from_part * along),
+        };
+        columns.fill(&[pose], &push, &mut column);
+        let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
+        for (slot, judged) in judged.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
+            let deviation = match named {
+                true => column.deviations[slot],
+                false => best(),
+            };
+            debug_assert!(!named || deviation.is_finite() == (column.stands[slot] == Stand::Holds));
+            judged.take(deviation, limit);
+        }
+        if (index + 1) % SOME == 0 {
+            for (open, judged) in open.iter_mut().zip(&judged) {
+                *open = *open && worth(judged);
+            }
+            if open == [false; SLOTS] {
+                break;
+            }
+        }
+    }
+    std::array::from_fn(|slot| open[slot].then_some(judged[slot]))
+}
+
+impl Judged {
+    /// Adds a point with this deviation, infinite where no posture stands.
+    fn take(&mut self, deviation: f64, limit: f64) {
+        if !deviation.is_finite() {
+            self.lost += 1;
+            return;
+        }
+        self.worst = self.worst.max(deviation);
+        self.sum += deviation;
+        self.above += (deviation - limit).max(0.0);
+    }
+}
+
+#[cfg(test)]
+mod tests;

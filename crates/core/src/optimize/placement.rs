@@ -1,0 +1,243 @@
+//! Where should the part lie? What a place is worth, for a search to go by.
+//!
+//! A place ([`Lie`]) is where the part lies in base and how far the tool is turned about its axis, the same all along. The
+//! arm takes one branch for the whole path, the best of those left open. Feasibility comes first: of two places that with
+//! fewer points lost is better, and of two that lose none that with the lesser cost.
+//!
+//! | goal | cost, m |
+//! |---|---|
+//! | [`Goal::Worst`] | largest deviation that counts, over all points and load cases |
+//! | [`Goal::Mean`] | mean over the points of the largest of the cases |
+//! | [`Goal::Above`] | mean of what is above the limit, and a thousandth of the mean |
+//!
+//! Forces are those of the path as drawn, as in [`super::posture`]; the answer at the place that was found looks at them again.
+
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+use rayon::prelude::*;
+
+use super::posture::{Counts, Goal, WITHIN};
+use crate::frame::{Isometry, tool_orientation};
+use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
+use crate::load::{LoadFrame, PathLoad};
+use crate::path::{Spin, Track};
+use crate::robot::{Branch, BranchPattern};
+use crate::spatial::Wrench;
+use crate::watch::{Cancelled, Watch};
+
+/// What is searched for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacementGoal {
+    /// Which part of the deviation counts.
+    pub counts: Counts,
+    /// What shall be least.
+    pub goal: Goal,
+    /// Branches that may be taken, of an arm whose branches have names.
+    pub branches: BranchPattern,
+    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight, rad.
+    pub margin: f64,
+    /// Least bend of the wrist, rad.
+    pub wrist: f64,
+}
+
+/// A path that may be placed.
+#[derive(Clone, Copy, Debug)]
+pub struct Placeable<'a> {
+    /// The arm, and where its spare joints are drawn to; what else it says is not looked at.
+    pub question: &'a Question<'a>,
+    /// The points as they are on the part.
+    pub path: &'a PlacedPath,
+    /// What is searched for.
+    pub goal: PlacementGoal,
+}
+
+/// What a place is worth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Merit {
+    /// Points that the best branch does not hold.
+    pub lost: usize,
+    /// Cost of those that it holds, m.
+    pub cost: f64,
+    /// That branch; `None` for arms without names of branches.
+    pub branch: Option<Branch>,
+}
+
+/// The points of `track` with these indices, as they are on its part, with what pushes there.
+///
+/// # Panics
+/// If `load` does not [cover](PathLoad::covers) the points of the track, or there is no index.
+pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[usize]) -> PlacedPath {
+    assert!(load.covers(track.len()), "a load for each point of the track");
+    let part_from_base = track.base_from_part.inverse();
+    let points = indices.iter().map(|index| {
+        let stop = track.stop(*index);
+        let along = counts.along((track, *index), stop.normal);
+        Sighted {
+            part_from_tool: part_from_base * stop.base_from_tool,
+            along: along.map(|along| part_from_base * along),
+        }
+    });
+    let told_in = match load {
+        PathLoad::Cases(load) if load.frame == LoadFrame::Base => ToldIn::Base,
+        PathLoad::OfEach { frame, .. } if *frame == LoadFrame::Base => ToldIn::Base,
+        _ => ToldIn::Part,
+    };
+    let cases = load.case_count();
+    let at = |index: usize| {
+        let mut wrenches = vec![Wrench::ZERO; cases];
+        track.wrenches(load, index, &mut wrenches);
+        if told_in == ToldIn::Part {
+            for wrench in &mut wrenches {
+                wrench.force = part_from_base * wrench.force;
+                wrench.moment = part_from_base * wrench.moment;
+            }
+        }
+        wrenches
+    };
+    let wrenches = match load.is_steady() {
+        true => at(indices[0]),
+        false => indices.iter().flat_map(|index| at(*index)).collect(),
+    };
+    let pushes = Pushes {
+        told_in,
+        cases,
+        wrenches,
+    };
+    PlacedPath::new(points.collect(), pushes)
+}
+
+/// How a tool is turned about its axis where its part is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ToolTurn {
+    /// As the part is: along the feed, or where no axis is that of all points.
+    WithPart,
+    /// As [`tool_orientation`] has it in base, and by this angle (rad) more.
+    InBase {
+        /// The tool as it is judged on the part.
+        part_from_tool: UnitQuaternion<f64>,
+        /// That angle.
+        spin: f64,
+    },
+}
+
+impl ToolTurn {
+    /// That of the tool along `track`.
+    pub fn of(track: &Track) -> ToolTurn {
+        let steady = track.steady_normal().is_some() && !track.is_empty();
+        let given = || track.path.points.iter().any(|point| point.spin.is_some());
+        match track.placing.spin {
+            Spin::Fixed(spin) if steady && track.spins.is_none() => ToolTurn::in_base(track, spin),
+            Spin::Given(spin) if steady && track.spins.is_none() && !given() => {
+                ToolTurn::in_base(track, spin)
+            }
+            _ => ToolTurn::WithPart,
+        }
+    }
+
+    fn in_base(track: &Track, spin: f64) -> ToolTurn {
+        let pose = track.base_from_part.inverse() * track.stop(0).base_from_tool;
+        ToolTurn::InBase {
+            part_from_tool: pose.rotation,
+            spin,
+        }
+    }
+
+    /// The place where a part lies so, with the tool turned by `spin` (rad) beside the turn it has there.
+    pub fn lie(&self, base_from_part: Isometry, spin: f64) -> Lie {
+        let more = match self {
+            ToolTurn::WithPart => 0.0,
+            ToolTurn::InBase { part_from_tool, spin } => {
+                let judged = base_from_part.rotation * part_from_tool;
+                let axis = Unit::new_normalize(judged * Vector3::z());
+                let turn = judged.inverse() * tool_orientation(axis, *spin);
+                2.0 * turn.k.atan2(turn.w)
+            }
+        };
+        Lie {
+            base_from_part,
+            spin: spin + more,
+        }
+    }
+}
+
+impl Merit {
+    /// Of no place at all.
+    pub const NONE: Merit = Merit {
+        lost: usize::MAX,
+        cost: f64::INFINITY,
+        branch: None,
+    };
+
+    /// Whether it is better than `other`.
+    pub fn beats(&self, other: &Merit) -> bool {
+        self.lost < other.lost || (self.lost == other.lost && self.cost < other.cost)
+    }
+}
+
+impl Placeable<'_> {
+    /// What each of these places is worth; `None` where it proved to be worth less than `bar` before all points were looked
+    /// at. The same on any number of threads.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if the watch says so; it hears of places.
+    pub fn merits(
+        &self,
+        places: &[Lie],
+        bar: Option<&Merit>,
+        watch: Watch<'_>,
+    ) -> Result<Vec<Option<Merit>>, Cancelled> {
+        let keeping = Keeping {
+            margin: self.goal.margin,
+            wrist: self.goal.wrist,
+            limit: match self.goal.goal {
+                Goal::Above(limit) => limit,
+                Goal::Worst | Goal::Mean => 0.0,
+            },
+        };
+        let maker = || Judge::new(self.question.arm, self.question.home, keeping);
+        let judged = places.par_iter().map_init(maker, |judge, lie| {
+            if watch.is_cancelled() {
+                return Err(Cancelled);
+            }
+            let merit = self.merit(judge, lie, bar);
+            (watch.finished)(1);
+            Ok(merit)
+        });
+        judged.collect()
+    }
+
+    fn merit(&self, judge: &mut Judge<'_>, lie: &Lie, bar: Option<&Merit>) -> Option<Merit> {
+        let named = judge.tells_branches();
+        let worth = |judged: &Judged| {
+            bar.is_none_or(|bar| {
+                judged.lost < bar.lost || (judged.lost == bar.lost && self.cost(judged) < bar.cost)
+            })
+        };
+        let judged = judge.judge(self.path, lie, self.goal.branches, worth);
+        let mut best: Option<Merit> = None;
+        for slot in 0..SLOTS {
+            let Some(judged) = &judged[slot] else { continue };
+            let merit = Merit {
+                lost: judged.lost,
+                cost: self.cost(judged),
+                branch: named.then_some(Branch::ALL[slot]),
+            };
+            if best.is_none_or(|best| merit.beats(&best)) {
+                best = Some(merit);
+            }
+        }
+        best
+    }
+
+    /// Cost of the points so far, as a part of all.
+    fn cost(&self, judged: &Judged) -> f64 {
+        let count = self.path.len() as f64;
+        match self.goal.goal {
+            Goal::Worst => judged.worst,
+            Goal::Mean => judged.sum / count,
+            Goal::Above(_) => (judged.above + WITHIN * judged.sum) / count,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,189 @@
+//! `place`: where the part may lie, and what shall be least there.
+//!
+//! ```text
+//! counted_from_part = (x, y, z) Rz(turn) Ry(tilt) R Rz(roll)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `x, y, z` | centre of the plane, in the frame that the study counts from | m |
+//! | `turn` | about z of that frame, beside where the part lies | rad |
+//! | `tilt` | about its y; of a plane told by `tilt_deg` that angle itself, of others beside where it lies | rad |
+//! | `roll` | about the normal of the plane, beside where the part lies | rad |
+//! | `R` | axes of the part as the study has them (without their tilt, where they are told by it) | - |
+
+use armill_core::robot::BranchPattern;
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::posture_search::{CountsName, GoalName};
+
+/// Where the part may lie, and what shall be least there; for `armill place`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlaceTable {
+    /// Name of the path that is placed; needed where the study asks for several.
+    pub ask: Option<String>,
+    /// Least and greatest x of the plane's centre.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub x_mm: Option<[f64; 2]>,
+    /// Its y.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub y_mm: Option<[f64; 2]>,
+    /// Its z.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub z_mm: Option<[f64; 2]>,
+    /// Least and greatest turn of the part about the vertical, beside where it lies.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    pub turn_deg: Option<[f64; 2]>,
+    /// Least and greatest tilt: `plane.tilt_deg` itself, or of a plane told by `rotation_deg` beside where it lies.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    pub tilt_deg: Option<[f64; 2]>,
+    /// Least and greatest turn of the part about the plane's normal, beside where it lies.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    pub roll_deg: Option<[f64; 2]>,
+    /// Least and greatest turn of the tool about its axis, the same all along, beside the one it has.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    pub spin_deg: Option<[f64; 2]>,
+    /// Places that there are, in place of x, y, z, turn and tilt.
+    #[schemars(length(max = 1000))]
+    #[serde(default)]
+    pub fixture: Vec<FixtureTable>,
+    /// Branches that may be taken: words of a branch, or `any`; those that the study leaves open if left out.
+    pub branch: Option<String>,
+    /// Which part of the deviation counts; `in-plane` if left out.
+    pub counts: Option<CountsName>,
+    /// What shall be least; `worst` if left out.
+    pub goal: Option<GoalName>,
+    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
+    #[schemars(range(min = 0.0, max = 90.0))]
+    pub margin_deg: Option<f64>,
+    /// Least angle by which the wrist is bent; 3 if left out.
+    #[schemars(range(min = 0.0, max = 80.0))]
+    pub least_wrist_deg: Option<f64>,
+}
+
+/// A place that the cell has for parts.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FixtureTable {
+    /// What it is called.
+    pub name: String,
+    /// Where the centre of the plane comes to lie there.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub centre_mm: [f64; 3],
+    /// Its tilt, as `plane.tilt_deg`.
+    #[schemars(range(min = -180.0, max = 180.0))]
+    pub tilt_deg: Option<f64>,
+    /// Its turns, as `plane.rotation_deg`.
+    #[schemars(inner(range(min = -360.0, max = 360.0)))]
+    pub rotation_deg: Option<[f64; 3]>,
+}
+
+/// What is wrong with a table, and what to do: its key, a sentence, a hint.
+pub type Fault = (String, String, &'static str);
+
+impl PlaceTable {
+    /// Bounds by their keys.
+    pub fn bounds(&self) -> [(&'static str, Option<[f64; 2]>); 7] {
+        [
+            ("x_mm", self.x_mm),
+            ("y_mm", self.y_mm),
+            ("z_mm", self.z_mm),
+            ("turn_deg", self.turn_deg),
+            ("tilt_deg", self.tilt_deg),
+            ("roll_deg", self.roll_deg),
+            ("spin_deg", self.spin_deg),
+        ]
+    }
+
+    /// Whether anything may move.
+    pub fn is_free(&self) -> bool {
+        !self.fixture.is_empty() || self.bounds().iter().any(|(_, bounds)| bounds.is_some())
+    }
+
+    /// What this table says, and what it leaves open as `other` says.
+    #[must_use]
+    pub fn or(self, other: PlaceTable) -> PlaceTable {
+        PlaceTable {
+            ask: self.ask.or(other.ask),
+            x_mm: self.x_mm.or(other.x_mm),
+            y_mm: self.y_mm.or(other.y_mm),
+            z_mm: self.z_mm.or(other.z_mm),
+            turn_deg: self.turn_deg.or(other.turn_deg),
+            tilt_deg: self.tilt_deg.or(other.tilt_deg),
+            roll_deg: self.roll_deg.or(other.roll_deg),
+            spin_deg: self.spin_deg.or(other.spin_deg),
+            fixture: if self.fixture.is_empty() {
+                other.fixture
+            } else {
+                self.fixture
+            },
+            branch: self.branch.or(other.branch),
+            counts: self.counts.or(other.counts),
+            goal: self.goal.or(other.goal),
+            margin_deg: self.margin_deg.or(other.margin_deg),
+            least_wrist_deg: self.least_wrist_deg.or(other.least_wrist_deg),
+        }
+    }
+
+    /// Everything that is wrong with it.
+    pub fn faults(&self) -> Vec<Fault> {
+        let mut faults = Vec::new();
+        for (key, bounds) in self.bounds() {
+            let Some([least, greatest]) = bounds else { continue };
+            if least > greatest {
+                faults.push((
+                    key.to_owned(),
+                    format!("`{key}` goes from {least} to {greatest}: there is nothing between"),
+                    "the least first, then the greatest, such as [700, 1300]",
+                ));
+            } else if key.ends_with("_deg") && greatest - least > 360.0 {
+                faults.push((
+                    key.to_owned(),
+                    format!("`{key}` spans {} deg", greatest - least),
+                    "a full turn at most, such as [-180, 180]",
+                ));
+            }
+            let of_place = !["roll_deg", "spin_deg"].contains(&key);
+            if of_place && !self.fixture.is_empty() {
+                faults.push((
+                    key.to_owned(),
+                    format!("`{key}` beside fixtures, which say where the part lies"),
+                    "leave out one of them; roll_deg and spin_deg may stand beside fixtures",
+                ));
+            }
+        }
+        for (index, fixture) in self.fixture.iter().enumerate() {
+            if fixture.tilt_deg.is_some() && fixture.rotation_deg.is_some() {
+                faults.push((
+                    format!("fixture[{index}].rotation_deg"),
+                    format!(
+                        "fixture `{}` has both `tilt_deg` and `rotation_deg`",
+                        fixture.name
+                    ),
+                    "remove one",
+                ));
+            }
+            if self.fixture[..index]
+                .iter()
+                .any(|other| other.name == fixture.name)
+            {
+                faults.push((
+                    format!("fixture[{index}].name"),
+                    format!("there are two fixtures `{}`", fixture.name),
+                    "a name of its own for each",
+                ));
+            }
+        }
+        if let Some(words) = self.branch.as_deref().filter(|words| *words != ANY)
+            && let Err(message) = crate::naming::branch_choice(words, BranchPattern::default())
+        {
+            faults.push(("branch".to_owned(), message, "or write `any`"));
+        }
+        faults
+    }
+}
+
+/// All branches.
+pub const ANY: &str = "any";

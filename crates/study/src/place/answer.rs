@@ -1,0 +1,213 @@
+//! The place that was found, as values of a result.
+
+use armill_core::optimize::Merit;
+use serde::Serialize;
+
+use super::certificate::CertificateAnswer;
+use super::freedom::PlaceAnswer;
+use crate::answer::micrometres;
+
+/// Where a path deviates least.
+#[derive(Clone, Debug, Serialize)]
+pub struct PlacementAnswer {
+    /// Version of this format.
+    pub format: u32,
+    /// The path.
+    pub ask: String,
+    /// Which part of the deviation counted: `in-plane`, `cross-track`, `axial`.
+    pub counts: &'static str,
+    /// What was to be least: `worst`, `mean`, `above-limit`.
+    pub goal: &'static str,
+    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
+    pub margin_deg: f64,
+    /// Points of the path.
+    pub points: usize,
+    /// Where the study has the part, in the branches that it has there.
+    pub as_drawn: OutcomeAnswer,
+    /// At the place that was found.
+    pub found: OutcomeAnswer,
+    /// The fixture that it is, where fixtures were told.
+    pub fixture: Option<String>,
+    /// The place.
+    pub place: PlaceAnswer,
+    /// What was free.
+    pub free: Vec<FreeAnswer>,
+    /// What grids of places say of it.
+    pub certificate: CertificateAnswer,
+    /// The best place for each margin.
+    pub front: Vec<FrontAnswer>,
+    /// Seed of the search.
+    pub seed: u64,
+    /// Rounds that an earlier run, which was stopped, had done.
+    pub rounds_taken_up: usize,
+}
+
+/// What a place comes to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct OutcomeAnswer {
+    /// What was to be least, of the points that are held.
+    pub cost_um: f64,
+    /// Points that the arm does not hold inside its limits and away from singularities.
+    pub lost_points: usize,
+    /// The branch; none for arms whose branches have no names.
+    pub branch: Option<String>,
+}
+
+/// A degree that was free.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FreeAnswer {
+    /// Its key in the study, which tells the unit of the numbers.
+    pub degree: &'static str,
+    /// Least value.
+    pub least: f64,
+    /// Greatest value.
+    pub greatest: f64,
+    /// The value at the place that was found.
+    pub found: f64,
+    /// Whether that is at one of its bounds: with more room there may be a better place.
+    pub at_bound: bool,
+}
+
+/// The best place for one margin.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrontAnswer {
+    /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
+    pub margin_deg: f64,
+    /// What was to be least.
+    pub cost_um: f64,
+    /// The fixture that it is, where fixtures were told.
+    pub fixture: Option<String>,
+    /// The place.
+    pub place: PlaceAnswer,
+}
+
+impl OutcomeAnswer {
+    pub(super) fn of(merit: &Merit) -> OutcomeAnswer {
+        OutcomeAnswer {
+            cost_um: if merit.cost.is_finite() {
+                merit.cost * 1e6
+            } else {
+                0.0
+            },
+            lost_points: merit.lost,
+            branch: merit.branch.map(|branch| branch.to_string()),
+        }
+    }
+}
+
+impl PlacementAnswer {
+    /// What was found, in sentences.
+    pub fn sentences(&self) -> Vec<String> {
+        let what = match self.goal {
+            "worst" => "at most",
+            "mean" => "on the mean",
+            _ => "above the limit, on the mean,",
+        };
+        let comes_to = |outcome: &OutcomeAnswer| match outcome.lost_points {
+            0 => format!("{what} {} µm", micrometres(outcome.cost_um)),
+            lost => format!("no posture at {lost} of {} points", self.points),
+        };
+        let branch = |outcome: &OutcomeAnswer| {
+            outcome
+                .branch
+                .as_deref()
+                .map_or(String::new(), |branch| format!(" in {branch}"))
+        };
+        let mut lines = vec![match self.found.lost_points {
+            0 => format!(
+                "{}: {} {} deviation{} at {}; as drawn {}{}.",
+                self.ask,
+                comes_to(&self.found),
+                self.counts,
+                branch(&self.found),
+                self.place(),
+                comes_to(&self.as_drawn),
+                branch(&self.as_drawn),
+            ),
+            lost => format!(
+                "{}: no place was found that the arm holds everywhere; the best, {}, loses {lost} of {} points{}.",
+                self.ask,
+                self.place(),
+                self.points,
+                branch(&self.found),
+            ),
+        }];
+        let edges: Vec<&str> = self
+            .free
+            .iter()
+            .filter(|free| free.at_bound)
+            .map(|free| free.degree)
+            .collect();
+        if !edges.is_empty() {
+            lines.push(format!(
+                "At a bound: {}. With more room there may be a better place.",
+                edges.join(", ")
+            ));
+        }
+        let grid = |grid: &super::GridAnswer| {
+            format!(
+                "{} places every {:.0} mm and {:.1} deg",
+                grid.places, grid.pitch_mm, grid.pitch_deg
+            )
+        };
+        let [near, wide] = [&self.certificate.near, &self.certificate.wide];
+        lines.push(match near.better + wide.better {
+            0 => format!(
+                "None is better of {} around it, nor of {} over all that is free.",
+                grid(near),
+                grid(wide)
+            ),
+            better => {
+                format!("{better} places of the grids are better still: search again with another --seed.")
+            }
+        });
+        lines
+    }
+
+    /// The place in words.
+    fn place(&self) -> String {
+        let place = &self.place;
+        let [x, y, z] = place.centre_mm;
+        let mut words = match &self.fixture {
+            Some(name) => format!("fixture `{name}`, "),
+            None => String::new(),
+        };
+        words += &format!("centre ({x:.1}, {y:.1}, {z:.1}) mm");
+        if let Some(tilt) = place.tilt_deg {
+            words += &format!(", tilt {tilt:.1} deg");
+        }
+        if let Some([rx, ry, rz]) = place.rotation_deg {
+            words += &format!(", turned by ({rx:.1}, {ry:.1}, {rz:.1}) deg");
+        }
+        if place.spin_deg != 0.0 {
+            words += &format!(", tool turned by {:.1} deg", place.spin_deg);
+        }
+        words
+    }
+
+    /// Lines of a study file that lay the path there.
+    pub fn study_lines(&self) -> String {
+        let place = &self.place;
+        let list = |values: &[f64]| {
+            let values: Vec<String> = values.iter().map(|value| format!("{value:.4}")).collect();
+            format!("[{}]", values.join(", "))
+        };
+        let mut lines = format!("plane.centre_mm = {}\n", list(&place.centre_mm));
+        if let Some(tilt) = place.tilt_deg {
+            lines += &format!("plane.tilt_deg = {tilt:.4}\n");
+        }
+        if let Some(rotation) = place.rotation_deg {
+            lines += &format!("plane.rotation_deg = {}\n", list(&rotation));
+        }
+        if let Some(branch) = &self.found.branch {
+            lines += &format!("posture.branch = \"{branch}\"\n");
+        }
+        if place.spin_deg != 0.0 {
+            lines += &format!(
+                "spin_deg = {:.4} # of a program: program.spin_deg, this much more\n",
+                place.spin_deg
+            );
+        }
+        lines
+    }
+}

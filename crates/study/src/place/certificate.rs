@@ -1,0 +1,200 @@
+//! Is there really nothing better? Places on a grid, near the place that was found and over all that is free.
+//!
+//! Near it every degree is stepped both ways. Over all that is free the pitch is as fine as the effort allows, the same in
+//! all millimetres and in all degrees. A place is looked at until it is known to be no better. Where the largest deviation
+//! counts, some points of the path show that first; what they leave is looked at in full.
+
+use armill_core::kernel::Lie;
+use armill_core::optimize::{Goal, Merit, Placeable};
+use armill_core::watch::{Cancelled, Watch};
+use serde::Serialize;
+
+use super::freedom::is_angle;
+use super::search::{Searched, Spot};
+
+/// What grids of places say of the one that was found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CertificateAnswer {
+    /// Near it.
+    pub near: GridAnswer,
+    /// Over all that is free.
+    pub wide: GridAnswer,
+}
+
+/// One grid of places.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GridAnswer {
+    /// How many places.
+    pub places: usize,
+    /// From one to the next along x, y and z.
+    pub pitch_mm: f64,
+    /// From one to the next in every angle.
+    pub pitch_deg: f64,
+    /// Places that are better than the one that was found.
+    pub better: usize,
+}
+
+/// Pitch of the grid near a place, m and rad.
+const NEAR: [f64; 2] = [2e-3, 0.5 * PER_DEG];
+/// Finest pitch of the grid over all that is free.
+const FINEST: [f64; 2] = [5e-3, PER_DEG];
+const PER_DEG: f64 = std::f64::consts::PI / 180.0;
+/// How much coarser a grid is tried next.
+const COARSER: f64 = 1.05;
+/// Places worked on at once.
+const CHUNK: usize = 8192;
+/// A place counts as better from this part of the cost on: beyond that is rounding.
+const SLACK: f64 = 1e-9;
+
+/// Places on a grid: so many along each free degree, from the first part of its range with this step.
+struct Grid {
+    first: Vec<f64>,
+    step: Vec<f64>,
+    counts: Vec<usize>,
+    pitch: [f64; 2],
+}
+
+impl Searched<'_> {
+    /// What the grids say of `best`, and the best place among them where one is better.
+    pub(super) fn certificate(
+        &self,
+        best: &Spot,
+        watch: Watch<'_>,
+    ) -> Result<(CertificateAnswer, Option<Spot>), Cancelled> {
+        let near = self.near(&best.at);
+        let (near, nearer) = self.grid(&near, best, watch)?;
+        let wide = self.wide();
+        let (wide, wider) = self.grid(&wide, best, watch)?;
+        let better = match (nearer, wider) {
+            (Some(a), Some(b)) => Some(if b.merit.beats(&a.merit) { b } else { a }),
+            (a, b) => a.or(b),
+        };
+        Ok((CertificateAnswer { near, wide }, better))
+    }
+
+    fn near(&self, at: &[f64]) -> Grid {
+        let degrees = at.len() as u32;
+        let steps = match () {
+            () if 5_usize.pow(degrees) <= self.effort.grid => 2,
+            () if 3_usize.pow(degrees) <= self.effort.grid => 1,
+            () => 0,
+        };
+        let mut grid = Grid {
+            first: Vec::new(),
+            step: Vec::new(),
+            counts: Vec::new(),
+            pitch: NEAR,
+        };
+        for ((degree, [least, greatest]), at) in self.freedom.free().zip(at) {
+            let step = NEAR[usize::from(is_angle(degree))] / (greatest - least);
+            // What would lie outside the bounds is left out.
+            let fits = |part: f64| (part / step + 1e-9).floor().min(f64::from(steps)) as usize;
+            let (below, above) = (fits(*at), fits(1.0 - at));
+            grid.first.push(at - below as f64 * step);
+            grid.step.push(step);
+            grid.counts.push(below + above + 1);
+        }
+        grid
+    }
+
+    fn wide(&self) -> Grid {
+        let mut pitch = FINEST;
+        loop {
+            let counts: Vec<usize> = self
+                .freedom
+                .free()
+                .map(|(degree, [least, greatest])| {
+                    ((greatest - least) / pitch[usize::from(is_angle(degree))]).ceil() as usize + 1
+                })
+                .collect();
+            let places: f64 = counts.iter().map(|count| *count as f64).product();
+            if places <= self.effort.grid as f64 {
+                return Grid {
+                    first: vec![0.0; counts.len()],
+                    step: counts
+                        .iter()
+                        .map(|count| 1.0 / (count - 1).max(1) as f64)
+                        .collect(),
+                    counts,
+                    pitch,
+                };
+            }
+            pitch = pitch.map(|pitch| pitch * COARSER);
+        }
+    }
+
+    fn grid(
+        &self,
+        grid: &Grid,
+        best: &Spot,
+        watch: Watch<'_>,
+    ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
+        let bar = Merit {
+            cost: best.merit.cost * (1.0 - SLACK),
+            ..best.merit
+        };
+        let places = grid.len();
+        let quick = matches!(self.all.goal.goal, Goal::Worst);
+        let (mut better, mut found) = (0, None::<Spot>);
+        for first in (0..places).step_by(CHUNK) {
+            let mut left: Vec<Vec<f64>> = (first..places.min(first + CHUNK)).map(|i| grid.at(i)).collect();
+            let looked = left.len();
+            if quick {
+                left = self
+                    .better(&self.some, left, &bar, watch)?
+                    .into_iter()
+                    .map(|spot| spot.at)
+                    .collect();
+            }
+            for spot in self.better(&self.all, left, &bar, watch)? {
+                better += 1;
+                if found.as_ref().is_none_or(|found| spot.merit.beats(&found.merit)) {
+                    found = Some(spot);
+                }
+            }
+            (watch.finished)(looked);
+        }
+        let [metres, radians] = grid.pitch;
+        let answer = GridAnswer {
+            places,
+            pitch_mm: metres * 1e3,
+            pitch_deg: radians / PER_DEG,
+            better,
+        };
+        Ok((answer, found))
+    }
+
+    /// Of these places those that are better than `bar` on this path, in their order.
+    fn better(
+        &self,
+        path: &Placeable<'_>,
+        places: Vec<Vec<f64>>,
+        bar: &Merit,
+        watch: Watch<'_>,
+    ) -> Result<Vec<Spot>, Cancelled> {
+        let lies: Vec<Lie> = places.iter().map(|at| self.freedom.lie(at)).collect();
+        let quiet = Watch {
+            finished: &|_| (),
+            ..watch
+        };
+        let merits = path.merits(&lies, Some(bar), quiet)?;
+        let both = places.into_iter().zip(merits);
+        let spots = both.filter_map(|(at, merit)| Some(Spot { at, merit: merit? }));
+        Ok(spots.filter(|spot| spot.merit.beats(bar)).collect())
+    }
+}
+
+impl Grid {
+    fn len(&self) -> usize {
+        self.counts.iter().product()
+    }
+
+    fn at(&self, mut index: usize) -> Vec<f64> {
+        let mut at = Vec::with_capacity(self.counts.len());
+        for ((first, step), count) in self.first.iter().zip(&self.step).zip(&self.counts) {
+            at.push((first + step * (index % count) as f64).clamp(0.0, 1.0));
+            index /= count;
+        }
+        at
+    }
+}

@@ -1,0 +1,157 @@
+//! What may move, as numbers from 0 to 1, and the place that they mean. The formula is in [`crate::file::placement`].
+
+use armill_core::frame::{Isometry, fixed_angles};
+use armill_core::kernel::Lie;
+use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
+use armill_core::optimize::ToolTurn;
+use serde::Serialize;
+
+use super::answer::FreeAnswer;
+use crate::file::placement::PlaceTable;
+use crate::file::resolve::Setting;
+use crate::number::decimals;
+
+/// Numbers that place a part and its tool.
+pub(super) const DEGREES: usize = 7;
+
+/// Where the part may lie.
+#[derive(Clone, Debug)]
+pub(super) struct Freedom {
+    /// The frame that the study counts from.
+    base_from_counted: Isometry,
+    /// Axes of the part there, without their tilt where the plane is told by it.
+    axes: UnitQuaternion<f64>,
+    /// Whether the plane is told by its tilt.
+    by_tilt: bool,
+    turn: ToolTurn,
+    /// Least and greatest of each degree, m and rad; the same where it does not move.
+    bounds: [[f64; 2]; DEGREES],
+}
+
+/// A place, in words of the study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PlaceAnswer {
+    /// `plane.centre_mm`.
+    pub centre_mm: [f64; 3],
+    /// `plane.tilt_deg`, where the plane is told by it.
+    pub tilt_deg: Option<f64>,
+    /// `plane.rotation_deg`, where it is not.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Turn of the tool about its axis, beside the one it has.
+    pub spin_deg: f64,
+}
+
+impl Freedom {
+    /// Of a path asked with `setting`, whose tool is turned as `turn` says, inside the bounds of `table`.
+    pub fn new(setting: &Setting, turn: ToolTurn, table: &PlaceTable) -> Freedom {
+        let base_from_counted = setting.base_from_counted;
+        let counted_from_part = base_from_counted.inverse() * setting.plane.base_from_part;
+        let tilt = setting.tilt.unwrap_or(0.0);
+        let at = counted_from_part.translation.vector;
+        let here = [at.x, at.y, at.z, 0.0, tilt, 0.0, 0.0];
+        let mut bounds = here.map(|value| [value, value]);
+        for (bounds, (key, told)) in bounds.iter_mut().zip(table.bounds()) {
+            if let Some(told) = told {
+                *bounds = told.map(|value| match key.ends_with("_mm") {
+                    true => value * 1e-3,
+                    false => value.to_radians(),
+                });
+            }
+        }
+        Freedom {
+            base_from_counted,
+            axes: about(Vector3::y_axis(), -tilt) * counted_from_part.rotation,
+            by_tilt: setting.tilt.is_some(),
+            turn,
+            bounds,
+        }
+    }
+
+    /// How many degrees are free.
+    pub fn count(&self) -> usize {
+        self.free().count()
+    }
+
+    /// The free degrees, with their bounds, m and rad.
+    pub fn free(&self) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
+        let all = self.bounds.iter().copied().enumerate();
+        all.filter(|(_, [least, greatest])| least < greatest)
+    }
+
+    /// The values of all degrees, m and rad, where the free ones have these parts of their ranges.
+    pub fn values(&self, at: &[f64]) -> [f64; DEGREES] {
+        let mut values = self.bounds.map(|[least, _]| least);
+        for ((degree, [least, greatest]), part) in self.free().zip(at) {
+            values[degree] = least + (greatest - least) * part;
+        }
+        values
+    }
+
+    /// The part at these values, in the frame that the study counts from.
+    fn counted_from_part(&self, [x, y, z, turn, tilt, roll, _]: [f64; DEGREES]) -> Isometry {
+        let rotation = about(Vector3::z_axis(), turn)
+            * about(Vector3::y_axis(), tilt)
+            * self.axes
+            * about(Vector3::z_axis(), roll);
+        Isometry::from_parts(Translation3::new(x, y, z), rotation)
+    }
+
+    /// The place where the free degrees have these parts of their ranges.
+    pub fn lie(&self, at: &[f64]) -> Lie {
+        let values = self.values(at);
+        let base_from_part = self.base_from_counted * self.counted_from_part(values);
+        self.turn.lie(base_from_part, values[DEGREES - 1])
+    }
+
+    /// The free degrees there.
+    pub fn told(&self, at: &[f64]) -> Vec<FreeAnswer> {
+        let values = self.values(at);
+        let told = |(degree, bounds): (usize, [f64; 2])| {
+            let unit = |value: f64| match is_angle(degree) {
+                true => value.to_degrees(),
+                false => value * 1e3,
+            };
+            let [least, greatest] = bounds;
+            let edge = 1e-3 * (greatest - least);
+            FreeAnswer {
+                degree: NAMES[degree],
+                least: decimals(unit(least), 4),
+                greatest: decimals(unit(greatest), 4),
+                found: decimals(unit(values[degree]), 4),
+                at_bound: values[degree] < least + edge || values[degree] > greatest - edge,
+            }
+        };
+        self.free().map(told).collect()
+    }
+
+    /// The same place in words of the study.
+    pub fn answer(&self, at: &[f64]) -> PlaceAnswer {
+        let values = self.values(at);
+        let [x, y, z, turn, tilt, roll, spin] = values;
+        let by_tilt = self.by_tilt && turn == 0.0 && roll == 0.0;
+        let rotation = fixed_angles(&self.counted_from_part(values).rotation);
+        // A tenth of a micrometre: nobody lays a part more finely.
+        let told = |value: f64| decimals(value, 4);
+        let deg = |angle: f64| told(angle.to_degrees());
+        PlaceAnswer {
+            centre_mm: [x, y, z].map(|value| told(value * 1e3)),
+            tilt_deg: by_tilt.then(|| deg(tilt)),
+            rotation_deg: (!by_tilt).then(|| rotation.map(deg).into()),
+            spin_deg: deg(spin),
+        }
+    }
+}
+
+/// The keys of the degrees in a study.
+pub(super) const NAMES: [&str; DEGREES] = [
+    "x_mm", "y_mm", "z_mm", "turn_deg", "tilt_deg", "roll_deg", "spin_deg",
+];
+
+/// Whether this degree is an angle.
+pub(super) fn is_angle(degree: usize) -> bool {
+    NAMES[degree].ends_with("_deg")
+}
+
+fn about(axis: Unit<Vector3<f64>>, angle: f64) -> UnitQuaternion<f64> {
+    UnitQuaternion::from_axis_angle(&axis, angle)
+}

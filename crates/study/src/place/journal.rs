@@ -1,0 +1,182 @@
+//! What a search has found so far, kept in a file, so that it goes on where it was stopped.
+//!
+//! ```text
+//! 1f3a...                    fingerprint of all that goes in: another search does not go on from here
+//! NAME  3fe0... 3fd5...      a round that is done, and the place it found: the bits of its numbers
+//! ```
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use armill_formats::file::write_atomically;
+
+use crate::error::StudyError;
+
+/// Rounds that are done.
+#[derive(Clone, Debug)]
+pub struct Journal {
+    file: Option<PathBuf>,
+    fingerprint: u64,
+    rounds: BTreeMap<String, Vec<f64>>,
+    /// Rounds that an earlier run had done.
+    taken: usize,
+}
+
+impl Journal {
+    /// One that is kept nowhere.
+    pub fn none() -> Journal {
+        Journal {
+            file: None,
+            fingerprint: 0,
+            rounds: BTreeMap::new(),
+            taken: 0,
+        }
+    }
+
+    /// One that is kept in `file`.
+    pub fn kept_in(file: PathBuf) -> Journal {
+        Journal {
+            file: Some(file),
+            ..Journal::none()
+        }
+    }
+
+    /// Takes up what is in the file, if it is of a search with this fingerprint.
+    pub(super) fn take_up(&mut self, fingerprint: u64) {
+        self.fingerprint = fingerprint;
+        self.rounds = self
+            .file
+            .as_deref()
+            .and_then(|file| read(file, fingerprint))
+            .unwrap_or_default();
+    }
+
+    /// Rounds that an earlier run had done and this one took.
+    pub fn taken(&self) -> usize {
+        self.taken
+    }
+
+    /// The place that this round finds: as it is kept, or worked out and kept.
+    ///
+    /// # Errors
+    /// What working it out gives; a file that cannot be written.
+    pub(super) fn round(
+        &mut self,
+        name: &str,
+        work: impl FnOnce() -> Result<Vec<f64>, StudyError>,
+    ) -> Result<Vec<f64>, StudyError> {
+        if let Some(at) = self.rounds.get(name) {
+            self.taken += 1;
+            return Ok(at.clone());
+        }
+        let at = work()?;
+        self.rounds.insert(name.to_owned(), at.clone());
+        if let Some(file) = &self.file {
+            write_atomically(file, self.text().as_bytes())?;
+        }
+        Ok(at)
+    }
+
+    /// Takes the file away: the search is done.
+    pub fn done(&self) {
+        if let Some(file) = &self.file {
+            // One that stays is of no other search.
+            let _ = std::fs::remove_file(file);
+        }
+    }
+
+    fn text(&self) -> String {
+        let mut text = format!("{:016x}\n", self.fingerprint);
+        for (name, at) in &self.rounds {
+            let bits: String = at
+                .iter()
+                .map(|value| format!("\t{:016x}", value.to_bits()))
+                .collect();
+            text += &format!("{name}{bits}\n");
+        }
+        text
+    }
+}
+
+/// The rounds in this file; `None` where it is not there, of another search, or not whole.
+fn read(file: &Path, fingerprint: u64) -> Option<BTreeMap<String, Vec<f64>>> {
+    let text = std::fs::read_to_string(file).ok()?;
+    let mut lines = text.lines();
+    if lines.next() != Some(&format!("{fingerprint:016x}")) {
+        return None;
+    }
+    let round = |line: &str| {
+        let (name, bits) = line.split_once('\t').unwrap_or((line, ""));
+        let values = bits.split('\t').filter(|bits| !bits.is_empty());
+        let values = values.map(|bits| {
+            let value = f64::from_bits(u64::from_str_radix(bits, 16).ok()?);
+            (0.0..=1.0).contains(&value).then_some(value)
+        });
+        Some((name.to_owned(), values.collect::<Option<_>>()?))
+    };
+    lines.map(round).collect()
+}
+
+/// A fingerprint of numbers: FNV-1a over their bits.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fingerprint(u64);
+
+impl Fingerprint {
+    pub fn new() -> Fingerprint {
+        Fingerprint(0xcbf2_9ce4_8422_2325)
+    }
+
+    pub fn take(&mut self, bytes: &[u8]) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    pub fn value(self) -> u64 {
+        self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_round_that_is_done_is_not_done_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rounds");
+        let mut journal = Journal::kept_in(file.clone());
+        journal.take_up(7);
+        let found = journal.round("valley 0", || Ok(vec![0.1 + 0.2, 1.0])).unwrap();
+        let mut again = Journal::kept_in(file.clone());
+        again.take_up(7);
+        let kept = again.round("valley 0", || panic!("it is kept")).unwrap();
+        assert_eq!(kept, found);
+        assert_eq!((journal.taken(), again.taken()), (0, 1));
+        // Another search begins anew.
+        let mut other = Journal::kept_in(file.clone());
+        other.take_up(8);
+        assert_eq!(other.round("valley 0", || Ok(vec![0.5])).unwrap(), [0.5]);
+        other.done();
+        assert!(!file.exists());
+    }
+
+    #[test]
+    fn a_file_that_is_not_whole_counts_for_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("rounds");
+        for text in [
+            "",
+            "0000000000000007\nvalley\t3fe",
+            "0000000000000007\nvalley\tno",
+            "seven",
+            "0000000000000007\nvalley\t4024000000000000",
+        ] {
+            std::fs::write(&file, text).unwrap();
+            let mut journal = Journal::kept_in(file.clone());
+            journal.take_up(7);
+            let at = journal.round("valley", || Ok(vec![0.25])).unwrap();
+            assert_eq!(at, [0.25], "{text}");
+        }
+    }
+}

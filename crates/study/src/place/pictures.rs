@@ -1,0 +1,146 @@
+//! What a search for a place shows: the front against the margin, and what lies around the place that was found.
+
+use armill_core::kernel::Lie;
+use armill_core::watch::{Cancelled, Watch};
+use armill_report::{AxisLabels, Cell, CellMap, Marker, MarkerKind, PathPlot, Series};
+
+use super::answer::PlacementAnswer;
+use super::freedom::{DEGREES, is_angle};
+use super::search::{Searched, Spot};
+use crate::output::Picture;
+
+/// Cells of a section along its longer side.
+const CELLS: usize = 61;
+
+/// The best that each margin leaves; nothing where there are no two.
+pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
+    if answer.front.len() < 2 {
+        return None;
+    }
+    let drawing = PathPlot {
+        title: format!("{}: deviation against margin", answer.ask),
+        subtitle: "the best place that keeps every joint so far from its limits, the elbow from stretched, the wrist from straight".to_owned(),
+        position_label: "margin (deg)".to_owned(),
+        quantity: quantity(answer),
+        series: vec![Series {
+            name: "best place".to_owned(),
+            position: answer.front.iter().map(|at| at.margin_deg).collect(),
+            deviation_um: answer.front.iter().map(|at| at.cost_um).collect(),
+        }],
+        envelope: None,
+        limit_um: Some(limit * 1e6),
+    };
+    Some(Picture {
+        name: "placement-front".to_owned(),
+        caption: "The best place for each margin to joint limits and singularities.".to_owned(),
+        svg: drawing.to_svg(),
+    })
+}
+
+impl Searched<'_> {
+    /// What lies around `best`, over two free degrees at a time: the first two places and the first two angles.
+    pub(super) fn sections(
+        &self,
+        best: &Spot,
+        answer: &PlacementAnswer,
+        watch: Watch<'_>,
+    ) -> Result<Vec<Picture>, Cancelled> {
+        let free: Vec<(usize, [f64; 2])> = self.freedom.free().collect();
+        let of_kind = |angles: bool| {
+            let all = free.iter().enumerate();
+            let mut of = all.filter(move |(_, (degree, _))| is_angle(*degree) == angles);
+            Some([of.next()?.0, of.next()?.0])
+        };
+        let mut pairs: Vec<[usize; 2]> = [of_kind(false), of_kind(true)].into_iter().flatten().collect();
+        if pairs.is_empty() && free.len() >= 2 {
+            pairs.push([0, 1]);
+        }
+        pairs
+            .into_iter()
+            .map(|pair| self.section(best, answer, (pair, &free), watch))
+            .collect()
+    }
+
+    fn section(
+        &self,
+        best: &Spot,
+        answer: &PlacementAnswer,
+        (pair, free): ([usize; 2], &[(usize, [f64; 2])]),
+        watch: Watch<'_>,
+    ) -> Result<Picture, Cancelled> {
+        let parts: Vec<f64> = (0..CELLS).map(|k| k as f64 / (CELLS - 1) as f64).collect();
+        let mut lies: Vec<Lie> = Vec::with_capacity(CELLS * CELLS);
+        for across in &parts {
+            for up in &parts {
+                let mut at = best.at.clone();
+                (at[pair[0]], at[pair[1]]) = (*across, *up);
+                lies.push(self.freedom.lie(&at));
+            }
+        }
+        let quiet = Watch {
+            finished: &|_| (),
+            ..watch
+        };
+        let merits = self.some.merits(&lies, None, quiet)?;
+        let cells = merits.iter().map(|merit| match merit {
+            Some(merit) if merit.lost == 0 => Cell::Holds(merit.cost * 1e6),
+            _ => Cell::PointsLost,
+        });
+        let scale = |which: usize| {
+            let (degree, [least, greatest]) = free[pair[which]];
+            let unit = if is_angle(degree) {
+                1.0_f64.to_degrees()
+            } else {
+                1e3
+            };
+            move |part: f64| (least + (greatest - least) * part) * unit
+        };
+        let names = pair.map(|which| WORDS[free[which].0]);
+        let found = [0, 1].map(|which| scale(which)(best.at[pair[which]]));
+        let drawing = CellMap {
+            title: format!("{}: around the place that was found", answer.ask),
+            subtitle: "all else as it was found; the best branch at each place".to_owned(),
+            quantity: quantity(answer),
+            labels: AxisLabels {
+                horizontal: names[0].1.to_owned(),
+                vertical: names[1].1.to_owned(),
+            },
+            across: parts.iter().map(|part| scale(0)(*part)).collect(),
+            up: parts.iter().map(|part| scale(1)(*part)).collect(),
+            cells: cells.collect(),
+            marks: vec![Marker {
+                at_mm: found,
+                label: "found".to_owned(),
+                kind: MarkerKind::Best,
+                name: String::new(),
+            }],
+            ..CellMap::default()
+        };
+        Ok(Picture {
+            name: format!("placement-{}-{}", names[0].0, names[1].0),
+            caption: format!("What places come to over {} and {}.", names[0].0, names[1].0),
+            svg: drawing.to_svg(),
+        })
+    }
+}
+
+/// A degree in a file name, and as an axis.
+const WORDS: [(&str, &str); DEGREES] = [
+    ("x", "x of the plane's centre (mm)"),
+    ("y", "y of the plane's centre (mm)"),
+    ("z", "z of the plane's centre (mm)"),
+    ("turn", "turn about the vertical (deg)"),
+    ("tilt", "tilt (deg)"),
+    ("roll", "turn about the normal (deg)"),
+    ("spin", "turn of the tool (deg)"),
+];
+
+/// What was to be least.
+fn quantity(answer: &PlacementAnswer) -> String {
+    let which = match answer.goal {
+        "worst" => "largest",
+        "mean" => "mean",
+        _ => "mean excess of",
+    };
+    format!("{which} {} deviation (µm)", answer.counts)
+}

@@ -1,0 +1,245 @@
+//! The search itself: places spread over all that is free, then the valleys under the best of them, then their floors.
+//!
+//! ```text
+//! Sobol's points on some points of the path -> CMA-ES from the best that lie apart -> CMA-ES with small steps on all points
+//! ```
+//!
+//! Of a path of many points some are looked at first; the floor is looked for on all. With the same seed the answer is the
+//! same on any number of threads: places are asked for by one, judged by all, and told in order.
+
+use armill_core::kernel::Lie;
+use armill_core::optimize::{Merit, Placeable};
+use armill_core::watch::{Cancelled, Watch};
+use fcmaes_core::{Cmaes, CmaesParams, Fitness};
+
+use super::freedom::Freedom;
+
+/// How much is looked at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Effort {
+    /// Places spread over all that is free.
+    pub spread: usize,
+    /// Valleys that are gone down.
+    pub rounds: usize,
+    /// Places looked at in each.
+    pub places: usize,
+    /// Places looked at on the floor, with all points.
+    pub floor: usize,
+    /// Points of the path that are looked at until then.
+    pub points: usize,
+    /// Places of each grid of the certificate, at the most.
+    pub grid: usize,
+}
+
+impl Effort {
+    /// Of arms that lanes answer for, along a path of so many points.
+    pub fn lanes(points: usize) -> Effort {
+        let points = points.clamp(1, 240);
+        Effort {
+            spread: 8192,
+            rounds: 6,
+            places: 4000,
+            floor: 1600,
+            points,
+            // Lanes take eighty points at once.
+            grid: 1_500_000 / points.div_ceil(80),
+        }
+    }
+
+    /// Of arms that are looked at one pose after the other.
+    pub const ONE_BY_ONE: Effort = Effort {
+        spread: 512,
+        rounds: 3,
+        places: 900,
+        floor: 300,
+        points: 40,
+        grid: 3000,
+    };
+
+    /// Less of the same, where a good start is known.
+    pub fn cheaper(self) -> Effort {
+        Effort {
+            spread: self.spread / 4,
+            rounds: 2,
+            places: self.places / 2,
+            floor: self.floor / 2,
+            ..self
+        }
+    }
+
+    /// Places that a search looks at, at the most.
+    pub fn most(&self) -> usize {
+        self.spread + self.rounds * self.places + self.floor
+    }
+}
+
+/// A path with some of its points, and what may move.
+#[derive(Clone, Copy)]
+pub(super) struct Searched<'a> {
+    pub some: Placeable<'a>,
+    pub all: Placeable<'a>,
+    pub freedom: &'a Freedom,
+    pub effort: Effort,
+    pub seed: u64,
+}
+
+/// A place that was found: parts of the ranges of the free degrees, and what it is worth.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spot {
+    pub at: Vec<f64>,
+    pub merit: Merit,
+}
+
+/// Places nearer than this part of the ranges lie in one valley.
+const APART: f64 = 0.15;
+/// First steps of a valley and of its floor, parts of the ranges.
+const STEP: f64 = 0.15;
+const FLOOR_STEP: f64 = 0.01;
+/// The free degrees of sampling: Sobol's points are this many at most.
+const MOST_SPREAD: usize = 1 << 16;
+/// Costs differ by less than this, um, where a valley ends.
+const FLAT_UM: f64 = 1e-6;
+/// So much worse than any cost is a place that loses points.
+const LOST_UM: f64 = 1e9;
+
+impl Searched<'_> {
+    /// The best of the places spread over all that is free, best first, each apart from the others, as many as there are
+    /// rounds.
+    pub fn starts(&self, watch: Watch<'_>) -> Result<Vec<Spot>, Cancelled> {
+        let count = self.effort.spread.min(MOST_SPREAD);
+        let spread: Vec<Vec<f64>> = (0..count)
+            .map(|index| {
+                let part = |dimension: usize| {
+                    f64::from(sobol_burley::sample(
+                        index as u32,
+                        dimension as u32,
+                        self.seed as u32,
+                    ))
+                };
+                (0..self.freedom.count()).map(part).collect()
+            })
+            .collect();
+        let mut spots = self.spots(&self.some, spread, watch)?;
+        // Stable, so that of equal ones the first stays first.
+        spots.sort_by(|a, b| {
+            let key = |spot: &Spot| (spot.merit.lost, spot.merit.cost);
+            key(a).0.cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1))
+        });
+        let mut starts: Vec<Spot> = Vec::new();
+        for spot in spots {
+            if starts.len() < self.effort.rounds
+                && starts.iter().all(|other| apart(&other.at, &spot.at) > APART)
+            {
+                starts.push(spot);
+            }
+        }
+        Ok(starts)
+    }
+
+    /// The bottom of the valley around `start`, on some points; round `index` of all.
+    pub fn valley(&self, start: &[f64], index: usize, watch: Watch<'_>) -> Result<Spot, Cancelled> {
+        // Wider and wider populations see past smaller and smaller hills.
+        let population = 16 << (index / 2).min(3);
+        let run = Run {
+            step: STEP,
+            population,
+            places: self.effort.places,
+            seed: self.seed.wrapping_add(1 + index as u64),
+        };
+        self.descend(&self.some, start, run, watch)
+    }
+
+    /// The floor around `start`, on all points.
+    pub fn floor(&self, start: &[f64], watch: Watch<'_>) -> Result<Spot, Cancelled> {
+        let run = Run {
+            step: FLOOR_STEP,
+            population: 16,
+            places: self.effort.floor,
+            seed: self.seed.wrapping_add(1000),
+        };
+        self.descend(&self.all, start, run, watch)
+    }
+
+    /// The place at `at`, judged on all points.
+    pub fn judged(&self, at: Vec<f64>) -> Result<Spot, Cancelled> {
+        let spots = self.spots(&self.all, vec![at], Watch::NONE)?;
+        Ok(spots.into_iter().next().unwrap_or(Spot {
+            at: Vec::new(),
+            merit: Merit::NONE,
+        }))
+    }
+
+    fn spots(
+        &self,
+        path: &Placeable<'_>,
+        places: Vec<Vec<f64>>,
+        watch: Watch<'_>,
+    ) -> Result<Vec<Spot>, Cancelled> {
+        let lies: Vec<Lie> = places.iter().map(|at| self.freedom.lie(at)).collect();
+        let merits = path.merits(&lies, None, watch)?;
+        let both = places.into_iter().zip(merits);
+        Ok(both
+            .map(|(at, merit)| Spot {
+                at,
+                merit: merit.unwrap_or(Merit::NONE),
+            })
+            .collect())
+    }
+
+    fn descend(
+        &self,
+        path: &Placeable<'_>,
+        start: &[f64],
+        run: Run,
+        watch: Watch<'_>,
+    ) -> Result<Spot, Cancelled> {
+        let count = start.len();
+        let mut best = self.spots(path, vec![start.to_vec()], watch)?.remove(0);
+        let mut looked = 1;
+        if count > 0 {
+            let bounds = Fitness::bounded(count, 1, &vec![0.0; count], &vec![1.0; count]);
+            let wanted = CmaesParams {
+                popsize: run.population,
+                max_evaluations: run.places as u64,
+                accuracy: FLAT_UM / 1e-12,
+                seed: run.seed,
+                ..CmaesParams::default()
+            };
+            let mut strategy = Cmaes::new(bounds, start, &[run.step], &wanted);
+            while looked < run.places && strategy.stop() == 0 {
+                let spots = self.spots(path, strategy.ask(), watch)?;
+                looked += spots.len();
+                let costs: Vec<f64> = spots.iter().map(|spot| cost_um(&spot.merit)).collect();
+                strategy.tell(&costs);
+                for spot in spots {
+                    if spot.merit.beats(&best.merit) {
+                        best = spot;
+                    }
+                }
+            }
+        }
+        // What was not needed counts as done.
+        (watch.finished)(run.places.saturating_sub(looked));
+        Ok(best)
+    }
+}
+
+/// One way down.
+struct Run {
+    /// First step, part of the ranges.
+    step: f64,
+    population: i32,
+    /// Places looked at, at the most.
+    places: usize,
+    seed: u64,
+}
+
+/// Feasibility first, told as one number.
+fn cost_um(merit: &Merit) -> f64 {
+    merit.lost as f64 * LOST_UM + merit.cost * 1e6
+}
+
+/// Largest difference of two places in any degree.
+fn apart(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
