@@ -128,9 +128,7 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
     let answer = ComparisonAnswer {
         format: 1,
         armill: env!("CARGO_PKG_VERSION"),
-        answer: asks
-            .first()
-            .map_or_else(String::new, |first| first.answer.clone()),
+        answer: asks.first().map_or_else(String::new, in_a_sentence),
         asks,
         left_out,
         warnings: warnings(&cells),
@@ -138,6 +136,14 @@ pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<Cell
         cells,
     };
     Compared { answer, curves }
+}
+
+/// Which cell is best, and whose compliances nobody measured.
+fn in_a_sentence(first: &ComparedAnswer) -> String {
+    match sentence::assumed(&first.cells) {
+        Some(assumed) => format!("{} {assumed}", first.answer),
+        None => first.answer.clone(),
+    }
 }
 
 /// One ask, its cells best first.

@@ -124,17 +124,7 @@ pub(super) fn doubts(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) ->
             ));
         }
     }
-    let assumed: Vec<&str> = cells
-        .iter()
-        .filter(|cell| cell.compliance_assumed)
-        .map(|cell| cell.cell.as_str())
-        .collect();
-    if !assumed.is_empty() {
-        doubts.push(format!(
-            "The joint compliances of {} are assumed, not measured.",
-            assumed.join(", ")
-        ));
-    }
+    doubts.extend(assumed(cells));
     if cells.iter().any(|cell| cell.reached < cell.points) {
         doubts.push(
             "Mean, 95 % and largest are of the points that a cell reaches: cells that miss points are compared over fewer."
@@ -142,6 +132,17 @@ pub(super) fn doubts(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) ->
         );
     }
     doubts
+}
+
+/// Cells whose joint compliances nobody measured, in a sentence.
+pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
+    let assumed = cells.iter().filter(|cell| cell.compliance_assumed);
+    let names: Vec<&str> = assumed.map(|cell| cell.cell.as_str()).collect();
+    let told = format!(
+        "The joint compliances of {} are assumed, not measured.",
+        names.join(", ")
+    );
+    (!names.is_empty()).then_some(told)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ use armill_core::map::VolumeMap;
 use armill_core::nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::answer::sentence::micrometres;
 use crate::file::holes::HolesAsk;
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Setting, Sheet, Study};
@@ -112,7 +111,7 @@ fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> 
         ("tool", pose("TCP", "from the flange", &setting.flange_from_tool)),
         ("posture", setting.branch() + searched),
         ("load", load),
-        ("tolerance", format!("{} µm", micrometres(setting.limit * 1e6))),
+        ("tolerance", format!("{} µm", plain(setting.limit * 1e6))),
         ("stiffness model", parts(robot, &setting.model).join("; ")),
         ("points", points),
     ]
