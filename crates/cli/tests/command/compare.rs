@@ -31,7 +31,7 @@ fn two_studies_stand_side_by_side_best_first_with_what_differs() {
     cell.file("short/study.toml", CELL);
     cell.file(
         "long/study.toml",
-        &but("[0, 0, 150, 0, 0, 0]", "[0, 0, 400, 0, 0, 0]"),
+        but("[0, 0, 150, 0, 0, 0]", "[0, 0, 400, 0, 0, 0]"),
     );
     let said = cell.armill(&["compare", "long", "short", "--no-pictures"]).fine();
     // The longer tool yields more: short comes first although it was named last.
@@ -51,7 +51,7 @@ fn two_studies_stand_side_by_side_best_first_with_what_differs() {
 fn numbers_are_those_of_a_run() {
     let cell = Cell::new();
     cell.file("a/study.toml", CELL);
-    cell.file("b/study.toml", &but("limit_um = 60", "limit_um = 30"));
+    cell.file("b/study.toml", but("limit_um = 60", "limit_um = 30"));
     let compared = cell
         .armill(&["compare", "a", "b", "--json", "--out", "side", "--no-pictures"])
         .fine()
@@ -168,7 +168,7 @@ fn compliances_and_statements_of_the_study_stay_with_its_own_robot() {
 #[test]
 fn out_of_reach_is_an_outcome_with_its_counts() {
     let cell = Cell::new();
-    cell.file("study.toml", &but("[850, 50, 300]", "[1700, 0, 900]"));
+    cell.file("study.toml", but("[850, 50, 300]", "[1700, 0, 900]"));
     let said = cell
         .armill(&[
             "compare",
@@ -210,12 +210,12 @@ fn what_cannot_be_compared_is_refused_with_what_to_do() {
     let head = head
         .replace("tool = { flange_from_tool_mm_deg", "tool.flange_from_tool_mm_deg")
         .replace("0, 0, 0] }", "0, 0, 0]");
-    cell.file("heavy.toml", &format!("{head}{gravity}{asks}"));
+    cell.file("heavy.toml", format!("{head}{gravity}{asks}"));
     cell.file(
         "apart.toml",
-        &but("\"ring\"", "\"rim\"").replace("\"plate\"", "\"sheet\""),
+        but("\"ring\"", "\"rim\"").replace("\"plate\"", "\"sheet\""),
     );
-    cell.file("wrong.toml", &but("limit_um = 60", "limit_um = \"x\""));
+    cell.file("wrong.toml", but("limit_um = 60", "limit_um = \"x\""));
     let refused = |args: &[&str], told: &[&str]| {
         cell.armill(&[&["compare"], args].concat()).refused(told);
     };
