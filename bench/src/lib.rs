@@ -4,7 +4,7 @@
 //! machine disturbs all alike. Absolute rates mean nothing across machines; ratios to [`yardstick`] do.
 //!
 //! Read in this order: [`workload`] (arm, poses, loads), [`work`] (what is done at a pose), [`clock`] (how it is
-//! timed), [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`peers`], [`agreement`] (all compute the
+//! timed), [`yardstick`] (plain Rust with trigonometry), [`lanes`], [`armill`], [`kinds`], [`paths`], [`placements`], [`peers`], [`agreement`] (all compute the
 //! same), [`files`] (what the Python and C++ peers read).
 
 pub mod agreement;
@@ -14,6 +14,7 @@ pub mod files;
 pub mod kinds;
 pub mod lanes;
 pub mod paths;
+pub mod placements;
 pub mod peers;
 pub mod work;
 pub mod workload;

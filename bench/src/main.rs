@@ -14,6 +14,7 @@ use armill_bench::armill::{Arm, ONE_POSTURE, candidates as of_armill, isometry};
 use armill_bench::clock::{Candidate, rates, row};
 use armill_bench::lanes::{self, Places};
 use armill_bench::paths::{self, Paths};
+use armill_bench::placements;
 use armill_bench::work::{C66, C66_AT, DEV, DEV_AT, DEV8, IK8};
 use armill_bench::workload::{COUNT, Pose, poses};
 use armill_bench::{agreement, files, kinds, peers, yardstick};
@@ -64,6 +65,7 @@ fn run(folder: &Path, rounds: usize, only_paths: bool) -> Result<(), String> {
     let (double, single) = (Places::of(&poses), Places::of(&poses));
 
     let (others, zigzag) = (kinds::others(), Paths::zigzag());
+    let (steady, leaning) = (placements::Places::steady(), placements::Places::leaning());
     let mut all = of_yardstick(&poses, &angles, &pools[1]);
     let question = arm.question(ONE_POSTURE);
     if !only_paths {
@@ -72,6 +74,7 @@ fn run(folder: &Path, rounds: usize, only_paths: bool) -> Result<(), String> {
         all.extend(kinds::candidates(&others, &pools[0]));
     }
     all.extend(paths::candidates(&arm, &zigzag));
+    all.extend(placements::candidates(&arm, [&steady, &leaning], &pools[0]));
     if !only_paths {
         all.extend(peers::candidates(&poses));
     }

@@ -36,6 +36,7 @@ fn main() -> ExitCode {
         Command::Pose(pose) => command::pose::run(pose),
         Command::Posture(posture) => command::posture::run(posture),
         Command::Place(place) => command::place::run(place),
+        Command::Advise(advise) => command::advise::run(advise),
         Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Forces(forces) => command::forces::run(forces),

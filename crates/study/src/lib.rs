@@ -3,7 +3,7 @@
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
-//! [`place`] finds where a part may lie best.
+//! [`place`] finds where a part may lie best, [`advise`] what to do about a path.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
 //! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and
@@ -11,6 +11,7 @@
 //!
 //! Everything here is the same whatever the surface: command, Python and web return these bytes.
 
+pub mod advise;
 pub mod answer;
 pub mod compare;
 pub mod compensate;

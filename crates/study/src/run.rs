@@ -286,8 +286,11 @@ impl Runner<'_> {
             });
         };
         let searched = self.search(ask, &load, search)?;
+        // What was found counts from the turn that the tool had.
+        let had = |index: usize| ask.track.spins.as_ref().map_or(0.0, |spins| spins[index]);
+        let found = searched.posture.spins.iter().enumerate();
         let turned = Track {
-            spins: Some(searched.posture.spins.clone()),
+            spins: Some(found.map(|(index, spin)| had(index) + spin).collect()),
             ..ask.track.clone()
         };
         let choices = searched.posture.choices();

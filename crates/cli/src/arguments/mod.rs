@@ -9,6 +9,7 @@
 //! Clap checks that options go together and that numbers are numbers; how many there are, and whether they can
 //! be, is checked in `command`, so that all refusals sound alike.
 
+mod advise;
 mod check;
 mod compare;
 mod compensate;
@@ -23,6 +24,7 @@ mod posture;
 mod robots;
 mod run;
 
+pub(crate) use advise::AdviseArguments;
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
@@ -31,7 +33,7 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
-pub(crate) use place::PlaceArguments;
+pub(crate) use place::{PlaceArguments, PlaceOptions};
 pub(crate) use pose::PoseArguments;
 pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
@@ -77,6 +79,8 @@ pub(crate) enum Command {
     Posture(PostureArguments),
     /// Where the part should lie so that a path deviates least
     Place(Box<PlaceArguments>),
+    /// What to do so that a path holds its tolerance: place, turn, compensation, cut
+    Advise(Box<AdviseArguments>),
     /// The paths to command so that the tool goes where it is drawn
     Compensate(CompensateArguments),
     /// Joint compliances from load tests, and which tests to do
@@ -104,6 +108,7 @@ impl Command {
             Command::Pose(a) => a.json,
             Command::Posture(a) => a.run.json,
             Command::Place(a) => a.run.json,
+            Command::Advise(a) => a.run.json,
             Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,

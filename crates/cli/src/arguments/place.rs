@@ -1,17 +1,24 @@
 //! `armill place STUDY`: where the part should lie so that a path deviates least.
 
-use clap::Args;
+use armill_study::file::placement::SureName;
+use clap::{Args, ValueEnum};
 
 use super::posture::{CountsArgument, GoalArgument};
 use super::run::RunOptions;
 
-// What an option leaves out the study's own `[place]` says.
 #[derive(Debug, Args)]
 #[command(after_help = PLACE_EXAMPLES)]
 pub(crate) struct PlaceArguments {
     #[command(flatten)]
     pub run: RunOptions,
 
+    #[command(flatten)]
+    pub place: PlaceOptions,
+}
+
+// Where the part may lie; what an option leaves out the study's own `[place]` says.
+#[derive(Debug, Args)]
+pub(crate) struct PlaceOptions {
     /// The path to place, where the study asks for several
     #[arg(long, value_name = "NAME")]
     pub ask: Option<String>,
@@ -28,9 +35,9 @@ pub(crate) struct PlaceArguments {
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub z_mm: Option<[f64; 2]>,
 
-    /// Turn of the part about the vertical, beside where it lies
+    /// Heading: turn of the part about the vertical, beside where it lies
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
-    pub turn_deg: Option<[f64; 2]>,
+    pub heading_deg: Option<[f64; 2]>,
 
     /// Tilt, as plane.tilt_deg
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
@@ -60,9 +67,35 @@ pub(crate) struct PlaceArguments {
     #[arg(long, value_name = "DEG")]
     pub margin_deg: Option<f64>,
 
+    /// What places are compared by: the goal as if all were known, with two standard uncertainties, or how probably it keeps
+    /// the limit [default: nominal]
+    #[arg(long)]
+    pub sure: Option<SureArgument>,
+
     /// Seed of the search: the same seed gives the same place
     #[arg(long, value_name = "N", default_value_t = 1)]
     pub seed: u32,
+}
+
+/// `--sure`.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum SureArgument {
+    /// As if all were known
+    Nominal,
+    /// With two standard uncertainties
+    PlusTwoSigma,
+    /// How probably the limit is kept
+    WithinLimit,
+}
+
+impl From<SureArgument> for SureName {
+    fn from(sure: SureArgument) -> SureName {
+        match sure {
+            SureArgument::Nominal => SureName::Nominal,
+            SureArgument::PlusTwoSigma => SureName::PlusTwoSigma,
+            SureArgument::WithinLimit => SureName::WithinLimit,
+        }
+    }
 }
 
 /// Two numbers, the least and the greatest.

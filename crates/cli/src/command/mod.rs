@@ -1,6 +1,6 @@
 //! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
 //!
-//! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `compensate`, `identify`,
+//! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `advise`, `compensate`, `identify`,
 //! `forces`, `completions`. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
@@ -9,6 +9,7 @@
 //! an answer that would seem complete. The functions called `as_text` or `..._text` make words out of an answer
 //! and compute no more than the length of a vector or a percentage.
 
+pub(crate) mod advise;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod compensate;

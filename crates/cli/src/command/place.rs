@@ -12,7 +12,7 @@ use armill_study::{StudyError, output, studies};
 
 use super::run::{in_pool, results};
 use crate::Outcome;
-use crate::arguments::PlaceArguments;
+use crate::arguments::{PlaceArguments, PlaceOptions};
 use crate::progress::Progress;
 use crate::terminal::say;
 
@@ -23,7 +23,7 @@ use crate::terminal::say;
 pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let study = found.read()?;
-    let placing = Placing::new(&study, wanted(arguments)?, u64::from(arguments.seed))?;
+    let placing = Placing::new(&study, wanted(&arguments.place)?, u64::from(arguments.place.seed))?;
     let beside = found.folder.join("place");
     let out = arguments.run.out.as_ref().unwrap_or(&beside);
     output::prepare(out)?;
@@ -40,44 +40,44 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     }
     let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
     write_atomically(out.join("placement.json"), json.as_bytes())?;
-    if !arguments.run.no_pictures {
-        output::write_pictures(&placed.pictures, out)?;
-    }
-    let name = placing.name();
-    let mut there = found.read_changed(|file| placed.lay(file))?;
-    there.asks.retain(|ask| ask.name == name);
-    there.statements.clear();
+    let drawn = if arguments.run.no_pictures {
+        &[][..]
+    } else {
+        &placed.pictures
+    };
+    output::write_pictures("placement-", drawn, out)?;
+    let there = placed.study(&found)?;
     let outcome = results((&there, beside.clone()), &arguments.run, |_| {
         let lines = placed.answer.sentences().join("\n");
-        format!("{lines}\n\n{}", placed.answer.study_lines().trim_end())
+        format!("{lines}\n\n{}", placed.answer.study_lines())
+            .trim_end()
+            .to_owned()
     })?;
     journal.done();
     Ok(outcome)
 }
 
 /// What the options ask for.
-fn wanted(arguments: &PlaceArguments) -> Result<PlaceTable, StudyError> {
-    if let Some(margin) = arguments
-        .margin_deg
-        .filter(|margin| !(0.0..=90.0).contains(margin))
-    {
+pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
+    if let Some(margin) = options.margin_deg.filter(|margin| !(0.0..=90.0).contains(margin)) {
         let message = format!("--margin-deg: {margin} is outside 0 to 90");
         return Err(StudyError::value(message, "see `armill place --help`"));
     }
     Ok(PlaceTable {
-        ask: arguments.ask.clone(),
-        x_mm: arguments.x_mm,
-        y_mm: arguments.y_mm,
-        z_mm: arguments.z_mm,
-        turn_deg: arguments.turn_deg,
-        tilt_deg: arguments.tilt_deg,
-        roll_deg: arguments.roll_deg,
-        spin_deg: arguments.spin_deg,
+        ask: options.ask.clone(),
+        x_mm: options.x_mm,
+        y_mm: options.y_mm,
+        z_mm: options.z_mm,
+        heading_deg: options.heading_deg,
+        tilt_deg: options.tilt_deg,
+        roll_deg: options.roll_deg,
+        spin_deg: options.spin_deg,
         fixture: Vec::new(),
-        branch: arguments.branch.clone(),
-        counts: arguments.counts.map(Into::into),
-        goal: arguments.goal.map(Into::into),
-        margin_deg: arguments.margin_deg,
+        branch: options.branch.clone(),
+        counts: options.counts.map(Into::into),
+        goal: options.goal.map(Into::into),
+        sure: options.sure.map(Into::into),
+        margin_deg: options.margin_deg,
         least_wrist_deg: None,
     })
 }

@@ -95,6 +95,7 @@ fn guide_runs() {
         "results",
         "tool-path",
         "tool-path-words",
+        "placement",
         "compare",
         "holes",
         "material-file",
@@ -109,7 +110,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 12, "name the new page in `guide_runs`");
+    assert_eq!(pages, 13, "name the new page in `guide_runs`");
 }
 
 #[test]

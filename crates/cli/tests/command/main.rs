@@ -1,12 +1,13 @@
 //! The command as a user meets it: one program with all its tests, so that it is linked once.
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `documents` (every page is run). Commands: `run`,
-//! `pose`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `forces`, `compare`, `holes`. What goes wrong: `refused`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `forces`, `compare`, `holes`. What goes wrong: `refused`,
 //! `terminal`, `killed`.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
+mod advise;
 mod assumed;
 mod cell;
 mod compare;
@@ -20,6 +21,7 @@ mod import;
 mod killed;
 mod materials;
 mod new_and_robots;
+mod place;
 mod pose;
 mod posture;
 mod refused;

@@ -124,7 +124,7 @@ struct Keeping<'q> {
     home: Option<&'q [f64]>,
     /// Least bend of the wrist, rad.
     wrist: f64,
-    /// Least distance of every joint from its limits and of the elbow from stretched, rad.
+    /// Least distance of every joint that turns from its limits, and of the elbow from stretched, rad.
     margin: f64,
 }
 
@@ -282,8 +282,7 @@ impl OneByOne<'_> {
             };
             let joint_count = one.joints.len();
             out.joints[slot * joint_count..][..joint_count].copy_from_slice(&one.joints);
-            let margin = arm.robot.limit_margin(&one.joints);
-            let stand = if margin.is_some_and(|(_, margin)| margin < keeping.margin - AT_LIMIT) {
+            let stand = if !keeping.inside_limits(&one.joints) {
                 Stand::OutsideLimits
             } else {
                 forward_into(arm.robot, &one.joints, &mut self.frames);
@@ -329,6 +328,19 @@ fn is_singular(named: bool, found: &Found, (screws, wrist): (&[Twist], f64)) -> 
             fourth.angular.cross(&sixth.angular).norm() < wrist.sin()
         }
         (singularity, _) => singularity.is_some(),
+    }
+}
+
+impl Keeping<'_> {
+    /// Whether every joint is inside its limits, and every one that turns so far inside as asked.
+    fn inside_limits(&self, joints: &[f64]) -> bool {
+        let robot = self.arm.robot;
+        robot.joints().iter().enumerate().all(|(index, joint)| {
+            let margin = if robot.slides(index) { 0.0 } else { self.margin };
+            joint
+                .limits
+                .is_none_or(|limits| limits.margin(joints[index]) >= margin - AT_LIMIT)
+        })
     }
 }
 

@@ -58,7 +58,8 @@ pub struct Lie {
 /// How far postures keep from where they may not stand, and what deviation is tolerated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Keeping {
-    /// Least distance of every joint from its limits, of the elbow from stretched or folded, of the wrist from straight, rad.
+    /// Least distance of every joint that turns from its limits, of the elbow from stretched or folded, of the wrist from
+    /// straight, rad.
     pub margin: f64,
     /// Least bend of the wrist, rad.
     pub wrist: f64,
@@ -67,6 +68,9 @@ pub struct Keeping {
 }
 
 /// What one posture makes of all points.
+///
+/// Where points are lost, lanes count the deviations of those that are only outside joint limits, and one pose after the
+/// other does not: compare such places by the points lost.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Judged {
     /// Points where it does not stand.
@@ -113,6 +117,25 @@ impl PlacedPath {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.points.is_empty()
+    }
+
+    /// Every number of points and wrenches, in order: what tells one path from another.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> + '_ {
+        let of_point = |point: &Sighted| {
+            let pose = point.part_from_tool;
+            let (at, turn) = (pose.translation.vector, pose.rotation.coords);
+            let [a, b] = point.along;
+            [
+                at.x, at.y, at.z, turn.x, turn.y, turn.z, turn.w, a.x, a.y, a.z, b.x, b.y, b.z,
+            ]
+        };
+        let of_wrench = |w: &Wrench| {
+            [
+                w.force.x, w.force.y, w.force.z, w.moment.x, w.moment.y, w.moment.z,
+            ]
+        };
+        let wrenches = self.pushes.wrenches.iter().flat_map(of_wrench);
+        self.points.iter().flat_map(of_point).chain(wrenches)
     }
 
     /// Load cases a point.

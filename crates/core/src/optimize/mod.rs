@@ -7,7 +7,8 @@
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
 //! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `lattice`: what a picture
-//! shows of them; `smooth`: turns without steps.
+//! shows of them; `smooth`: turns without steps; `sureness`: how sure
+//! the cost of a place is.
 
 mod chain;
 pub mod compensation;
@@ -18,10 +19,12 @@ pub mod placement;
 pub mod posture;
 mod reversals;
 mod smooth;
+mod sureness;
 
 pub use compensation::{Compensated, Compensation, compensated};
 pub use holes::{HolesFound, holes_held};
 pub use lattice::Lattice;
-pub use placement::{Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+pub use placement::{Appraisal, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;
+pub use sureness::Sure;

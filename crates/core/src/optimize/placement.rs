@@ -16,11 +16,13 @@ use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
 use super::posture::{Counts, Goal, WITHIN};
+use super::sureness::{Sure, one_off};
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
 use crate::load::{LoadFrame, PathLoad};
 use crate::path::{Spin, Track};
-use crate::robot::{Branch, BranchPattern};
+use crate::robot::{Branch, BranchPattern, JointCompliance};
+use crate::source::Arm;
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
@@ -37,6 +39,8 @@ pub struct PlacementGoal {
     pub margin: f64,
     /// Least bend of the wrist, rad.
     pub wrist: f64,
+    /// What places are compared by.
+    pub sure: Sure,
 }
 
 /// A path that may be placed.
@@ -55,10 +59,19 @@ pub struct Placeable<'a> {
 pub struct Merit {
     /// Points that the best branch does not hold.
     pub lost: usize,
-    /// Cost of those that it holds, m.
+    /// What it is compared by, of the points that it holds: the cost in m, or as [`Sure`] says.
     pub cost: f64,
     /// That branch; `None` for arms without names of branches.
     pub branch: Option<Branch>,
+}
+
+/// The cost of a place, and how sure it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Appraisal {
+    /// What the place is worth, as if all were known: its cost in m.
+    pub merit: Merit,
+    /// Standard uncertainty of the cost, m; zero where points are lost.
+    pub uncertainty: f64,
 }
 
 /// The points of `track` with these indices, as they are on its part, with what pushes there.
@@ -108,7 +121,7 @@ pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[us
 /// How a tool is turned about its axis where its part is moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ToolTurn {
-    /// As the part is: along the feed, or where no axis is that of all points.
+    /// As the part is: along the feed, and where no axis is that of all points.
     WithPart,
     /// As [`tool_orientation`] has it in base, and by this angle (rad) more.
     InBase {
@@ -122,22 +135,23 @@ pub enum ToolTurn {
 impl ToolTurn {
     /// That of the tool along `track`.
     pub fn of(track: &Track) -> ToolTurn {
-        let steady = track.steady_normal().is_some() && !track.is_empty();
-        let given = || track.path.points.iter().any(|point| point.spin.is_some());
-        match track.placing.spin {
-            Spin::Fixed(spin) if steady && track.spins.is_none() => ToolTurn::in_base(track, spin),
-            Spin::Given(spin) if steady && track.spins.is_none() && !given() => {
-                ToolTurn::in_base(track, spin)
-            }
-            _ => ToolTurn::WithPart,
-        }
-    }
-
-    fn in_base(track: &Track, spin: f64) -> ToolTurn {
-        let pose = track.base_from_part.inverse() * track.stop(0).base_from_tool;
-        ToolTurn::InBase {
-            part_from_tool: pose.rotation,
-            spin,
+        let first = track
+            .path
+            .points
+            .first()
+            .filter(|_| track.steady_normal().is_some());
+        // Under one axis all points turn alike: what holds of the first holds of all.
+        let spin = first.and_then(|first| match track.placing.spin {
+            Spin::Fixed(angle) => Some(angle),
+            Spin::Given(angle) => Some(angle + first.spin.unwrap_or(0.0)),
+            Spin::AlongFeed(_) => None,
+        });
+        match spin {
+            Some(spin) => ToolTurn::InBase {
+                part_from_tool: (track.base_from_part.inverse() * track.stop(0).base_from_tool).rotation,
+                spin: spin + track.spins.as_ref().map_or(0.0, |spins| spins[0]),
+            },
+            None => ToolTurn::WithPart,
         }
     }
 
@@ -173,6 +187,15 @@ impl Merit {
     }
 }
 
+impl Appraisal {
+    /// How probably the cost is above `limit` (m), normally distributed with its uncertainty; `None` where it is sure.
+    pub fn probability_above(&self, limit: f64) -> Option<f64> {
+        let room = limit - self.merit.cost;
+        let scaled = room / (self.uncertainty * std::f64::consts::SQRT_2);
+        (self.uncertainty > 0.0).then(|| 0.5 * libm::erfc(scaled))
+    }
+}
+
 impl Placeable<'_> {
     /// What each of these places is worth; `None` where it proved to be worth less than `bar` before all points were looked
     /// at. The same on any number of threads.
@@ -185,6 +208,45 @@ impl Placeable<'_> {
         bar: Option<&Merit>,
         watch: Watch<'_>,
     ) -> Result<Vec<Option<Merit>>, Cancelled> {
+        let off = self.arms_off();
+        let judged = places.par_iter().map_init(
+            || self.judges(&off),
+            |judges, lie| {
+                if watch.is_cancelled() {
+                    return Err(Cancelled);
+                }
+                let merit = self.merit(judges, lie, bar);
+                (watch.finished)(1);
+                Ok(merit)
+            },
+        );
+        judged.collect()
+    }
+
+    /// The cost of this place and how sure it is, whatever places are compared by.
+    pub fn appraised(&self, lie: &Lie) -> Appraisal {
+        let off = one_off(&self.question.arm);
+        let mut judges = self.judges(&off);
+        let nothing = Appraisal {
+            merit: Merit::NONE,
+            uncertainty: 0.0,
+        };
+        let merit = self.nominal(&mut judges.nominal, (lie, self.goal.branches), None);
+        merit.map_or(nothing, |merit| Appraisal {
+            merit,
+            uncertainty: self.uncertainty(&mut judges, lie, &merit),
+        })
+    }
+
+    /// Arms that are one standard uncertainty off, where it matters how sure a cost is.
+    fn arms_off(&self) -> Vec<Vec<JointCompliance>> {
+        match self.goal.sure {
+            Sure::Nominal => Vec::new(),
+            Sure::PlusTwoSigma | Sure::WithinLimit(_) => one_off(&self.question.arm),
+        }
+    }
+
+    fn judges<'s>(&'s self, off: &'s [Vec<JointCompliance>]) -> Judges<'s> {
         let keeping = Keeping {
             margin: self.goal.margin,
             wrist: self.goal.wrist,
@@ -193,26 +255,68 @@ impl Placeable<'_> {
                 Goal::Worst | Goal::Mean => 0.0,
             },
         };
-        let maker = || Judge::new(self.question.arm, self.question.home, keeping);
-        let judged = places.par_iter().map_init(maker, |judge, lie| {
-            if watch.is_cancelled() {
-                return Err(Cancelled);
-            }
-            let merit = self.merit(judge, lie, bar);
-            (watch.finished)(1);
-            Ok(merit)
-        });
-        judged.collect()
+        let arm = self.question.arm;
+        let home = self.question.home;
+        let judge = |compliance| Judge::new(Arm { compliance, ..arm }, home, keeping);
+        Judges {
+            nominal: judge(arm.compliance),
+            off: off
+                .iter()
+                .map(|compliance| judge(compliance.as_slice()))
+                .collect(),
+        }
     }
 
-    fn merit(&self, judge: &mut Judge<'_>, lie: &Lie, bar: Option<&Merit>) -> Option<Merit> {
+    fn merit(&self, judges: &mut Judges<'_>, lie: &Lie, bar: Option<&Merit>) -> Option<Merit> {
+        // The cost alone is never above cost and uncertainty; of a probability it says nothing before all points are in.
+        let bar = bar.map(|bar| match self.goal.sure {
+            Sure::Nominal | Sure::PlusTwoSigma => *bar,
+            Sure::WithinLimit(_) => Merit {
+                cost: f64::INFINITY,
+                ..*bar
+            },
+        });
+        let merit = self.nominal(&mut judges.nominal, (lie, self.goal.branches), bar.as_ref())?;
+        let uncertainty = match self.goal.sure {
+            Sure::Nominal => 0.0,
+            Sure::PlusTwoSigma | Sure::WithinLimit(_) => self.uncertainty(judges, lie, &merit),
+        };
+        Some(Merit {
+            cost: self.goal.sure.compared(merit.cost, uncertainty),
+            ..merit
+        })
+    }
+
+    /// Standard uncertainty of the cost of a place in its branch, m; zero where points are lost.
+    fn uncertainty(&self, judges: &mut Judges<'_>, lie: &Lie, merit: &Merit) -> f64 {
+        if merit.lost > 0 {
+            return 0.0;
+        }
+        let branch = merit
+            .branch
+            .map_or_else(BranchPattern::default, BranchPattern::from);
+        let by_load = merit.cost * self.question.doubt.relative;
+        let off = judges.off.iter_mut().map(|judge| {
+            let cost = self.nominal(judge, (lie, branch), None);
+            cost.map_or(0.0, |there| there.cost - merit.cost)
+        });
+        off.fold(by_load, f64::hypot)
+    }
+
+    /// What the place is worth to this judge, as if all were known.
+    fn nominal(
+        &self,
+        judge: &mut Judge<'_>,
+        (lie, branches): (&Lie, BranchPattern),
+        bar: Option<&Merit>,
+    ) -> Option<Merit> {
         let named = judge.tells_branches();
         let worth = |judged: &Judged| {
             bar.is_none_or(|bar| {
                 judged.lost < bar.lost || (judged.lost == bar.lost && self.cost(judged) < bar.cost)
             })
         };
-        let judged = judge.judge(self.path, lie, self.goal.branches, worth);
+        let judged = judge.judge(self.path, lie, branches, worth);
         let mut best: Option<Merit> = None;
         for slot in 0..SLOTS {
             let Some(judged) = &judged[slot] else { continue };
@@ -237,6 +341,12 @@ impl Placeable<'_> {
             Goal::Above(_) => (judged.above + WITHIN * judged.sum) / count,
         }
     }
+}
+
+/// One a thread: of the arm as it is, and of arms one standard uncertainty off.
+struct Judges<'a> {
+    nominal: Judge<'a>,
+    off: Vec<Judge<'a>>,
 }
 
 #[cfg(test)]

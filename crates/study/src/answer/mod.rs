@@ -31,10 +31,10 @@ pub use holes::{HoleAnswer, HolesAnswer, WorstHole};
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
 pub use path::{
     CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
-    ProgramAnswer, RestAnswer, StockAnswer, WorstPoint,
+    ProgramAnswer, RestAnswer, SearchAnswer, StatisticsAnswer, StockAnswer, WorstPoint,
 };
 pub use point::{PointAnswer, SettingAnswer};
-pub(crate) use sentence::micrometres;
+pub(crate) use sentence::{culprit, micrometres};
 pub use statement::{Reading, StatementAnswer};
 pub use volume::VolumeAnswer;
 

@@ -156,7 +156,7 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
 }
 
 /// What has the largest share, and how large.
-fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
+pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
     point.largest_share().map_or_else(String::new, |(i, part)| {
         let is_joint = i < study.robot.robot.joints().len();
         let name = format!("{} {}", if is_joint { "joint" } else { "the" }, shares_of[i]);

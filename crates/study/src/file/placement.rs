@@ -1,17 +1,18 @@
 //! `place`: where the part may lie, and what shall be least there.
 //!
 //! ```text
-//! counted_from_part = (x, y, z) Rz(turn) Ry(tilt) R Rz(roll)
+//! counted_from_part = (x, y, z) Rz(heading) Ry(tilt) R Rz(roll)
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `x, y, z` | centre of the plane, in the frame that the study counts from | m |
-//! | `turn` | about z of that frame, beside where the part lies | rad |
+//! | `heading` | about z of that frame, beside where the part lies | rad |
 //! | `tilt` | about its y; of a plane told by `tilt_deg` that angle itself, of others beside where it lies | rad |
 //! | `roll` | about the normal of the plane, beside where the part lies | rad |
 //! | `R` | axes of the part as the study has them (without their tilt, where they are told by it) | - |
 
+use armill_core::optimize::Sure;
 use armill_core::robot::BranchPattern;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -33,9 +34,9 @@ pub struct PlaceTable {
     /// Its z.
     #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub z_mm: Option<[f64; 2]>,
-    /// Least and greatest turn of the part about the vertical, beside where it lies.
+    /// Least and greatest heading: turn of the part about the vertical, beside where it lies.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
-    pub turn_deg: Option<[f64; 2]>,
+    pub heading_deg: Option<[f64; 2]>,
     /// Least and greatest tilt: `plane.tilt_deg` itself, or of a plane told by `rotation_deg` beside where it lies.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub tilt_deg: Option<[f64; 2]>,
@@ -45,7 +46,7 @@ pub struct PlaceTable {
     /// Least and greatest turn of the tool about its axis, the same all along, beside the one it has.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub spin_deg: Option<[f64; 2]>,
-    /// Places that there are, in place of x, y, z, turn and tilt.
+    /// Places that there are, in place of x, y, z, heading and tilt.
     #[schemars(length(max = 1000))]
     #[serde(default)]
     pub fixture: Vec<FixtureTable>,
@@ -55,12 +56,38 @@ pub struct PlaceTable {
     pub counts: Option<CountsName>,
     /// What shall be least; `worst` if left out.
     pub goal: Option<GoalName>,
+    /// What places are compared by: the goal as if all were known, with two standard uncertainties more, or how probably it
+    /// keeps the limit; `nominal` if left out.
+    pub sure: Option<SureName>,
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight; 0 if left out.
     #[schemars(range(min = 0.0, max = 90.0))]
     pub margin_deg: Option<f64>,
     /// Least angle by which the wrist is bent; 3 if left out.
     #[schemars(range(min = 0.0, max = 80.0))]
     pub least_wrist_deg: Option<f64>,
+}
+
+/// What places are compared by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SureName {
+    /// The goal as if all were known.
+    Nominal,
+    /// The goal and two standard uncertainties.
+    PlusTwoSigma,
+    /// How probably the goal is within the limit.
+    WithinLimit,
+}
+
+impl SureName {
+    /// As the core knows it; `limit` in m.
+    pub fn sure(self, limit: f64) -> Sure {
+        match self {
+            SureName::Nominal => Sure::Nominal,
+            SureName::PlusTwoSigma => Sure::PlusTwoSigma,
+            SureName::WithinLimit => Sure::WithinLimit(limit),
+        }
+    }
 }
 
 /// A place that the cell has for parts.
@@ -90,7 +117,7 @@ impl PlaceTable {
             ("x_mm", self.x_mm),
             ("y_mm", self.y_mm),
             ("z_mm", self.z_mm),
-            ("turn_deg", self.turn_deg),
+            ("heading_deg", self.heading_deg),
             ("tilt_deg", self.tilt_deg),
             ("roll_deg", self.roll_deg),
             ("spin_deg", self.spin_deg),
@@ -110,7 +137,7 @@ impl PlaceTable {
             x_mm: self.x_mm.or(other.x_mm),
             y_mm: self.y_mm.or(other.y_mm),
             z_mm: self.z_mm.or(other.z_mm),
-            turn_deg: self.turn_deg.or(other.turn_deg),
+            heading_deg: self.heading_deg.or(other.heading_deg),
             tilt_deg: self.tilt_deg.or(other.tilt_deg),
             roll_deg: self.roll_deg.or(other.roll_deg),
             spin_deg: self.spin_deg.or(other.spin_deg),
@@ -122,6 +149,7 @@ impl PlaceTable {
             branch: self.branch.or(other.branch),
             counts: self.counts.or(other.counts),
             goal: self.goal.or(other.goal),
+            sure: self.sure.or(other.sure),
             margin_deg: self.margin_deg.or(other.margin_deg),
             least_wrist_deg: self.least_wrist_deg.or(other.least_wrist_deg),
         }
@@ -137,6 +165,12 @@ impl PlaceTable {
                     key.to_owned(),
                     format!("`{key}` goes from {least} to {greatest}: there is nothing between"),
                     "the least first, then the greatest, such as [700, 1300]",
+                ));
+            } else if key == "tilt_deg" && least.abs().max(greatest.abs()) > 180.0 {
+                faults.push((
+                    key.to_owned(),
+                    format!("`{key}` goes from {least} to {greatest} deg"),
+                    "from -180 to 180, as plane.tilt_deg",
                 ));
             } else if key.ends_with("_deg") && greatest - least > 360.0 {
                 faults.push((

@@ -225,6 +225,16 @@ pub fn read_changed(
         for (key, message, hint) in place.faults() {
             places.problem(&format!("place.{key}"), message, hint);
         }
+        let is_it = |ask: &Ask, name: &String| ask.name == *name && matches!(ask.subject, Subject::Path(_));
+        let all_read = asks.len() == tables.len();
+        if let Some(name) = place
+            .ask
+            .as_ref()
+            .filter(|name| all_read && !asks.iter().any(|ask| is_it(ask, name)))
+        {
+            let message = format!("the study has no path called `{name}`");
+            places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
+        }
     }
     problems.append(&mut places.problems);
     problems.extend(unfit_names(&document, &file));

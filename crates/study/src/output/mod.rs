@@ -241,11 +241,24 @@ pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Re
     })
 }
 
-/// Writes pictures that are not those of an ask into `out`.
+/// Writes pictures that are not those of an ask into `out`, in place of all there whose names begin with `begin`.
 ///
 /// # Errors
 /// A file cannot be written; a picture cannot be drawn in pixels.
-pub fn write_pictures(pictures: &[Picture], out: &Path) -> Result<(), StudyError> {
+pub fn write_pictures(begin: &str, pictures: &[Picture], out: &Path) -> Result<(), StudyError> {
+    let names = std::fs::read_dir(out).into_iter().flatten().flatten();
+    for file in names.map(|entry| entry.path()) {
+        let is_picture = file.extension().is_some_and(|end| end == "svg" || end == "png");
+        let name = file
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if is_picture && name.starts_with(begin) {
+            // What cannot be removed is written over, or does no harm.
+            let _ = std::fs::remove_file(file);
+        }
+    }
     for picture in pictures {
         #[cfg(feature = "png")]
         write_atomically(

@@ -1,6 +1,6 @@
 //! The place that was found, as values of a result.
 
-use armill_core::optimize::Merit;
+use armill_core::optimize::{Appraisal, Sure};
 use serde::Serialize;
 
 use super::certificate::CertificateAnswer;
@@ -18,6 +18,8 @@ pub struct PlacementAnswer {
     pub counts: &'static str,
     /// What was to be least: `worst`, `mean`, `above-limit`.
     pub goal: &'static str,
+    /// What places were compared by: `nominal`, `plus-two-sigma`, `within-limit`.
+    pub sure: &'static str,
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
     pub margin_deg: f64,
     /// Points of the path.
@@ -35,9 +37,12 @@ pub struct PlacementAnswer {
     /// What grids of places say of it.
     pub certificate: CertificateAnswer,
     /// The best place for each margin.
-    pub front: Vec<FrontAnswer>,
+    pub by_margin: Vec<MarginAnswer>,
     /// Seed of the search.
     pub seed: u64,
+    /// Whether the tool turns with the part though the study does not say so: it leans from point to point, and its turn
+    /// counts from the axes of base. The table of the path then tells its turn at each point.
+    pub tool_turns_with_part: bool,
     /// Rounds that an earlier run, which was stopped, had done.
     pub rounds_taken_up: usize,
 }
@@ -47,6 +52,10 @@ pub struct PlacementAnswer {
 pub struct OutcomeAnswer {
     /// What was to be least, of the points that are held.
     pub cost_um: f64,
+    /// Its standard uncertainty, from those of the joints' compliances and of the size of the load.
+    pub cost_u_um: f64,
+    /// How probably it is above the limit, where it is not sure.
+    pub probability_above_limit: Option<f64>,
     /// Points that the arm does not hold inside its limits and away from singularities.
     pub lost_points: usize,
     /// The branch; none for arms whose branches have no names.
@@ -70,7 +79,7 @@ pub struct FreeAnswer {
 
 /// The best place for one margin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct FrontAnswer {
+pub struct MarginAnswer {
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
     pub margin_deg: f64,
     /// What was to be least.
@@ -82,13 +91,14 @@ pub struct FrontAnswer {
 }
 
 impl OutcomeAnswer {
-    pub(super) fn of(merit: &Merit) -> OutcomeAnswer {
+    /// Of a place appraised so, against this limit, m.
+    pub(super) fn of(appraised: &Appraisal, limit: f64) -> OutcomeAnswer {
+        let Appraisal { merit, uncertainty } = appraised;
+        let cost = if merit.cost.is_finite() { merit.cost } else { 0.0 };
         OutcomeAnswer {
-            cost_um: if merit.cost.is_finite() {
-                merit.cost * 1e6
-            } else {
-                0.0
-            },
+            cost_um: cost * 1e6,
+            cost_u_um: uncertainty * 1e6,
+            probability_above_limit: appraised.probability_above(limit),
             lost_points: merit.lost,
             branch: merit.branch.map(|branch| branch.to_string()),
         }
@@ -101,10 +111,17 @@ impl PlacementAnswer {
         let what = match self.goal {
             "worst" => "at most",
             "mean" => "on the mean",
-            _ => "above the limit, on the mean,",
+            _ => "a cost (mean excess over the limit, and a thousandth of the mean) of",
         };
         let comes_to = |outcome: &OutcomeAnswer| match outcome.lost_points {
-            0 => format!("{what} {} µm", micrometres(outcome.cost_um)),
+            0 => format!(
+                "{what} {}{} µm",
+                micrometres(outcome.cost_um),
+                match outcome.cost_u_um {
+                    0.0 => String::new(),
+                    u => format!(" ± {}", micrometres(u)),
+                }
+            ),
             lost => format!("no posture at {lost} of {} points", self.points),
         };
         let branch = |outcome: &OutcomeAnswer| {
@@ -120,18 +137,23 @@ impl PlacementAnswer {
                 comes_to(&self.found),
                 self.counts,
                 branch(&self.found),
-                self.place(),
+                self.place_in_words(),
                 comes_to(&self.as_drawn),
                 branch(&self.as_drawn),
             ),
             lost => format!(
                 "{}: no place was found that the arm holds everywhere; the best, {}, loses {lost} of {} points{}.",
                 self.ask,
-                self.place(),
+                self.place_in_words(),
                 self.points,
                 branch(&self.found),
             ),
         }];
+        if self.tool_turns_with_part {
+            lines.push(
+                "The tool turns with the part; a study says so by spin = \"along-feed\", otherwise column turn_deg of the table has its turns.".to_owned(),
+            );
+        }
         let edges: Vec<&str> = self
             .free
             .iter()
@@ -151,6 +173,19 @@ impl PlacementAnswer {
             )
         };
         let [near, wide] = [&self.certificate.near, &self.certificate.wide];
+        if let Some(above) = self
+            .found
+            .probability_above_limit
+            .filter(|_| self.sure == "within-limit")
+        {
+            lines.push(format!(
+                "It is above the limit with a probability of {:.1} %.",
+                100.0 * above
+            ));
+        }
+        if self.free.is_empty() {
+            return lines;
+        }
         lines.push(match near.better + wide.better {
             0 => format!(
                 "None is better of {} around it, nor of {} over all that is free.",
@@ -164,8 +199,8 @@ impl PlacementAnswer {
         lines
     }
 
-    /// The place in words.
-    fn place(&self) -> String {
+    /// The place in words: `centre (700.0, 0.0, 1028.7) mm, tilt 90.0 deg`.
+    pub fn place_in_words(&self) -> String {
         let place = &self.place;
         let [x, y, z] = place.centre_mm;
         let mut words = match &self.fixture {
@@ -185,8 +220,11 @@ impl PlacementAnswer {
         words
     }
 
-    /// Lines of a study file that lay the path there.
+    /// Lines of a study file that lay the path there; none where no place holds it.
     pub fn study_lines(&self) -> String {
+        if self.found.lost_points > 0 {
+            return String::new();
+        }
         let place = &self.place;
         let list = |values: &[f64]| {
             let values: Vec<String> = values.iter().map(|value| format!("{value:.4}")).collect();
@@ -209,5 +247,14 @@ impl PlacementAnswer {
             );
         }
         lines
+    }
+}
+
+/// As the study calls it.
+pub(super) fn sure_word(sure: Sure) -> &'static str {
+    match sure {
+        Sure::Nominal => "nominal",
+        Sure::PlusTwoSigma => "plus-two-sigma",
+        Sure::WithinLimit(_) => "within-limit",
     }
 }

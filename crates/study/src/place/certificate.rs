@@ -5,7 +5,7 @@
 //! counts, some points of the path show that first; what they leave is looked at in full.
 
 use armill_core::kernel::Lie;
-use armill_core::optimize::{Goal, Merit, Placeable};
+use armill_core::optimize::{Goal, Merit, Placeable, Sure};
 use armill_core::watch::{Cancelled, Watch};
 use serde::Serialize;
 
@@ -54,29 +54,59 @@ struct Grid {
     pitch: [f64; 2],
 }
 
+impl GridAnswer {
+    /// Both grids as one, of places elsewhere.
+    pub(super) fn and(self, other: GridAnswer) -> GridAnswer {
+        GridAnswer {
+            places: self.places + other.places,
+            pitch_mm: self.pitch_mm.max(other.pitch_mm),
+            pitch_deg: self.pitch_deg.max(other.pitch_deg),
+            better: self.better + other.better,
+        }
+    }
+}
+
 impl Searched<'_> {
-    /// What the grids say of `best`, and the best place among them where one is better.
-    pub(super) fn certificate(
+    /// What the grid near `best` says of it, and the best place there where one is better.
+    pub(super) fn near_grid(
         &self,
         best: &Spot,
         watch: Watch<'_>,
-    ) -> Result<(CertificateAnswer, Option<Spot>), Cancelled> {
-        let near = self.near(&best.at);
-        let (near, nearer) = self.grid(&near, best, watch)?;
-        let wide = self.wide();
-        let (wide, wider) = self.grid(&wide, best, watch)?;
-        let better = match (nearer, wider) {
-            (Some(a), Some(b)) => Some(if b.merit.beats(&a.merit) { b } else { a }),
-            (a, b) => a.or(b),
-        };
-        Ok((CertificateAnswer { near, wide }, better))
+    ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
+        self.grid(&self.near(&best.at), &best.merit, watch)
+    }
+
+    /// What the grid over all that is free says of a place that is worth `best`, and the best place there where one is better.
+    pub(super) fn wide_grid(
+        &self,
+        best: &Merit,
+        watch: Watch<'_>,
+    ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
+        self.grid(&self.wide(), best, watch)
+    }
+
+    /// Places that a grid may have: fewer where all points must be looked at.
+    fn most(&self) -> usize {
+        match self.is_quick() {
+            true => self.effort.grid,
+            false => (self.effort.grid * self.effort.points / self.all.path.len().max(1))
+                .clamp(100, self.effort.grid),
+        }
+    }
+
+    /// Whether some points show that a place is no better.
+    fn is_quick(&self) -> bool {
+        matches!(
+            (self.all.goal.goal, self.all.goal.sure),
+            (Goal::Worst, Sure::Nominal)
+        )
     }
 
     fn near(&self, at: &[f64]) -> Grid {
         let degrees = at.len() as u32;
         let steps = match () {
-            () if 5_usize.pow(degrees) <= self.effort.grid => 2,
-            () if 3_usize.pow(degrees) <= self.effort.grid => 1,
+            () if 5_usize.pow(degrees) <= self.most() => 2,
+            () if 3_usize.pow(degrees) <= self.most() => 1,
             () => 0,
         };
         let mut grid = Grid {
@@ -108,7 +138,7 @@ impl Searched<'_> {
                 })
                 .collect();
             let places: f64 = counts.iter().map(|count| *count as f64).product();
-            if places <= self.effort.grid as f64 {
+            if places <= self.most() as f64 {
                 return Grid {
                     first: vec![0.0; counts.len()],
                     step: counts
@@ -126,20 +156,19 @@ impl Searched<'_> {
     fn grid(
         &self,
         grid: &Grid,
-        best: &Spot,
+        best: &Merit,
         watch: Watch<'_>,
     ) -> Result<(GridAnswer, Option<Spot>), Cancelled> {
         let bar = Merit {
-            cost: best.merit.cost * (1.0 - SLACK),
-            ..best.merit
+            cost: best.cost - SLACK * best.cost.abs(),
+            ..*best
         };
         let places = grid.len();
-        let quick = matches!(self.all.goal.goal, Goal::Worst);
         let (mut better, mut found) = (0, None::<Spot>);
         for first in (0..places).step_by(CHUNK) {
             let mut left: Vec<Vec<f64>> = (first..places.min(first + CHUNK)).map(|i| grid.at(i)).collect();
             let looked = left.len();
-            if quick {
+            if self.is_quick() {
                 left = self
                     .better(&self.some, left, &bar, watch)?
                     .into_iter()

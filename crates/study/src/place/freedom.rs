@@ -88,8 +88,8 @@ impl Freedom {
     }
 
     /// The part at these values, in the frame that the study counts from.
-    fn counted_from_part(&self, [x, y, z, turn, tilt, roll, _]: [f64; DEGREES]) -> Isometry {
-        let rotation = about(Vector3::z_axis(), turn)
+    fn counted_from_part(&self, [x, y, z, heading, tilt, roll, _]: [f64; DEGREES]) -> Isometry {
+        let rotation = about(Vector3::z_axis(), heading)
             * about(Vector3::y_axis(), tilt)
             * self.axes
             * about(Vector3::z_axis(), roll);
@@ -127,11 +127,11 @@ impl Freedom {
     /// The same place in words of the study.
     pub fn answer(&self, at: &[f64]) -> PlaceAnswer {
         let values = self.values(at);
-        let [x, y, z, turn, tilt, roll, spin] = values;
-        let by_tilt = self.by_tilt && turn == 0.0 && roll == 0.0;
+        let [x, y, z, heading, tilt, roll, spin] = values;
+        let by_tilt = self.by_tilt && heading == 0.0 && roll == 0.0;
         let rotation = fixed_angles(&self.counted_from_part(values).rotation);
         // A tenth of a micrometre: nobody lays a part more finely.
-        let told = |value: f64| decimals(value, 4);
+        let told = |value: f64| decimals(value, 4) + 0.0;
         let deg = |angle: f64| told(angle.to_degrees());
         PlaceAnswer {
             centre_mm: [x, y, z].map(|value| told(value * 1e3)),
@@ -144,7 +144,13 @@ impl Freedom {
 
 /// The keys of the degrees in a study.
 pub(super) const NAMES: [&str; DEGREES] = [
-    "x_mm", "y_mm", "z_mm", "turn_deg", "tilt_deg", "roll_deg", "spin_deg",
+    "x_mm",
+    "y_mm",
+    "z_mm",
+    "heading_deg",
+    "tilt_deg",
+    "roll_deg",
+    "spin_deg",
 ];
 
 /// Whether this degree is an angle.

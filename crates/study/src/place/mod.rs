@@ -18,15 +18,16 @@ pub mod journal;
 mod pictures;
 mod search;
 
-pub use answer::{FreeAnswer, FrontAnswer, OutcomeAnswer, PlacementAnswer};
+pub use answer::{FreeAnswer, MarginAnswer, OutcomeAnswer, PlacementAnswer};
 pub use certificate::{CertificateAnswer, GridAnswer};
 pub use freedom::PlaceAnswer;
 pub use journal::Journal;
 
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PlacedPath, Question};
-use armill_core::nalgebra::{Point3, Vector3};
-use armill_core::optimize::{Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
+use armill_core::optimize::{Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part};
+use armill_core::path::Spin;
 use armill_core::robot::BranchPattern;
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
@@ -35,12 +36,14 @@ use crate::answer::path::search::{counts_word, goal_word};
 use crate::error::StudyError;
 use crate::file::format::{PlaneChange, PostureTable, StudyFile};
 use crate::file::path::PathAsk;
-use crate::file::placement::{ANY, FixtureTable, PlaceTable};
+use crate::file::placement::{ANY, FixtureTable, PlaceTable, SureName};
 use crate::file::posture_search::{CountsName, GoalName};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::number::decimals;
 use crate::output::Picture;
 use crate::run::runner;
+use crate::studies::FoundStudy;
+use answer::sure_word;
 use freedom::Freedom;
 use journal::Fingerprint;
 use search::{Effort, Searched, Spot};
@@ -73,11 +76,41 @@ pub struct Found {
     pub pictures: Vec<Picture>,
     /// Which ask was placed.
     ask: usize,
+    /// The tool on the part at each point, where it turns with it though the study does not say so.
+    with_part: Option<Vec<UnitQuaternion<f64>>>,
 }
 
 impl Found {
+    /// Whether the path is better there than as drawn.
+    pub fn is_better(&self) -> bool {
+        let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
+        (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
+    }
+
+    /// The study with its path, alone, laid there and its tool turned as it was judged.
+    ///
+    /// # Errors
+    /// Every problem of the file, which may have changed since it was read.
+    pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
+        let mut study = found.read_changed(|file| self.lay(file))?;
+        study.asks.retain(|ask| ask.name == self.answer.ask);
+        study.statements.clear();
+        for ask in &mut study.asks {
+            if let (Subject::Path(path), Some(part_from_tools)) = (&mut ask.subject, &self.with_part) {
+                let track = &path.track;
+                let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
+                    let judged = track.base_from_part.rotation * on_part;
+                    let turn = track.stop(index).base_from_tool.rotation.inverse() * judged;
+                    2.0 * turn.k.atan2(turn.w)
+                });
+                path.track.spins = Some(spins.collect());
+            }
+        }
+        Ok(study)
+    }
+
     /// Lets the study file lay its path there.
-    pub fn lay(&self, file: &mut StudyFile) {
+    fn lay(&self, file: &mut StudyFile) {
         let place = &self.answer.place;
         let Some(ask) = file.ask.get_mut(self.ask) else {
             return;
@@ -98,7 +131,10 @@ impl Found {
             home_deg: own.and_then(|posture| posture.home_deg.clone()),
             search: own.and_then(|posture| posture.search.clone()),
         });
-        let more = |spin: Option<f64>| Some(spin.unwrap_or(0.0) + place.spin_deg);
+        let more = |spin: Option<f64>| {
+            let sum = spin.unwrap_or(0.0) + place.spin_deg;
+            Some(sum - 360.0 * (sum / 360.0).round())
+        };
         match &mut ask.program {
             Some(program) => program.spin_deg = more(program.spin_deg),
             None => ask.spin_deg = more(ask.spin_deg),
@@ -113,6 +149,7 @@ struct Site<'a> {
 }
 
 /// The best place of one search.
+#[derive(Clone)]
 struct Best {
     site: usize,
     spot: Spot,
@@ -182,13 +219,12 @@ impl<'a> Placing<'a> {
         self.name
     }
 
-    /// Places that the search looks at, at the most: what its progress ends at.
+    /// Places that the search looks at, about: what its progress ends at.
     pub fn place_count(&self) -> usize {
         let effort = self.effort();
         let margins = MARGINS_DEG.len() - 1;
         let sites = self.table.fixture.len().max(1);
-        let one = effort.most();
-        sites * (one + margins * effort.cheaper().most()) + MOST_TRIES * (2 * effort.grid + effort.floor)
+        sites * (effort.most() + margins * effort.cheaper().most() + effort.grid)
     }
 
     fn effort(&self) -> Effort {
@@ -237,9 +273,15 @@ impl<'a> Placing<'a> {
         };
         journal.take_up(prepared.fingerprint(&goal));
         let drawn = Freedom::new(&self.ask.setting, turn, &PlaceTable::default());
-        let best = prepared.best((goal, effort), "", None, journal)?;
+        let mut best = prepared.best((goal, effort), "", None, journal)?;
+        let mut front = prepared.front(goal, &best, journal)?;
+        if let Some((_, first)) = front.first() {
+            best = first.clone();
+        }
         let (best, certificate) = prepared.certified(best, goal, journal)?;
-        let front = prepared.front(goal, &best, journal)?;
+        if let Some((_, first)) = front.first_mut() {
+            *first = best.clone();
+        }
         let as_asked = PlacementGoal {
             branches: match self.ask.setting.choice {
                 BranchChoice::Of(pattern) => pattern,
@@ -247,7 +289,14 @@ impl<'a> Placing<'a> {
             },
             ..goal
         };
-        let drawn = prepared.searched(&drawn, as_asked, effort).judged(Vec::new())?;
+        let limit = self.ask.setting.limit;
+        let outcome = |freedom: &Freedom, goal: PlacementGoal, at: &[f64]| {
+            let appraised = prepared
+                .searched(freedom, goal, effort)
+                .all
+                .appraised(&freedom.lie(at));
+            OutcomeAnswer::of(&appraised, limit)
+        };
         let freedom = &sites[best.site].freedom;
         let answer = PlacementAnswer {
             format: 1,
@@ -255,17 +304,18 @@ impl<'a> Placing<'a> {
             counts: counts_word(goal.counts),
             goal: goal_word(goal.goal),
             margin_deg: decimals(goal.margin.to_degrees(), 4),
-            as_drawn: OutcomeAnswer::of(&drawn.merit),
-            found: OutcomeAnswer::of(&best.spot.merit),
+            sure: sure_word(goal.sure),
+            as_drawn: outcome(&drawn, as_asked, &[]),
+            found: outcome(freedom, goal, &best.spot.at),
             fixture: sites[best.site].name.map(str::to_owned),
             place: freedom.answer(&best.spot.at),
             free: freedom.told(&best.spot.at),
             certificate,
-            front: front
+            by_margin: front
                 .iter()
-                .map(|(margin, best)| FrontAnswer {
+                .map(|(margin, best)| MarginAnswer {
                     margin_deg: decimals(margin.to_degrees(), 4),
-                    cost_um: best.spot.merit.cost * 1e6,
+                    cost_um: outcome(&sites[best.site].freedom, goal, &best.spot.at).cost_um,
                     fixture: sites[best.site].name.map(str::to_owned),
                     place: sites[best.site].freedom.answer(&best.spot.at),
                 })
@@ -273,11 +323,19 @@ impl<'a> Placing<'a> {
             seed: self.seed,
             points: track.len(),
             rounds_taken_up: journal.taken(),
+            tool_turns_with_part: turn == ToolTurn::WithPart
+                && !matches!(track.placing.spin, Spin::AlongFeed(_)),
         };
         let searched = prepared.searched(freedom, goal, effort);
         let mut pictures = searched.sections(&best.spot, &answer, watch)?;
         pictures.extend(pictures::front(&answer, self.ask.setting.limit));
+        let turns_with_part = answer.tool_turns_with_part;
+        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), freedom.lie(&best.spot.at).spin);
+        let on_part = |index: usize| {
+            (track.base_from_part.inverse() * track.stop(index).base_from_tool).rotation * spin
+        };
         Ok(Found {
+            with_part: turns_with_part.then(|| (0..track.len()).map(on_part).collect()),
             ask: self.index,
             answer,
             pictures,
@@ -300,6 +358,7 @@ impl<'a> Placing<'a> {
             goal: table.goal.unwrap_or(GoalName::Worst).goal(setting.limit),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
+            sure: table.sure.unwrap_or(SureName::Nominal).sure(setting.limit),
             wrist: table.least_wrist_deg.unwrap_or(USUAL_WRIST_DEG).to_radians(),
         })
     }
@@ -410,7 +469,7 @@ impl Prepared<'_> {
                     Ok(searched.valley(start, round, self.watch)?.at)
                 })?;
                 spots.push(searched.judged(at)?);
-                self.tell(&spots);
+                self.tell(&spots, goal.sure);
             }
             if let Some(also) = also {
                 spots.push(searched.judged(also)?);
@@ -432,9 +491,12 @@ impl Prepared<'_> {
         })
     }
 
-    fn tell(&self, spots: &[Spot]) {
+    fn tell(&self, spots: &[Spot], sure: Sure) {
         let merit = the_best(spots.to_vec()).map_or(Merit::NONE, |spot| spot.merit);
         (self.told)(&match merit.lost {
+            0 if matches!(sure, Sure::WithinLimit(_)) => {
+                format!("best so far {:.2} sigma from the limit", merit.cost)
+            }
             0 => format!("best so far {:.2} µm", merit.cost * 1e6),
             lost => format!("best so far loses {lost} points"),
         });
@@ -449,23 +511,51 @@ impl Prepared<'_> {
     ) -> Result<(Best, CertificateAnswer), StudyError> {
         let mut tried = 0;
         loop {
-            let freedom = &self.sites[best.site].freedom;
-            let searched = self.searched(freedom, goal, self.effort);
-            let (certificate, better) = searched.certificate(&best.spot, self.watch)?;
-            let Some(better) = better.filter(|_| tried < MOST_TRIES) else {
+            let (certificate, better) = self.certificate(&best, goal)?;
+            let Some(better) = better else {
                 return Ok((best, certificate));
             };
+            best = better;
+            if tried == MOST_TRIES {
+                return Ok((best, certificate));
+            }
+            let searched = self.searched(&self.sites[best.site].freedom, goal, self.effort);
             let floor = journal.round(&format!("better {tried}"), || {
-                Ok(searched.floor(&better.at, self.watch)?.at)
+                Ok(searched.floor(&best.spot.at, self.watch)?.at)
             })?;
             let spot = searched.judged(floor)?;
-            best.spot = if spot.merit.beats(&better.merit) {
-                spot
-            } else {
-                better
-            };
+            if spot.merit.beats(&best.spot.merit) {
+                best.spot = spot;
+            }
             tried += 1;
         }
+    }
+
+    /// What the grids of all sites say of `best`, and the best place among them where one is better.
+    fn certificate(
+        &self,
+        best: &Best,
+        goal: PlacementGoal,
+    ) -> Result<(CertificateAnswer, Option<Best>), StudyError> {
+        let here = self.searched(&self.sites[best.site].freedom, goal, self.effort);
+        let (near, better) = here.near_grid(&best.spot, self.watch)?;
+        let mut all = vec![(best.site, better)];
+        let mut wide: Option<GridAnswer> = None;
+        for (site, of) in self.sites.iter().enumerate() {
+            let searched = self.searched(&of.freedom, goal, self.effort);
+            let (told, better) = searched.wide_grid(&best.spot.merit, self.watch)?;
+            wide = Some(match wide {
+                Some(so_far) => so_far.and(told),
+                None => told,
+            });
+            all.push((site, better));
+        }
+        let better = all
+            .into_iter()
+            .filter_map(|(site, spot)| Some(Best { site, spot: spot? }))
+            .reduce(|a, b| if b.spot.merit.beats(&a.spot.merit) { b } else { a });
+        let wide = wide.unwrap_or_else(|| near.clone());
+        Ok((CertificateAnswer { near, wide }, better))
     }
 
     /// The best place for each margin, from the least on; where none holds the path the front ends.
@@ -479,11 +569,7 @@ impl Prepared<'_> {
         if best.spot.merit.lost > 0 {
             return Ok(front);
         }
-        let start = Best {
-            site: best.site,
-            spot: best.spot.clone(),
-        };
-        front.push((goal.margin, start));
+        front.push((goal.margin, best.clone()));
         for margin in MARGINS_DEG.map(f64::to_radians) {
             if margin <= goal.margin {
                 continue;
@@ -498,6 +584,12 @@ impl Prepared<'_> {
             }
             front.push((margin, found));
         }
+        // What keeps a wide margin keeps a narrow one too.
+        for index in (1..front.len()).rev() {
+            if front[index].1.spot.merit.beats(&front[index - 1].1.spot.merit) {
+                front[index - 1].1 = front[index].1.clone();
+            }
+        }
         Ok(front)
     }
 
@@ -508,7 +600,10 @@ impl Prepared<'_> {
         let (robot, setting) = (&of.study.robot.robot, &of.ask.setting);
         let freedoms: Vec<&Freedom> = self.sites.iter().map(|site| &site.freedom).collect();
         print.take(format!("{robot:?}{setting:?}{goal:?}{freedoms:?}{:?}", self.effort).as_bytes());
-        print.take(format!("{:?}{}{}", self.paths[0], self.paths[1].len(), of.seed).as_bytes());
+        print.take(&of.seed.to_le_bytes());
+        for number in self.paths[1].numbers() {
+            print.take(&number.to_bits().to_le_bytes());
+        }
         print.value()
     }
 }

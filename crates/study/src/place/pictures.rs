@@ -1,6 +1,7 @@
-//! What a search for a place shows: the front against the margin, and what lies around the place that was found.
+//! What a search for a place shows: the front against margins, and what lies around the place that was found.
 
 use armill_core::kernel::Lie;
+use armill_core::optimize::{Placeable, PlacementGoal, Sure};
 use armill_core::watch::{Cancelled, Watch};
 use armill_report::{AxisLabels, Cell, CellMap, Marker, MarkerKind, PathPlot, Series};
 
@@ -14,7 +15,7 @@ const CELLS: usize = 61;
 
 /// The best that each margin leaves; nothing where there are no two.
 pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
-    if answer.front.len() < 2 {
+    if answer.by_margin.len() < 2 {
         return None;
     }
     let drawing = PathPlot {
@@ -24,14 +25,14 @@ pub(super) fn front(answer: &PlacementAnswer, limit: f64) -> Option<Picture> {
         quantity: quantity(answer),
         series: vec![Series {
             name: "best place".to_owned(),
-            position: answer.front.iter().map(|at| at.margin_deg).collect(),
-            deviation_um: answer.front.iter().map(|at| at.cost_um).collect(),
+            position: answer.by_margin.iter().map(|at| at.margin_deg).collect(),
+            deviation_um: answer.by_margin.iter().map(|at| at.cost_um).collect(),
         }],
         envelope: None,
         limit_um: Some(limit * 1e6),
     };
     Some(Picture {
-        name: "placement-front".to_owned(),
+        name: "placement-margin".to_owned(),
         caption: "The best place for each margin to joint limits and singularities.".to_owned(),
         svg: drawing.to_svg(),
     })
@@ -81,7 +82,12 @@ impl Searched<'_> {
             finished: &|_| (),
             ..watch
         };
-        let merits = self.some.merits(&lies, None, quiet)?;
+        // Sections show the cost in micrometres, whatever places are compared by.
+        let goal = PlacementGoal {
+            sure: Sure::Nominal,
+            ..self.some.goal
+        };
+        let merits = Placeable { goal, ..self.some }.merits(&lies, None, quiet)?;
         let cells = merits.iter().map(|merit| match merit {
             Some(merit) if merit.lost == 0 => Cell::Holds(merit.cost * 1e6),
             _ => Cell::PointsLost,
@@ -99,7 +105,12 @@ impl Searched<'_> {
         let found = [0, 1].map(|which| scale(which)(best.at[pair[which]]));
         let drawing = CellMap {
             title: format!("{}: around the place that was found", answer.ask),
-            subtitle: "all else as it was found; the best branch at each place".to_owned(),
+            subtitle: match (self.some.path.len(), self.all.path.len()) {
+                (some, all) if some < all => {
+                    format!("all else as it was found; {some} of {all} points, the best branch at each place")
+                }
+                _ => "all else as it was found; the best branch at each place".to_owned(),
+            },
             quantity: quantity(answer),
             labels: AxisLabels {
                 horizontal: names[0].1.to_owned(),
@@ -129,7 +140,7 @@ const WORDS: [(&str, &str); DEGREES] = [
     ("x", "x of the plane's centre (mm)"),
     ("y", "y of the plane's centre (mm)"),
     ("z", "z of the plane's centre (mm)"),
-    ("turn", "turn about the vertical (deg)"),
+    ("heading", "heading (deg)"),
     ("tilt", "tilt (deg)"),
     ("roll", "turn about the normal (deg)"),
     ("spin", "turn of the tool (deg)"),

@@ -95,7 +95,7 @@ const APART: f64 = 0.15;
 /// First steps of a valley and of its floor, parts of the ranges.
 const STEP: f64 = 0.15;
 const FLOOR_STEP: f64 = 0.01;
-/// The free degrees of sampling: Sobol's points are this many at most.
+/// Most of Sobol's points that there are.
 const MOST_SPREAD: usize = 1 << 16;
 /// Costs differ by less than this, um, where a valley ends.
 const FLAT_UM: f64 = 1e-6;
@@ -106,7 +106,11 @@ impl Searched<'_> {
     /// The best of the places spread over all that is free, best first, each apart from the others, as many as there are
     /// rounds.
     pub fn starts(&self, watch: Watch<'_>) -> Result<Vec<Spot>, Cancelled> {
-        let count = self.effort.spread.min(MOST_SPREAD);
+        // Where nothing is free there is one place.
+        let count = match self.freedom.count() {
+            0 => 1,
+            _ => self.effort.spread.min(MOST_SPREAD),
+        };
         let spread: Vec<Vec<f64>> = (0..count)
             .map(|index| {
                 let part = |dimension: usize| {

@@ -8,7 +8,7 @@ use crate::source::StiffnessModel;
 
 const WRIST: f64 = 0.1;
 
-fn arm<'a>(robot: &'a crate::robot::Robot, tool: &'a Isometry) -> Arm<'a> {
+fn arm<'a>(robot: &'a Robot, tool: &'a Isometry) -> Arm<'a> {
     Arm {
         robot,
         compliance: robot.compliance().unwrap(),

@@ -1,1 +1,348 @@
+use std::f64::consts::PI;
+
+use nalgebra::{Point2, Point3, Vector2};
+
 use super::*;
+use crate::arms::{self, Stream};
+use crate::frame::from_xyz_and_fixed_angles;
+use crate::kernel::BranchChoice;
+use crate::load::{Doubt, LoadCases};
+use crate::map::along_postures;
+use crate::path::{Pace, Placing, Shape};
+use crate::robot::Robot;
+use crate::source::{Arm, StiffnessModel};
+use crate::workpiece::Plane;
+
+struct Cell {
+    robot: Robot,
+    tool: Isometry,
+}
+
+impl Cell {
+    fn new() -> Cell {
+        Cell {
+            robot: arms::mh12(),
+            tool: from_xyz_and_fixed_angles(Vector3::new(0.05, 0.0, 0.15), Vector3::new(0.0, 0.4, 0.0)),
+        }
+    }
+
+    fn question(&self) -> Question<'_> {
+        Question {
+            arm: Arm {
+                robot: &self.robot,
+                compliance: self.robot.compliance().unwrap(),
+                flange_from_tool: &self.tool,
+                model: StiffnessModel::DRIVES,
+            },
+            home: None,
+            cases: &[],
+            doubt: Doubt::NONE,
+            normal: Vector3::z_axis(),
+            choice: BranchChoice::Best,
+        }
+    }
+}
+
+fn load(frame: LoadFrame) -> PathLoad {
+    let forces = [[-80.0, 30.0, 10.0], [20.0, 60.0, -25.0]];
+    PathLoad::Cases(LoadCases {
+        frame,
+        cases: forces.map(|force| Wrench::from_force(force.into())).to_vec(),
+    })
+}
+
+/// A rectangle on a plate; with `lean` the tool leans another way at each point.
+fn track(base_from_part: Isometry, spin: Spin, lean: f64) -> Track {
+    let mut path = Shape::rectangle(Point2::origin(), Vector2::new(0.12, 0.08)).sampled(0.01);
+    for (index, point) in path.points.iter_mut().enumerate() {
+        point.pace = Pace::Feed(0.04);
+        if lean > 0.0 {
+            let turn = 0.3 * index as f64;
+            let axis = Vector3::new(lean * turn.cos(), lean * turn.sin(), 1.0);
+            point.axis = Some(Unit::new_normalize(axis));
+        }
+    }
+    let plane = Plane { base_from_part };
+    Track {
+        path,
+        placing: Placing {
+            spin,
+            keeps_axis: lean == 0.0,
+            ..Placing::on_plane(&plane)
+        },
+        base_from_part,
+        spins: None,
+    }
+}
+
+/// The same track with its part elsewhere.
+fn moved(track: &Track, base_from_part: Isometry) -> Track {
+    let part_from_path = track.base_from_part.inverse() * track.placing.base_from_path;
+    Track {
+        placing: Placing {
+            base_from_path: base_from_part * part_from_path,
+            ..track.placing
+        },
+        base_from_part,
+        ..track.clone()
+    }
+}
+
+fn goal(goal: Goal) -> PlacementGoal {
+    PlacementGoal {
+        counts: Counts::InPlane,
+        goal,
+        branches: BranchPattern::default(),
+        margin: 0.0,
+        wrist: 0.05,
+        sure: Sure::Nominal,
+    }
+}
+
+fn drawn() -> Isometry {
+    Plane::tilted(Point3::new(0.85, 0.1, 0.4), 1.2).base_from_part
+}
+
+/// A place some way from [`drawn`].
+fn place(random: &mut Stream) -> Isometry {
+    let step = from_xyz_and_fixed_angles(random.vector(0.15), random.vector(0.5));
+    drawn() * step
+}
+
+/// What a place is worth is what the path comes to when it is answered there, point by point: the same physics through the
+/// door that paths take.
+#[test]
+fn a_place_is_worth_what_the_path_comes_to_there() {
+    let cell = Cell::new();
+    let question = cell.question();
+    let mut random = Stream(3);
+    let mut held = 0;
+    for (frame, spin, lean) in [
+        (LoadFrame::Base, Spin::Fixed(0.4), 0.0),
+        (LoadFrame::Part, Spin::AlongFeed(0.2), 0.0),
+        (LoadFrame::Feed, Spin::Fixed(-1.0), 0.0),
+        (LoadFrame::Feed, Spin::AlongFeed(0.0), 0.2),
+        (LoadFrame::Base, Spin::AlongFeed(0.0), 0.2),
+    ] {
+        let (track, load) = (track(drawn(), spin, lean), load(frame));
+        let all: Vec<usize> = (0..track.len()).collect();
+        for counts in [Counts::InPlane, Counts::CrossTrack, Counts::Axial] {
+            let path = on_part((&track, &load), counts, &all);
+            let turn = ToolTurn::of(&track);
+            for _ in 0..6 {
+                let base_from_part = place(&mut random);
+                let lie = turn.lie(base_from_part, 0.0);
+                let there = moved(&track, base_from_part);
+                let merits = [Goal::Worst, Goal::Mean, Goal::Above(1e-4)].map(|of| {
+                    let goal = PlacementGoal { counts, ..goal(of) };
+                    let placeable = Placeable {
+                        question: &question,
+                        path: &path,
+                        goal,
+                    };
+                    placeable.merits(&[lie], None, Watch::NONE).unwrap()[0].unwrap()
+                });
+                let [worst, mean, above] = merits;
+                if worst.lost > 0 {
+                    continue;
+                }
+                held += 1;
+                let deviations = |branch: Branch| -> Vec<f64> {
+                    let choice = vec![(0, BranchChoice::Of(branch.into()))];
+                    let along =
+                        along_postures(&question, (&there, load.clone()), choice, Watch::NONE).unwrap();
+                    let cases = along.answers.case_count;
+                    let size = |index: usize, deviation: &Vector3<f64>| {
+                        let parts = there.parts(index, deviation);
+                        match counts {
+                            Counts::InPlane => parts.along.hypot(parts.cross),
+                            Counts::CrossTrack => parts.cross.abs(),
+                            Counts::Axial => parts.axial.abs(),
+                        }
+                    };
+                    let of_point = |(index, cases): (usize, &[Vector3<f64>])| {
+                        cases.iter().map(|one| size(index, one)).fold(0.0, f64::max)
+                    };
+                    along
+                        .answers
+                        .deviations
+                        .chunks(cases)
+                        .enumerate()
+                        .map(of_point)
+                        .collect()
+                };
+                let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9 * b + 1e-15, "{a} {b}");
+                let of = deviations(worst.branch.unwrap());
+                close(worst.cost, of.iter().copied().fold(0.0, f64::max));
+                let count = of.len() as f64;
+                let of = deviations(mean.branch.unwrap());
+                close(mean.cost, of.iter().sum::<f64>() / count);
+                let of = deviations(above.branch.unwrap());
+                let over: f64 = of.iter().map(|d| (d - 1e-4).max(0.0) + 1e-3 * d).sum();
+                close(above.cost, over / count);
+            }
+        }
+    }
+    assert!(held > 40, "{held}");
+}
+
+/// The tool is judged as the path holds it at the place, whether its turn goes with the part or with the base.
+#[test]
+fn the_tool_is_turned_as_the_path_at_the_place_turns_it() {
+    let mut random = Stream(12);
+    for spin in [Spin::Fixed(0.4), Spin::Given(-2.0), Spin::AlongFeed(1.0)] {
+        let track = track(drawn(), spin, 0.0);
+        let turn = ToolTurn::of(&track);
+        for _ in 0..20 {
+            let base_from_part = place(&mut random);
+            let lie = turn.lie(base_from_part, 0.3);
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
+            let there = moved(&track, base_from_part);
+            for index in [0, track.len() / 2] {
+                let judged = base_from_part
+                    * (track.base_from_part.inverse() * track.stop(index).base_from_tool)
+                    * about;
+                let more = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 0.3);
+                let held = there.stop(index).base_from_tool * more;
+                assert!(
+                    (judged.to_homogeneous() - held.to_homogeneous()).norm() < 1e-12,
+                    "{spin:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_bar_hides_no_better_place() {
+    let cell = Cell::new();
+    let question = cell.question();
+    let mut random = Stream(7);
+    let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.0), load(LoadFrame::Part));
+    let all: Vec<usize> = (0..track.len()).collect();
+    let path = on_part((&track, &load), Counts::InPlane, &all);
+    let places: Vec<Lie> = (0..200)
+        .map(|_| ToolTurn::WithPart.lie(place(&mut random), random.vector(PI).x))
+        .collect();
+    for of in [Goal::Worst, Goal::Mean] {
+        let placeable = Placeable {
+            question: &question,
+            path: &path,
+            goal: goal(of),
+        };
+        let merits = placeable.merits(&places, None, Watch::NONE).unwrap();
+        let mut sorted: Vec<Merit> = merits.iter().flatten().copied().collect();
+        sorted.sort_by(|a, b| a.lost.cmp(&b.lost).then(a.cost.total_cmp(&b.cost)));
+        assert!(sorted[0].lost == 0 && sorted[199].lost > 0);
+        for bar in [sorted[20], sorted[60], sorted[199]] {
+            let judged = placeable.merits(&places, Some(&bar), Watch::NONE).unwrap();
+            for (judged, merit) in judged.iter().zip(&merits) {
+                let merit = merit.unwrap();
+                assert_eq!(
+                    judged.filter(|judged| judged.beats(&bar)),
+                    Some(merit).filter(|m| m.beats(&bar))
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_place_that_loses_fewer_points_is_better_whatever_it_costs() {
+    let merit = |lost, cost| Merit {
+        lost,
+        cost,
+        branch: None,
+    };
+    assert!(merit(0, 1.0).beats(&merit(1, 0.0)) && !merit(1, 0.0).beats(&merit(0, 1.0)));
+    assert!(merit(2, 0.5).beats(&merit(2, 0.6)) && !merit(2, 0.5).beats(&merit(2, 0.5)));
+    assert!(merit(7, 1.0).beats(&Merit::NONE));
+}
+
+#[test]
+fn a_watch_stops_the_judging() {
+    let cell = Cell::new();
+    let question = cell.question();
+    let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
+    let path = on_part((&track, &load), Counts::InPlane, &[0, 5]);
+    let cancel = std::sync::atomic::AtomicBool::new(true);
+    let placeable = Placeable {
+        question: &question,
+        path: &path,
+        goal: goal(Goal::Worst),
+    };
+    let watch = Watch {
+        cancel: &cancel,
+        ..Watch::NONE
+    };
+    let lie = ToolTurn::WithPart.lie(drawn(), 0.0);
+    assert_eq!(placeable.merits(&[lie], None, watch), Err(Cancelled));
+}
+
+/// The differences that the uncertainty is made of against those of arms whose compliances are drawn at random: the spread of
+/// the cost of 4000 such arms.
+#[test]
+fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
+    let cell = Cell::new();
+    let mut joints = cell.robot.compliance().unwrap().to_vec();
+    for (k, joint) in joints.iter_mut().enumerate() {
+        joint.standard_uncertainty = joint.value * (0.02 + 0.01 * k as f64);
+    }
+    let mut question = cell.question();
+    question.arm.compliance = &joints;
+    question.doubt.relative = 0.03;
+    let (track, load) = (track(drawn(), Spin::Fixed(0.0), 0.0), load(LoadFrame::Part));
+    let path = on_part((&track, &load), Counts::InPlane, &[0, 7, 15, 30]);
+    let placeable = |sure| Placeable {
+        question: &question,
+        path: &path,
+        goal: PlacementGoal {
+            sure,
+            ..goal(Goal::Worst)
+        },
+    };
+    let lie = ToolTurn::of(&track).lie(drawn(), 0.0);
+    let told = placeable(Sure::Nominal).appraised(&lie);
+    let branch = told.merit.branch.unwrap();
+    let mut random = Stream(99);
+    // Twelve evenly drawn numbers less six are near to normal; so the sum of twelve from -1 to 1 halved.
+    let mut normal = || (0..4).map(|_| random.vector(0.5).sum()).sum::<f64>();
+    let costs: Vec<f64> = (0..4000)
+        .map(|_| {
+            let mut other = joints.clone();
+            for joint in &mut other {
+                joint.value += joint.standard_uncertainty * normal();
+            }
+            let mut question = question;
+            question.arm.compliance = &other;
+            let one = Placeable {
+                question: &question,
+                path: &path,
+                goal: PlacementGoal {
+                    branches: branch.into(),
+                    ..goal(Goal::Worst)
+                },
+            };
+            one.appraised(&lie).merit.cost * (1.0 + 0.03 * normal())
+        })
+        .collect();
+    let mean = costs.iter().sum::<f64>() / costs.len() as f64;
+    let spread = (costs.iter().map(|c| (c - mean).powi(2)).sum::<f64>() / costs.len() as f64).sqrt();
+    // A standard deviation of 4000 is known to 1.1 %; the largest of some points bends the propagation a little.
+    assert!(
+        (told.uncertainty - spread).abs() < 0.05 * spread,
+        "{} {spread}",
+        told.uncertainty
+    );
+    let compared = |sure| {
+        let all = placeable(sure).merits(&[lie], None, Watch::NONE).unwrap();
+        all[0].unwrap().cost
+    };
+    let (cost, u) = (told.merit.cost, told.uncertainty);
+    assert!((compared(Sure::PlusTwoSigma) - (cost + 2.0 * u)).abs() < 1e-15);
+    assert!((compared(Sure::WithinLimit(2.0 * cost)) + cost / u).abs() < 1e-9 * cost / u);
+    assert_eq!(compared(Sure::Nominal), cost);
+    // Phi(-1) and Phi(1.96) of tables of the normal distribution.
+    let above = |z: f64| told.probability_above(cost - z * u).unwrap();
+    assert!((above(-1.0) - 0.158_655_3).abs() < 1e-7 && (above(1.96) - 0.975_002_1).abs() < 1e-7);
+}

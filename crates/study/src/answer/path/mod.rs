@@ -22,7 +22,7 @@ pub use feature::FeatureAnswer;
 pub use limits::{LimitAnswer, LimitsAnswer};
 pub use measured::MeasuredAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
-pub use search::SearchAnswer;
+pub use search::{SearchAnswer, StatisticsAnswer};
 pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;

@@ -1,0 +1,157 @@
+//! Rows of a search for a placement: places of a path judged, exhaustively.
+//!
+//! | work | path | load |
+//! |---|---|---|
+//! | [`STEADY`] | one tool axis, one turn of the tool | four cases in the axes of the part |
+//! | [`LEANING`] | the tool leans another way at each point | four cases in the feed frame |
+//!
+//! Each also with a bar: given up where it is known to be no better than the best so far. One thread. Rates count
+//! place x point x case; one branch, its flip, limits and singularities judged.
+
+use std::f64::consts::TAU;
+use std::hint::black_box;
+
+use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
+use armill_core::kernel::{Lie, PlacedPath, Question};
+use armill_core::load::{LoadCases, LoadFrame, PathLoad};
+use armill_core::nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
+use armill_core::optimize::{Counts, Goal, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+use armill_core::path::{Pace, PathPoint, Placing, SampledPath, Spin, Track};
+use armill_core::robot::BranchPattern;
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+use rayon::ThreadPool;
+
+use crate::armill::{Arm, ONE_POSTURE};
+use crate::clock::Candidate;
+use crate::workload::FORCES;
+
+/// Places judged, one tool axis.
+pub const STEADY: &str = "placement x point x case, one tool axis";
+/// Places judged, leaning tool.
+pub const LEANING: &str = "placement x point x case, five axes";
+/// The first with a bar.
+pub const STEADY_BAR: &str = "placement x point x case, one tool axis, pruned";
+
+/// Points of the path.
+const POINTS: usize = 20_000;
+/// Places judged in a run.
+const PLACES: usize = 24;
+
+/// A path on a part, and places of it.
+pub struct Places {
+    path: PlacedPath,
+    lies: Vec<Lie>,
+}
+
+impl Places {
+    /// A path of one tool axis.
+    pub fn steady() -> Places {
+        Places::of(0.0, LoadFrame::Part)
+    }
+
+    /// A path of a tool that leans.
+    pub fn leaning() -> Places {
+        Places::of(0.15, LoadFrame::Feed)
+    }
+
+    fn of(lean: f64, frame: LoadFrame) -> Places {
+        let load = PathLoad::Cases(LoadCases {
+            frame,
+            cases: FORCES.map(|force| Wrench::from_force(force.into())).to_vec(),
+        });
+        let track = track(lean);
+        let all: Vec<usize> = (0..POINTS).collect();
+        let turn = ToolTurn::of(&track);
+        let part = |k: usize| (k as f64 * 0.618).fract() - 0.5;
+        // All six degrees, near enough that every point is held.
+        let lies = (0..PLACES).map(|k| {
+            let at = Vector3::new(part(k), part(3 * k), part(7 * k)) * 0.1;
+            let turned = Vector3::new(part(5 * k), part(11 * k), part(13 * k)) * 0.2;
+            turn.lie(track.base_from_part * from_xyz_and_fixed_angles(at, turned), 0.0)
+        });
+        Places {
+            lies: lies.collect(),
+            path: on_part((&track, &load), Counts::InPlane, &all),
+        }
+    }
+}
+
+/// A winding line on a plate before the arm.
+fn track(lean: f64) -> Track {
+    let points = (0..POINTS).map(|k| {
+        let angle = TAU * k as f64 / 2000.0;
+        let at = Vector3::new(0.1 * angle.cos(), 0.1 * (0.7 * angle).sin(), 1e-3 * angle.sin());
+        PathPoint {
+            at: at.into(),
+            axis: (lean > 0.0)
+                .then(|| Unit::new_normalize(Vector3::new(lean * (3.0 * angle).cos(), lean * angle.sin(), 1.0))),
+            spin: None,
+            direction: Unit::new_normalize(Vector3::new(-angle.sin(), angle.cos(), 0.01)),
+            along: k as f64 * 1e-3,
+            pace: Pace::Feed(0.02),
+            line: k as u32 + 1,
+        }
+    });
+    let axes = Matrix3::from_columns(&[Vector3::y(), -Vector3::z(), -Vector3::x()]);
+    let turned = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    let base_from_part = Isometry::from_parts(Vector3::new(0.95, 0.0, 0.8).into(), turned);
+    Track {
+        path: SampledPath {
+            points: points.collect(),
+            ..SampledPath::default()
+        },
+        placing: Placing {
+            base_from_path: base_from_part,
+            axis: Vector3::z_axis(),
+            keeps_axis: lean == 0.0,
+            spin: if lean > 0.0 { Spin::AlongFeed(0.0) } else { Spin::Fixed(0.0) },
+        },
+        base_from_part,
+        spins: None,
+    }
+}
+
+/// Every row.
+pub fn candidates<'a>(
+    arm: &'a Arm,
+    [steady, leaning]: [&'a Places; 2],
+    one_thread: &'a ThreadPool,
+) -> Vec<Candidate<'a>> {
+    const WHO: &str = "armill placement";
+    let judged = move |places: &Places, prune: bool| {
+        let question: Question<'_> = arm.question(ONE_POSTURE);
+        let placeable = Placeable {
+            question: &question,
+            path: &places.path,
+            goal: PlacementGoal {
+                counts: Counts::InPlane,
+                goal: Goal::Worst,
+                branches: BranchPattern::FRONT_ELBOW_UP,
+                margin: 0.0,
+                wrist: 0.0,
+            },
+        };
+        let mut best = Merit::NONE;
+        for chunk in places.lies.chunks(4) {
+            let bar = prune.then_some(&best);
+            let merits = one_thread.install(|| placeable.merits(chunk, bar, Watch::NONE));
+            for merit in merits.expect("nobody cancels").into_iter().flatten() {
+                assert!(prune || merit.lost == 0, "{} points lost", merit.lost);
+                if merit.beats(&best) {
+                    best = merit;
+                }
+            }
+        }
+        black_box(best);
+    };
+    let count = |places: &Places| PLACES * POINTS * places.path.case_count();
+    vec![
+        Candidate::new(WHO, STEADY, count(steady), move || judged(steady, false))
+            .note("MH12, 20 000 points, four cases; six free degrees"),
+        Candidate::new(WHO, LEANING, count(leaning), move || judged(leaning, false))
+            .note("the same, with a rotation, directions and wrenches of its own at each point"),
+        Candidate::new(WHO, STEADY_BAR, count(steady), move || judged(steady, true))
+            .note("places no better than the best so far are given up"),
+    ]
+}

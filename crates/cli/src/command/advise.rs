@@ -1,0 +1,49 @@
+//! `armill advise`: what to do so that a path holds its tolerance.
+//!
+//! `--out` (`advice` beside the study) takes the results of the path with all that is advised, as `armill run` writes them, and
+//! before them `advice.json`. Like `armill place` it goes on where it was stopped. Stdout has the advice in sentences.
+
+use armill_formats::file::write_atomically;
+use armill_study::advise::advise;
+use armill_study::place::{Journal, Placing};
+use armill_study::{StudyError, output, studies};
+
+use super::place::wanted;
+use super::run::{in_pool, results};
+use crate::Outcome;
+use crate::arguments::AdviseArguments;
+use crate::progress::Progress;
+
+/// Searches, turns, compensates, and runs what is advised.
+///
+/// # Errors
+/// No study there, or its problems; no such path; bounds that leave nothing; a folder where nothing can be written.
+pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
+    let found = studies::find(&arguments.run.study)?;
+    let study = found.read()?;
+    let seed = u64::from(arguments.place.seed);
+    let placing = Placing::new(&study, wanted(&arguments.place)?, seed)?;
+    let beside = found.folder.join("advice");
+    let out = arguments.run.out.as_ref().unwrap_or(&beside);
+    output::prepare(out)?;
+    let mut journal = Journal::kept_in(out.join("place.rounds"));
+    let advice = in_pool(arguments.run.threads, || {
+        let progress = Progress::of("places", placing.place_count());
+        progress.watch(|watch| {
+            let told = |what: &str| progress.tell(what);
+            advise((&found, &study), &placing, &mut journal, (watch, &told))
+        })
+    })??;
+    let json = serde_json::to_string_pretty(&advice.answer)? + "\n";
+    write_atomically(out.join("advice.json"), json.as_bytes())?;
+    let drawn = if arguments.run.no_pictures {
+        &[][..]
+    } else {
+        &advice.pictures
+    };
+    output::write_pictures("placement-", drawn, out)?;
+    let sentences = advice.answer.advice.join("\n");
+    let outcome = results((&advice.study, beside.clone()), &arguments.run, |_| sentences)?;
+    journal.done();
+    Ok(outcome)
+}

@@ -1,0 +1,102 @@
+//! `armill advise`: place, turns, compensation and forces in sentences, and the study that comes of them run.
+
+use crate::cell::{Cell, number};
+
+const CELL: &str = r#"format = 1
+robot = "yaskawa/mh12"
+plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
+[[ask]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 20
+"#;
+
+fn cell(limit_um: &str, place: &str) -> Cell {
+    let cell = Cell::new();
+    cell.file("study.toml", &format!("limit_um = {limit_um}\n{CELL}{place}"));
+    cell
+}
+
+fn advice(cell: &Cell) -> serde_json::Value {
+    let text = std::fs::read_to_string(cell.at("advice/advice.json")).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
+    let cell = cell("40", "");
+    let said = cell
+        .armill(&[
+            "advise",
+            "study.toml",
+            "--no-pictures",
+            "--x-mm",
+            "800,1100",
+            "--tilt-deg",
+            "0,90",
+        ])
+        .fine();
+    for words in [
+        "ring: lay the part at centre (",
+        "of the path then holds 40 µm, at most ",
+        "as drawn).",
+        "Compensated (`armill compensate`), the tool is predicted to stay within ",
+    ] {
+        assert!(said.out.contains(words), "{words}: {}", said.out);
+    }
+    let advice = advice(&cell);
+    let largest = |of: &str| number(&advice[of]["max_in_plane_um"]);
+    assert_eq!(advice["moves"], true);
+    assert!(largest("as_advised") < largest("as_drawn"), "{advice}");
+    // Compensated it goes nearer to the path than it deviated.
+    assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("as_advised"));
+    // What is advised is what was run.
+    let run = &cell.result("advice")["paths"][0];
+    assert!((number(&run["max_in_plane_um"]) - largest("as_advised")).abs() < 1e-9);
+    // Forces are told by what is left of the tolerance.
+    let factor = number(&advice["force_factor"]);
+    assert!((factor * largest("as_advised") - 40.0).abs() < 1e-6);
+}
+
+#[test]
+fn what_does_not_hold_even_so_is_told_with_its_place_and_reason() {
+    let cell = cell("1", "");
+    let said = cell
+        .armill(&["advise", "study.toml", "--no-pictures", "--x-mm", "990,1010"])
+        .fine();
+    assert!(said.out.contains("It does not hold from 0 to "), "{}", said.out);
+    assert!(said.out.contains("mostly by joint "), "{}", said.out);
+    assert!(said.out.contains(" times these forces"), "{}", said.out);
+    let advice = advice(&cell);
+    let stretch = &advice["not_held"][0];
+    assert_eq!(stretch["points"], advice["placement"]["points"]);
+    assert!(number(&advice["force_factor"]) < 1.0);
+}
+
+#[test]
+fn where_nothing_can_be_better_part_and_tool_stay() {
+    // One place, one turn: nothing is free.
+    let cell = cell(
+        "500",
+        "[place]\nx_mm = [1000, 1000]\n[posture]\nbranch = \"front elbow-up no-flip\"\n[posture.search]\nturns_deg = [0, 0]\n",
+    );
+    let said = cell.armill(&["advise", "study.toml", "--no-pictures"]).fine();
+    assert!(
+        said.out.contains("leave part and tool as they are"),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("There is room for "), "{}", said.out);
+    assert_eq!(advice(&cell)["moves"], false);
+}
+
+#[test]
+fn a_study_without_a_path_is_refused() {
+    let cell = Cell::new();
+    let map = CELL[..CELL.find("[[ask]]").unwrap()].to_owned();
+    cell.file("study.toml", format!("limit_um = 40\n{map}"));
+    cell.armill(&["advise", "study.toml"])
+        .refused(&["no path that could be placed"]);
+}

@@ -1,0 +1,230 @@
+//! `armill place`: a better place in words and files, fixtures, a search that goes on after a kill, and what is refused.
+
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::cell::{ARMILL, Cell, number};
+
+/// A ring on a plate, with room to move along x and to tilt.
+const CELL: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
+posture = { branch = "front elbow-up" }
+[[ask]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 10
+"#;
+
+fn cell(place: &str) -> Cell {
+    let cell = Cell::new();
+    cell.file("study.toml", &format!("{CELL}{place}"));
+    cell
+}
+
+fn placement(cell: &Cell, out: &str) -> serde_json::Value {
+    let text = std::fs::read_to_string(cell.at(&format!("{out}/placement.json"))).unwrap();
+    serde_json::from_str(&text).unwrap()
+}
+
+#[test]
+fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
+    let cell = cell("");
+    let args = ["place", "study.toml", "--x-mm", "700,1200", "--tilt-deg", "0,90"];
+    let said = cell.armill(&args).fine();
+    assert!(said.out.starts_with("ring: at most "), "{}", said.out);
+    assert!(said.out.contains("; as drawn at most 1"), "{}", said.out);
+    assert!(said.out.contains("None is better of "), "{}", said.out);
+    let placed = placement(&cell, "place");
+    let cost = number(&placed["found"]["cost_um"]);
+    assert!(cost < 0.5 * number(&placed["as_drawn"]["cost_um"]), "{placed}");
+    for picture in ["placement-margin.svg", "placement-x-tilt.svg", "report.html"] {
+        assert!(cell.at(&format!("place/{picture}")).exists(), "{picture}");
+    }
+    // Where nothing is kept that the search needed on its way.
+    assert!(!cell.at("place/place.rounds").exists());
+    // The lines that were told, pasted into the ask.
+    let lines: String = said
+        .out
+        .lines()
+        .filter(|line| line.contains(" = "))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    cell.file("there.toml", &format!("{CELL}{lines}"));
+    let there = cell
+        .armill(&["run", "there.toml", "--no-pictures", "--json"])
+        .fine()
+        .json();
+    let largest = number(&there["paths"][0]["max_in_plane_um"]);
+    assert!((largest - cost).abs() < 1e-3, "{largest} {cost}");
+    // The margin costs: a front falls nowhere.
+    let front: Vec<f64> = placed["by_margin"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|at| number(&at["cost_um"]))
+        .collect();
+    assert!(front.len() > 3 && front.is_sorted(), "{front:?}");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let cell = cell("[place]\nx_mm = [800, 1100]\nspin_deg = [-90, 90]\n");
+    let run = |out: &str, threads: &str| {
+        let args = [
+            "place",
+            "study.toml",
+            "--no-pictures",
+            "--threads",
+            threads,
+            "--out",
+            out,
+        ];
+        cell.armill(&args).fine();
+        placement(&cell, out)
+    };
+    assert_eq!(run("one", "1"), run("three", "3"));
+}
+
+#[test]
+fn of_fixtures_the_best_is_named_and_those_out_of_reach_do_no_harm() {
+    let cell = cell(
+        r#"
+[place]
+branch = "any"
+[[place.fixture]]
+name = "far corner"
+centre_mm = [4000, 0, 800]
+[[place.fixture]]
+name = "vice"
+centre_mm = [800, 100, 1000]
+tilt_deg = 90
+[[place.fixture]]
+name = "table"
+centre_mm = [1050, 0, 800]
+rotation_deg = [90, 0, -90]
+"#,
+    );
+    let said = cell.armill(&["place", "study.toml", "--no-pictures"]).fine();
+    assert!(
+        said.out
+            .contains("at fixture `vice`, centre (800.0, 100.0, 1000.0) mm"),
+        "{}",
+        said.out
+    );
+    let placed = placement(&cell, "place");
+    assert_eq!(placed["fixture"], "vice");
+    assert_eq!(placed["free"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn where_no_place_holds_the_path_that_is_told() {
+    let cell = cell("");
+    let said = cell
+        .armill(&["place", "study.toml", "--no-pictures", "--x-mm", "3000,4000"])
+        .fine();
+    assert!(
+        said.out
+            .starts_with("ring: no place was found that the arm holds everywhere"),
+        "{}",
+        said.out
+    );
+    let placed = placement(&cell, "place");
+    assert_eq!(placed["found"]["lost_points"], placed["points"]);
+    assert_eq!(placed["by_margin"].as_array().unwrap().len(), 0);
+}
+
+#[test]
+fn a_search_that_was_killed_goes_on_to_the_same_place() {
+    let free =
+        "[place]\nx_mm = [700, 1200]\nz_mm = [500, 1100]\ntilt_deg = [-30, 60]\nroll_deg = [-90, 90]\n";
+    let cell = cell(free);
+    let args = ["place", "study.toml", "--no-pictures", "--out"];
+    cell.armill(&[&args[..], &["whole"]].concat()).fine();
+    let mut child = Command::new(ARMILL)
+        .args(args)
+        .arg("killed")
+        .current_dir(cell.path())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = Instant::now();
+    while !cell.at("killed/place.rounds").exists() {
+        assert!(
+            begun.elapsed() < Duration::from_secs(300),
+            "no round in five minutes"
+        );
+        assert!(
+            child.try_wait().unwrap().is_none(),
+            "it ended before its first round"
+        );
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(!cell.at("killed/result.json").exists());
+    let said = cell.armill(&[&args[..], &["killed"]].concat()).fine();
+    assert!(
+        said.err.contains("rounds were done before this start"),
+        "{}",
+        said.err
+    );
+    let (mut whole, mut killed) = (placement(&cell, "whole"), placement(&cell, "killed"));
+    assert!(number(&killed["rounds_taken_up"]) >= 1.0);
+    for placed in [&mut whole, &mut killed] {
+        placed["rounds_taken_up"] = 0.into();
+    }
+    assert_eq!(whole, killed);
+}
+
+#[test]
+fn bounds_that_leave_nothing_are_told_together_at_their_places() {
+    let cell = cell(
+        r#"
+[place]
+x_mm = [1200, 700]
+spin_deg = [-300, 300]
+branch = "front sideways"
+[[place.fixture]]
+name = "vice"
+centre_mm = [900, 100, 800]
+tilt_deg = 30
+rotation_deg = [0, 0, 0]
+"#,
+    );
+    cell.armill(&["place", "study.toml"]).refused(&[
+        "study.toml:14:",
+        "`x_mm` goes from 1200 to 700: there is nothing between",
+        "`x_mm` beside fixtures",
+        "`spin_deg` spans 600 deg",
+        "`sideways`",
+        "fixture `vice` has both `tilt_deg` and `rotation_deg`",
+    ]);
+    assert!(!cell.at("place").exists());
+}
+
+#[test]
+fn what_cannot_be_placed_is_refused_with_what_to_do() {
+    let more = "[[ask]]\nkind = \"path\"\nname = \"second\"\ncircle.radius_mm = 20\nstep_mm = 10\n";
+    let cell = cell(more);
+    let refused = |args: &[&str], told: &str| {
+        cell.armill(&[&["place", "study.toml"], args].concat())
+            .refused(&[told]);
+    };
+    refused(&[], "the study has several paths: `ring`, `second`");
+    refused(&["--ask", "rim"], "no path called `rim`");
+    refused(&["--ask", "ring", "--x-mm", "900,800"], "nothing between");
+    refused(&["--ask", "ring", "--x-mm", "900"], "two numbers");
+    refused(
+        &["--ask", "ring", "--margin-deg", "91"],
+        "--margin-deg: 91 is outside 0 to 90",
+    );
+    refused(&["--ask", "ring", "--branch", "sideways"], "`sideways`");
+    cell.file("map.toml", &CELL[..CELL.find("[[ask]]").unwrap()]);
+    cell.armill(&["place", "map.toml"])
+        .refused(&["no path that could be placed"]);
+}
