@@ -15,7 +15,9 @@ use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};
 use armill_core::kernel::{Lie, PlacedPath, Question};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::nalgebra::{Matrix3, Rotation3, Unit, UnitQuaternion, Vector3};
-use armill_core::optimize::{Counts, Goal, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+use armill_core::optimize::{
+    Counts, Goal, Holding, Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part,
+};
 use armill_core::path::{Pace, PathPoint, Placing, SampledPath, Spin, Track};
 use armill_core::robot::BranchPattern;
 use armill_core::spatial::Wrench;
@@ -130,6 +132,8 @@ pub fn candidates<'a>(
                 branches: BranchPattern::FRONT_ELBOW_UP,
                 margin: 0.0,
                 wrist: 0.0,
+                sure: Sure::Nominal,
+                holding: Holding::InOneBranch,
             },
         };
         let mut best = Merit::NONE;

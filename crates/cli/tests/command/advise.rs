@@ -5,7 +5,7 @@ use crate::cell::{Cell, number};
 const CELL: &str = r#"format = 1
 robot = "yaskawa/mh12"
 plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
-load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
+load = { cases_n = [[3, 5, 5]] }
 [[ask]]
 kind = "path"
 name = "ring"

@@ -242,6 +242,68 @@ impl<'q> Judge<'q> {
     }
 }
 
+impl Judge<'_> {
+    /// What the points of `path` come to where the part lies so and each is held for itself, in the best of these turns of the
+    /// tool (rad, beside the place's) and of the branches that are open.
+    pub fn judge_each(&mut self, path: &PlacedPath, lie: &Lie, open: BranchPattern, spins: &[f64]) -> Judged {
+        let is_open: [bool; SLOTS] = std::array::from_fn(|slot| open.matches(Branch::ALL[slot]));
+        let mut least = Vec::with_capacity(path.len());
+        match &mut self.way {
+            Way::Lanes(placer) => placer.least_of_each(&path.laid, (lie, spins), is_open, &mut least),
+            Way::General(columns) => {
+                let named = columns.slots_are_branches();
+                let mut column = Column::default();
+                for index in 0..path.len() {
+                    path.fill_column(columns, (index, lie), spins, &mut column);
+                    let allowed = |slot: usize| !named || is_open[slot % SLOTS];
+                    let all = column.deviations.iter().enumerate();
+                    let open = all
+                        .filter(|(slot, _)| allowed(*slot))
+                        .map(|(_, deviation)| *deviation);
+                    least.push(open.fold(f64::INFINITY, f64::min));
+                }
+            }
+        }
+        let mut judged = Judged::default();
+        for deviation in least {
+            judged.take(deviation, self.keeping.limit);
+        }
+        judged
+    }
+}
+
+impl PlacedPath {
+    /// Fills `out` with the postures at point `index` of a part that lies so, the tool turned by each of `spins` (rad).
+    fn fill_column(
+        &self,
+        columns: &mut Columns<'_>,
+        (index, lie): (usize, &Lie),
+        spins: &[f64],
+        out: &mut Column,
+    ) {
+        let axes = match self.pushes.told_in {
+            ToldIn::Base => UnitQuaternion::identity(),
+            ToldIn::Part => lie.base_from_part.rotation,
+        };
+        let turned = |told: &Wrench| Wrench {
+            force: axes * told.force,
+            moment: axes * told.moment,
+        };
+        let cases: Vec<Wrench> = self.wrenches(index).iter().map(turned).collect();
+        let point = &self.points[index];
+        let pose = |spin: &f64| {
+            let about = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin + spin);
+            lie.base_from_part * point.part_from_tool * about
+        };
+        let poses: Vec<Isometry> = spins.iter().map(pose).collect();
+        let push = Push {
+            cases: &cases,
+            along: point.along.map(|along| lie.base_from_part * along),
+        };
+        columns.fill(&poses, &push, out);
+    }
+}
+
 /// Points after which it is asked whether to go on.
 const SOME: usize = 20;
 
@@ -259,25 +321,8 @@ fn one_by_one(
     }
     let mut judged = [Judged::default(); SLOTS];
     let mut column = Column::default();
-    let axes = match path.pushes.told_in {
-        ToldIn::Base => UnitQuaternion::identity(),
-        ToldIn::Part => lie.base_from_part.rotation,
-    };
-    let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
-    let mut cases = vec![Wrench::ZERO; path.case_count()];
-    for (index, point) in path.points.iter().enumerate() {
-        for (case, told) in cases.iter_mut().zip(path.wrenches(index)) {
-            *case = Wrench {
-                force: axes * told.force,
-                moment: axes * told.moment,
-            };
-        }
-        let pose = lie.base_from_part * point.part_from_tool * spin;
-        let push = Push {
-            cases: &cases,
-            along: point.along.map(|along| lie.base_from_part * along),
-        };
-        columns.fill(&[pose], &push, &mut column);
+    for index in 0..path.len() {
+        path.fill_column(columns, (index, lie), &[0.0], &mut column);
         let best = || column.deviations.iter().copied().fold(f64::INFINITY, f64::min);
         for (slot, judged) in judged.iter_mut().enumerate().filter(|(slot, _)| open[*slot]) {
             let deviation = match named {

@@ -24,7 +24,7 @@ mod sureness;
 pub use compensation::{Compensated, Compensation, compensated};
 pub use holes::{HolesFound, holes_held};
 pub use lattice::Lattice;
-pub use placement::{Appraisal, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
+pub use placement::{Appraisal, Holding, Merit, Placeable, PlacementGoal, ToolTurn, on_part};
 pub use posture::{Counts, Goal, PostureFound, PostureSearch, Spins, postures_along};
 pub use reversals::reversals;
 pub use sureness::Sure;

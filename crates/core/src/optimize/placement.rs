@@ -1,7 +1,7 @@
 //! Where should the part lie? What a place is worth, for a search to go by.
 //!
 //! A place ([`Lie`]) is where the part lies in base and how far the tool is turned about its axis, the same all along. The
-//! arm takes one branch for the whole path, the best of those left open. Feasibility comes first: of two places that with
+//! arm takes one branch for the whole path, the best of those left open; holes are held each for itself ([`Holding`]). Feasibility comes first: of two places that with
 //! fewer points lost is better, and of two that lose none that with the lesser cost.
 //!
 //! | goal | cost, m |
@@ -15,7 +15,7 @@
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use rayon::prelude::*;
 
-use super::posture::{Counts, Goal, WITHIN};
+use super::posture::{Counts, Goal, Spins, WITHIN};
 use super::sureness::{Sure, one_off};
 use crate::frame::{Isometry, tool_orientation};
 use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
@@ -41,6 +41,17 @@ pub struct PlacementGoal {
     pub wrist: f64,
     /// What places are compared by.
     pub sure: Sure,
+    /// How the points are held.
+    pub holding: Holding,
+}
+
+/// How the points are held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Holding {
+    /// All in one branch, with the turn of the tool that the place has: a path.
+    InOneBranch,
+    /// Each in the best of the branches and of these turns of the tool: holes.
+    EachForItself(Spins),
 }
 
 /// A path that may be placed.
@@ -292,9 +303,7 @@ impl Placeable<'_> {
         if merit.lost > 0 {
             return 0.0;
         }
-        let branch = merit
-            .branch
-            .map_or_else(BranchPattern::default, BranchPattern::from);
+        let branch = merit.branch.map_or(self.goal.branches, BranchPattern::from);
         let by_load = merit.cost * self.question.doubt.relative;
         let off = judges.off.iter_mut().map(|judge| {
             let cost = self.nominal(judge, (lie, branch), None);
@@ -310,6 +319,15 @@ impl Placeable<'_> {
         (lie, branches): (&Lie, BranchPattern),
         bar: Option<&Merit>,
     ) -> Option<Merit> {
+        if let Holding::EachForItself(spins) = self.goal.holding {
+            let spins: Vec<f64> = (0..spins.count).map(|index| spins.at(index)).collect();
+            let judged = judge.judge_each(self.path, lie, branches, &spins);
+            return Some(Merit {
+                lost: judged.lost,
+                cost: self.cost(&judged),
+                branch: None,
+            });
+        }
         let named = judge.tells_branches();
         let worth = |judged: &Judged| {
             bar.is_none_or(|bar| {

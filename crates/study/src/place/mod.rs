@@ -26,7 +26,7 @@ pub use journal::Journal;
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PlacedPath, Question};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part};
+use armill_core::optimize::{Holding, Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part};
 use armill_core::path::Spin;
 use armill_core::robot::BranchPattern;
 use armill_core::watch::Watch;
@@ -358,6 +358,7 @@ impl<'a> Placing<'a> {
             goal: table.goal.unwrap_or(GoalName::Worst).goal(setting.limit),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
+            holding: Holding::InOneBranch,
             sure: table.sure.unwrap_or(SureName::Nominal).sure(setting.limit),
             wrist: table.least_wrist_deg.unwrap_or(USUAL_WRIST_DEG).to_radians(),
         })

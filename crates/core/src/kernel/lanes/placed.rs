@@ -142,6 +142,54 @@ impl Placer {
         tallied
     }
 
+    /// The least deviation at each point, of all turns of the tool and all branches that are open, into `least`; infinite where
+    /// none stands.
+    pub fn least_of_each(
+        &mut self,
+        laid: &Laid,
+        (lie, spins): (&Lie, &[f64]),
+        open: [bool; 8],
+        least: &mut Vec<f64>,
+    ) {
+        let still = laid.rotations.is_empty();
+        least.clear();
+        for (block, at) in laid.at.iter().enumerate() {
+            let mut best = [f64::INFINITY; BLOCK];
+            for spin in spins {
+                let turned = Lie {
+                    spin: lie.spin + spin,
+                    ..*lie
+                };
+                self.stand(laid, &turned);
+                self.batch.place(at.each_ref());
+                if let Some(rotations) = laid.rotations.get(block) {
+                    self.batch.scratch.rotations = *rotations;
+                    self.batch.orient(Second::InTheMiddle);
+                }
+                let mut reached = None;
+                for four in (0..FOUR.len()).filter(|four| open[2 * four] || open[2 * four + 1]) {
+                    let signs = FOUR[four];
+                    self.batch.solve_after(reached == Some(signs[0]), signs, still);
+                    reached = Some(signs[0]);
+                    self.batch.limit(still);
+                    self.weigh(laid, block);
+                    let Scratch {
+                        postures, in_plane, ..
+                    } = &*self.batch.scratch;
+                    self.batch.backend.run(Lesser {
+                        postures,
+                        deviation: in_plane,
+                        open: [open[2 * four], open[2 * four + 1]],
+                        bend2: self.bend2,
+                        best: &mut best,
+                    });
+                }
+            }
+            let used = BLOCK.min(laid.count - block * BLOCK);
+            least.extend_from_slice(&best[..used]);
+        }
+    }
+
     /// Lets the arm stand as a part that lies so sees it.
     fn stand(&mut self, laid: &Laid, lie: &Lie) {
         let prepared = &mut self.batch.prepared;
@@ -412,6 +460,35 @@ impl<R: Real> Turn<R> {
     }
 }
 
+/// Keeps the lesser deviation of each point, where a posture stands plain or flipped.
+struct Lesser<'a> {
+    postures: &'a Postures<f64>,
+    deviation: &'a Plane<f64>,
+    /// Whether the plain posture and the flipped one may be taken.
+    open: [bool; 2],
+    bend2: f64,
+    best: &'a mut Plane<f64>,
+}
+
+impl Work<f64> for Lesser<'_> {
+    #[inline(always)]
+    fn run<R: Real<Float = f64>>(self) {
+        let limits = [flag::OUTSIDE_LIMITS, flag::OUTSIDE_LIMITS_FLIPPED];
+        let [plain, flipped] = limits.map(|limit| (NEVER | limit) as i32);
+        let (flags, bend2) = (&self.postures.flags, self.postures.bend2());
+        for i in 0..BLOCK {
+            R::step();
+            let bits = flags[i] as i32;
+            let stands = (((bits & plain) == 0) & self.open[0]) | (((bits & flipped) == 0) & self.open[1]);
+            let counts = stands & (bend2[i] >= self.bend2) & (self.deviation[i] < self.best[i]);
+            self.best[i] = if counts { self.deviation[i] } else { self.best[i] };
+        }
+    }
+}
+
+/// A posture so flagged stands in no case.
+const NEVER: u32 = flag::UNREACHABLE | flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER;
+
 /// Adds a block to what is told of a posture.
 struct Tally<'a> {
     postures: &'a Postures<f64>,
@@ -428,8 +505,7 @@ const SIDE: usize = 16;
 impl Work<f64> for Tally<'_> {
     #[inline(always)]
     fn run<R: Real<Float = f64>>(self) {
-        let never =
-            (flag::UNREACHABLE | flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER) as i32;
+        let never = NEVER as i32;
         let (plain, flipped) = (flag::OUTSIDE_LIMITS as i32, flag::OUTSIDE_LIMITS_FLIPPED as i32);
         let mut lost = [[0_i32; SIDE]; 2];
         let (mut worst, mut sum, mut above) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);

@@ -88,6 +88,19 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     3 => BranchPattern::from(Branch::ALL[1]),
                     _ => BranchPattern::default(),
                 };
+                let spins = [0.0, 1.0, -0.6];
+                let [a, b] = [
+                    lanes.judge_each(&path, &lie, open, &spins),
+                    plain.judge_each(&path, &lie, open, &spins),
+                ];
+                assert_eq!(a.lost, b.lost, "{} {round} {margin}", robot.name());
+                for (a, b) in [(a.worst, b.worst), (a.sum, b.sum), (a.above, b.above)] {
+                    assert!(
+                        (a - b).abs() < 1e-10 * (b + 1e-4),
+                        "{} {round}: {a} {b}",
+                        robot.name()
+                    );
+                }
                 let one = lanes.judge(&path, &lie, open, |_| true);
                 let other = plain.judge(&path, &lie, open, |_| true);
                 for slot in 0..SLOTS {

@@ -96,6 +96,7 @@ fn goal(goal: Goal) -> PlacementGoal {
         margin: 0.0,
         wrist: 0.05,
         sure: Sure::Nominal,
+        holding: Holding::InOneBranch,
     }
 }
 
@@ -345,4 +346,69 @@ fn a_cost_is_as_unsure_as_the_costs_of_arms_drawn_at_random_differ() {
     // Phi(-1) and Phi(1.96) of tables of the normal distribution.
     let above = |z: f64| told.probability_above(cost - z * u).unwrap();
     assert!((above(-1.0) - 0.158_655_3).abs() < 1e-7 && (above(1.96) - 0.975_002_1).abs() < 1e-7);
+}
+
+/// Held each for itself, a point deviates as the best of its postures does when it is a path of its own.
+#[test]
+fn points_held_for_themselves_come_to_the_best_of_each() {
+    let cell = Cell::new();
+    let question = cell.question();
+    let (track, load) = (track(drawn(), Spin::AlongFeed(0.0), 0.2), load(LoadFrame::Feed));
+    let spins = Spins {
+        first: -1.0,
+        step: 0.7,
+        count: 4,
+    };
+    let mut random = Stream(31);
+    for branches in [BranchPattern::default(), BranchPattern::FRONT_ELBOW_UP] {
+        let goal = PlacementGoal {
+            branches,
+            ..goal(Goal::Mean)
+        };
+        let of = |indices: &[usize]| on_part((&track, &load), Counts::InPlane, indices);
+        let all: Vec<usize> = (0..track.len()).collect();
+        let whole = of(&all);
+        for _ in 0..4 {
+            let lie = ToolTurn::of(&track).lie(place(&mut random), 0.1);
+            let each = Placeable {
+                question: &question,
+                path: &whole,
+                goal: PlacementGoal {
+                    holding: Holding::EachForItself(spins),
+                    ..goal
+                },
+            };
+            let held = each.merits(&[lie], None, Watch::NONE).unwrap()[0].unwrap();
+            let (mut lost, mut sum) = (0, 0.0);
+            for index in &all {
+                let single = of(&[*index]);
+                let one = Placeable {
+                    question: &question,
+                    path: &single,
+                    goal,
+                };
+                let turned: Vec<Lie> = (0..spins.count)
+                    .map(|k| Lie {
+                        spin: lie.spin + spins.at(k),
+                        ..lie
+                    })
+                    .collect();
+                let merits = one.merits(&turned, None, Watch::NONE).unwrap();
+                let best = merits
+                    .into_iter()
+                    .flatten()
+                    .reduce(|a, b| if b.beats(&a) { b } else { a });
+                let best = best.unwrap();
+                lost += best.lost;
+                sum += if best.lost == 0 { best.cost } else { 0.0 };
+            }
+            assert_eq!((held.lost, held.branch), (lost, None));
+            let mean = sum / all.len() as f64;
+            assert!(
+                (held.cost - mean).abs() < 1e-12 * mean + 1e-18,
+                "{} {mean}",
+                held.cost
+            );
+        }
+    }
 }
