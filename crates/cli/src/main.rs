@@ -29,6 +29,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Run(run) => command::run::run(run),
         Command::Check(check) => command::check::run(check),
+        Command::Compare(compare) => command::compare::run(compare),
         Command::New(new) => command::new::run(new),
         Command::Robots(robots) => command::robots::run(robots),
         Command::Materials(materials) => command::materials::run(materials),

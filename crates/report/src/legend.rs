@@ -29,6 +29,10 @@ pub(crate) enum Key {
     /// A line of several pieces, one after the other: one thing in several colours. Not checked: that there is
     /// a piece.
     Pieces(Vec<Style>),
+    /// An upright stroke.
+    Stroke(Style),
+    /// Two strokes across each other.
+    Cross(Style),
     /// A filled dot.
     Dot(Style),
     /// A diamond.
@@ -65,6 +69,11 @@ impl Key {
                     svg.line([from, middle], [from + piece, middle], style);
                 }
             }
+            Self::Stroke(style) => {
+                let [x, y] = centre;
+                svg.line([x, y - 7.0], [x, y + 7.0], style);
+            }
+            Self::Cross(style) => draw_cross(svg, centre, (5.0, style)),
             Self::Dot(style) => svg.circle(centre, 3.5, style),
             Self::Diamond(style) => svg.polygon(&diamond(centre, 5.0), style),
         }
@@ -116,6 +125,13 @@ pub(crate) fn draw_legend(svg: &mut Svg, entries: &[Entry], at: Point, width_px:
         x += entry.width_px();
     }
     y + ROW_PX
+}
+
+/// Two strokes across each other at a point.
+pub(crate) fn draw_cross(svg: &mut Svg, [x, y]: Point, (half_px, style): (f64, &Style)) {
+    for side in [half_px, -half_px] {
+        svg.line([x - half_px, y - side], [x + half_px, y + side], style);
+    }
 }
 
 /// The four corners of a diamond.

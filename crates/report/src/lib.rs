@@ -11,9 +11,11 @@
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
+//! | where does each hole come out? | [`HoleMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
 //! | how may the tool be turned along the path; what lies around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
+//! | which cell holds the tolerance? | [`Comparison`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
@@ -29,6 +31,7 @@
 //! sources into one file. The example `gallery` draws every picture from made-up values.
 
 mod grid;
+mod hole_map;
 mod map;
 mod map_series;
 mod region;
@@ -40,6 +43,7 @@ mod process_map;
 mod track;
 mod vector_field;
 
+mod comparison;
 mod ellipse;
 mod shares;
 
@@ -60,6 +64,7 @@ mod limit;
 mod line;
 mod line_label;
 mod marker;
+mod rows;
 mod surface;
 
 mod advances;
@@ -77,10 +82,12 @@ mod ticks;
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
 pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
+pub use comparison::{ComparedCell, Comparison};
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use grid::{Grid, PointState};
+pub use hole_map::{HoleMap, HoleMark};
 pub use map::{DeviationMap, Overlay};
 pub use map_series::{MapSeries, Panel};
 pub use marker::{Marker, MarkerKind};

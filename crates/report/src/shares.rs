@@ -11,21 +11,18 @@
 
 use crate::axis::number;
 use crate::chart::range;
-use crate::colour::{GRID, INK, category};
+use crate::colour::{INK, category};
 use crate::font::{Weight, text_width_px};
 use crate::legend::{Entry, Key, diamond};
-use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
+use crate::page::{BORDER_PX, Heading, SMALL_PX};
+use crate::rows::{Rows, left_px};
 use crate::svg::{Point, Rect, Style, Svg, Text};
-use crate::ticks::Ticks;
 
 /// Width of the chart.
 const AREA_WIDTH_PX: f64 = 470.0;
 /// Height of a bar, and of the row under it for the mark of its total.
 const BAR_PX: f64 = 22.0;
 const TOTAL_PX: f64 = 16.0;
-/// Longest bar label in pixels; longer ones are cut. Room for the labels, where all are short.
-const LABEL_PX: f64 = 190.0;
-const LEAST_LABEL_PX: f64 = 30.0;
 /// Room right of the bars for the totals in numbers.
 const NUMBER_PX: f64 = 92.0;
 
@@ -58,19 +55,6 @@ pub struct ShareBars {
     pub bars: Vec<ShareBar>,
 }
 
-/// The value axis placed on the picture: um along the bars.
-struct Scale {
-    area: Rect,
-    range: [f64; 2],
-}
-
-impl Scale {
-    /// Where a value stands across the picture.
-    fn x(&self, um: f64) -> f64 {
-        self.area.x + (um - self.range[0]) / (self.range[1] - self.range[0]) * self.area.w
-    }
-}
-
 impl ShareBars {
     /// The picture as a complete SVG document; no shares gives a picture that says so.
     pub fn to_svg(&self) -> String {
@@ -78,11 +62,7 @@ impl ShareBars {
         let Some(range) = self.range_um() else {
             return heading.notice("There is nothing to draw: no shares were given.");
         };
-        let labels = self
-            .bars
-            .iter()
-            .map(|b| text_width_px(&b.label, BODY_PX, Weight::Regular));
-        let left = BORDER_PX + labels.fold(LEAST_LABEL_PX, f64::max).min(LABEL_PX) + 12.0;
+        let left = left_px(self.bars.iter().map(|bar| bar.label.as_str()));
         let row = BAR_PX + self.total_row_px() + 14.0;
         let mut page = heading.page(left + AREA_WIDTH_PX + NUMBER_PX + BORDER_PX);
         let area = Rect {
@@ -91,13 +71,11 @@ impl ShareBars {
             w: AREA_WIDTH_PX,
             h: row * self.bars.len() as f64,
         };
-        let scale = Scale { area, range };
-        self.draw_axis(&mut page.svg, &scale);
+        let scale = Rows { area, range };
+        scale.draw_axis(&mut page.svg, &self.quantity);
         for (k, bar) in self.bars.iter().enumerate() {
             let middle = area.y + row * (k as f64 + 0.5) - self.total_row_px() / 2.0;
-            let text = Text::new(BODY_PX).end();
-            page.svg
-                .text([left - 10.0, middle + 4.0], &cut(&bar.label), &text);
+            scale.draw_label(&mut page.svg, &bar.label, middle);
             page.svg
                 .layer("share-bar", 1.0, |svg| draw_stacked(svg, &scale, bar, middle));
             let below = area.y + row * (k as f64 + 1.0) - 6.0 - TOTAL_PX / 2.0;
@@ -146,27 +124,6 @@ impl ShareBars {
             0.0
         }
     }
-
-    /// Grid lines, numbers and the label below.
-    fn draw_axis(&self, svg: &mut Svg, scale: &Scale) {
-        let area = scale.area;
-        let ticks = Ticks::about(6.0, scale.range);
-        for um in &ticks.at {
-            let x = scale.x(*um);
-            svg.line([x, area.y], [x, area.bottom()], &Style::line(GRID, 1.0));
-            svg.text(
-                [x, area.bottom() + 16.0],
-                &ticks.label(*um),
-                &Text::new(SMALL_PX).middle(),
-            );
-        }
-        let c = area.centre()[0];
-        svg.text(
-            [c, area.bottom() + 36.0],
-            &self.quantity,
-            &Text::new(BODY_PX).middle(),
-        );
-    }
 }
 
 /// The values that a bar reaches.
@@ -183,7 +140,7 @@ fn ends_um(bar: &ShareBar) -> Vec<f64> {
 }
 
 /// End to end from zero: positive to the right, negative to the left, the value written where it has room.
-fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
+fn draw_stacked(svg: &mut Svg, scale: &Rows, bar: &ShareBar, middle: f64) {
     let mut end = [0.0, 0.0];
     for (k, share) in bar.shares_um.iter().enumerate().filter(|(_, v)| v.is_finite()) {
         let side = usize::from(*share < 0.0);
@@ -208,14 +165,14 @@ fn draw_stacked(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
 }
 
 /// The diamond, its whisker, and the number at the right; nothing without a total.
-fn draw_total(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
+fn draw_total(svg: &mut Svg, scale: &Rows, bar: &ShareBar, middle: f64) {
     let Some(total) = bar.total_um.filter(|t| t.is_finite()) else {
         return;
     };
     let u = bar.total_uncertainty_um.filter(|u| u.is_finite() && *u > 0.0);
     let at: Point = [scale.x(total), middle];
     if let Some(u) = u {
-        draw_whisker(svg, [scale.x(total - u), scale.x(total + u)], middle, 4.0);
+        scale.draw_whisker(svg, [total - u, total + u], (middle, 4.0));
     }
     svg.polygon(&diamond(at, 5.5), &total_style());
     let decimals = if total.abs() < 10.0 { 1 } else { 0 };
@@ -228,32 +185,6 @@ fn draw_total(svg: &mut Svg, scale: &Scale, bar: &ShareBar, middle: f64) {
     );
 }
 
-/// A line between two values with a stroke across each end, on a white ground.
-fn draw_whisker(svg: &mut Svg, [a, b]: [f64; 2], y: f64, half_px: f64) {
-    for style in [Style::line("#fff", 3.2).opacity(0.8), Style::line(INK, 1.3)] {
-        svg.line([a, y], [b, y], &style);
-        for x in [a, b] {
-            svg.line([x, y - half_px], [x, y + half_px], &style);
-        }
-    }
-}
-
 fn total_style() -> Style {
     Style::fill("#fff").outlined(INK, 1.5)
-}
-
-/// A bar label no longer than the room for it; one that is cut ends in an ellipsis.
-fn cut(label: &str) -> String {
-    if text_width_px(label, BODY_PX, Weight::Regular) <= LABEL_PX {
-        return label.to_owned();
-    }
-    let mut short = String::new();
-    for c in label.chars() {
-        short.push(c);
-        if text_width_px(&short, BODY_PX, Weight::Regular) > LABEL_PX - 12.0 {
-            break;
-        }
-    }
-    short.push('…');
-    short
 }

@@ -15,7 +15,7 @@ use crate::svg::{Point, Style, Svg, Text};
 /// Largest drawing: width, height.
 const MOST_PX: [f64; 2] = [560.0, 480.0];
 /// The longest arrow, as a share of the longer side of what path and arrows' feet take up.
-const LONGEST_ARROW: f64 = 0.16;
+pub(crate) const LONGEST_ARROW: f64 = 0.16;
 
 /// The deviation at one point of a path; an arrow with a number that is not finite is left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -129,7 +129,7 @@ impl VectorField {
 }
 
 /// Deviations drawn so many times as long as they are.
-struct Magnified {
+pub(crate) struct Magnified {
     /// The longest deviation of all.
     longest_um: f64,
     /// How many times as long as it is a deviation is drawn.
@@ -138,7 +138,7 @@ struct Magnified {
 
 impl Magnified {
     /// A nice factor that draws the longest deviation as a part of the picture.
-    fn new(longest_um: f64, span_mm: f64) -> Self {
+    pub(crate) fn new(longest_um: f64, span_mm: f64) -> Self {
         let times = if longest_um > 0.0 {
             nice_below(LONGEST_ARROW * span_mm * 1000.0 / longest_um)
         } else {
@@ -148,13 +148,13 @@ impl Magnified {
     }
 
     /// Where an arrow ends on the magnified plane.
-    fn tip_mm(&self, arrow: &Arrow) -> [f64; 2] {
+    pub(crate) fn tip_mm(&self, arrow: &Arrow) -> [f64; 2] {
         let mm = self.times / 1000.0;
         [0, 1].map(|k| arrow.at_mm[k] + arrow.deviation_um[k] * mm)
     }
 
     /// The arrow that says how long a nice deviation is drawn, from `at`; none where nothing deviates.
-    fn draw_scale(&self, svg: &mut Svg, at: Point, px_per_mm: f64) {
+    pub(crate) fn draw_scale(&self, svg: &mut Svg, at: Point, px_per_mm: f64) {
         if self.longest_um <= 0.0 {
             return;
         }

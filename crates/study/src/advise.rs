@@ -100,6 +100,13 @@ pub fn advise(
         finished: &|_| (),
         ..watch
     };
+    if placing.is_of_holes() {
+        let message = "advice is for paths, and this is a set of holes";
+        return Err(StudyError::value(
+            message,
+            "`armill place` finds the best place of holes",
+        ));
+    }
     let name = placing.name();
     let drawn = alone(study.clone(), name);
     let as_drawn = statistics(&drawn, &run(&drawn, quiet)?);

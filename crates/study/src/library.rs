@@ -153,15 +153,25 @@ pub(crate) fn hint_of_material(name: &str) -> String {
     )
 }
 
+/// Letters of a type that tell it from others.
+const BEGUN: usize = 3;
+
 /// The name of the robot library that is most like `name`, if any is.
 ///
-/// The type without its maker finds it; else spelling decides.
+/// The type without its maker finds it, or the beginning of either; else spelling decides.
 pub fn most_like(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
     let part = ROBOTS
         .iter()
         .find(|robot| robot.name.split('/').any(|word| word == lower));
-    part.map(|robot| robot.name)
+    // A maker alone begins the names of many.
+    let told = |name: &str| name.rsplit('/').next().is_some_and(|kind| kind.len() >= BEGUN);
+    let begins = |robot: &&Embedded| {
+        let kind = robot.name.split('/').nth(1).unwrap_or_default();
+        told(&lower) && (robot.name.starts_with(&lower) || kind.starts_with(&lower))
+    };
+    part.or_else(|| ROBOTS.iter().find(begins))
+        .map(|robot| robot.name)
         .or_else(|| spelt_like(ROBOTS, &lower))
 }
 
@@ -220,6 +230,8 @@ mod tests {
     fn a_slip_in_a_name_finds_the_robot_meant() {
         assert_eq!(most_like("mh12"), Some("yaskawa/mh12"));
         assert_eq!(most_like("yaskawa/mh21"), Some("yaskawa/mh12"));
+        assert_eq!(most_like("kuka/kr120"), Some("kuka/kr120r2500pro"));
+        assert_eq!(most_like("kr120"), Some("kuka/kr120r2500pro"));
         assert_eq!(most_like("lathe"), None);
     }
 }

@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | map, sections | `plane_map`, once a plane | a `PlaneMap` each |
 //! | volume | `volume_map` | a `VolumeMap` |
+//! | holes | `holes_held` | a `HolesFound` |
 //! | path | `along_path`, then `worst_points`, `jumps`, `radial_deviations`, `program_limits` | a [`PathFound`] |
 //!
 //! Asks are done one after the other, the points of each on all threads. What comes out keeps hold of what was asked,
@@ -17,7 +18,7 @@ use armill_core::map::{
     plane_map, program_limits, radial_deviations, volume_map, worst_points,
 };
 use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion};
-use armill_core::optimize::{Goal, PostureFound, PostureSearch, postures_along};
+use armill_core::optimize::{Goal, HolesFound, PostureFound, PostureSearch, holes_held, postures_along};
 use armill_core::path::{ForcesTold, NoForces, Shape, Stock, Track};
 use armill_core::robot::{JointCompliance, Robot};
 use armill_core::source::Arm;
@@ -26,6 +27,7 @@ use armill_core::watch::{Cancelled, Watch};
 use armill_core::workpiece::Plane;
 
 use crate::error::StudyError;
+use crate::file::holes::HolesAsk;
 use crate::file::path::PathAsk;
 use crate::file::resolve::{Ask, Setting, Sheet, Study, Subject};
 
@@ -49,6 +51,8 @@ pub enum Found<'a> {
     Volume(&'a Setting, VolumeMap),
     /// A path.
     Path(&'a PathAsk, Box<PathFound>),
+    /// Holes.
+    Holes(&'a HolesAsk, Box<HolesFound>),
 }
 
 /// One plane of a series.
@@ -116,6 +120,7 @@ pub fn point_count(study: &Study) -> usize {
         Subject::Sections(sections) => sections.iter().map(|(_, sheet)| sheet.grid.len()).sum(),
         Subject::Volume(_, grid) => grid.len(),
         Subject::Path(path) => path.track.len() * passes(path),
+        Subject::Holes(holes) => holes.path.track.len(),
     };
     study.asks.iter().map(of).sum()
 }
@@ -221,6 +226,12 @@ impl Runner<'_> {
                 Found::Volume(setting, volume_map(&question, setting.plane, *grid, self.watch)?)
             }
             Subject::Path(path) => Found::Path(path, Box::new(self.path(path)?)),
+            Subject::Holes(holes) => {
+                let (path, question) = (&holes.path, self.question(&holes.path.setting));
+                let of = (&path.track, &path.load);
+                let found = holes_held(&question, of, &holes.search, self.watch)?;
+                Found::Holes(holes, Box::new(found))
+            }
         })
     }
 

@@ -70,6 +70,10 @@ polyline_mm = [[0, 0], [50, 0], [50, 50]]
 [[ask]]
 kind = "path"
 rectangle = { centre_mm = [0, 0], size_mm = [60, 40] }
+[[ask]]
+kind = "holes"
+posture.search = { turns_deg = [-90, 90], step_deg = 30, counts = "in-plane", least_wrist_deg = 3 }
+holes = { at_mm = [[0, 0, 0], [20, 0, 5]], normals = [[0, 0, 1]], part_from_holes_mm_deg = [0, 0, 0, 0, 0, 0] }
 [[statement]]
 text = "within 0.1 mm"
 source = "a paper"
@@ -224,7 +228,7 @@ fn outcome(text: &[u8]) -> Result<(), TestCaseError> {
 #[test]
 fn the_text_that_is_mutated_is_good() {
     let study = study(GOOD.as_bytes()).unwrap_or_else(|error| panic!("{error}"));
-    assert_eq!(study.asks.len(), 8);
+    assert_eq!(study.asks.len(), 9);
     assert!(numbers(GOOD).len() > 60, "{:?}", numbers(GOOD));
     outcome(GOOD.as_bytes()).unwrap();
 }

@@ -1,6 +1,6 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
-//! `run`, `check`, `new`, `robots`, `materials`, `pose`, `posture`, `compensate`, `identify`, `forces`, `completions`.
+//! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `compensate`, `identify`, `forces`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 
 mod advise;
 mod check;
+mod compare;
 mod compensate;
 mod completions;
 mod forces;
@@ -25,6 +26,7 @@ mod run;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use check::CheckArguments;
+pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
 pub(crate) use completions::CompletionsArguments;
 pub(crate) use forces::ForcesArguments;
@@ -63,6 +65,8 @@ pub(crate) enum Command {
     Run(RunArguments),
     /// Check a study file without running it
     Check(CheckArguments),
+    /// The same path in several cells: robots or set-ups side by side
+    Compare(CompareArguments),
     /// Make a folder with a commented study that runs
     New(NewArguments),
     /// List the robot library, show one robot, or import one
@@ -93,6 +97,7 @@ impl Command {
         match self {
             Command::Run(a) => a.run.json,
             Command::Check(a) => a.json,
+            Command::Compare(a) => a.json,
             Command::New(a) => a.json,
             Command::Robots(a) => match &a.action {
                 Some(RobotsAction::Import(import)) => import.json,

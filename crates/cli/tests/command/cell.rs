@@ -26,7 +26,7 @@ step_mm = 50
 cases_n = [[3, 5, 5], [3, -5, 5]]
 "#;
 
-/// One ask of every kind, to be appended to [`SMALL`]: 25 + 2 x 25 + 27 + 36 points.
+/// One ask of every kind but holes, to be appended to [`SMALL`]: 25 + 2 x 25 + 27 + 36 points.
 pub const EVERY_KIND: &str = r#"
 [[ask]]
 kind = "map"

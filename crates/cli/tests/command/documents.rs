@@ -96,6 +96,8 @@ fn guide_runs() {
         "tool-path",
         "tool-path-words",
         "placement",
+        "compare",
+        "holes",
         "material-file",
         "measured-forces",
     ] {
@@ -108,7 +110,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 11, "name the new page in `guide_runs`");
+    assert_eq!(pages, 13, "name the new page in `guide_runs`");
 }
 
 #[test]

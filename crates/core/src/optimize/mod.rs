@@ -1,6 +1,7 @@
 //! Where should the part lie, how should the arm hold the tool, what path should the program say?
 //!
 //! - [`posture`]: turn of the tool and branch along a path.
+//! - [`holes`]: the same at points that no path joins.
 //! - [`placement`]: what a place of the part is worth.
 //! - [`compensation`]: the path to be commanded so that the tool goes where it is drawn.
 //! - [`nodes`]: the same by a few targets with straight moves between them.
@@ -12,6 +13,7 @@
 
 mod chain;
 pub mod compensation;
+pub mod holes;
 mod lattice;
 mod links;
 pub mod nodes;
@@ -22,6 +24,7 @@ mod smooth;
 mod sureness;
 
 pub use compensation::{Compensated, Compensation, compensated, left_by};
+pub use holes::{HolesFound, holes_held};
 pub use lattice::Lattice;
 pub use nodes::{Shares, fitted};
 pub use placement::{Appraisal, Holding, Merit, Placeable, PlacementGoal, ToolTurn, on_part};

@@ -28,9 +28,8 @@ use super::smooth::without_steps;
 use crate::frame::{Isometry, some_across};
 use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
 use crate::load::PathLoad;
-use crate::path::{Pace, Track};
+use crate::path::{LoadedStop, Pace, Track};
 use crate::robot::{Branch, BranchPattern};
-use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
 /// Which part of the deviation counts.
@@ -228,7 +227,9 @@ impl Walk<'_> {
             chunk
                 .par_iter_mut()
                 .enumerate()
-                .for_each_init(maker, |maker, (i, column)| self.fill(maker, first + i, column));
+                .for_each_init(maker, |maker, (i, column)| {
+                    fill(maker, (self.track, self.load), (self.search, first + i), column);
+                });
             for i in 0..chunk.len() {
                 let index = first + i;
                 let (done, rest) = chunk.split_at(i);
@@ -253,26 +254,6 @@ impl Walk<'_> {
             (watch.finished)(chunk.len());
         }
         Ok((chain.cheapest(), seen))
-    }
-
-    /// The column of point `index`.
-    fn fill(&self, maker: &mut Columns<'_>, index: usize, column: &mut Column) {
-        let stop = self.track.stop(index);
-        let poses: Vec<Isometry> = (0..self.search.spins.count)
-            .map(|turn| stop.base_from_tool * about_z(self.search.spins.at(turn)))
-            .collect();
-        let mut cases = vec![Wrench::ZERO; self.load.case_count()];
-        self.track.wrenches(self.load, index, &mut cases);
-        let along = self.search.counts.along((self.track, index), stop.normal);
-        let push = Push { cases: &cases, along };
-        maker.fill(&poses, &push, column);
-        if maker.slots_are_branches() && self.search.branches != BranchPattern::default() {
-            for (slot, branch) in Branch::ALL.into_iter().enumerate() {
-                if !self.search.branches.matches(branch) {
-                    column.forbid(slot);
-                }
-            }
-        }
     }
 
     /// How the column of point `index` begins.
@@ -377,11 +358,7 @@ impl Spins {
 impl Seen {
     fn note(&mut self, index: usize, column: &Column, keep: bool) {
         if !column.stands.contains(&Stand::Holds) {
-            // What stands in the way of most postures; out of reach only where nothing else does.
-            let count = |stand: Stand| column.stands.iter().filter(|other| **other == stand).count();
-            let most = Stand::ALL[1..4].iter().copied().max_by_key(|stand| count(*stand));
-            let most = most.filter(|stand| count(*stand) > 0);
-            self.lost.push((index, most.unwrap_or(Stand::OutOfReach)));
+            self.lost.push((index, in_the_way(column)));
         }
         if keep {
             self.kept
@@ -390,7 +367,38 @@ impl Seen {
     }
 }
 
-fn about_z(angle: f64) -> UnitQuaternion<f64> {
+/// What stands in the way of most postures of a column that none of holds; out of reach only where nothing else does.
+pub(super) fn in_the_way(column: &Column) -> Stand {
+    let count = |stand: Stand| column.stands.iter().filter(|other| **other == stand).count();
+    let most = Stand::ALL[1..4].iter().copied().max_by_key(|stand| count(*stand));
+    let most = most.filter(|stand| count(*stand) > 0);
+    most.unwrap_or(Stand::OutOfReach)
+}
+
+/// Fills `column` with the postures of point `index` of `track` under `load`, at every turn that `search` tries.
+pub(super) fn fill(
+    maker: &mut Columns<'_>,
+    (track, load): (&Track, &PathLoad),
+    (search, index): (&PostureSearch, usize),
+    column: &mut Column,
+) {
+    let LoadedStop { stop, cases } = track.loaded_stop(index, load);
+    let poses: Vec<Isometry> = (0..search.spins.count)
+        .map(|turn| stop.base_from_tool * about_z(search.spins.at(turn)))
+        .collect();
+    let along = search.counts.along((track, index), stop.normal);
+    let push = Push { cases: &cases, along };
+    maker.fill(&poses, &push, column);
+    if maker.slots_are_branches() && search.branches != BranchPattern::default() {
+        for (slot, branch) in Branch::ALL.into_iter().enumerate() {
+            if !search.branches.matches(branch) {
+                column.forbid(slot);
+            }
+        }
+    }
+}
+
+pub(super) fn about_z(angle: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle)
 }
 

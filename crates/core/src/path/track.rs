@@ -30,6 +30,15 @@ pub struct Stop {
     pub normal: Unit<Vector3<f64>>,
 }
 
+/// A point of a track with what pushes there.
+#[derive(Clone, Debug)]
+pub struct LoadedStop {
+    /// The tool pose, and what counts as normal.
+    pub stop: Stop,
+    /// Wrenches on the tool at the TCP, base, one a case.
+    pub cases: Vec<Wrench>,
+}
+
 /// A deviation seen from the path, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parts {
@@ -83,6 +92,24 @@ impl Track {
     pub fn wrenches(&self, load: &PathLoad, index: usize, out: &mut [Wrench]) {
         let axes = self.base_from_feed(index);
         load.in_base(index, &self.base_from_part, &axes, out);
+    }
+
+    /// The tool pose at point `index` with the wrenches of `load` there.
+    pub fn loaded_stop(&self, index: usize, load: &PathLoad) -> LoadedStop {
+        let mut cases = vec![Wrench::ZERO; load.case_count()];
+        self.wrenches(load, index, &mut cases);
+        LoadedStop {
+            stop: self.stop(index),
+            cases,
+        }
+    }
+
+    /// Poses, normals and wrenches of all points, in their order: all that a search for places or postures needs of points
+    /// that no path joins.
+    pub fn loaded_stops(&self, load: &PathLoad) -> Vec<LoadedStop> {
+        (0..self.len())
+            .map(|index| self.loaded_stop(index, load))
+            .collect()
     }
 
     /// The tool axis, from the tip towards the spindle, base, if it is the same at all points.

@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, Matrix6xX, Point3};
 
 use super::chain::{Chain, Motion};
-use super::forward::{Frames, chain_axis};
+use super::forward::{Frames, chain_axis, forward};
 use super::model::Robot;
 use crate::spatial::Twist;
 
@@ -18,6 +18,23 @@ pub fn screws_at(robot: &Robot, frames: &Frames, tcp: &Point3<f64>) -> Vec<Twist
     let mut screws = vec![Twist::ZERO; robot.joints().len()];
     screws_into(robot, frames, tcp, &mut screws);
     screws
+}
+
+/// How far the wrist is bent at joint positions `q`: the angle between axes 4 and 6, 0 to 90 deg (rad). `None` of an arm
+/// without named branches, whose wrist is not told by two axes.
+pub fn wrist_bend(robot: &Robot, q: &[f64]) -> Option<f64> {
+    if !robot.inverse().has_branches() {
+        return None;
+    }
+    let screws = screws_at(robot, &forward(robot, q), &Point3::origin());
+    let [_, _, _, fourth, _, sixth] = screws[..] else {
+        return None;
+    };
+    let (sine, cosine) = (
+        fourth.angular.cross(&sixth.angular).norm(),
+        fourth.angular.dot(&sixth.angular),
+    );
+    Some(sine.atan2(cosine.abs()))
 }
 
 /// [`screws_at`] into screws that exist already, one a joint.

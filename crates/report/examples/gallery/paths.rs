@@ -1,9 +1,9 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, Envelope, ForcePlot, ForceTrace, Growth,
-    Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries, Series, ShareBar, ShareBars,
-    StiffnessEllipse, Stretch, TrackMap, VectorField,
+    Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot,
+    ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries,
+    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -23,10 +23,12 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("vector_field", vector_field().to_svg()),
         ("path_plot", path_plot().to_svg()),
         ("track_map", track_map().to_svg()),
+        ("hole_map", hole_map().to_svg()),
         ("process_map", process_map().to_svg()),
         ("cell_map", cell_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
+        ("comparison", comparison().to_svg()),
         ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
     ]
@@ -311,5 +313,67 @@ fn ellipse() -> StiffnessEllipse {
         },
         growth: Growth::Left,
         compliance_um_per_n: [[0.42, 0.11], [0.11, 0.23]],
+    }
+}
+
+/// Three cells, one of which is known badly and one that does not reach everything.
+fn comparison() -> Comparison {
+    let cell = |label: &str, [mean, p95, largest, u]: [f64; 4], note: &str, result: &str| ComparedCell {
+        label: label.into(),
+        note: note.into(),
+        mean_um: Some(mean),
+        p95_um: Some(p95),
+        largest_um: Some(largest),
+        largest_uncertainty_um: Some(u),
+        limit_um: Some(40.0),
+        result: result.into(),
+    };
+    Comparison {
+        title: "Rim of a housing: which cell holds the tolerance".into(),
+        subtitle: "mean, 95 % and largest deviation; best first".into(),
+        quantity: "in-plane deviation (µm)".into(),
+        result: "within".into(),
+        cells: vec![
+            cell("large arm", [12.0, 19.0, 24.0, 3.0], "", "100.0 %"),
+            cell(
+                "large arm, long tool",
+                [22.0, 37.0, 52.0, 14.0],
+                "compliance assumed",
+                "91.5 %",
+            ),
+            cell(
+                "small arm",
+                [41.0, 66.0, 83.0, 8.0],
+                "12 of 240 points out of reach",
+                "38.0 %",
+            ),
+        ],
+    }
+}
+
+/// A panel of holes, worse to the right; one corner is out of reach.
+fn hole_map() -> HoleMap {
+    let hole = |k: u32| {
+        let [x, y] = [60.0 * f64::from(k % 7), 50.0 * f64::from(k / 7)];
+        let error_um = [12.0 + 0.06 * x, -6.0 + 0.05 * y - 0.02 * x];
+        let lost = x > 300.0 && y > 140.0;
+        HoleMark {
+            at_mm: [x, y],
+            error_um,
+            deviation_um: (!lost).then(|| error_um[0].hypot(error_um[1])),
+            name: if k == 6 { "1".into() } else { String::new() },
+        }
+    };
+    HoleMap {
+        title: "Rivet holes of a panel".into(),
+        subtitle: "drill of 6 mm, each hole in its best posture".into(),
+        axes: AxisLabels {
+            horizontal: "x (mm)".into(),
+            vertical: "y (mm)".into(),
+        },
+        quantity: "deviation across the hole (µm)".into(),
+        limit_um: Some(30.0),
+        scale: ColourScale::Viridis,
+        holes: (0..28).map(hole).collect(),
     }
 }

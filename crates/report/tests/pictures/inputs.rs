@@ -1,10 +1,10 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, CircleMm, DeviationMap, Envelope,
-    ForcePlot, ForceTrace, Grid, MapSeries, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState,
-    PolarPlot, ProcessMap, RadialSeries, RectangleMm, RegionMap, Series, ShareBar, ShareBars,
-    StiffnessEllipse, Stretch, TrackMap, VectorField, View,
+    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, CircleMm, ComparedCell, Comparison,
+    DeviationMap, Envelope, ForcePlot, ForceTrace, Grid, HoleMap, HoleMark, MapSeries, Marker, MarkerKind,
+    Overlay, Panel, PathPlot, PointState, PolarPlot, ProcessMap, RadialSeries, RectangleMm, RegionMap,
+    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField, View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -111,6 +111,48 @@ pub fn bars(shares_um: Vec<f64>) -> ShareBars {
         parts: vec![NASTY.into()],
         bars: vec![bar],
         ..ShareBars::default()
+    }
+}
+
+/// A cell of this size beside one that is sound.
+pub fn comparison(um: Option<f64>) -> Comparison {
+    let cell = |um: Option<f64>| ComparedCell {
+        label: NASTY.repeat(9),
+        note: NASTY.into(),
+        mean_um: um.map(|um| 0.5 * um),
+        p95_um: um,
+        largest_um: um,
+        largest_uncertainty_um: um,
+        limit_um: um.or(Some(f64::INFINITY)),
+        result: NASTY.into(),
+    };
+    Comparison {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        quantity: NASTY.into(),
+        result: NASTY.into(),
+        cells: vec![cell(um), cell(Some(12.0))],
+    }
+}
+
+/// A hole of this size beside one that is sound and one that is nowhere.
+pub fn hole_map(um: Option<f64>) -> HoleMap {
+    let hole = |at_mm: [f64; 2], um: Option<f64>| HoleMark {
+        at_mm,
+        error_um: [um.unwrap_or(f64::NAN), 1.0],
+        deviation_um: um,
+        name: NASTY.into(),
+    };
+    HoleMap {
+        title: NASTY.into(),
+        quantity: NASTY.into(),
+        limit_um: Some(10.0),
+        holes: vec![
+            hole([0.0, 0.0], um),
+            hole([50.0, 20.0], Some(12.0)),
+            hole([f64::NAN, 0.0], Some(12.0)),
+        ],
+        ..HoleMap::default()
     }
 }
 
@@ -277,6 +319,9 @@ pub fn everything() -> Vec<String> {
         vec![-4.0],
     ];
     all.extend(shares.map(|s| bars(s).to_svg()));
+    let sizes = [Some(30.0), Some(f64::NAN), None, Some(0.0), Some(1e300)];
+    all.extend(sizes.map(|um| comparison(um).to_svg()));
+    all.extend(sizes.map(|um| hole_map(um).to_svg()));
     let rows = [
         vec![1.0, f64::NAN, 3.0, 4.0],
         vec![],

@@ -1,11 +1,22 @@
-//! Warnings of a path: out of reach, outside joint limits, jumps of the arm, points without force.
+//! Warnings of holes and paths: out of reach, outside joint limits, jumps of the arm, points without force.
 //!
 //! Each is a sentence that begins with the name of the path; none stops the answer.
 
+use super::holes::HolesAnswer;
 use super::path::PathAnswer;
 
 /// Stretches without posture that are told.
 const MOST_LOST: usize = 5;
+
+/// Holes that no posture holds, with the reason of the first; none where all are held.
+pub(super) fn of_holes(holes: &HolesAnswer) -> Option<String> {
+    let first = holes.each.iter().find(|hole| hole.reason.is_some())?;
+    let reason = first.reason.as_deref().unwrap_or_default();
+    Some(format!(
+        "{}: {} of {} holes cannot be drilled, hole {} first: {reason}.",
+        holes.name, holes.unreached, holes.holes, first.hole
+    ))
+}
 
 /// What a user should know before trusting the result of a path.
 ///

@@ -68,7 +68,7 @@ pub struct CountsAnswer {
 
 impl CountsAnswer {
     /// The counts of the core under the names of the answer.
-    pub(super) fn of(counts: &Counts) -> CountsAnswer {
+    pub(crate) fn of(counts: &Counts) -> CountsAnswer {
         CountsAnswer {
             within: counts.within,
             over_limit: counts.over_limit,

@@ -11,20 +11,23 @@
 //! maps[]        setting, counts, region, certainty, worst and best point, grid of all points
 //! paths[]       setting, worst_points, features, cut or measured, limits, program, joint ranges
 //! volumes[]     setting, counts, worst and best point
+//! holes[]       setting, counts, worst_holes, each hole
 //! statements[]  what others state, with a reading for each map or path it may speak of
 //! warnings[]    what to know before trusting it; sources[]: where its numbers come from
 //! ```
 //!
-//! A file for each part: `map`, `volume`, `path`, `point`; `statement`, `cautions` and `sentence` say what they mean.
+//! A file for each part: `map`, `volume`, `path`, `holes`, `point`; `statement`, `cautions` and `sentence` say what they mean.
 
 mod cautions;
+pub(crate) mod holes;
 mod map;
 pub(crate) mod path;
 mod point;
-mod sentence;
+pub(crate) mod sentence;
 mod statement;
 mod volume;
 
+pub use holes::{HoleAnswer, HolesAnswer, WorstHole};
 pub use map::{CountsAnswer, GridAnswer, MapAnswer, RegionAnswer};
 pub use path::{
     CutAnswer, FeatureAnswer, LimitAnswer, LimitsAnswer, MeasuredAnswer, OperationAnswer, PathAnswer,
@@ -68,6 +71,8 @@ pub struct StudyAnswer {
     pub paths: Vec<PathAnswer>,
     /// Every box.
     pub volumes: Vec<VolumeAnswer>,
+    /// Every set of holes.
+    pub holes: Vec<HolesAnswer>,
     /// What others state, beside what was found here.
     pub statements: Vec<StatementAnswer>,
     /// What a user should know before trusting it.
@@ -114,6 +119,7 @@ enum Told {
     Maps(Vec<MapAnswer>),
     Path(Box<PathAnswer>),
     Volume(Box<VolumeAnswer>),
+    Holes(Box<HolesAnswer>),
 }
 
 /// The answer to `study` from what was done.
@@ -133,14 +139,17 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
             Told::Volume(Box::new(volume::answer(study, done.name, setting, volume)))
         }
         Found::Path(ask, found) => Told::Path(Box::new(path::answer(study, done.name, ask, found))),
+        Found::Holes(ask, found) => Told::Holes(Box::new(holes::answer(study, done.name, ask, found))),
     };
     let all: Vec<Told> = done.par_iter().map(told).collect();
     let (mut maps, mut paths, mut volumes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut holes = Vec::new();
     for told in all {
         match told {
             Told::Maps(told) => maps.extend(told),
             Told::Path(told) => paths.push(*told),
             Told::Volume(told) => volumes.push(*told),
+            Told::Holes(told) => holes.push(*told),
         }
     }
     StudyAnswer {
@@ -148,13 +157,14 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
         armill: env!("CARGO_PKG_VERSION"),
         title: study.title.clone(),
         question: study.question.clone(),
-        answer: sentence::answer(study, &maps, &paths, &volumes),
+        answer: sentence::answer(study, (&maps, &paths), (&volumes, &holes)),
         robot: robot_answer(study),
         statements: statement::answers(study, &maps, &paths),
-        warnings: warnings(study, &maps, &paths, &volumes),
+        warnings: warnings(study, (&maps, &paths), (&volumes, &holes)),
         maps,
         paths,
         volumes,
+        holes,
         sources: sources(study),
     }
 }
@@ -236,7 +246,8 @@ fn sources(study: &Study) -> Vec<Source> {
         }
     }
     let cuts = study.asks.iter().filter_map(|ask| match &ask.subject {
-        Subject::Path(path) => Some(path),
+        Subject::Path(path) => Some(&**path),
+        Subject::Holes(holes) => Some(&holes.path),
         _ => None,
     });
     let of_path = |path: &PathAsk| {
@@ -248,7 +259,7 @@ fn sources(study: &Study) -> Vec<Source> {
         };
         cut.or_else(drill).unwrap_or_default()
     };
-    for source in cuts.flat_map(|path| of_path(path)) {
+    for source in cuts.flat_map(of_path) {
         if !sources.contains(&source) {
             sources.push(source);
         }
@@ -261,9 +272,8 @@ fn sources(study: &Study) -> Vec<Source> {
 /// gravity, the note of the robot file.
 fn warnings(
     study: &Study,
-    maps: &[MapAnswer],
-    paths: &[PathAnswer],
-    volumes: &[VolumeAnswer],
+    (maps, paths): (&[MapAnswer], &[PathAnswer]),
+    (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
 ) -> Vec<String> {
     let mut warnings = Vec::new();
     warnings.extend(study.own_compliance.iter().filter_map(|own| own.caution.clone()));
@@ -301,6 +311,7 @@ fn warnings(
         ));
     }
     warnings.extend(paths.iter().flat_map(cautions::of_path));
+    warnings.extend(holes.iter().filter_map(cautions::of_holes));
     for ask in &study.asks {
         if let Subject::Path(path) = &ask.subject {
             let unsure = path.measured.as_ref().and_then(|measured| measured.warning());
@@ -313,13 +324,17 @@ fn warnings(
 }
 
 impl StudyAnswer {
-    /// Whether every point of every map, path and box holds the limit.
+    /// Whether every point of every map, path, box and set of holes holds the limit.
     ///
     /// A point that is not reached does not hold it; one that is reached outside joint limits may.
     pub fn holds_everywhere(&self) -> bool {
         let maps = self.maps.iter().map(|map| map.fraction_within);
         let paths = self.paths.iter().map(|path| path.fraction_within);
         let volumes = self.volumes.iter().map(|volume| volume.fraction_within);
-        maps.chain(paths).chain(volumes).all(|fraction| fraction == 1.0)
+        let holes = self.holes.iter().map(|holes| holes.fraction_within);
+        maps.chain(paths)
+            .chain(volumes)
+            .chain(holes)
+            .all(|fraction| fraction == 1.0)
     }
 }

@@ -120,6 +120,14 @@ pub struct PointAnswer {
 }
 
 impl PointAnswer {
+    /// What has the largest share, by size, as its index in `shares_of`; and the part of the in-plane deviation that it
+    /// makes, where there is any. A share may work against the others.
+    pub(crate) fn largest_share(&self) -> Option<(usize, Option<f64>)> {
+        let shares = self.joint_share_um.iter().enumerate();
+        let (index, share) = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+        Some((index, (self.in_plane_um > 0.0).then(|| share / self.in_plane_um)))
+    }
+
     /// y', z' of a point of base from the centre of `plane`.
     pub(super) fn in_plane_mm(plane: &Plane, at: &Point3<f64>) -> [f64; 2] {
         let in_part = plane.base_from_part.inverse_transform_point(at);

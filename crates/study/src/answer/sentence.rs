@@ -7,6 +7,7 @@
 //!
 //! After ± stands the standard uncertainty. Where nothing is reached the sentence says that instead.
 
+use super::holes::HolesAnswer;
 use super::map::MapAnswer;
 use super::path::PathAnswer;
 use super::point::PointAnswer;
@@ -16,14 +17,14 @@ use crate::file::resolve::{Study, Subject};
 /// The answer to the first thing that was asked.
 pub(super) fn answer(
     study: &Study,
-    maps: &[MapAnswer],
-    paths: &[PathAnswer],
-    volumes: &[VolumeAnswer],
+    (maps, paths): (&[MapAnswer], &[PathAnswer]),
+    (volumes, holes): (&[VolumeAnswer], &[HolesAnswer]),
 ) -> String {
     let first = study.asks.first().and_then(|ask| match ask.subject {
         Subject::Map(_) | Subject::Sections(_) => maps.first().map(|map| of_map(study, map)),
         Subject::Volume(..) => volumes.first().map(|volume| of_volume(study, volume)),
         Subject::Path(_) => paths.first().map(|path| of_path(study, path)),
+        Subject::Holes(_) => holes.first().map(|holes| of_holes(study, holes)),
     });
     let sentence = first.unwrap_or_else(|| "Nothing was asked.".to_owned());
     if study.compliance_is_assumed() {
@@ -128,20 +129,40 @@ fn of_path(study: &Study, path: &PathAnswer) -> String {
     )
 }
 
+/// How many holes hold, the largest deviation with its hole, and what is out of reach.
+fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
+    let Some(worst) = holes.worst_holes.first() else {
+        return format!(
+            "The robot reaches none of the {} holes ({}, branch {}).",
+            holes.holes, holes.name, holes.branch
+        );
+    };
+    let lost = match holes.unreached {
+        0 => String::new(),
+        n => format!("; {n} cannot be drilled"),
+    };
+    format!(
+        "{}: {} of {} holes hold {} µm, each in its best posture; hole {} comes out {} ± {} µm beside its place, mostly by {}; holes are up to {} µm too deep or too shallow{lost}.",
+        holes.name,
+        holes.counts.within,
+        holes.holes,
+        micrometres(holes.setting.limit_um),
+        worst.hole,
+        micrometres(worst.point.in_plane_um),
+        micrometres(worst.point.in_plane_u_um),
+        culprit(study, &worst.point, &holes.setting.shares_of),
+        micrometres(holes.max_depth_um.unwrap_or(0.0)),
+    )
+}
+
 /// What has the largest share, and how large.
 pub(crate) fn culprit(study: &Study, point: &PointAnswer, shares_of: &[String]) -> String {
-    let largest = point
-        .joint_share_um
-        .iter()
-        .enumerate()
-        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    largest.map_or_else(String::new, |(i, share)| {
+    point.largest_share().map_or_else(String::new, |(i, part)| {
         let is_joint = i < study.robot.robot.joints().len();
         let name = format!("{} {}", if is_joint { "joint" } else { "the" }, shares_of[i]);
-        if point.in_plane_um > 0.0 {
-            format!("{name} ({:.0} %)", share / point.in_plane_um * 100.0)
-        } else {
-            name
+        match part {
+            Some(part) => format!("{name} ({:.0} %)", part * 100.0),
+            None => name,
         }
     })
 }

@@ -21,9 +21,11 @@ use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
 use super::format::{AskKind, AskTable, LoadFrameName, PlaneTable, PostureTable, StudyFile, ToolTable};
+use super::holes;
 use super::memory;
 use super::path::{self, Push};
 use super::places::Places;
+use super::posture_search::{CountsName, SearchTable};
 use super::quantities::{grid, load_cases, plane_at, pose_mm_deg, positive, sizes};
 use super::resolve::{Setting, Sheet, Subject};
 use super::stiffness;
@@ -36,6 +38,15 @@ pub(super) fn kind_name(kind: AskKind) -> &'static str {
         AskKind::Sections => "sections",
         AskKind::Volume => "volume",
         AskKind::Path => "path",
+        AskKind::Holes => "holes",
+    }
+}
+
+/// What one of this kind is called in a sentence.
+pub(super) fn kind_noun(kind: AskKind) -> &'static str {
+    match kind {
+        AskKind::Holes => "set of holes",
+        other => kind_name(other),
     }
 }
 
@@ -87,6 +98,19 @@ impl Resolver<'_> {
                     Some(Subject::Path(Box::new(path)))
                 })
             }
+            AskKind::Holes => {
+                let search = setting
+                    .as_ref()
+                    .and_then(|setting| self.hole_search(places, setting));
+                let cell = (self.folder, self.robot.map(|found| &found.robot));
+                let holes = holes::resolve(places, self.table, cell, (setting, push, search))?;
+                holes.and_then(|holes| {
+                    let path = &holes.path;
+                    let of = (self.robot?, &path.setting, path.load.case_count());
+                    memory::check_points(places, "holes", path.track.len() as f64, of)?;
+                    Some(Subject::Holes(Box::new(holes)))
+                })
+            }
         })
     }
 
@@ -95,6 +119,11 @@ impl Resolver<'_> {
     fn refuse_keys_of_other_kinds(&self, places: &mut Places<'_>) {
         let t = self.table;
         let search = t.posture.as_ref().and_then(|posture| posture.search.as_ref());
+        // What two kinds have belongs to the one that is asked.
+        let with_tool = match t.kind {
+            AskKind::Holes => AskKind::Holes,
+            _ => AskKind::Path,
+        };
         let given = [
             ("distances_mm", AskKind::Sections, t.distances_mm.is_some()),
             ("tilts_deg", AskKind::Sections, t.tilts_deg.is_some()),
@@ -104,18 +133,19 @@ impl Resolver<'_> {
             ("polyline_mm", AskKind::Path, t.polyline_mm.is_some()),
             ("rectangle", AskKind::Path, t.rectangle.is_some()),
             ("step_mm", AskKind::Path, t.step_mm.is_some()),
-            ("program", AskKind::Path, t.program.is_some()),
+            ("program", with_tool, t.program.is_some()),
             ("spin_deg", AskKind::Path, t.spin_deg.is_some()),
             ("cut", AskKind::Path, t.cut.is_some()),
-            ("posture.search", AskKind::Path, search.is_some()),
+            ("posture.search", with_tool, search.is_some()),
+            ("holes", AskKind::Holes, t.holes.is_some()),
         ];
         let load = t.load.as_ref().or(self.file.load.as_ref());
-        if t.kind != AskKind::Path && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
-            let message = format!("a {} has no feed that a load could turn with", kind_name(t.kind));
+        if t.kind != with_tool && load.and_then(|load| load.frame) == Some(LoadFrameName::Feed) {
+            let message = format!("a {} has no feed that a load could turn with", kind_noun(t.kind));
             places.problem("load.frame", message, "`base` or `part`; `feed` along a path");
         }
         for (key, kind, _) in given.iter().filter(|(_, kind, given)| *given && *kind != t.kind) {
-            let message = format!("`{key}` means nothing to a {}", kind_name(t.kind));
+            let message = format!("`{key}` means nothing to a {}", kind_noun(t.kind));
             let hint = format!(
                 "it belongs to kind = \"{}\"; the grid of a map is plane.step_mm",
                 kind_name(*kind)
@@ -228,6 +258,41 @@ impl Resolver<'_> {
         let table = table.filter(|_| self.table.kind == AskKind::Path)?;
         let limit_um = self.table.limit_um.unwrap_or(self.file.limit_um);
         table.resolve(places, limit_um * 1e-6, open)
+    }
+
+    /// What is searched for at holes, as usual where nothing is said; `None` also where that is wrong. Each hole is for
+    /// itself: what joins points of a path has no meaning.
+    fn hole_search(&self, places: &mut Places<'_>, setting: &Setting) -> Option<PostureSearch> {
+        let own = self
+            .table
+            .posture
+            .as_ref()
+            .and_then(|posture| posture.search.as_ref());
+        let given = [
+            ("goal", own.is_some_and(|table| table.goal.is_some())),
+            (
+                "turn_deg_per_mm",
+                own.is_some_and(|table| table.turn_deg_per_mm.is_some()),
+            ),
+        ];
+        for (key, _) in given.iter().filter(|(_, given)| *given) {
+            let message = format!("`{key}` means nothing to holes: each is held for itself");
+            places.problem(
+                &format!("posture.search.{key}"),
+                message,
+                "it belongs to kind = \"path\"",
+            );
+        }
+        let table = self.of_posture(|posture| posture.search.as_ref());
+        if table.and_then(|table| table.counts) == Some(CountsName::CrossTrack) {
+            let hint = "`in-plane` or `axial`";
+            places.problem("posture.search.counts", "a hole has no track to go across", hint);
+            return None;
+        }
+        let usual = SearchTable::default();
+        table
+            .unwrap_or(&usual)
+            .resolve(places, setting.limit, setting.open)
     }
 
     /// The frame that coordinates count from, in base.

@@ -7,6 +7,7 @@ use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::holes::HolesTable;
 use super::path::cut::CutTable;
 use super::path::program::ProgramTable;
 use super::placement::PlaceTable;
@@ -276,13 +277,15 @@ pub enum AskKind {
     Volume,
     /// The deviation along a path: a shape on the plane, or a tool path program.
     Path,
+    /// The deviation at holes in any order, each held as is best for itself.
+    Holes,
 }
 
 /// One ask; what it does not say it takes from the study.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AskTable {
-    /// `map`, `sections`, `volume` or `path`.
+    /// `map`, `sections`, `volume`, `path` or `holes`.
     pub kind: AskKind,
     /// Name of the answer; made from kind and number if left out.
     pub name: Option<String>,
@@ -325,8 +328,10 @@ pub struct AskTable {
     /// Path: by what angle the tool is turned about its axis on a shape; of a program that is `program.spin_deg`.
     #[schemars(range(min = -360.0, max = 360.0))]
     pub spin_deg: Option<f64>,
-    /// Path: a tool path program, and how the tool follows it.
+    /// Path: a tool path program, and how the tool follows it; holes: those that it drills.
     pub program: Option<ProgramTable>,
+    /// Holes: a list of them.
+    pub holes: Option<HolesTable>,
 }
 
 /// A box of points along the axes of the frame that the study counts from.

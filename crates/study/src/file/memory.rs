@@ -47,6 +47,10 @@ pub(super) fn check_asks(places: &mut Places<'_>, robot: &RobotDescription, asks
             .map(|(_, sheet)| of(&sheet.setting, sheet.grid.len() as f64))
             .sum(),
         Subject::Volume(setting, grid) => of(setting, grid.len() as f64),
+        Subject::Holes(holes) => {
+            let (path, cases) = (&holes.path, holes.path.load.case_count());
+            path.track.len() as f64 * bytes_per_point(robot, &path.setting, cases)
+        }
         Subject::Path(path) => {
             let cases = path.load.case_count();
             path.track.len() as f64 * bytes_per_point(robot, &path.setting, cases)

@@ -5,11 +5,13 @@
 //! ```
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
-//! [`path`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; [`posture_search`] the turns of the tool that are tried along paths, [`placement`] where a part may lie; `places` tells problems where they stand.
+//! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
+//! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
+//! along paths, [`placement`] where a part may lie; `places` tells problems where they stand.
 
 pub mod compliance;
 pub mod format;
+pub mod holes;
 pub mod path;
 pub mod placement;
 pub mod positioner;
@@ -21,4 +23,5 @@ pub mod stiffness;
 mod ask;
 mod memory;
 mod names;
+pub(crate) mod other_robot;
 mod places;

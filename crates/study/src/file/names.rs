@@ -68,6 +68,11 @@ pub(super) fn check_statements(places: &mut Places<'_>, file: &StudyFile, asks: 
                     format!("`{name}` is a volume"),
                     "a statement speaks of maps, sections and paths".to_owned(),
                 )
+            } else if named(&[AskKind::Holes], name) {
+                (
+                    format!("`{name}` is a set of holes"),
+                    "a statement speaks of maps, sections and paths".to_owned(),
+                )
             } else {
                 (
                     format!("no ask is called `{name}`"),

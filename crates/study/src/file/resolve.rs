@@ -21,6 +21,7 @@ use armill_formats::robot::RobotDescription;
 use super::ask::Resolver;
 use super::compliance::{self, OwnCompliance};
 use super::format::{AskTable, StatementTable, StudyFile};
+use super::holes::HolesAsk;
 use super::memory;
 use super::names::{check_statements, name_of, unfit_names};
 use super::path::PathAsk;
@@ -66,6 +67,7 @@ impl Study {
             Subject::Sections(sections) => sections.first().map(|(_, sheet)| &sheet.setting),
             Subject::Volume(setting, _) => Some(setting),
             Subject::Path(path) => Some(&path.setting),
+            Subject::Holes(holes) => Some(&holes.path.setting),
         })
     }
 }
@@ -90,6 +92,8 @@ pub enum Subject {
     Volume(Setting, BoxGrid),
     /// A path.
     Path(Box<PathAsk>),
+    /// Holes.
+    Holes(Box<HolesAsk>),
 }
 
 /// A plane with its grid.
@@ -221,7 +225,9 @@ pub fn read_changed(
         for (key, message, hint) in place.faults() {
             places.problem(&format!("place.{key}"), message, hint);
         }
-        let is_it = |ask: &Ask, name: &String| ask.name == *name && matches!(ask.subject, Subject::Path(_));
+        let is_it = |ask: &Ask, name: &String| {
+            ask.name == *name && matches!(ask.subject, Subject::Path(_) | Subject::Holes(_))
+        };
         let all_read = asks.len() == tables.len();
         if let Some(name) = place
             .ask

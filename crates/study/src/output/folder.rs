@@ -18,7 +18,7 @@ const QUEUE: usize = 64;
 const LIST: &str = ".armill-files";
 
 /// A folder that takes files from any thread.
-pub(super) struct Folder<'a> {
+pub(crate) struct Folder<'a> {
     out: &'a Path,
     queue: SyncSender<(String, PartFile)>,
 }
@@ -28,7 +28,7 @@ impl Folder<'_> {
     ///
     /// # Errors
     /// The file cannot be written; one that cannot take its name is told by [`write_together`].
-    pub(super) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
+    pub(crate) fn save(&self, name: &str, bytes: &[u8]) -> Result<(), StudyError> {
         let part = PartFile::write(self.out.join(name), bytes)?;
         // The other end is open as long as this one.
         let _ = self.queue.send((name.to_owned(), part));

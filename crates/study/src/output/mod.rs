@@ -14,16 +14,18 @@
 //! ```
 //!
 //! `ASK` is the `slug` of the ask's name. `folder`: which files; `rows`: the points; `tables`, `pictures`, `plates`,
-//! `path`, `lattice`, `limits`, `arm`, `report`: what they show.
+//! `path` with `along`, `holes`, `lattice`, `limits`, `arm`, `report`: what they show.
 
+pub(crate) mod along;
 mod arm;
 mod folder;
+mod holes;
 mod lattice;
 mod limits;
 mod path;
 mod pictures;
 mod plates;
-mod report;
+pub(crate) mod report;
 mod rows;
 mod tables;
 
@@ -86,8 +88,9 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 10] = [
-    "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track", "process", "forces",
+const PICTURES: [&str; 13] = [
+    "holes", "cells", "turns", "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
+    "process", "forces",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.
@@ -137,21 +140,12 @@ pub fn write(
     (out, wanted): (&Path, Wanted),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
-    // An older answer beside newer tables would pass for theirs if this run were killed; what cannot be removed
-    // cannot be replaced either, and writing it will say so.
-    let _ = std::fs::remove_file(out.join(RESULT));
     let drawn = match wanted.pictures {
         Pictures::Drawn => pictures::draw(study, done, answer),
         Pictures::None => Vec::new(),
     };
     let names = names(study, &drawn, wanted);
-    let mine: BTreeSet<String> = names.iter().cloned().collect();
-    // What this run and those before it wrote, in case this one is killed.
-    let earlier = folder::listed(out);
-    folder::list(out, &earlier.union(&mine).cloned().collect())?;
-
-    let mut json_text = Ok(String::new());
-    folder::write_together(out, note, |files| {
+    replace((out, &names), note, |files| {
         let tables = || {
             let asks = study.asks.par_iter().zip(done).with_max_len(1);
             asks.try_for_each(|(ask, done)| {
@@ -162,26 +156,53 @@ pub fn write(
             })
         };
         let pictures = || match wanted.pictures {
-            Pictures::Drawn => save_pictures(study, answer, &drawn, files),
+            Pictures::Drawn => {
+                save_pictures(&drawn, files)?;
+                files.save(REPORT, report::html(study, answer, &drawn).as_bytes())
+            }
             Pictures::None => Ok(()),
         };
         let (tables, (pictures, text)) = rayon::join(tables, || rayon::join(pictures, || json(answer)));
-        json_text = text;
-        tables.and(pictures)
+        tables.and(pictures)?;
+        text
+    })
+}
+
+/// Puts the files called `names`, the answer last, in the place of those of an earlier run, and gives their paths. `work`
+/// saves all but the answer, whose text it gives.
+///
+/// # Errors
+/// That of `work`; a file cannot be written.
+pub(crate) fn replace(
+    (out, names): (&Path, &[String]),
+    note: &(dyn Fn(&str) + Sync),
+    work: impl FnOnce(&folder::Folder<'_>) -> Result<String, StudyError>,
+) -> Result<Vec<PathBuf>, StudyError> {
+    // An older answer beside newer tables would pass for theirs if this run were killed; what cannot be removed
+    // cannot be replaced either, and writing it will say so.
+    let _ = std::fs::remove_file(out.join(RESULT));
+    let mine: BTreeSet<String> = names.iter().cloned().collect();
+    // What this run and those before it wrote, in case this one is killed.
+    let earlier = folder::listed(out);
+    folder::list(out, &earlier.union(&mine).cloned().collect())?;
+    let mut text = String::new();
+    folder::write_together(out, note, |files| {
+        text = work(files)?;
+        Ok(())
     })?;
     folder::remove(out, earlier.difference(&mine));
     if earlier != mine {
         folder::list(out, &mine)?;
     }
-    write_atomically(out.join(RESULT), json_text?.as_bytes())?;
+    write_atomically(out.join(RESULT), text.as_bytes())?;
     note(RESULT);
     Ok(names.iter().map(|name| out.join(name)).collect())
 }
 
 /// The answer, written last.
-const RESULT: &str = "result.json";
+pub(crate) const RESULT: &str = "result.json";
 /// The report, where pictures are drawn.
-const REPORT: &str = "report.html";
+pub(crate) const REPORT: &str = "report.html";
 
 /// The names of all files, the answer last.
 fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
@@ -190,10 +211,7 @@ fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
         let extensions = tables::extensions(ask, wanted.csv).into_iter();
         extensions.map(move |extension| format!("{slug}.{extension}"))
     });
-    let pictures = drawn.iter().flat_map(|picture| {
-        let png = cfg!(feature = "png").then(|| format!("{}.png", picture.name));
-        std::iter::once(format!("{}.svg", picture.name)).chain(png)
-    });
+    let pictures = drawn.iter().flat_map(picture_files);
     let report = (wanted.pictures == Pictures::Drawn).then(|| REPORT.to_owned());
     tables
         .chain(pictures)
@@ -202,13 +220,17 @@ fn names(study: &Study, drawn: &[Picture], wanted: Wanted) -> Vec<String> {
         .collect()
 }
 
-/// Writes every picture, and the report that holds them.
-fn save_pictures(
-    study: &Study,
-    answer: &StudyAnswer,
-    drawn: &[Picture],
-    files: &folder::Folder<'_>,
-) -> Result<(), StudyError> {
+/// The files of a picture.
+pub(crate) fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
+    let png = cfg!(feature = "png").then(|| format!("{}.png", picture.name));
+    std::iter::once(format!("{}.svg", picture.name)).chain(png)
+}
+
+/// Writes every picture.
+///
+/// # Errors
+/// A picture that cannot be drawn, a file that cannot be written.
+pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
     drawn.par_iter().with_max_len(1).try_for_each(|picture| {
         #[cfg(feature = "png")]
         files.save(
@@ -216,8 +238,7 @@ fn save_pictures(
             &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
         )?;
         files.save(&format!("{}.svg", picture.name), picture.svg.as_bytes())
-    })?;
-    files.save(REPORT, report::html(study, answer, drawn).as_bytes())
+    })
 }
 
 /// Writes pictures that are not those of an ask into `out`, in place of all there whose names begin with `begin`.

@@ -22,6 +22,7 @@ use armill_report::{
     Series, Stretch, TrackMap, VectorField, View,
 };
 
+use super::along::Handfuls;
 use super::arm::arm_posture;
 use super::pictures::{Picture, share_bar, shares};
 use super::plates::{axes, base_y, subtitle};
@@ -30,8 +31,6 @@ use crate::file::path::{MeasuredForces, PathAsk};
 use crate::file::resolve::{Setting, Study};
 use crate::run::PathFound;
 
-/// Points that a chart shows at most: of a longer path each stands for the largest deviations of those around it.
-const MOST_POINTS: usize = 1200;
 /// Points that the arm's picture has of the path at most.
 const MOST_IN_SPACE: usize = 8_000;
 /// Marks nearer to each other than this part of the width would hide each other's numbers.
@@ -223,22 +222,12 @@ impl Drawing<'_> {
     fn along(&self) -> Picture {
         let (track, answers) = (&self.ask.track, &self.found.along.answers);
         let points = &track.path.points;
-        let handful = points.len().div_ceil(MOST_POINTS).max(1);
-        let largest = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            let sizes = |first: usize| first..(first + handful).min(points.len());
-            (0..points.len())
-                .step_by(handful)
-                .map(|first| match handful {
-                    1 => of(first),
-                    _ => sizes(first).map(|i| of(i).abs()).fold(f64::NAN, f64::max),
-                })
-                .collect()
-        };
-        let position: Vec<f64> = points.iter().step_by(handful).map(|p| p.along * 1e3).collect();
+        let handfuls = Handfuls::of(points.len());
+        let position = handfuls.positions_mm(points);
         let series = |name: String, of: &dyn Fn(usize) -> f64| Series {
             name,
             position: position.clone(),
-            deviation_um: largest(&|i| {
+            deviation_um: handfuls.largest(|i| {
                 if answers.points[i].is_ok() {
                     of(i)
                 } else {
@@ -251,9 +240,9 @@ impl Drawing<'_> {
                 of(track.parts(i, &answers.deviations_at(i)[0])) * 1e6
             })
         };
-        let (across, quantity) = match handful {
-            1 => ("across it, to the left", "deviation (µm)"),
-            _ => ("across it", "size of the deviation (µm)"),
+        let (across, quantity) = match handfuls.are_points() {
+            true => ("across it, to the left", "deviation (µm)"),
+            false => ("across it", "size of the deviation (µm)"),
         };
         let in_plane = |case: usize| {
             let of = move |i: usize| {

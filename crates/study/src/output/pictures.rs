@@ -5,7 +5,7 @@
 //! | map | the deviation over the plane, `region`; at the worst point `shares` (and at the best), `ellipse`, `arm` |
 //! | sections | one sheet with a panel a section |
 //! | volume | one sheet with slices of the box |
-//! | path | those of `path` |
+//! | path, holes | those of `path` and `holes` |
 //!
 //! Asks are drawn on all threads, their pictures stand in the order of the asks.
 
@@ -19,7 +19,7 @@ use rayon::prelude::*;
 
 use super::arm::arm_posture;
 use super::plates::{axes, base_y, map_pictures, section_panel, sheet, slices, subtitle};
-use crate::answer::{MapAnswer, PathAnswer, PointAnswer, StudyAnswer};
+use crate::answer::{HolesAnswer, MapAnswer, PathAnswer, PointAnswer, StudyAnswer};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::run::{Done, Found};
 
@@ -38,32 +38,36 @@ pub struct Picture {
 pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Vec<Picture> {
     // Maps and paths stand in the answer in the order of the asks.
     let (mut maps, mut paths) = (answer.maps.as_slice(), answer.paths.iter());
+    let mut holes = answer.holes.iter();
     let told = done.iter().map(|done| {
         let count = match &done.found {
             Found::Map(..) => 1,
             Found::Sections(sections) => sections.len(),
-            Found::Volume(..) | Found::Path(..) => 0,
+            Found::Volume(..) | Found::Path(..) | Found::Holes(..) => 0,
         };
         let (of_ask, others) = maps.split_at(count.min(maps.len()));
         maps = others;
         let path = matches!(done.found, Found::Path(..))
             .then(|| paths.next())
             .flatten();
-        (done, of_ask, path)
+        let of_holes = matches!(done.found, Found::Holes(..))
+            .then(|| holes.next())
+            .flatten();
+        (done, of_ask, (path, of_holes))
     });
     let told: Vec<_> = told.collect();
     told.into_par_iter()
         .with_max_len(1)
-        .flat_map_iter(|(done, maps, path)| pictures_of(study, done, maps, path))
+        .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
         .collect()
 }
 
-/// The pictures of one ask; `maps` and `path` are what the answer says of it.
+/// The pictures of one ask; `maps`, `path` and `holes` are what the answer says of it.
 fn pictures_of(
     study: &Study,
     done: &Done<'_>,
     maps: &[MapAnswer],
-    path: Option<&PathAnswer>,
+    (path, holes): (Option<&PathAnswer>, Option<&HolesAnswer>),
 ) -> Vec<Picture> {
     match &done.found {
         Found::Map(plate, map) => {
@@ -94,6 +98,9 @@ fn pictures_of(
         Found::Volume(setting, volume) => vec![slices(done.name, volume, setting)],
         Found::Path(ask, found) => {
             path.map_or_else(Vec::new, |told| super::path::pictures(study, ask, told, found))
+        }
+        Found::Holes(ask, found) => {
+            holes.map_or_else(Vec::new, |told| super::holes::pictures(study, ask, (told, found)))
         }
     }
 }

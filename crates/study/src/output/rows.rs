@@ -1,6 +1,6 @@
 //! The points of an ask, one after the other, as every table and picture needs them.
 //!
-//! A map, a volume and a path are one series, sections one each. Positions are in the frame that the study counts from;
+//! A map, a volume, a path and a set of holes are one series, sections one each. Positions are in the frame that the study counts from;
 //! the order of the points is that of the answers: planes row by row, boxes x first, then y, then z, paths along the
 //! track.
 
@@ -9,7 +9,10 @@ use std::ops::Range;
 use armill_core::kernel::{Answers, Held};
 use armill_core::map::PlaneMap;
 use armill_core::nalgebra::Point3;
+use armill_core::optimize::HolesFound;
+use armill_core::path::Track;
 
+use crate::file::holes::HolesAsk;
 use crate::file::path::PathAsk;
 use crate::file::resolve::Setting;
 use crate::number::decimals;
@@ -30,6 +33,8 @@ pub(super) struct Rows<'a> {
     pub at_mm: Vec<[f64; 3]>,
     /// The path whose points they are, and what came out along it.
     pub path: Option<(&'a PathAsk, &'a PathFound)>,
+    /// The holes that they are, likewise.
+    pub holes: Option<(&'a HolesAsk, &'a HolesFound)>,
 }
 
 impl<'a> Rows<'a> {
@@ -53,6 +58,7 @@ impl<'a> Rows<'a> {
             answers,
             at_mm: points.map(mm).collect(),
             path: None,
+            holes: None,
         }
     }
 
@@ -87,6 +93,16 @@ pub(super) fn of_held<'r>(
     })
 }
 
+/// Where the tip stands at the points of a track, m, base.
+fn tips(track: &Track) -> impl Iterator<Item = Point3<f64>> + '_ {
+    let base_from_path = track.placing.base_from_path;
+    track
+        .path
+        .points
+        .iter()
+        .map(move |point| base_from_path * point.at)
+}
+
 /// Every series of points of what was found.
 pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Rows<'a>> {
     let map = |label: &str, setting: &'a Setting, map: &'a PlaneMap| {
@@ -103,18 +119,13 @@ pub(super) fn rows<'a>(found: &'a Found<'_>) -> Vec<Rows<'a>> {
             let points = (0..volume.grid.len()).map(|index| volume.grid.point(index));
             vec![Rows::new("", setting, &volume.answers, points)]
         }
-        Found::Path(ask, found) => {
-            let base_from_path = ask.track.placing.base_from_path;
-            let points = ask
-                .track
-                .path
-                .points
-                .iter()
-                .map(|point| base_from_path * point.at);
-            vec![Rows {
-                path: Some((ask, found)),
-                ..Rows::new("", &ask.setting, &found.along.answers, points)
-            }]
-        }
+        Found::Path(ask, found) => vec![Rows {
+            path: Some((ask, found)),
+            ..Rows::new("", &ask.setting, &found.along.answers, tips(&ask.track))
+        }],
+        Found::Holes(ask, found) => vec![Rows {
+            holes: Some((ask, found)),
+            ..Rows::new("", &ask.path.setting, &found.answers, tips(&ask.path.track))
+        }],
     }
 }

@@ -26,7 +26,9 @@ pub use journal::Journal;
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, PlacedPath, Question};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{Holding, Merit, Placeable, PlacementGoal, Sure, ToolTurn, on_part};
+use armill_core::optimize::{
+    Holding, Merit, Placeable, PlacementGoal, PostureSearch, Sure, ToolTurn, on_part,
+};
 use armill_core::path::Spin;
 use armill_core::robot::BranchPattern;
 use armill_core::watch::Watch;
@@ -34,7 +36,7 @@ use armill_core::workpiece::Plane;
 
 use crate::answer::path::search::{counts_word, goal_word};
 use crate::error::StudyError;
-use crate::file::format::{PlaneChange, PostureTable, StudyFile};
+use crate::file::format::{AskKind, PlaneChange, PostureTable, StudyFile};
 use crate::file::path::PathAsk;
 use crate::file::placement::{ANY, FixtureTable, PlaceTable, SureName};
 use crate::file::posture_search::{CountsName, GoalName};
@@ -64,6 +66,8 @@ pub struct Placing<'a> {
     index: usize,
     name: &'a str,
     ask: &'a PathAsk,
+    /// Turns and branches that each point may take for itself, where it is a set of holes.
+    holes: Option<&'a PostureSearch>,
     table: PlaceTable,
     seed: u64,
 }
@@ -96,7 +100,12 @@ impl Found {
         study.asks.retain(|ask| ask.name == self.answer.ask);
         study.statements.clear();
         for ask in &mut study.asks {
-            if let (Subject::Path(path), Some(part_from_tools)) = (&mut ask.subject, &self.with_part) {
+            let path = match &mut ask.subject {
+                Subject::Path(path) => path,
+                Subject::Holes(holes) => &mut holes.path,
+                _ => continue,
+            };
+            if let Some(part_from_tools) = &self.with_part {
                 let track = &path.track;
                 let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
                     let judged = track.base_from_part.rotation * on_part;
@@ -136,6 +145,7 @@ impl Found {
             Some(sum - 360.0 * (sum / 360.0).round())
         };
         match &mut ask.program {
+            _ if ask.kind == AskKind::Holes => (),
             Some(program) => program.spin_deg = more(program.spin_deg),
             None => ask.spin_deg = more(ask.spin_deg),
         }
@@ -163,37 +173,8 @@ impl<'a> Placing<'a> {
     /// No such path, or several; bounds that leave nothing; words that name no branch.
     pub fn new(study: &'a Study, wanted: PlaceTable, seed: u64) -> Result<Placing<'a>, StudyError> {
         let mut table = wanted.or(study.place.clone().unwrap_or_default());
-        let asks = study.asks.iter().enumerate();
-        let mut paths = asks.filter_map(|(index, ask)| match &ask.subject {
-            Subject::Path(path) => Some((index, ask.name.as_str(), &**path)),
-            _ => None,
-        });
-        let names = || -> String {
-            let of_path = |ask: &&crate::file::resolve::Ask| matches!(ask.subject, Subject::Path(_));
-            let names = study
-                .asks
-                .iter()
-                .filter(of_path)
-                .map(|ask| format!("`{}`", ask.name));
-            names.collect::<Vec<_>>().join(", ")
-        };
-        let (index, name, ask) = match &table.ask {
-            Some(wanted) => paths.find(|(_, name, _)| name == wanted).ok_or_else(|| {
-                let message = format!("the study has no path called `{wanted}`");
-                StudyError::value(message, format!("its paths: {}", names()))
-            })?,
-            None => {
-                let first = paths.next().ok_or_else(|| {
-                    let message = "the study asks for no path that could be placed";
-                    StudyError::value(message, "[[ask]] kind = \"path\" with a program or a shape")
-                })?;
-                if paths.next().is_some() {
-                    let message = format!("the study has several paths: {}", names());
-                    return Err(StudyError::value(message, "name one: --ask NAME, or `place.ask`"));
-                }
-                first
-            }
-        };
+        let (index, chosen) = chosen(study, table.ask.as_deref())?;
+        let (name, (ask, holes)) = (chosen.0, chosen.1);
         let stays = ask
             .source
             .robot()
@@ -203,6 +184,14 @@ impl<'a> Placing<'a> {
                 format!("`{name}` follows a program of a robot, which lies where its frame is told");
             let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] lays its frame on the plane, which can be moved";
             return Err(StudyError::value(message, hint));
+        }
+        if holes.is_some() && table.spin_deg.is_some() {
+            let message =
+                "`spin_deg` turns the tool alike at all points, and holes are each held in their best turn";
+            return Err(StudyError::value(
+                message,
+                "posture.search.turns_deg bounds the turns of holes",
+            ));
         }
         let faults = table.faults();
         if let Some((_, _, hint)) = faults.first() {
@@ -219,14 +208,20 @@ impl<'a> Placing<'a> {
             index,
             name,
             ask,
+            holes,
             table,
             seed,
         })
     }
 
-    /// The path that is placed.
+    /// What is placed.
     pub fn name(&self) -> &str {
         self.name
+    }
+
+    /// Whether that is a set of holes.
+    pub fn is_of_holes(&self) -> bool {
+        self.holes.is_some()
     }
 
     /// Places that the search looks at, about: what its progress ends at.
@@ -239,10 +234,11 @@ impl<'a> Placing<'a> {
 
     fn effort(&self) -> Effort {
         let robot = &self.study.robot.robot;
-        match robot.ortho_parallel().is_some() && self.ask.setting.model.is_drives_alone() {
+        let effort = match robot.ortho_parallel().is_some() && self.ask.setting.model.is_drives_alone() {
             true => Effort::lanes(self.ask.track.len()),
             false => Effort::ONE_BY_ONE,
-        }
+        };
+        effort.shared_by(self.holes.map_or(1, |search| search.spins.count))
     }
 
     /// Searches; `told` hears of the best so far, `watch` of every place.
@@ -368,7 +364,10 @@ impl<'a> Placing<'a> {
             goal: table.goal.unwrap_or(GoalName::Worst).goal(setting.limit),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
-            holding: Holding::InOneBranch,
+            holding: match self.holes {
+                Some(search) => Holding::EachForItself(search.spins),
+                None => Holding::InOneBranch,
+            },
             sure: table.sure.unwrap_or(SureName::Nominal).sure(setting.limit),
             wrist: table.least_wrist_deg.unwrap_or(USUAL_WRIST_DEG).to_radians(),
         })
@@ -396,6 +395,49 @@ impl<'a> Placing<'a> {
             freedom: at(fixture),
         });
         sites.collect()
+    }
+}
+
+/// A path, or a set of holes with what each may be turned by.
+type Placed<'a> = (&'a PathAsk, Option<&'a PostureSearch>);
+
+/// The ask that is placed: which one, its name, and what it is about.
+fn chosen<'a>(study: &'a Study, wanted: Option<&str>) -> Result<(usize, (&'a str, Placed<'a>)), StudyError> {
+    let all: Vec<(usize, (&str, Placed<'_>))> = study
+        .asks
+        .iter()
+        .enumerate()
+        .filter_map(|(index, ask)| {
+            let about: Placed<'_> = match &ask.subject {
+                Subject::Path(path) => (path, None),
+                Subject::Holes(holes) => (&holes.path, Some(&holes.search)),
+                _ => return None,
+            };
+            Some((index, (ask.name.as_str(), about)))
+        })
+        .collect();
+    let names = || {
+        let names = all.iter().map(|(_, (name, _))| format!("`{name}`"));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    match (wanted, &all[..]) {
+        (None, []) => Err(StudyError::value(
+            "the study asks for no path that could be placed",
+            "[[ask]] kind = \"path\" with a program or a shape, or kind = \"holes\"",
+        )),
+        (None, [one]) => Ok(*one),
+        (None, _) => {
+            let message = format!("the study has several paths: {}", names());
+            Err(StudyError::value(message, "name one: --ask NAME, or `place.ask`"))
+        }
+        (Some(wanted), _) => all
+            .iter()
+            .find(|(_, (name, _))| *name == wanted)
+            .copied()
+            .ok_or_else(|| {
+                let message = format!("the study has no path called `{wanted}`");
+                StudyError::value(message, format!("its paths: {}", names()))
+            }),
     }
 }
 

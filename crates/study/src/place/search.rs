@@ -56,6 +56,18 @@ impl Effort {
         grid: 3000,
     };
 
+    /// Less of the same, where every place is as much work as so many.
+    pub fn shared_by(self, count: usize) -> Effort {
+        let share = |of: usize, least: usize| (of / count.max(1)).max(least.min(of));
+        Effort {
+            grid: share(self.grid, 1000),
+            spread: share(self.spread, 512),
+            places: share(self.places, 800),
+            floor: share(self.floor, 300),
+            ..self
+        }
+    }
+
     /// Less of the same, where a good start is known.
     pub fn cheaper(self) -> Effort {
         Effort {

@@ -11,6 +11,7 @@ use crate::map::{AlongPath, along_postures};
 use crate::path::{Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
 use crate::source::{Arm, StiffnessModel};
+use crate::spatial::Wrench;
 use crate::workpiece::Plane;
 
 /// An arm with limits of speed, that machines a plate before it.

@@ -1,9 +1,9 @@
-//! Points joined to quadrilaterals and lines as VTK poly data, `.vtp`.
+//! Points joined to quadrilaterals and lines, or alone, as VTK poly data, `.vtp`.
 //!
 //! | element | holds |
 //! |---|---|
 //! | `Points` | positions, mm, 64 bits |
-//! | `Lines`, `Polys` | `connectivity`: points of all cells in a row; `offsets`: where in that row each cell ends |
+//! | `Verts`, `Lines`, `Polys` | `connectivity`: points of all cells in a row; `offsets`: where in that row each cell ends |
 //! | `PointData` | the arrays |
 
 use super::{PointArray, VtkError, check_arrays, check_positions, data_array, file, point_data};
@@ -16,6 +16,8 @@ use super::{PointArray, VtkError, check_arrays, check_positions, data_array, fil
 pub struct PolyData {
     /// In any one frame, which the file does not name.
     points_mm: Vec<[f64; 3]>,
+    /// Points that are shown by themselves.
+    vertices: Vec<usize>,
     /// Each joins its points in order.
     lines: Vec<Vec<usize>>,
     /// Corners, once round.
@@ -58,10 +60,21 @@ impl PolyData {
         check_arrays(&arrays, points)?;
         Ok(Self {
             points_mm,
+            vertices: Vec::new(),
             lines,
             quads,
             arrays,
         })
+    }
+
+    /// Points that nothing joins.
+    ///
+    /// # Errors
+    /// Those of [`PolyData::new`].
+    pub fn points(points_mm: Vec<[f64; 3]>, arrays: Vec<PointArray>) -> Result<Self, VtkError> {
+        let vertices = (0..points_mm.len()).collect();
+        let alone = Self::new(points_mm, Vec::new(), Vec::new(), arrays)?;
+        Ok(Self { vertices, ..alone })
     }
 
     /// A surface through the points of each grid, one grid after the other; `counts` are its points along its first and
@@ -120,8 +133,9 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
     file("PolyData", |out| {
         *out += &format!(
             "<PolyData>\n\
-             <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
+             <Piece NumberOfPoints=\"{}\" NumberOfVerts=\"{}\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n",
             data.points_mm.len(),
+            data.vertices.len(),
             data.lines.len(),
             data.quads.len(),
         );
@@ -130,6 +144,9 @@ pub fn write_poly_data(data: &PolyData) -> Vec<u8> {
         let positions = data.points_mm.iter().flatten().map(|at| at.to_le_bytes());
         data_array(out, ("Float64", "points_mm", 3), positions);
         *out += "</Points>\n";
+        if !data.vertices.is_empty() {
+            cells(out, "Verts", data.vertices.chunks(1));
+        }
         cells(out, "Lines", data.lines.iter().map(Vec::as_slice));
         cells(out, "Polys", data.quads.iter().map(<[usize; 4]>::as_slice));
         *out += "</Piece>\n</PolyData>\n";

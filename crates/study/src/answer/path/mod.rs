@@ -27,7 +27,6 @@ pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;
 use armill_core::map::AlongPath;
-use armill_core::path::Shape;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer};
@@ -134,7 +133,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
         points,
         unreached: points - held().count(),
         outside_joint_limits: held().filter(|held| !held.within_limits()).count(),
-        length_mm: ask.shape().map_or_else(|| ask.track.path.length(), Shape::length) * 1e3,
+        length_mm: ask.length() * 1e3,
         max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),
         min_in_plane_um: answers.best().map(|(_, held)| held.in_plane * 1e6),
         max_full_um: held().map(|held| held.full * 1e6).max_by(f64::total_cmp),

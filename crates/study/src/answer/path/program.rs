@@ -75,6 +75,6 @@ fn operations(ask: &PathAsk, found: &PathFound) -> Vec<OperationAnswer> {
 pub(super) fn notes(ask: &PathAsk) -> Vec<String> {
     match &ask.source {
         PathSource::Program { summary, .. } => summary.notes.clone(),
-        PathSource::Shape(_) => Vec::new(),
+        PathSource::Shape(_) | PathSource::Holes { .. } => Vec::new(),
     }
 }

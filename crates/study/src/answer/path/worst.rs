@@ -70,14 +70,10 @@ fn of_point(study: &Study, ask: &PathAsk, worst: &InFull) -> Option<WorstPoint> 
 fn cause(study: &Study, (ask, index): (&PathAsk, usize), held: &Held, point: &PointAnswer) -> String {
     let joints = study.robot.robot.joints();
     let names = ask.setting.model.sharer_names(joints);
-    let shares = names.iter().zip(&point.joint_share_um);
-    // A share may work against the others: its size counts.
-    let largest = shares.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let mut parts: Vec<String> = largest
-        .filter(|_| point.in_plane_um > 0.0)
-        .map(|(name, share)| format!("{name} {:.0} %", 100.0 * share / point.in_plane_um))
-        .into_iter()
-        .collect();
+    let largest = point
+        .largest_share()
+        .and_then(|(i, part)| Some(format!("{} {:.0} %", names[i], 100.0 * part?)));
+    let mut parts: Vec<String> = largest.into_iter().collect();
     if let Some(singularity) = held.singularity {
         parts.push(format!("near the {singularity}"));
     }

@@ -55,12 +55,13 @@ const POINT_DEG: f64 = 118.0;
 /// rake, point and wear.
 const NORMAL_RATIO: [f64; 2] = [0.5, 0.2];
 
-/// The drill of this table; `None` where it has problems.
-pub(super) fn resolve(places: &mut Places<'_>, table: &DrillTable) -> Option<DrillCut> {
-    let material = material(places, "program.drill.material", &table.material)?;
+/// The drill of the table at this key; `None` where it has problems.
+pub(super) fn resolve(places: &mut Places<'_>, (key, table): (&str, &DrillTable)) -> Option<DrillCut> {
+    let of_material = format!("{key}.material");
+    let material = material(places, &of_material, &table.material)?;
     let Some(together) = material.kienzle() else {
         let message = format!("{} has no specific cutting force", material.name);
-        places.problem("program.drill.material", message, "another material");
+        places.problem(&of_material, message, "another material");
         return None;
     };
     let mut remarks = vec![
@@ -81,7 +82,7 @@ pub(super) fn resolve(places: &mut Places<'_>, table: &DrillTable) -> Option<Dri
     let normal = table.normal_ratio.unwrap_or(NORMAL_RATIO);
     let law = kienzle(&together, relative, [normal, [0.0, 0.0]]);
     let law = law
-        .map_err(|error| places.problem("program.drill", error.to_string(), "is the number right?"))
+        .map_err(|error| places.problem(key, error.to_string(), "is the number right?"))
         .ok()?;
     Some(DrillCut {
         drill: Drill {

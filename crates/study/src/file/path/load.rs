@@ -5,12 +5,12 @@
 //! | order | what pushes | told by |
 //! |---|---|---|
 //! | 1 | measured forces | `program.measured` of the ask |
-//! | 2 | a drill | `program.drill` of the ask |
+//! | 2 | a drill | `program.drill` or `holes.drill` of the ask |
 //! | 3 | a cut | `cut` of the ask |
 //! | 4 | given cases | `load` of the ask |
 //! | 5 | a cut, then given cases | `cut`, then `load` of the study |
 //!
-//! An ask that is no path has given cases alone. Two things of one ask are refused, but a cut that only predicts where
+//! Holes have a drill or given cases; an ask that is neither has given cases alone. Two things of one ask are refused, but a cut that only predicts where
 //! a record begins.
 
 use std::path::Path;
@@ -19,11 +19,12 @@ use armill_core::load::PathLoad;
 use armill_core::path::NoForces;
 use armill_core::watch::Watch;
 
-use super::PathAsk;
 use super::cut::{self, CutTable};
 use super::drill::{self, DrillTable};
 use super::measured::{self, MeasuredTable, SynchroniseName};
+use super::{PathAsk, PathSource};
 use crate::StudyError;
+use crate::file::ask::kind_noun;
 use crate::file::format::{AskKind, AskTable, LoadTable, StudyFile};
 use crate::file::places::Places;
 
@@ -34,8 +35,8 @@ pub(in crate::file) enum Push<'a> {
     Load(&'a LoadTable),
     /// Forces of a cut.
     Cut(&'a CutTable),
-    /// Forces of a drill.
-    Drill(&'a DrillTable),
+    /// Forces of a drill, by the key of its table.
+    Drill(&'static str, &'a DrillTable),
     /// A record, and the cut that predicts it where that is asked for.
     Measured(&'a MeasuredTable, Option<&'a CutTable>),
 }
@@ -43,6 +44,10 @@ pub(in crate::file) enum Push<'a> {
 impl<'a> Push<'a> {
     /// What pushes in this ask: what it brings itself, else the cut of the study (along a path), else its load.
     pub fn of(file: &'a StudyFile, ask: &'a AskTable) -> Option<Push<'a>> {
+        if ask.kind == AskKind::Holes {
+            let own = drill(ask).or(ask.load.as_ref().map(Push::Load));
+            return own.or(file.load.as_ref().map(Push::Load));
+        }
         let along = ask.kind == AskKind::Path;
         let program = ask.program.as_ref().filter(|_| along);
         let own_cut = ask.cut.as_ref().filter(|_| along);
@@ -50,8 +55,7 @@ impl<'a> Push<'a> {
         if let Some(measured) = program.and_then(|program| program.measured.as_ref()) {
             return Some(Push::Measured(measured, cut.filter(|_| measured.is_predicted())));
         }
-        let drill = program.and_then(|program| program.drill.as_ref());
-        let own = drill.map(Push::Drill).or(own_cut.map(Push::Cut));
+        let own = drill(ask).or(own_cut.map(Push::Cut));
         let own = own.or(ask.load.as_ref().map(Push::Load));
         own.or(cut.map(Push::Cut)).or(file.load.as_ref().map(Push::Load))
     }
@@ -69,13 +73,30 @@ impl<'a> Push<'a> {
                 "a drill",
                 program.is_some_and(|program| program.drill.is_some()),
             ),
+            (
+                "holes.drill",
+                "a drill",
+                ask.holes.as_ref().is_some_and(|holes| holes.drill.is_some()),
+            ),
             ("program.measured", "measured forces", measured.is_some()),
         ];
         let mut brought = brought.into_iter().filter(|(.., given)| *given);
         if let (Some((_, first, _)), Some((key, second, _))) = (brought.next(), brought.next()) {
-            places.problem(key, format!("this path has {first} and {second}"), "remove one");
+            places.problem(
+                key,
+                format!("this {} has {first} and {second}", kind_noun(ask.kind)),
+                "remove one",
+            );
         }
     }
+}
+
+/// The drill of an ask.
+fn drill(ask: &AskTable) -> Option<Push<'_>> {
+    let of_program = ask.program.as_ref().and_then(|program| program.drill.as_ref());
+    let of_holes = ask.holes.as_ref().and_then(|holes| holes.drill.as_ref());
+    let of_program = of_program.map(|drill| Push::Drill("program.drill", drill));
+    of_program.or(of_holes.map(|drill| Push::Drill("holes.drill", drill)))
 }
 
 impl MeasuredTable {
@@ -89,7 +110,7 @@ impl MeasuredTable {
 ///
 /// # Errors
 /// The problems of a file of measured forces.
-pub(super) fn put_on(
+pub(in crate::file) fn put_on(
     places: &mut Places<'_>,
     push: Push<'_>,
     folder: &Path,
@@ -98,7 +119,10 @@ pub(super) fn put_on(
     let found = match push {
         Push::Load(_) => Some(()),
         Push::Cut(table) => cut::resolve(places, table).and_then(|cut| put_cut(places, cut, ask)),
-        Push::Drill(table) => drill::resolve(places, table).and_then(|drill| put_drill(places, drill, ask)),
+        Push::Drill(key, table) => {
+            let drill = drill::resolve(places, (key, table));
+            drill.and_then(|drill| put_drill(places, (key, drill), ask))
+        }
         Push::Measured(table, cut) => {
             let predicting = cut.map(|table| cut::resolve(places, table));
             if matches!(predicting, Some(None)) {
@@ -126,11 +150,15 @@ fn put_cut(places: &mut Places<'_>, cut: cut::Cut, ask: &mut PathAsk) -> Option<
 }
 
 /// Puts on thrust and torque of a drill.
-fn put_drill(places: &mut Places<'_>, drill: drill::DrillCut, ask: &mut PathAsk) -> Option<()> {
+fn put_drill(
+    places: &mut Places<'_>,
+    (key, drill): (&str, drill::DrillCut),
+    ask: &mut PathAsk,
+) -> Option<()> {
     let (path, placing) = (&ask.track.path, &ask.track.placing);
     let found = drill.drill.along(path, placing);
-    let untold = "the program tells feed and spindle, or program.drill with feed_mm_per_min and spindle_rpm";
-    let (load, told) = found.map_err(|error| tell(places, ask, &error, untold)).ok()?;
+    let untold = format!("the program tells feed and spindle, or {key} with feed_mm_per_min and spindle_rpm");
+    let (load, told) = found.map_err(|error| tell(places, ask, &error, &untold)).ok()?;
     ask.setting.doubt.relative = told.relative_uncertainty;
     (ask.load, ask.drill, ask.forces) = (load, Some(drill), Some(told));
     Some(())
@@ -145,8 +173,8 @@ fn tell(places: &mut Places<'_>, ask: &PathAsk, error: &NoForces, untold: &str) 
         _ => untold,
     };
     let message = format!("{}: {error}", ask.shown());
-    match ask.shape() {
-        None => places.problem("program.file", message, hint),
-        Some(_) => places.problem_here(message, hint),
+    match &ask.source {
+        PathSource::Program { .. } => places.problem("program.file", message, hint),
+        PathSource::Shape(_) | PathSource::Holes { .. } => places.problem_here(message, hint),
     }
 }

@@ -21,7 +21,7 @@ mod shape;
 pub use cut::Cut;
 pub use drill::DrillCut;
 pub use feature::FeatureTable;
-pub(super) use load::Push;
+pub(super) use load::{Push, put_on};
 pub use measured::MeasuredForces;
 pub use robot_program::RobotPath;
 
@@ -76,6 +76,11 @@ pub enum PathSource {
         /// What only a program of a robot has.
         robot: Option<Box<RobotPath>>,
     },
+    /// A list of holes, which no path joins.
+    Holes {
+        /// Its file, as the study calls it; none where the study lists them itself.
+        file: Option<String>,
+    },
 }
 
 impl PathSource {
@@ -83,7 +88,7 @@ impl PathSource {
     pub fn robot(&self) -> Option<&RobotPath> {
         match self {
             PathSource::Program { robot, .. } => robot.as_deref(),
-            PathSource::Shape(_) => None,
+            PathSource::Shape(_) | PathSource::Holes { .. } => None,
         }
     }
 }
@@ -107,14 +112,21 @@ impl PathAsk {
             PathSource::Shape(Shape::Circle { .. }) => "circle",
             PathSource::Shape(Shape::Polyline(_)) => "line",
             PathSource::Program { file, .. } => file,
+            PathSource::Holes { file } => file.as_deref().unwrap_or("holes"),
         }
+    }
+
+    /// Length of all cuts, or of the shape, m.
+    pub fn length(&self) -> f64 {
+        self.shape()
+            .map_or_else(|| self.track.path.length(), Shape::length)
     }
 
     /// The shape, if it is one.
     pub fn shape(&self) -> Option<&Shape> {
         match &self.source {
             PathSource::Shape(shape) => Some(shape),
-            PathSource::Program { .. } => None,
+            PathSource::Program { .. } | PathSource::Holes { .. } => None,
         }
     }
 }
@@ -191,6 +203,6 @@ pub(super) fn resolve(
             .map_or_else(Vec::new, |of| of.feature.clone()),
         setting,
     };
-    let pushes = load::put_on(places, push, folder, &mut ask)?;
+    let pushes = put_on(places, push, folder, &mut ask)?;
     Ok(pushes.then_some(ask))
 }

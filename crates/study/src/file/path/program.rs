@@ -157,14 +157,14 @@ pub enum SpinName {
 /// Most points of a program: what the memory of a study holds.
 pub(super) const MOST_POINTS: usize = 8_000_000;
 /// What to do where a file is not found.
-pub(super) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
+pub(in crate::file) const BESIDE_STUDY: &str = "the path counts from the folder of the study";
 /// Greatest distance of a chord from its arc where the study says nothing, mm.
 const CHORD_ERROR_MM: f64 = 0.01;
 /// Greatest distance of points where the study says nothing, mm.
 const STEP_MM: f64 = 1.0;
 
 /// A program as points.
-pub(super) struct ReadProgram {
+pub(in crate::file) struct ReadProgram {
     /// Its points.
     pub path: SampledPath,
     /// What was read.
@@ -178,7 +178,7 @@ pub(super) struct ReadProgram {
 ///
 /// # Errors
 /// The problems of its file.
-pub(super) fn read(
+pub(in crate::file) fn read(
     places: &mut Places<'_>,
     table: &ProgramTable,
     (folder, cell): (&Path, Option<(&Robot, &Setting)>),
@@ -296,7 +296,11 @@ impl ProgramFile<'_> {
 /// Without `tool_axis` and `spin` the tool points where the program says, and keeps one turn about its axis.
 ///
 /// A program of a robot lies where it says, and tells whole orientations.
-pub(super) fn placing(table: &ProgramTable, base_from_part: &Isometry, robot: Option<&RobotPath>) -> Placing {
+pub(in crate::file) fn placing(
+    table: &ProgramTable,
+    base_from_part: &Isometry,
+    robot: Option<&RobotPath>,
+) -> Placing {
     let part_from_path = table
         .part_from_path_mm_deg
         .as_ref()

@@ -6,10 +6,10 @@
 use armill_report::html::{Align, Column, Input, Table};
 
 /// The unit of a column of numbers that have none.
-pub(super) const COUNT: &str = "count";
+pub(crate) const COUNT: &str = "count";
 
 /// Columns by name and unit: those with a unit hold numbers, but the first.
-pub(super) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
+pub(crate) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
     let column = |(i, (name, unit)): (usize, &(&str, &str))| Column {
         name: (*name).to_owned(),
         unit: if *unit == COUNT { "" } else { *unit }.to_owned(),
@@ -23,20 +23,20 @@ pub(super) fn columns(names: &[(&str, &str)]) -> Vec<Column> {
 }
 
 /// A number with one decimal; a dash where there is none.
-pub(super) fn um(value: Option<f64>) -> String {
+pub(crate) fn um(value: Option<f64>) -> String {
     value.map_or_else(|| NONE.to_owned(), |value| format!("{value:.1}"))
 }
 
 /// What stands where there is no number.
-pub(super) const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 /// A fraction in percent.
-pub(super) fn percent(fraction: f64) -> String {
+pub(crate) fn percent(fraction: f64) -> String {
     format!("{:.1}", fraction * 100.0)
 }
 
 /// One number that went in.
-pub(super) fn input(name: &str, value: String, unit: &str, source: &str) -> Input {
+pub(crate) fn input(name: &str, value: String, unit: &str, source: &str) -> Input {
     Input {
         name: name.to_owned(),
         value,
@@ -46,7 +46,7 @@ pub(super) fn input(name: &str, value: String, unit: &str, source: &str) -> Inpu
 }
 
 /// The table without the columns that no row has anything in.
-pub(super) fn without_empty_columns(mut table: Table) -> Table {
+pub(crate) fn without_empty_columns(mut table: Table) -> Table {
     let empty = |k: usize| {
         let mut cells = table.rows.iter().filter_map(|row| row.get(k));
         !table.rows.is_empty() && cells.all(|cell| cell.is_empty() || cell == NONE)

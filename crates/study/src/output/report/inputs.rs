@@ -1,6 +1,6 @@
 //! The numbers that went into the result, each with its source.
 //!
-//! Load, tool and tolerance are those of the first map of the answer, else of the first path, else of the first box. A
+//! Load, tool and tolerance are those of the first map of the answer, else of the first path, box or set of holes. A
 //! long source that repeats from row to row is told once.
 
 use armill_report::html::Input;
@@ -19,7 +19,8 @@ pub(super) fn rows(study: &Study, answer: &StudyAnswer) -> Vec<Input> {
         .iter()
         .map(|map| &map.setting)
         .chain(answer.paths.iter().map(|path| &path.setting))
-        .chain(answer.volumes.iter().map(|volume| &volume.setting));
+        .chain(answer.volumes.iter().map(|volume| &volume.setting))
+        .chain(answer.holes.iter().map(|holes| &holes.setting));
     let first = settings.into_iter().next();
     inputs.extend(first.into_iter().flat_map(forces));
     inputs.extend(cut::rows(study, answer));

@@ -2,11 +2,12 @@
 //!
 //! It holds its pictures and needs no file beside it.
 //!
-//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `inputs` with `cut`; `cells`: numbers in
+//! A file for each chapter: `statements`, `planes`, `volumes`, `paths`, `holes`, `inputs` with `cut`; `cells`: numbers in
 //! tables.
 
-mod cells;
+pub(crate) mod cells;
 mod cut;
+mod holes;
 mod inputs;
 mod paths;
 mod planes;
@@ -44,6 +45,9 @@ pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) ->
     }
     if !answer.paths.is_empty() {
         report = paths::tell(report, &answer.paths);
+    }
+    for set in &answer.holes {
+        report = holes::tell(report, set);
     }
     if !answer.volumes.is_empty() {
         report = report.section("Volumes").table(&volumes::table(answer));

@@ -9,6 +9,7 @@
 //! | `state` | `within`, `over_limit`, or why there is no posture |
 //! | `branch`, `singularity` | how the arm stands, and near what |
 //! | `line` to `axial_um` | of paths only: see `track` |
+//! | `hole` to `depth_um` | of holes only: see `holes` |
 //! | `limit_margin_deg` | least distance of a joint to its limit, deg (mm) |
 //! | `deciding_case` | the case with the largest in-plane deviation, from 1 |
 //! | `in_plane_um`, `in_plane_u_um`, `probability_within` | its deviation, u, chance to hold the limit |
@@ -21,6 +22,7 @@
 //! core tells none: along a path whose load differs from point to point, or whose tool leans. VTK has the envelopes,
 //! and the deviation of each case as an array of vectors.
 
+mod holes;
 mod track;
 
 use std::fmt::Display;
@@ -59,7 +61,7 @@ pub(super) fn extensions(ask: &Ask, csv: Csv) -> Vec<&'static str> {
     }
     extensions.push(match &ask.subject {
         Subject::Volume(..) => IMAGE,
-        Subject::Map(_) | Subject::Sections(_) | Subject::Path(_) => POLY_DATA,
+        Subject::Map(_) | Subject::Sections(_) | Subject::Path(_) | Subject::Holes(_) => POLY_DATA,
     });
     extensions
 }
@@ -72,6 +74,7 @@ fn has_csv(ask: &Ask, csv: Csv) -> bool {
     let few = match &ask.subject {
         Subject::Map(_) => true,
         Subject::Path(path) => path.track.len() <= FEW,
+        Subject::Holes(holes) => holes.path.track.len() <= FEW,
         Subject::Sections(_) | Subject::Volume(..) => false,
     };
     few || csv == Csv::Every || cfg!(not(feature = "parquet"))
@@ -115,6 +118,11 @@ pub(super) fn files(
             let origin = mm(setting.counted(&volume.grid.corner()));
             let image = Image::new(origin, [step; 3], volume.grid.counts, arrays(&series))?;
             save(IMAGE, &write_image(&image))
+        }
+        Found::Holes(..) => {
+            let points = series.iter().flat_map(|rows| rows.at_mm.iter().copied());
+            let holes = PolyData::points(points.collect(), arrays(&series))?;
+            save(POLY_DATA, &write_poly_data(&holes))
         }
         Found::Path(..) => {
             let paths: Vec<Vec<[f64; 3]>> = series.iter().flat_map(stretches).collect();
@@ -316,6 +324,8 @@ fn table(study: &Study, name: &str, series: &[Rows<'_>]) -> Result<Table, StudyE
         let mut columns = rows
             .path
             .map_or_else(Vec::new, |(path, found)| track::columns(&path.track, found));
+        let of_holes = rows.holes.map(|(ask, found)| holes::columns(study, ask, found));
+        columns.extend(of_holes.into_iter().flatten());
         columns.extend(numbers(study, sharers, rows.answers));
         columns
     });

@@ -1,0 +1,169 @@
+//! `armill compare`: the same path in several cells, side by side.
+//!
+//! Files go into `--out` (`compare` beside the first study). Stdout holds a table an ask, paths first, each with its ranking
+//! in a sentence, what differs, and what makes it doubtful; or with `--json` all of `result.json`.
+
+use armill_study::StudyError;
+use armill_study::compare::{
+    CellNumbers, ComparedAnswer, ComparisonAnswer, cells, comparable, compare, write,
+};
+use armill_study::output::{self, Pictures};
+use armill_study::studies;
+
+use super::run::in_pool;
+use crate::Outcome;
+use crate::arguments::CompareArguments;
+use crate::progress::Progress;
+use crate::terminal::{Align, columns, print, say};
+
+/// Compares and writes.
+///
+/// # Errors
+/// No study there, its problems, or nothing to compare; a folder where nothing can be written, told before any work is done.
+pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, StudyError> {
+    let of = comparable(cells(&arguments.studies, &arguments.robots)?)?;
+    let out = match (&arguments.out, arguments.studies.first()) {
+        (Some(out), _) => out.clone(),
+        (None, Some(first)) => studies::find(first)?.folder.join("compare"),
+        (None, None) => "compare".into(),
+    };
+    output::prepare(&out)?;
+    let wanted = if arguments.no_pictures {
+        Pictures::None
+    } else {
+        Pictures::Drawn
+    };
+    let compared = in_pool(arguments.threads, || {
+        let progress = Progress::new(of.point_count());
+        let compared = progress.watch(|watch| compare(&of, watch))?;
+        write(&compared, (&out, wanted), &|name| progress.tell(name))?;
+        Ok::<_, StudyError>(compared)
+    })??;
+    let answer = &compared.answer;
+    print(&if arguments.json {
+        serde_json::to_string(answer)?
+    } else {
+        as_text(answer)
+    })?;
+    for warning in &answer.warnings {
+        say(&format!("warning: {warning}"));
+    }
+    say(&format!("results in {}", out.display()));
+    Ok(Outcome::Fine)
+}
+
+/// A paragraph an ask.
+fn as_text(answer: &ComparisonAnswer) -> String {
+    let mut lines = Vec::new();
+    let mut told: Vec<String> = Vec::new();
+    for ask in &answer.asks {
+        if !lines.is_empty() {
+            lines.push(String::new());
+        }
+        lines.extend(of_ask(ask));
+        // What all asks have in common to say is said once.
+        let notes = differences(ask).into_iter().chain(ask.notes.iter().cloned());
+        for note in notes {
+            if !told.contains(&note) {
+                lines.push(note.clone());
+                told.push(note);
+            }
+        }
+    }
+    if !answer.left_out.is_empty() {
+        lines.push(String::new());
+        lines.extend(answer.left_out.iter().cloned());
+    }
+    lines.join("\n")
+}
+
+/// The ranking and the table of one ask, um.
+fn of_ask(ask: &ComparedAnswer) -> Vec<String> {
+    let head = [
+        "cell",
+        "robot",
+        "branch",
+        "compliance",
+        "reached",
+        "in limits",
+        "mean",
+        "95 %",
+        "largest",
+        "± (k=2)",
+        "normal",
+        "limit",
+        "within",
+        "mostly by",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(ask.cells.iter().map(row));
+    let aligned = [
+        Align::Left,
+        Align::Left,
+        Align::Left,
+        Align::Left,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Right,
+        Align::Left,
+    ];
+    let mut lines = vec![ask.answer.clone()];
+    lines.push("In-plane deviation in µm, best cell first:".to_owned());
+    lines.extend(
+        columns(&rows, &aligned)
+            .into_iter()
+            .map(|line| format!("  {line}")),
+    );
+    lines
+}
+
+fn row(cell: &CellNumbers) -> Vec<String> {
+    let um = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), |um| format!("{um:.1}"));
+    let of_all = |points: usize| format!("{points}/{}", cell.points);
+    let by = cell.mostly_by.as_ref().zip(cell.mostly_by_percent);
+    vec![
+        cell.cell.clone(),
+        cell.robot.clone(),
+        cell.branch.clone(),
+        if cell.compliance_assumed {
+            "assumed"
+        } else {
+            "given"
+        }
+        .to_owned(),
+        of_all(cell.reached),
+        of_all(cell.inside_joint_limits),
+        um(cell.mean_in_plane_um),
+        um(cell.p95_in_plane_um),
+        um(cell.max_in_plane_um),
+        um(cell.max_in_plane_u_um.map(|u| 2.0 * u)),
+        um(cell.max_normal_um),
+        um(Some(cell.limit_um)),
+        format!("{:.1} %", cell.fraction_within_and_inside_joint_limits * 100.0),
+        by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
+    ]
+}
+
+/// What has columns of the table.
+const IN_COLUMNS: [&str; 3] = ["robot", "compliance", "tolerance"];
+
+/// In what the cells differ besides what the table has, a line each.
+fn differences(ask: &ComparedAnswer) -> Vec<String> {
+    let differing = ask
+        .traits
+        .iter()
+        .filter(|one| one.differs && !IN_COLUMNS.contains(&one.what));
+    differing
+        .map(|one| {
+            let of = ask.cells.iter().zip(&one.of);
+            let told: Vec<String> = of.map(|(cell, told)| format!("{}: {told}", cell.cell)).collect();
+            format!("Differs: {}. {}.", one.what, told.join("; "))
+        })
+        .collect()
+}

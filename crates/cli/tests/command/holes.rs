@@ -1,0 +1,115 @@
+//! Holes as a user meets them: files of `armill run`, the same numbers as `armill pose`, cells side by side.
+
+use crate::cell::{Cell, number, numbers};
+
+const PANEL: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 150
+plane = { centre_mm = [850, 50, 300], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+tool = { flange_from_tool_mm_deg = [100, 0, 150, 0, 90, 0] }
+load = { cases_n = [[5, -10, 60]] }
+[[ask]]
+kind = "holes"
+name = "panel"
+posture.search = { step_deg = 15 }
+holes = { at_mm = [[0, 0, 0], [60, 20, 0], [-50, 60, 0]] }
+"#;
+
+/// Witness: `armill pose` at the joints that were found, in its own way.
+#[test]
+fn each_hole_deviates_as_its_posture_does() {
+    let cell = Cell::new();
+    cell.file("study.toml", PANEL);
+    let json = cell
+        .armill(&["run", "study.toml", "--json", "--no-pictures"])
+        .fine()
+        .json();
+    let each = json["holes"][0]["each"].as_array().unwrap();
+    assert_eq!(each.len(), 3);
+    for hole in each {
+        let joints: Vec<String> = numbers(&hole["joints_deg"]).iter().map(f64::to_string).collect();
+        let pose = cell
+            .armill(&[
+                "pose",
+                "yaskawa/mh12",
+                "--joints-deg",
+                &joints.join(","),
+                "--tool-mm",
+                "100,0,150,0,90,0",
+                "--wrench-n",
+                "5,-10,60",
+                "--json",
+            ])
+            .fine()
+            .json();
+        let posture = &pose["postures"][0];
+        let [x, y, z] = numbers(&posture["deviation_um"])[..] else {
+            panic!("three components");
+        };
+        // On a plate that faces up x of the part goes along -y of base, its y along x, its normal upwards.
+        let told = ["x_um", "y_um", "depth_um"].map(|key| number(&hole[key]));
+        for (told, expected) in told.into_iter().zip([-y, x, z]) {
+            // Lanes and the plain way differ by rounding.
+            assert!((told - expected).abs() < 1e-6, "{told} um and {expected} um");
+        }
+        let at = numbers(&posture["tool"]["xyz_mm"]);
+        let placed = numbers(&hole["xyz_mm"]);
+        assert!(
+            at.iter().zip(&placed).all(|(a, b)| (a - b).abs() < 1e-6),
+            "{at:?} {placed:?}"
+        );
+    }
+}
+
+#[test]
+fn a_run_leaves_table_pictures_and_report() {
+    let cell = Cell::new();
+    cell.file("study.toml", PANEL);
+    let said = cell.armill(&["run", "study.toml"]).fine();
+    assert!(
+        said.out.starts_with("panel: ") && said.out.contains("of 3 holes hold 150 µm"),
+        "{}",
+        said.out
+    );
+    for name in [
+        "panel.csv",
+        "panel.parquet",
+        "panel.vtp",
+        "panel-holes.svg",
+        "panel-holes.png",
+        "panel-shares.svg",
+    ] {
+        assert!(cell.at("out").join(name).is_file(), "{name}");
+    }
+    let text = |name: &str| std::fs::read_to_string(cell.at("out").join(name)).unwrap();
+    let table = text("panel.csv");
+    assert!(table.contains("hole_x_um,hole_y_um,depth_um"), "{table}");
+    assert_eq!(table.lines().filter(|line| !line.starts_with('#')).count(), 4);
+    assert!(text("panel-holes.svg").contains("deviations drawn ×"));
+    assert!(text("report.html").contains("hole by hole, worst first"));
+    assert!(text("panel.vtp").contains("NumberOfVerts=\"3\""));
+    let strict = cell.armill(&["run", "study.toml", "--strict", "--no-pictures"]);
+    assert_eq!(strict.code, i32::from(!said.out.contains("3 of 3 holes")));
+}
+
+#[test]
+fn cells_are_compared_by_their_holes() {
+    let cell = Cell::new();
+    cell.file("study.toml", PANEL);
+    let said = cell
+        .armill(&[
+            "compare",
+            "study.toml",
+            "--robot",
+            "fanuc/r2000ic",
+            "--no-pictures",
+        ])
+        .fine();
+    assert!(said.out.starts_with("panel: fanuc/r2000ic"), "{}", said.out);
+    assert!(
+        said.out.contains("the holes") || said.out.contains("all holes"),
+        "{}",
+        said.out
+    );
+    assert!(said.out.contains("3/3"), "{}", said.out);
+}

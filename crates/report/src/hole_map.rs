@@ -1,0 +1,233 @@
+//! Holes as they come out: each where it is, coloured by its deviation, with an arrow to where its axis goes.
+//!
+//! Arrows are drawn at one magnification, 1, 2 or 5 times a power of ten, so that the longest takes about a sixth of the
+//! extent of the holes; it stands below the drawing with an arrow of known length. A hole without a value is a cross.
+
+use crate::arrow::draw_arrow;
+use crate::axis::extent;
+use crate::colour::{ColourScale, INK, LIMIT, NOMINAL};
+use crate::colour_bar::ColourBar;
+use crate::legend::{Entry, Key, draw_cross};
+use crate::levels::Levels;
+use crate::limit;
+use crate::page::{BORDER_PX, Heading, LEAST_WIDTH_PX, SMALL_PX};
+use crate::plane::{AxisLabels, BELOW_PX, Plane, Window};
+use crate::svg::{Point, Style, Svg, Text};
+use crate::vector_field::{Arrow, LONGEST_ARROW, Magnified};
+
+/// Largest drawing: width, height.
+const MOST_PX: [f64; 2] = [560.0, 480.0];
+/// Radius of a hole; of one over the limit a ring lies round it.
+const HOLE_PX: f64 = 5.0;
+const RING_PX: f64 = 7.5;
+/// Holes of more than so many are drawn smaller.
+const MANY: usize = 400;
+
+/// One hole.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HoleMark {
+    /// Where, along the axes of the picture.
+    pub at_mm: [f64; 2],
+    /// How its axis moves along them.
+    pub error_um: [f64; 2],
+    /// The deviation that counts; none where it is out of reach.
+    pub deviation_um: Option<f64>,
+    /// What is written beside it; nothing for most.
+    pub name: String,
+}
+
+/// What a picture of holes shows; numbers that are not finite are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct HoleMap {
+    /// First line, bold.
+    pub title: String,
+    /// Second line.
+    pub subtitle: String,
+    /// Axis labels with units.
+    pub axes: AxisLabels,
+    /// What the colours mean, with unit.
+    pub quantity: String,
+    /// Permissible deviation; one that is not finite counts as none.
+    pub limit_um: Option<f64>,
+    /// Colours.
+    pub scale: ColourScale,
+    /// The holes.
+    pub holes: Vec<HoleMark>,
+}
+
+impl HoleMap {
+    /// The picture as a complete SVG document; no hole, or none that is reached, gives a picture that says so.
+    pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let Some((window, span_mm)) = self.window() else {
+            return heading.notice("There is nothing to draw: there are no holes.");
+        };
+        let Some(levels) = Levels::covering(self.holes.iter().filter_map(|hole| hole.deviation_um)) else {
+            return heading.notice("The robot reaches no hole.");
+        };
+        let bar = ColourBar {
+            levels: &levels,
+            scale: self.scale,
+            quantity: &self.quantity,
+            limit_um: self.limit_um,
+        };
+        let plane = Plane::beside_axis(window, MOST_PX);
+        let width = bar.beside(plane.area).right() + BORDER_PX;
+        let mut page = heading.page(width.max(LEAST_WIDTH_PX));
+        let plane = plane.lowered_to(page.top_px + 4.0);
+        let bar_area = bar.beside(plane.area);
+        let sizes = self.arrows().map(|a| a.deviation_um[0].hypot(a.deviation_um[1]));
+        let magnified = Magnified::new(sizes.fold(0.0, f64::max), span_mm);
+        page.svg.clipped(plane.area, |svg| {
+            for arrow in self.arrows() {
+                let ends = [plane.at(arrow.at_mm), plane.at(magnified.tip_mm(&arrow))];
+                draw_arrow(svg, ends, INK);
+            }
+            for hole in self.finite() {
+                self.draw_hole(svg, plane.at(hole.at_mm), (hole, &levels));
+            }
+        });
+        plane.draw_axes(&mut page.svg, &self.axes);
+        bar.draw(&mut page.svg, bar_area);
+        let left = plane.area.x;
+        let scale_y = bar_area.bottom().max(plane.area.bottom() + BELOW_PX) + 14.0;
+        magnified.draw_scale(&mut page.svg, [left, scale_y], plane.px_per_mm);
+        page.finish_with_legend(&self.entries(), [left, scale_y + 10.0])
+    }
+
+    fn finite(&self) -> impl Iterator<Item = &HoleMark> {
+        self.holes
+            .iter()
+            .filter(|hole| hole.at_mm.iter().all(|v| v.is_finite()))
+    }
+
+    /// The errors that can be drawn.
+    fn arrows(&self) -> impl Iterator<Item = Arrow> + '_ {
+        let reached = self.finite().filter(|hole| value(hole).is_some());
+        reached
+            .filter(|hole| hole.error_um.iter().all(|v| v.is_finite()))
+            .map(|hole| Arrow {
+                at_mm: hole.at_mm,
+                deviation_um: hole.error_um,
+            })
+    }
+
+    /// All holes with room for their arrows, and the longer side; `None` without a hole.
+    fn window(&self) -> Option<(Window, f64)> {
+        let along = |k: usize| extent(self.finite().map(move |hole| hole.at_mm[k]));
+        let ((left, right), (bottom, top)) = (along(0)?, along(1)?);
+        // Of one hole, or holes in one place, some millimetres round it.
+        let span = (right - left).max(top - bottom).max(10.0);
+        let margin = 1.25 * LONGEST_ARROW * span;
+        let window = Window {
+            left_mm: left - margin,
+            right_mm: right + margin,
+            bottom_mm: bottom - margin,
+            top_mm: top + margin,
+        };
+        Some((window, span))
+    }
+
+    fn draw_hole(&self, svg: &mut Svg, at: Point, (hole, levels): (&HoleMark, &Levels)) {
+        let small = if self.holes.len() > MANY { 0.5 } else { 1.0 };
+        let [x, y] = at;
+        match value(hole) {
+            Some(um) => {
+                if self.is_over(um) {
+                    svg.circle(at, RING_PX * small, &Style::line(LIMIT, 1.8 * small));
+                }
+                let band = levels.inner_um().iter().take_while(|edge| um > **edge).count();
+                let fill = Style::fill(levels.colour(band, self.scale)).outlined(INK, 0.8 * small);
+                svg.circle(at, HOLE_PX * small, &fill);
+            }
+            None => {
+                draw_cross(svg, at, (HOLE_PX * small, &lost_style()));
+            }
+        }
+        if !hole.name.is_empty() {
+            let text = Text::new(SMALL_PX).bold().halo(3.0);
+            // On the side that the arrow does not take.
+            let up = hole.error_um[1] <= 0.0 || value(hole).is_none();
+            let by = if up { -RING_PX - 4.0 } else { RING_PX + 12.0 };
+            svg.text([x, y + by], &hole.name, &text.middle());
+        }
+    }
+
+    fn is_over(&self, um: f64) -> bool {
+        self.limit_um.is_some_and(|limit| limit.is_finite() && um > limit)
+    }
+
+    fn entries(&self) -> Vec<Entry> {
+        let mut entries = Vec::new();
+        let over = self.holes.iter().filter_map(value).any(|um| self.is_over(um));
+        match self.limit_um.filter(|limit| limit.is_finite()) {
+            Some(limit) if over => {
+                let ring = Key::Dot(Style::line(LIMIT, 1.8));
+                entries.push(Entry::new(ring, format!("over the {}", limit::label(limit))));
+            }
+            limit => entries.extend(limit::entry_over(limit, self.holes.iter().filter_map(value))),
+        }
+        if self.holes.iter().any(|hole| value(hole).is_none()) {
+            entries.push(Entry::new(Key::Cross(lost_style()), "out of reach"));
+        }
+        entries
+    }
+}
+
+fn value(hole: &HoleMark) -> Option<f64> {
+    hole.deviation_um.filter(|um| um.is_finite())
+}
+
+fn lost_style() -> Style {
+    Style::line(NOMINAL, 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hole(x: f64, um: Option<f64>) -> HoleMark {
+        HoleMark {
+            at_mm: [x, 10.0],
+            error_um: [um.unwrap_or(f64::NAN), 3.0],
+            deviation_um: um,
+            name: String::new(),
+        }
+    }
+
+    #[test]
+    fn what_is_over_the_limit_or_out_of_reach_is_told_in_the_legend_only_where_there_is_such() {
+        let of = |holes: Vec<HoleMark>| {
+            HoleMap {
+                limit_um: Some(50.0),
+                holes,
+                ..HoleMap::default()
+            }
+            .to_svg()
+        };
+        let mixed = of(vec![
+            hole(0.0, Some(20.0)),
+            hole(50.0, Some(80.0)),
+            hole(90.0, None),
+        ]);
+        assert!(mixed.contains("over the limit 50 µm") && mixed.contains(">out of reach<"));
+        assert!(mixed.contains("deviations drawn ×") && !mixed.contains("NaN"));
+        let fine = of(vec![hole(0.0, Some(20.0)), hole(50.0, Some(30.0))]);
+        assert!(!fine.contains("over the limit") && !fine.contains("out of reach"));
+    }
+
+    #[test]
+    fn a_single_hole_is_drawn_and_none_is_told() {
+        let one = HoleMap {
+            holes: vec![hole(0.0, Some(20.0))],
+            ..HoleMap::default()
+        };
+        assert!(one.to_svg().contains("<circle"));
+        assert!(HoleMap::default().to_svg().contains("no holes"));
+        let lost = HoleMap {
+            holes: vec![hole(0.0, None)],
+            ..HoleMap::default()
+        };
+        assert!(lost.to_svg().contains("reaches no hole"));
+    }
+}

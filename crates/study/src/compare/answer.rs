@@ -1,0 +1,275 @@
+//! The comparison as one JSON value.
+//!
+//! `cells[]` are what was compared, in the order given; `asks[]` what they were asked alike, paths first, each with its
+//! cells best first.
+
+use std::cmp::Ordering;
+
+use armill_formats::sources::Source;
+use serde::Serialize;
+
+use super::cells::Cell;
+use super::curve::Curve;
+use super::numbers::CellNumbers;
+use super::sentence;
+use super::traits::TraitAnswer;
+use super::{Comparable, Compared, Entry};
+use crate::answer::StudyAnswer;
+use crate::file::path::PathAsk;
+use crate::file::resolve::Subject;
+
+/// The whole comparison.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComparisonAnswer {
+    /// Version of this format.
+    pub format: u32,
+    /// Version of armill that gave it.
+    pub armill: &'static str,
+    /// The first ask in one sentence.
+    pub answer: String,
+    /// What was compared.
+    pub cells: Vec<CellAnswer>,
+    /// What was asked of two cells at least.
+    pub asks: Vec<ComparedAnswer>,
+    /// What was not compared, a sentence each.
+    pub left_out: Vec<String>,
+    /// What to know before trusting it, with the cell that it is about.
+    pub warnings: Vec<String>,
+    /// Where the numbers come from, of all cells.
+    pub sources: Vec<Source>,
+}
+
+/// One cell.
+#[derive(Clone, Debug, Serialize)]
+pub struct CellAnswer {
+    /// Its name.
+    pub name: String,
+    /// File of its study.
+    pub study: String,
+    /// Title of its study.
+    pub title: String,
+    /// Its robot.
+    pub robot: String,
+    /// Maker and type of that.
+    pub robot_title: String,
+    /// Whether its joint compliances are assumed, not measured.
+    pub compliance_assumed: bool,
+    /// What to know before trusting its numbers.
+    #[serde(skip)]
+    pub(super) warnings: Vec<String>,
+    #[serde(skip)]
+    pub(super) sources: Vec<Source>,
+}
+
+/// One ask in all cells that have it.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComparedAnswer {
+    /// Its name; of a section with the label.
+    pub name: String,
+    /// `path`, `holes`, `map` or `volume`.
+    pub kind: &'static str,
+    /// Which cell is best, in a sentence.
+    pub answer: String,
+    /// The cells, best first.
+    pub cells: Vec<CellNumbers>,
+    /// What the cells are, in the same order.
+    pub traits: Vec<TraitAnswer>,
+    /// What to know of this comparison.
+    pub notes: Vec<String>,
+}
+
+impl CellAnswer {
+    /// A cell after its run.
+    pub(super) fn of(cell: &Cell, answer: &StudyAnswer) -> CellAnswer {
+        CellAnswer {
+            name: cell.name.clone(),
+            study: cell.shown.clone(),
+            title: answer.title.clone(),
+            robot: answer.robot.name.clone(),
+            robot_title: answer.robot.title.clone(),
+            compliance_assumed: answer.robot.compliance_assumed,
+            warnings: answer.warnings.clone(),
+            sources: answer.sources.clone(),
+        }
+    }
+}
+
+/// All entries by name, paths first, then holes, maps and volumes, each kind in the order given.
+pub(super) fn put_together(of: &Comparable, entries: Vec<Entry>, cells: Vec<CellAnswer>) -> Compared {
+    let mut groups: Vec<Vec<Entry>> = Vec::new();
+    for entry in entries {
+        let same = |group: &&mut Vec<Entry>| {
+            let first = group.first().map(|first| (&first.asked.name, first.asked.kind));
+            first == Some((&entry.asked.name, entry.asked.kind))
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.push(entry),
+            None => groups.push(vec![entry]),
+        }
+    }
+    let place = |group: &Vec<Entry>| {
+        let kind = group.first().map(|first| first.asked.kind);
+        ["path", "holes", "map", "volume"]
+            .into_iter()
+            .position(|one| Some(one) == kind)
+    };
+    groups.sort_by_key(place);
+    let (mut asks, mut curves, mut left_out) = (Vec::new(), Vec::new(), of.left_out.clone());
+    for group in groups {
+        if let [alone] = &group[..] {
+            let name = &cells[alone.cell].name;
+            left_out.push(format!("`{}` is asked of {name} alone.", alone.asked.name));
+            continue;
+        }
+        let (told, drawn) = compared(of, group, &cells);
+        asks.push(told);
+        curves.push(drawn);
+    }
+    let answer = ComparisonAnswer {
+        format: 1,
+        armill: env!("CARGO_PKG_VERSION"),
+        answer: asks.first().map_or_else(String::new, in_a_sentence),
+        asks,
+        left_out,
+        warnings: warnings(&cells),
+        sources: sources(&cells),
+        cells,
+    };
+    Compared { answer, curves }
+}
+
+/// Which cell is best, and whose compliances nobody measured.
+fn in_a_sentence(first: &ComparedAnswer) -> String {
+    match sentence::assumed(&first.cells) {
+        Some(assumed) => format!("{} {assumed}", first.answer),
+        None => first.answer.clone(),
+    }
+}
+
+/// One ask, its cells best first.
+fn compared(of: &Comparable, mut group: Vec<Entry>, cells: &[CellAnswer]) -> (ComparedAnswer, Vec<Curve>) {
+    let first = group
+        .first()
+        .map(|entry| (entry.asked.name.clone(), entry.asked.kind));
+    let (name, kind) = first.unwrap_or_default();
+    let mut notes = unlike_paths(of, &group, &name);
+    group.sort_by(|a, b| better(&a.asked.numbers, &b.asked.numbers));
+    let traits = traits(&group);
+    let (mut numbers, mut curves) = (Vec::new(), Vec::new());
+    for entry in group {
+        let cell = &cells[entry.cell];
+        numbers.push(CellNumbers {
+            cell: cell.name.clone(),
+            robot: cell.robot.clone(),
+            compliance_assumed: cell.compliance_assumed,
+            ..entry.asked.numbers
+        });
+        curves.extend(entry.curve);
+    }
+    let of_arm = |one: &&TraitAnswer| ["robot", "compliance"].contains(&one.what);
+    let same_arm = |index: usize| {
+        let mut arms = traits.iter().filter(of_arm);
+        arms.all(|one| one.of[index] == one.of[index + 1])
+    };
+    notes.extend(sentence::doubts(&numbers, same_arm));
+    let told = ComparedAnswer {
+        answer: sentence::ranking(&name, kind, &numbers),
+        name,
+        kind,
+        cells: numbers,
+        traits,
+        notes,
+    };
+    (told, curves)
+}
+
+/// Which of two cells is better: `Less` where `a` is.
+fn better(a: &CellNumbers, b: &CellNumbers) -> Ordering {
+    let holds = |of: &CellNumbers| of.fraction_within_and_inside_joint_limits;
+    let reaches = |of: &CellNumbers| of.inside_joint_limits as f64 / of.points.max(1) as f64;
+    let largest = |of: &CellNumbers| of.max_in_plane_um.unwrap_or(f64::INFINITY);
+    let by = holds(b).total_cmp(&holds(a));
+    by.then(reaches(b).total_cmp(&reaches(a)))
+        .then(largest(a).total_cmp(&largest(b)))
+}
+
+/// What the cells are: a row a trait, whether they differ in it or not.
+fn traits(group: &[Entry]) -> Vec<TraitAnswer> {
+    let rows = group.first().map_or(0, |entry| entry.traits.len());
+    (0..rows)
+        .map(|row| {
+            let of: Vec<String> = group.iter().map(|entry| entry.traits[row].1.clone()).collect();
+            TraitAnswer {
+                what: group[0].traits[row].0,
+                differs: of.iter().any(|one| *one != of[0]),
+                of,
+            }
+        })
+        .collect()
+}
+
+/// Points of two paths nearer than this are the same, m: what reading a coordinate may leave.
+const SAME: f64 = 1e-6;
+
+/// Paths of one name that are not one path, told against the first; each in its own frame, wherever that lies.
+fn unlike_paths(of: &Comparable, group: &[Entry], name: &str) -> Vec<String> {
+    let path = |entry: &Entry| {
+        let asks = &of.cells[entry.cell].study.asks;
+        asks.iter().find_map(|ask| match &ask.subject {
+            Subject::Path(path) if ask.name == name => Some(&**path),
+            Subject::Holes(holes) if ask.name == name => Some(&holes.path),
+            _ => None,
+        })
+    };
+    let Some((first, reference)) = group.first().and_then(|entry| Some((entry, path(entry)?))) else {
+        return Vec::new();
+    };
+    let unlike = |entry: &Entry| {
+        let other = path(entry)?;
+        let [here, there] = [first, entry].map(|entry| &of.cells[entry.cell].name);
+        let pairs = reference.track.path.points.iter().zip(&other.track.path.points);
+        let apart = pairs.map(|(a, b)| (a.at - b.at).norm()).fold(0.0, f64::max);
+        if reference.track.len() == other.track.len() && apart <= SAME {
+            return None;
+        }
+        let size = |path: &PathAsk| format!("{} points over {:.1} mm", path.track.len(), path.length() * 1e3);
+        let how = match reference.track.len() == other.track.len() {
+            true => format!("points lie up to {:.3} mm apart", apart * 1e3),
+            false => format!("{} against {}", size(reference), size(other)),
+        };
+        Some(format!(
+            "The paths `{name}` of {here} and {there} are not the same: {how}."
+        ))
+    };
+    group.iter().skip(1).filter_map(unlike).collect()
+}
+
+/// Warnings of the cells: once what all say, else with the cell's name.
+fn warnings(cells: &[CellAnswer]) -> Vec<String> {
+    let mut told = Vec::new();
+    for cell in cells {
+        for warning in &cell.warnings {
+            let all = cells.iter().all(|other| other.warnings.contains(warning));
+            let said = if all {
+                warning.clone()
+            } else {
+                format!("{}: {warning}", cell.name)
+            };
+            if !told.contains(&said) {
+                told.push(said);
+            }
+        }
+    }
+    told
+}
+
+/// Sources of all cells, each once.
+fn sources(cells: &[CellAnswer]) -> Vec<Source> {
+    let mut told: Vec<Source> = Vec::new();
+    for source in cells.iter().flat_map(|cell| &cell.sources) {
+        if !told.contains(source) {
+            told.push(source.clone());
+        }
+    }
+    told
+}

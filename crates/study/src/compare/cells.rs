@@ -1,0 +1,216 @@
+//! Which cells are compared: studies as they stand, and each of them with other robots in place of its own.
+//!
+//! | given | cells | called |
+//! |---|---|---|
+//! | studies | each as it stands | by their folders |
+//! | one study, robots | as it stands, then with each robot | by their robots |
+//! | studies, robots | each as it stands and with each robot | `FOLDER`, `FOLDER with ROBOT` |
+//!
+//! A robot that is a study's own makes no second cell of it.
+
+use std::path::{Path, PathBuf};
+
+use armill_formats::document::{Problem, Problems};
+use armill_formats::robot::RobotDescription;
+
+use crate::error::StudyError;
+use crate::file::other_robot;
+use crate::file::resolve::Study;
+use crate::library;
+use crate::robots;
+use crate::studies::{self, FoundStudy};
+
+/// Cells that are compared at most: more lines no picture shows.
+const MOST_CELLS: usize = 40;
+
+/// One set-up to compare.
+#[derive(Clone, Debug)]
+pub struct Cell {
+    /// What it is called.
+    pub name: String,
+    /// What errors call its study.
+    pub shown: String,
+    /// What is asked of it.
+    pub study: Study,
+}
+
+/// The cells that these studies (folders, files, names of examples) make with these robots (of the library, or files
+/// relative to the current folder).
+///
+/// # Errors
+/// What is wrong in any study or robot, all together; fewer than two cells, or too many; a study twice.
+pub fn cells(given: &[PathBuf], robot_names: &[String]) -> Result<Vec<Cell>, StudyError> {
+    let mut errors = Vec::new();
+    let mut keep = |error| errors.push(error);
+    let mut others: Vec<Other> = Vec::new();
+    for name in robot_names {
+        match robots::find(name, Path::new(".")) {
+            Ok(robot) if others.iter().any(|other| other.name() == robot.robot.name()) => {
+                let message = format!("--robot: `{name}` is given twice");
+                keep(StudyError::value(message, "each robot once"));
+            }
+            Ok(robot) => others.push(Other {
+                found_as: wherever(name),
+                robot,
+            }),
+            Err(error) => keep(error),
+        }
+    }
+    let mut found: Vec<FoundStudy> = Vec::new();
+    for path in given {
+        match studies::find(path) {
+            Ok(study) if found.iter().any(|other| same_file(&other.shown, &study.shown)) => {
+                let message = format!("the study {} is given twice", study.shown);
+                keep(StudyError::value(
+                    message,
+                    "each study once; a robot in its place: --robot NAME",
+                ));
+            }
+            Ok(study) => found.push(study),
+            Err(error) => keep(error),
+        }
+    }
+    let labels = labels(&found);
+    let mut cells = Vec::new();
+    for (study, label) in found.iter().zip(labels) {
+        match study.read() {
+            Ok(own) => {
+                for other in others
+                    .iter()
+                    .filter(|other| other.name() != own.robot.robot.name())
+                {
+                    match other.in_place(study) {
+                        Ok(swapped) => cells.push((Some(other), label.clone(), study, swapped)),
+                        Err(error) => keep(error),
+                    }
+                }
+                // The study as it stands comes before its other robots.
+                let at = cells.iter().position(|(_, of, ..)| *of == label);
+                cells.insert(at.unwrap_or(cells.len()), (None, label, study, own));
+            }
+            Err(error) => keep(error),
+        }
+    }
+    together(errors)?;
+    let one_study = found.len() == 1;
+    let cells: Vec<Cell> = cells
+        .into_iter()
+        .map(|(robot, label, of, study)| Cell {
+            name: match robot {
+                _ if one_study => study.robot.robot.name().to_owned(),
+                Some(other) => format!("{label} with {}", other.name()),
+                None => label,
+            },
+            shown: of.shown.clone(),
+            study,
+        })
+        .collect();
+    match cells.len() {
+        0 | 1 => Err(StudyError::value(
+            "one study with its own robot is one cell: there is nothing to compare it with",
+            "another study, or the same with another robot: --robot kuka/kr120r2500pro (`armill robots` lists them)",
+        )),
+        n if n > MOST_CELLS => Err(StudyError::value(
+            format!("{n} cells are more than the {MOST_CELLS} that can be told apart"),
+            "compare in groups",
+        )),
+        _ => Ok(cells),
+    }
+}
+
+/// A robot to put in place of others.
+struct Other {
+    /// What a study finds it by.
+    found_as: String,
+    robot: RobotDescription,
+}
+
+impl Other {
+    fn name(&self) -> &str {
+        self.robot.robot.name()
+    }
+
+    /// This study with it.
+    ///
+    /// # Errors
+    /// Every problem of the file, with the robot's name behind that of the file; a study that cannot be asked for it.
+    fn in_place(&self, study: &FoundStudy) -> Result<Study, StudyError> {
+        let study = FoundStudy {
+            shown: format!("{} (with {})", study.shown, self.name()),
+            ..study.clone()
+        };
+        let mut fits = Ok(());
+        let read = study.read_changed(|file| {
+            fits = other_robot::put(file, (&self.found_as, &self.robot));
+        });
+        match fits {
+            Err(StudyError::Value { message, hint }) => {
+                Err(StudyError::value(format!("{}: {message}", study.shown), hint))
+            }
+            Err(other) => Err(other),
+            Ok(()) => read,
+        }
+    }
+}
+
+/// What a study in any folder finds a robot by: the name in the library, else the whole path of its file.
+fn wherever(name: &str) -> String {
+    let path =
+        || std::path::absolute(name).map_or_else(|_| name.to_owned(), |path| path.display().to_string());
+    match library::robot(name) {
+        Some(_) => name.to_owned(),
+        None => path(),
+    }
+}
+
+/// Whether two studies are one file, however their paths are written.
+fn same_file(a: &str, b: &str) -> bool {
+    let whole = |shown: &str| std::fs::canonicalize(shown).unwrap_or_else(|_| PathBuf::from(shown));
+    whole(a) == whole(b)
+}
+
+/// What studies are called: by their folders, by their whole paths where folders have the same name.
+fn labels(found: &[FoundStudy]) -> Vec<String> {
+    let short = |study: &FoundStudy| {
+        let file = Path::new(&study.shown);
+        let plain = file.file_name().is_some_and(|name| name == "study.toml");
+        let of = if plain { file.parent() } else { None };
+        let name = of.and_then(Path::file_name).or(file.file_stem());
+        name.map_or_else(|| study.shown.clone(), |name| name.to_string_lossy().into_owned())
+    };
+    let short: Vec<String> = found.iter().map(short).collect();
+    let unlike = |i: usize| short.iter().filter(|other| **other == short[i]).count() == 1;
+    (0..found.len())
+        .map(|i| match unlike(i) {
+            true => short[i].clone(),
+            false => found[i].shown.clone(),
+        })
+        .collect()
+}
+
+/// Nothing where nothing is wrong; else the problems of all files, or where no file is wrong everything else in one.
+fn together(errors: Vec<StudyError>) -> Result<(), StudyError> {
+    let (mut problems, mut values): (Vec<Problem>, Vec<[String; 2]>) = (Vec::new(), Vec::new());
+    for error in errors {
+        match error {
+            StudyError::Problems(of_file) => {
+                problems.extend(
+                    of_file
+                        .into_iter()
+                        .filter(|problem| !problems.contains(problem))
+                        .collect::<Vec<_>>(),
+                );
+            }
+            StudyError::Value { message, hint } => values.push([message, hint]),
+            other => return Err(other),
+        }
+    }
+    // Each with its own hint, as if they were told one after the other.
+    let told = values.into_iter().reduce(|[first, hint], [message, next_hint]| {
+        [format!("{first}\n  help: {hint}\nerror: {message}"), next_hint]
+    });
+    if let Some([message, hint]) = told {
+        return Err(StudyError::value(message, hint));
+    }
+    Ok(Problems::from(problems).into_result()?)
+}

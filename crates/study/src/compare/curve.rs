@@ -1,0 +1,31 @@
+//! The in-plane deviation along a path, short enough for a chart.
+
+use armill_core::kernel::Answers;
+
+use crate::file::path::PathAsk;
+use crate::output::along::Handfuls;
+
+/// Deviation over distance.
+#[derive(Clone, Debug)]
+pub(super) struct Curve {
+    /// Distance along the path.
+    pub position_mm: Vec<f64>,
+    /// Deviation; NaN where no point is reached.
+    pub in_plane_um: Vec<f64>,
+}
+
+impl Curve {
+    /// Along this path.
+    pub(super) fn along(ask: &PathAsk, answers: &Answers) -> Curve {
+        let points = &ask.track.path.points;
+        let handfuls = Handfuls::of(points.len());
+        let in_plane = |i: usize| match &answers.points[i] {
+            Ok(held) => held.in_plane * 1e6,
+            Err(_) => f64::NAN,
+        };
+        Curve {
+            position_mm: handfuls.positions_mm(points),
+            in_plane_um: handfuls.largest(in_plane),
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! One ask in one cell, in numbers.
+//!
+//! `95 %`: the least deviation that 95 of 100 reached points keep (nearest rank). Points count alike, however far they lie
+//! apart.
+
+use armill_core::kernel::Answers;
+use armill_core::map::Counts;
+use serde::Serialize;
+
+use crate::answer::{
+    CountsAnswer, HolesAnswer, MapAnswer, PathAnswer, PointAnswer, SettingAnswer, VolumeAnswer,
+};
+use crate::file::path::PathAsk;
+
+/// One ask in one cell.
+#[derive(Clone, Debug, Serialize)]
+pub struct CellNumbers {
+    /// Which cell.
+    pub cell: String,
+    /// Its robot.
+    pub robot: String,
+    /// Whether the joint compliances of its robot are assumed, not measured.
+    pub compliance_assumed: bool,
+    /// Branch that was followed, or asked for.
+    pub branch: String,
+    /// How many points.
+    pub points: usize,
+    /// Points with a posture.
+    pub reached: usize,
+    /// Points with a posture inside the joint limits.
+    pub inside_joint_limits: usize,
+    /// Points by reason.
+    pub counts: CountsAnswer,
+    /// The tolerance.
+    pub limit_um: f64,
+    /// Mean of the in-plane deviations.
+    pub mean_in_plane_um: Option<f64>,
+    /// The in-plane deviation that 95 of 100 points keep.
+    pub p95_in_plane_um: Option<f64>,
+    /// Largest in-plane deviation.
+    pub max_in_plane_um: Option<f64>,
+    /// Its standard uncertainty; none where nothing of it is known.
+    pub max_in_plane_u_um: Option<f64>,
+    /// Largest deviation along the normal (along the tool, of a path), by size.
+    pub max_normal_um: Option<f64>,
+    /// Points within the limit over all points.
+    pub fraction_within: f64,
+    /// The same, of points inside the joint limits only.
+    pub fraction_within_and_inside_joint_limits: f64,
+    /// What has the largest share where the deviation is largest: a joint, or base, flange or tool.
+    pub mostly_by: Option<String>,
+    /// Its share there.
+    pub mostly_by_percent: Option<f64>,
+}
+
+/// One ask as one cell has answered it.
+pub(super) struct Asked {
+    /// Its name; of a section with the label.
+    pub name: String,
+    /// `path`, `holes`, `map` or `volume`.
+    pub kind: &'static str,
+    /// Its numbers; cell and robot are still to be named.
+    pub numbers: CellNumbers,
+}
+
+impl Asked {
+    /// A path.
+    pub(super) fn path(told: &PathAnswer, (ask, answers): (&PathAsk, &Answers)) -> Asked {
+        let branch = told.followed_branch.as_ref().unwrap_or(&told.branch);
+        Asked {
+            name: told.name.clone(),
+            kind: "path",
+            numbers: numbers(
+                (branch, ask.setting.limit),
+                answers,
+                told.worst.as_ref(),
+                &told.setting,
+            ),
+        }
+    }
+
+    /// A set of holes against a limit, m.
+    pub(super) fn holes(told: &HolesAnswer, limit: f64, answers: &Answers) -> Asked {
+        let worst = told.worst_holes.first().map(|worst| &worst.point);
+        Asked {
+            name: told.name.clone(),
+            kind: "holes",
+            numbers: numbers((&told.branch, limit), answers, worst, &told.setting),
+        }
+    }
+
+    /// A plane against a limit, m.
+    pub(super) fn map(told: &MapAnswer, limit: f64, answers: &Answers) -> Asked {
+        Asked {
+            name: told.name.clone(),
+            kind: "map",
+            numbers: numbers((&told.branch, limit), answers, told.worst.as_ref(), &told.setting),
+        }
+    }
+
+    /// A box against a limit, m.
+    pub(super) fn volume(told: &VolumeAnswer, limit: f64, answers: &Answers) -> Asked {
+        Asked {
+            name: told.name.clone(),
+            kind: "volume",
+            numbers: numbers((&told.branch, limit), answers, told.worst.as_ref(), &told.setting),
+        }
+    }
+}
+
+/// Points `answers` against a limit (m), worst at `worst`.
+fn numbers(
+    (branch, limit): (&str, f64),
+    answers: &Answers,
+    worst: Option<&PointAnswer>,
+    setting: &SettingAnswer,
+) -> CellNumbers {
+    let counts = Counts::of(answers, limit);
+    let mut deviations: Vec<f64> = answers.held().map(|(_, held)| held.in_plane * 1e6).collect();
+    deviations.sort_by(f64::total_cmp);
+    let reached = deviations.len();
+    let normal = answers.held().map(|(_, held)| held.normal.abs() * 1e6);
+    let share = worst.and_then(PointAnswer::largest_share);
+    CellNumbers {
+        cell: String::new(),
+        robot: String::new(),
+        compliance_assumed: false,
+        branch: branch.to_owned(),
+        points: answers.points.len(),
+        reached,
+        inside_joint_limits: reached - counts.outside_joint_limits,
+        limit_um: setting.limit_um,
+        mean_in_plane_um: (reached > 0).then(|| deviations.iter().sum::<f64>() / reached as f64),
+        p95_in_plane_um: nearest_rank(&deviations, 0.95),
+        max_in_plane_um: deviations.last().copied(),
+        max_in_plane_u_um: worst.map(|worst| worst.in_plane_u_um).filter(|u| *u > 0.0),
+        max_normal_um: normal.max_by(f64::total_cmp),
+        fraction_within: counts.fraction_within(),
+        fraction_within_and_inside_joint_limits: counts.fraction_within_and_inside_joint_limits(),
+        counts: CountsAnswer::of(&counts),
+        mostly_by: share.map(|(index, _)| setting.shares_of[index].clone()),
+        mostly_by_percent: share.and_then(|(_, part)| part).map(|part| part * 100.0),
+    }
+}
+
+/// The least of `sorted` that at least this part of them does not exceed.
+fn nearest_rank(sorted: &[f64], part: f64) -> Option<f64> {
+    let rank = (part * sorted.len() as f64).ceil() as usize;
+    sorted.get(rank.max(1) - 1).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rank_of_95_percent_is_that_of_the_textbook() {
+        let numbers: Vec<f64> = (1..=20).map(f64::from).collect();
+        assert_eq!(nearest_rank(&numbers, 0.95), Some(19.0));
+        assert_eq!(nearest_rank(&numbers[..3], 0.95), Some(3.0));
+        assert_eq!(nearest_rank(&numbers[..1], 0.95), Some(1.0));
+        assert_eq!(nearest_rank(&[], 0.95), None);
+    }
+}

@@ -1,0 +1,328 @@
+//! What a comparison leaves behind: `result.json`, a table, pictures and a report in one folder.
+//!
+//! ```text
+//! result.json              the answer
+//! report.html              ranking, what differs, tables, pictures, warnings
+//! cells.csv                a row an ask and cell
+//! ASK-cells.svg, .png      mean, 95 % and largest deviation of each cell against the tolerance
+//! ASK-along.svg, .png      of a path the deviation of each cell along it
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::html::{Report, Table as Rows};
+use armill_report::{ComparedCell, Comparison, PathPlot, Series};
+
+use super::answer::{ComparedAnswer, ComparisonAnswer};
+use super::numbers::CellNumbers;
+use super::{Compared, Curve};
+use crate::error::StudyError;
+use crate::output::report::cells::{COUNT, columns, input, percent, um, without_empty_columns};
+use crate::output::{Picture, Pictures, REPORT, RESULT, picture_files, replace, save_pictures, slug};
+
+/// The table.
+const TABLE: &str = "cells.csv";
+
+/// Writes everything into `out` and gives the paths of the files; `note` hears each name as it comes, from any thread.
+///
+/// # Errors
+/// A file cannot be written.
+pub fn write(
+    compared: &Compared,
+    (out, wanted): (&Path, Pictures),
+    note: &(dyn Fn(&str) + Sync),
+) -> Result<Vec<PathBuf>, StudyError> {
+    let drawn = match wanted {
+        Pictures::Drawn => pictures(compared),
+        Pictures::None => Vec::new(),
+    };
+    let report = (wanted == Pictures::Drawn).then(|| REPORT.to_owned());
+    let names: Vec<String> = [TABLE.to_owned()]
+        .into_iter()
+        .chain(drawn.iter().flat_map(picture_files))
+        .chain(report)
+        .chain([RESULT.to_owned()])
+        .collect();
+    replace((out, &names), note, |files| {
+        files.save(TABLE, &csv::write(&table(&compared.answer)?))?;
+        save_pictures(&drawn, files)?;
+        if wanted == Pictures::Drawn {
+            files.save(REPORT, html(&compared.answer, &drawn).as_bytes())?;
+        }
+        Ok(serde_json::to_string(&compared.answer)? + "\n")
+    })
+}
+
+/// A row an ask and cell.
+fn table(answer: &ComparisonAnswer) -> Result<Table, StudyError> {
+    let rows: Vec<(&ComparedAnswer, &CellNumbers)> = answer
+        .asks
+        .iter()
+        .flat_map(|ask| ask.cells.iter().map(move |cell| (ask, cell)))
+        .collect();
+    let column = |name: &str, description: &str, data: ColumnData| Column {
+        name: name.to_owned(),
+        unit: name.ends_with("_um").then(|| "um".to_owned()),
+        description: description.to_owned(),
+        decimals: name.ends_with("_um").then_some(6),
+        data,
+    };
+    type Row<'a> = (&'a ComparedAnswer, &'a CellNumbers);
+    let text = |of: &dyn Fn(&Row<'_>) -> String| ColumnData::Text(rows.iter().map(of).collect());
+    let count = |of: &dyn Fn(&CellNumbers) -> usize| {
+        ColumnData::Integer(rows.iter().map(|(_, cell)| of(cell) as i64).collect())
+    };
+    let number = |of: &dyn Fn(&CellNumbers) -> Option<f64>| {
+        ColumnData::OptionalFloat(rows.iter().map(|(_, cell)| of(cell)).collect())
+    };
+    let columns = vec![
+        column("ask", "name of the ask", text(&|(ask, _)| ask.name.clone())),
+        column(
+            "kind",
+            "path, holes, map or volume",
+            text(&|(ask, _)| ask.kind.to_owned()),
+        ),
+        column("cell", "best first", text(&|(_, cell)| cell.cell.clone())),
+        column("robot", "its robot", text(&|(_, cell)| cell.robot.clone())),
+        column(
+            "compliance_assumed",
+            "whether its joint compliances are assumed, not measured",
+            ColumnData::Flag(rows.iter().map(|(_, cell)| cell.compliance_assumed).collect()),
+        ),
+        column(
+            "branch",
+            "followed, or asked for",
+            text(&|(_, cell)| cell.branch.clone()),
+        ),
+        column("points", "all points", count(&|cell| cell.points)),
+        column("reached", "points with a posture", count(&|cell| cell.reached)),
+        column(
+            "inside_joint_limits",
+            "points with a posture inside joint limits",
+            count(&|cell| cell.inside_joint_limits),
+        ),
+        column("limit_um", "the tolerance", number(&|cell| Some(cell.limit_um))),
+        column(
+            "mean_in_plane_um",
+            "of reached points",
+            number(&|cell| cell.mean_in_plane_um),
+        ),
+        column(
+            "p95_in_plane_um",
+            "what 95 of 100 reached points keep",
+            number(&|cell| cell.p95_in_plane_um),
+        ),
+        column("max_in_plane_um", "largest", number(&|cell| cell.max_in_plane_um)),
+        column(
+            "max_in_plane_u_um",
+            "its standard uncertainty",
+            number(&|cell| cell.max_in_plane_u_um),
+        ),
+        column(
+            "max_normal_um",
+            "largest along the normal, by size",
+            number(&|cell| cell.max_normal_um),
+        ),
+        column(
+            "fraction_within",
+            "points within the limit over all points",
+            number(&|cell| Some(cell.fraction_within)),
+        ),
+        column(
+            "fraction_within_and_inside_joint_limits",
+            "the same, of points inside joint limits only",
+            number(&|cell| Some(cell.fraction_within_and_inside_joint_limits)),
+        ),
+        column(
+            "mostly_by",
+            "largest share where the deviation is largest",
+            text(&|(_, cell)| cell.mostly_by.clone().unwrap_or_default()),
+        ),
+        column(
+            "mostly_by_percent",
+            "that share",
+            number(&|cell| cell.mostly_by_percent),
+        ),
+    ];
+    Ok(Table::new("cells", columns)?)
+}
+
+/// Two pictures of a path, one of other asks.
+fn pictures(compared: &Compared) -> Vec<Picture> {
+    let asks = compared.answer.asks.iter().zip(&compared.curves);
+    asks.flat_map(|(ask, curves)| {
+        let along = (!curves.is_empty()).then(|| along(ask, curves));
+        [ranges(ask)].into_iter().chain(along)
+    })
+    .collect()
+}
+
+/// Mean, 95 % and largest of each cell.
+fn ranges(ask: &ComparedAnswer) -> Picture {
+    let cell = |cell: &CellNumbers| ComparedCell {
+        label: cell.cell.clone(),
+        note: note(cell),
+        mean_um: cell.mean_in_plane_um,
+        p95_um: cell.p95_in_plane_um,
+        largest_um: cell.max_in_plane_um,
+        largest_uncertainty_um: cell.max_in_plane_u_um,
+        limit_um: Some(cell.limit_um),
+        result: format!("{} %", percent(cell.fraction_within_and_inside_joint_limits)),
+    };
+    let picture = Comparison {
+        title: format!("{}: which cell holds the tolerance", ask.name),
+        subtitle: "mean, 95 % and largest deviation of the points that are reached; best first".to_owned(),
+        quantity: "in-plane deviation (µm)".to_owned(),
+        result: "within".to_owned(),
+        cells: ask.cells.iter().map(cell).collect(),
+    };
+    Picture {
+        name: format!("{}-cells", slug(&ask.name)),
+        caption: format!(
+            "{}: deviation of each cell against its tolerance; at the right the points within it and inside joint limits, of all points.",
+            ask.name
+        ),
+        svg: picture.to_svg(),
+    }
+}
+
+/// What speaks against a cell, in a few words.
+fn note(cell: &CellNumbers) -> String {
+    let of_all = |points: usize, what: &str| {
+        (points > 0).then(|| format!("{points} of {} points {what}", cell.points))
+    };
+    let told = [
+        cell.compliance_assumed.then(|| "compliance assumed".to_owned()),
+        of_all(cell.points - cell.reached, "out of reach"),
+        of_all(cell.reached - cell.inside_joint_limits, "outside joint limits"),
+    ];
+    told.into_iter().flatten().collect::<Vec<_>>().join("; ")
+}
+
+/// The deviation along a path, a line a cell.
+fn along(ask: &ComparedAnswer, curves: &[Curve]) -> Picture {
+    let series = ask.cells.iter().zip(curves).map(|(cell, curve)| Series {
+        name: cell.cell.clone(),
+        position: curve.position_mm.clone(),
+        deviation_um: curve.in_plane_um.clone(),
+    });
+    let limit = ask.cells.first().map(|cell| cell.limit_um);
+    let one_limit = ask.cells.iter().all(|cell| Some(cell.limit_um) == limit);
+    let picture = PathPlot {
+        title: format!("{}: the same path in each cell", ask.name),
+        subtitle: "deviation across the tool, the largest of the load cases; gaps: out of reach".to_owned(),
+        position_label: "along the path (mm)".to_owned(),
+        quantity: "in-plane deviation (µm)".to_owned(),
+        series: series.collect(),
+        envelope: None,
+        limit_um: limit.filter(|_| one_limit),
+    };
+    Picture {
+        name: format!("{}-along", slug(&ask.name)),
+        caption: format!("{}: the deviation along the path, a line a cell.", ask.name),
+        svg: picture.to_svg(),
+    }
+}
+
+/// The page: ranking, then of each ask its numbers and what differs, then pictures.
+fn html(answer: &ComparisonAnswer, drawn: &[Picture]) -> String {
+    let names: Vec<&str> = answer.cells.iter().map(|cell| cell.name.as_str()).collect();
+    let mut report = Report::new(&format!("Compared: {}", names.join(", ")))
+        .question("Which cell holds the tolerance?")
+        .answer(&answer.answer);
+    for warning in &answer.warnings {
+        report = report.warning(warning);
+    }
+    for ask in &answer.asks {
+        report = report
+            .section(&format!("{} ({})", ask.name, ask.kind))
+            .paragraph(&ask.answer)
+            .list(&ask.notes)
+            .table(&numbers(ask))
+            .table(&traits(ask));
+        for picture in drawn.iter().filter(|picture| is_of(picture, ask)) {
+            report = report.picture(&picture.svg, &picture.caption);
+        }
+    }
+    if !answer.left_out.is_empty() {
+        report = report.section("Not compared").list(&answer.left_out);
+    }
+    let source =
+        |source: &armill_formats::sources::Source| input(&source.what, String::new(), "", &source.place);
+    report.inputs(answer.sources.iter().map(source)).to_html()
+}
+
+/// Whether a picture was drawn of this ask.
+fn is_of(picture: &Picture, ask: &ComparedAnswer) -> bool {
+    let slug = slug(&ask.name);
+    [format!("{slug}-cells"), format!("{slug}-along")].contains(&picture.name)
+}
+
+/// The cells of one ask in numbers.
+fn numbers(ask: &ComparedAnswer) -> Rows {
+    let row = |cell: &CellNumbers| {
+        let assumed = if cell.compliance_assumed { "assumed" } else { "" };
+        let by = cell.mostly_by.clone().zip(cell.mostly_by_percent);
+        vec![
+            cell.cell.clone(),
+            cell.robot.clone(),
+            cell.branch.clone(),
+            assumed.to_owned(),
+            cell.points.to_string(),
+            cell.reached.to_string(),
+            cell.inside_joint_limits.to_string(),
+            um(cell.mean_in_plane_um),
+            um(cell.p95_in_plane_um),
+            um(cell.max_in_plane_um),
+            um(cell.max_in_plane_u_um.map(|u| armill_core::map::COVERAGE * u)),
+            um(cell.max_normal_um),
+            um(Some(cell.limit_um)),
+            percent(cell.fraction_within_and_inside_joint_limits),
+            by.map_or_else(String::new, |(by, part)| format!("{by} ({part:.0} %)")),
+        ]
+    };
+    without_empty_columns(Rows {
+        caption: format!(
+            "{}: best first. Mean, 95 % and largest are of the points that are reached, ± is twice the standard uncertainty; within: \
+             points within the tolerance and inside joint limits, of all points.",
+            ask.name
+        ),
+        columns: columns(&[
+            ("cell", ""),
+            ("robot", ""),
+            ("branch", ""),
+            ("compliance", ""),
+            ("points", COUNT),
+            ("reached", COUNT),
+            ("inside joint limits", COUNT),
+            ("mean", "µm"),
+            ("95 %", "µm"),
+            ("largest", "µm"),
+            ("±", "µm"),
+            ("largest along the normal", "µm"),
+            ("tolerance", "µm"),
+            ("within", "%"),
+            ("mostly by", ""),
+        ]),
+        rows: ask.cells.iter().map(row).collect(),
+    })
+}
+
+/// What the cells are; of what all share one cell stands for all.
+fn traits(ask: &ComparedAnswer) -> Rows {
+    let names = ask.cells.iter().map(|cell| (cell.cell.as_str(), ""));
+    let heads: Vec<(&str, &str)> = [("", "")].into_iter().chain(names).collect();
+    let row = |of: &super::TraitAnswer| {
+        let told = of.of.iter().enumerate().map(|(index, told)| match of.differs {
+            false if index > 0 => "the same".to_owned(),
+            _ => told.clone(),
+        });
+        [of.what.to_owned()].into_iter().chain(told).collect()
+    };
+    Rows {
+        caption: format!("{}: what the cells are.", ask.name),
+        columns: columns(&heads),
+        rows: ask.traits.iter().map(row).collect(),
+    }
+}

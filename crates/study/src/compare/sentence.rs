@@ -1,0 +1,232 @@
+//! Which cell is best, in one sentence with the numbers that carry it; and what speaks against it.
+//!
+//! ```text
+//! groove: B holds 20 µm on 93.0 % of the path, A on 12.0 %; largest 18.2 against 61.1 µm.
+//! ```
+//!
+//! A point holds where it is within the tolerance and the arm inside its joint limits. Where cells have tolerances of their
+//! own, each is told with it.
+
+use armill_core::map::COVERAGE;
+
+use super::numbers::CellNumbers;
+use crate::answer::sentence::micrometres;
+
+/// The ranking of cells that stand best first.
+pub(super) fn ranking(name: &str, kind: &str, cells: &[CellNumbers]) -> String {
+    let (whole, of) = match kind {
+        "path" => ("the whole path", "the path"),
+        "holes" => ("all holes", "the holes"),
+        "map" => ("the whole plane", "the plane"),
+        _ => ("the whole box", "the box"),
+    };
+    let Some(first) = cells.first() else {
+        return String::new();
+    };
+    let reaches_nothing = |cell: &&CellNumbers| cell.reached == 0;
+    if cells.iter().all(|cell| cell.reached == 0) {
+        return format!("{name}: no cell reaches any point of {of}.");
+    }
+    let one_limit = cells.iter().all(|cell| cell.limit_um == first.limit_um);
+    let part = |cell: &CellNumbers| match cell.fraction_within_and_inside_joint_limits {
+        1.0 => whole.to_owned(),
+        0.0 => format!("no point of {of}"),
+        fraction => format!("{:.1} %", fraction * 100.0),
+    };
+    let holds = cells.iter().enumerate().map(|(index, cell)| {
+        let limit = micrometres(cell.limit_um);
+        let part = part(cell);
+        // The first share says of what, unless it is all or nothing of it.
+        let part = if index == 0 && part.ends_with('%') {
+            format!("{part} of {of}")
+        } else {
+            part
+        };
+        match (index, one_limit) {
+            (0, true) => format!("{} holds {limit} µm on {part}", cell.cell),
+            (_, true) => format!("{} on {part}", cell.cell),
+            (_, false) => format!("{} holds its {limit} µm on {part}", cell.cell),
+        }
+    });
+    let holds: Vec<String> = holds.collect();
+    let all = |fraction: f64| {
+        let same = |cell: &CellNumbers| cell.fraction_within_and_inside_joint_limits == fraction;
+        one_limit && cells.iter().all(same)
+    };
+    let limit = micrometres(first.limit_um);
+    let holds = if all(1.0) {
+        format!("every cell holds {limit} µm on {whole}, {} best", first.cell)
+    } else if all(0.0) {
+        format!(
+            "no cell holds {limit} µm at any point of {of}, {} comes nearest",
+            first.cell
+        )
+    } else {
+        holds.join(", ")
+    };
+    let largest: Vec<String> = cells
+        .iter()
+        .filter_map(|cell| cell.max_in_plane_um)
+        .map(micrometres)
+        .collect();
+    let largest = match &largest[..] {
+        [a, b] => format!("; largest {a} against {b} µm"),
+        several => format!("; largest {} µm", several.join(", ")),
+    };
+    let lost = cells.iter().filter(|cell| cell.inside_joint_limits < cell.points);
+    let lost = lost.map(|cell| {
+        let outside = cell.reached - cell.inside_joint_limits;
+        let reach = match cell.points - cell.reached {
+            0 => None,
+            _ if reaches_nothing(&cell) => Some("reaches no point".to_owned()),
+            n => Some(format!("does not reach {n} of {} points", cell.points)),
+        };
+        let limits = (outside > 0).then(|| {
+            format!(
+                "stands outside joint limits at {outside} of {} points",
+                cell.points
+            )
+        });
+        let told: Vec<String> = reach.into_iter().chain(limits).collect();
+        format!("; {} {}", cell.cell, told.join(" and "))
+    });
+    let lost: String = lost.collect();
+    format!("{name}: {holds}{largest}{lost}.")
+}
+
+/// What makes the ranking doubtful: neighbours of different arms whose largest deviations differ by less than is known of
+/// them, assumed compliances, cells that miss points.
+///
+/// Of two cells with one arm (`same_arm`, by the index of the first) the uncertainty is common: what is unknown of the arm
+/// changes both alike.
+pub(super) fn doubts(cells: &[CellNumbers], same_arm: impl Fn(usize) -> bool) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for (index, pair) in cells.windows(2).enumerate() {
+        if same_arm(index) {
+            continue;
+        }
+        let told = |cell: &CellNumbers| {
+            let u = cell.max_in_plane_u_um.unwrap_or(0.0);
+            Some((cell.max_in_plane_um?, COVERAGE * u))
+        };
+        let Some(((a, ua), (b, ub))) = told(&pair[0]).zip(told(&pair[1])) else {
+            continue;
+        };
+        if (a - b).abs() < ua.hypot(ub) {
+            doubts.push(format!(
+                "The largest deviations of {} and {} cannot be told apart: {} ± {} and {} ± {} µm.",
+                pair[0].cell,
+                pair[1].cell,
+                micrometres(a),
+                micrometres(ua),
+                micrometres(b),
+                micrometres(ub)
+            ));
+        }
+    }
+    doubts.extend(assumed(cells));
+    if cells.iter().any(|cell| cell.reached < cell.points) {
+        doubts.push(
+            "Mean, 95 % and largest are of the points that a cell reaches: cells that miss points are compared over fewer."
+                .to_owned(),
+        );
+    }
+    doubts
+}
+
+/// Cells whose joint compliances nobody measured, in a sentence.
+pub(super) fn assumed(cells: &[CellNumbers]) -> Option<String> {
+    let assumed = cells.iter().filter(|cell| cell.compliance_assumed);
+    let names: Vec<&str> = assumed.map(|cell| cell.cell.as_str()).collect();
+    let told = format!(
+        "The joint compliances of {} are assumed, not measured.",
+        names.join(", ")
+    );
+    (!names.is_empty()).then_some(told)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::CountsAnswer;
+
+    fn cell(name: &str, part: f64, largest: Option<f64>) -> CellNumbers {
+        CellNumbers {
+            cell: name.to_owned(),
+            robot: "r".to_owned(),
+            compliance_assumed: false,
+            branch: "best".to_owned(),
+            points: 10,
+            reached: if largest.is_some() { 10 } else { 0 },
+            inside_joint_limits: if largest.is_some() { 10 } else { 0 },
+            counts: CountsAnswer::of(&armill_core::map::Counts::default()),
+            limit_um: 20.0,
+            mean_in_plane_um: largest,
+            p95_in_plane_um: largest,
+            max_in_plane_um: largest,
+            max_in_plane_u_um: Some(4.0),
+            max_normal_um: largest,
+            fraction_within: part,
+            fraction_within_and_inside_joint_limits: part,
+            mostly_by: None,
+            mostly_by_percent: None,
+        }
+    }
+
+    #[test]
+    fn two_cells_are_told_against_each_other() {
+        let cells = [cell("b", 0.93, Some(18.2)), cell("a", 0.12, Some(61.1))];
+        assert_eq!(
+            ranking("ring", "path", &cells),
+            "ring: b holds 20 µm on 93.0 % of the path, a on 12.0 %; largest 18.2 against 61.1 µm."
+        );
+        assert!(doubts(&cells, |_| false).is_empty());
+    }
+
+    #[test]
+    fn all_nothing_and_other_tolerances_have_words_of_their_own() {
+        let mut cells = [
+            cell("b", 1.0, Some(18.2)),
+            cell("a", 0.0, Some(61.1)),
+            cell("c", 0.0, None),
+        ];
+        assert_eq!(
+            ranking("ring", "path", &cells),
+            "ring: b holds 20 µm on the whole path, a on no point of the path, c on no point of the path; largest 18.2 against 61.1 µm; c reaches no point."
+        );
+        cells[1].limit_um = 50.0;
+        let told = ranking("ring", "path", &cells);
+        assert!(
+            told.contains("b holds its 20 µm on the whole path, a holds its 50 µm on no point"),
+            "{told}"
+        );
+        assert_eq!(
+            ranking("m", "map", &[cell("a", 0.0, None), cell("b", 0.0, None)]),
+            "m: no cell reaches any point of the plane."
+        );
+    }
+
+    #[test]
+    fn where_all_hold_or_none_the_best_is_named() {
+        let all = [cell("b", 1.0, Some(18.2)), cell("a", 1.0, Some(19.5))];
+        assert_eq!(
+            ranking("ring", "path", &all),
+            "ring: every cell holds 20 µm on the whole path, b best; largest 18.2 against 19.5 µm."
+        );
+        let none = [cell("b", 0.0, Some(58.2)), cell("a", 0.0, Some(61.1))];
+        assert_eq!(
+            ranking("ring", "path", &none),
+            "ring: no cell holds 20 µm at any point of the path, b comes nearest; largest 58.2 against 61.1 µm."
+        );
+    }
+
+    #[test]
+    fn neighbours_within_their_uncertainty_are_told() {
+        // k = 2: hypot(8, 8) = 11.3 um.
+        let near = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(29.0))];
+        let far = [cell("b", 1.0, Some(18.0)), cell("a", 1.0, Some(30.0))];
+        assert!(doubts(&near, |_| true).is_empty());
+        assert!(doubts(&near, |_| false)[0].contains("cannot be told apart: 18 ± 8 and 29 ± 8 µm"));
+        assert!(doubts(&far, |_| false).is_empty());
+    }
+}

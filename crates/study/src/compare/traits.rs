@@ -1,0 +1,165 @@
+//! What a cell is, in the words of a table: robot, compliances, place, tool, posture, load, tolerance, model, points.
+//!
+//! Cells are told apart by these words alone: two that read the same count as the same.
+
+use armill_core::frame::Isometry;
+use armill_core::load::LoadFrame;
+use armill_core::map::VolumeMap;
+use armill_core::nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::file::holes::HolesAsk;
+use crate::file::path::PathAsk;
+use crate::file::resolve::{Setting, Sheet, Study};
+use crate::model_words::parts;
+use crate::number::decimals;
+
+/// One side of what cells are.
+#[derive(Clone, Debug, Serialize)]
+pub struct TraitAnswer {
+    /// Which: `robot`, `place`, `tool`, ...
+    pub what: &'static str,
+    /// Whether the cells differ in it.
+    pub differs: bool,
+    /// What it is in each cell, in the order of their numbers.
+    pub of: Vec<String>,
+}
+
+/// Load cases that are told one by one at most.
+const MOST_CASES: usize = 4;
+
+/// A plane.
+pub(super) fn of_sheet(study: &Study, sheet: &Sheet) -> Vec<(&'static str, String)> {
+    let setting = &sheet.setting;
+    let place = place(setting, &setting.plane.base_from_part);
+    let grid = &sheet.grid;
+    let points = format!(
+        "{} x {} points, {} mm apart",
+        grid.columns,
+        grid.rows,
+        plain(grid.step * 1e3)
+    );
+    all(study, setting, [place, load(setting), points])
+}
+
+/// A box.
+pub(super) fn of_volume(study: &Study, setting: &Setting, volume: &VolumeMap) -> Vec<(&'static str, String)> {
+    let corner = setting.counted(&volume.grid.corner());
+    let [x, y, z] = volume.grid.counts;
+    let step = plain(volume.grid.step * 1e3);
+    let place = format!(
+        "corner at {} mm from {}",
+        numbers(&corner.coords, 1e3),
+        setting.base_name
+    );
+    all(
+        study,
+        setting,
+        [
+            place,
+            load(setting),
+            format!("{x} x {y} x {z} points, {step} mm apart"),
+        ],
+    )
+}
+
+/// A path.
+pub(super) fn of_path(study: &Study, ask: &PathAsk) -> Vec<(&'static str, String)> {
+    let (count, mm) = (ask.track.len(), ask.length() * 1e3);
+    along(study, ask, format!("{count} points over {mm:.1} mm"))
+}
+
+/// Holes.
+pub(super) fn of_holes(study: &Study, ask: &HolesAsk) -> Vec<(&'static str, String)> {
+    let (count, turns) = (ask.path.track.len(), ask.search.spins.count);
+    along(
+        study,
+        &ask.path,
+        format!("{count} holes, {turns} turns tried at each"),
+    )
+}
+
+fn along(study: &Study, ask: &PathAsk, points: String) -> Vec<(&'static str, String)> {
+    let pushes = match (&ask.cut, &ask.drill, &ask.measured) {
+        (_, _, Some(measured)) => format!("measured: {}", measured.table.file),
+        (_, Some(drill), None) => format!("drilling {}", drill.material.name),
+        (Some(cut), None, None) => {
+            let (cutter, stock) = (cut.cutting.cutter.diameter() * 1e3, cut.stock.is_some());
+            let out_of = if stock { ", out of a stock" } else { "" };
+            format!("cutting {} with {} mm{out_of}", cut.material.name, plain(cutter))
+        }
+        (None, None, None) => load(&ask.setting),
+    };
+    let place = place(&ask.setting, &ask.track.placing.base_from_path);
+    all(study, &ask.setting, [place, pushes, points])
+}
+
+fn all(study: &Study, setting: &Setting, [place, load, points]: [String; 3]) -> Vec<(&'static str, String)> {
+    let robot = &study.robot.robot;
+    let compliance = match &study.own_compliance {
+        Some(own) if own.caution.is_some() => format!("assumed: {}", own.source),
+        Some(own) => format!("of the study: {}", own.source),
+        None => "of the robot".to_owned(),
+    };
+    let searched = setting
+        .search
+        .map_or("", |_| ", best turns and branches searched for");
+    vec![
+        ("robot", format!("{} ({})", study.robot.title, robot.name())),
+        ("compliance", compliance),
+        ("place", place),
+        ("tool", pose("TCP", "from the flange", &setting.flange_from_tool)),
+        ("posture", setting.branch() + searched),
+        ("load", load),
+        ("tolerance", format!("{} µm", plain(setting.limit * 1e6))),
+        ("stiffness model", parts(robot, &setting.model).join("; ")),
+        ("points", points),
+    ]
+}
+
+/// Where a frame of the part lies, counted as the study counts.
+fn place(setting: &Setting, base_from: &Isometry) -> String {
+    let counted = setting.base_from_counted.inverse() * base_from;
+    pose("origin", &format!("from {}", setting.base_name), &counted)
+}
+
+/// A frame: where it lies and how it is turned about the fixed axes x, y, z.
+fn pose(what: &str, from: &str, at: &Isometry) -> String {
+    let (x, y, z) = at.rotation.euler_angles();
+    format!(
+        "{what} at {} mm, turned by {} deg {from}",
+        numbers(&at.translation.vector, 1e3),
+        numbers(&Vector3::new(x, y, z), 1f64.to_degrees())
+    )
+}
+
+fn load(setting: &Setting) -> String {
+    let (frame, cases) = match setting.load.frame {
+        LoadFrame::Base => ("base", &setting.cases),
+        LoadFrame::Part => ("the part", &setting.load.cases),
+        LoadFrame::Feed => ("the feed", &setting.load.cases),
+    };
+    let of_case = |wrench: &armill_core::spatial::Wrench| {
+        let moment = match wrench.moment.norm() > 0.0 {
+            true => format!(" and {} N m", numbers(&wrench.moment, 1.0)),
+            false => String::new(),
+        };
+        numbers(&wrench.force, 1.0) + &moment
+    };
+    let told: Vec<String> = cases.iter().take(MOST_CASES).map(of_case).collect();
+    let more = match cases.len().saturating_sub(MOST_CASES) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    format!("{} N{more} in axes of {frame}", told.join(", "))
+}
+
+fn numbers(vector: &Vector3<f64>, scale: f64) -> String {
+    let [x, y, z] = [vector.x, vector.y, vector.z].map(|value| plain(value * scale));
+    format!("({x}, {y}, {z})")
+}
+
+/// A number to three decimals, without zeros at its end.
+fn plain(value: f64) -> String {
+    format!("{}", decimals(value, 3))
+}

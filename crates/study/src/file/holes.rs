@@ -1,0 +1,351 @@
+//! A set of holes of an ask: where they are, which way out of the part, and what pushes at each. Their order is of no
+//! consequence.
+//!
+//! | told by | place | direction out of the part |
+//! |---|---|---|
+//! | `holes.at_mm`, `holes.normals` | the frame of the part, moved by `part_from_holes_mm_deg` | one a hole, one for all, or the normal of the plane |
+//! | `holes.file` | likewise: a CSV with `x_mm, y_mm, z_mm` | its columns `i, j, k`, where it has them |
+//! | `program.file` | where the program lies: the ends of its plunges | where the program says |
+//!
+//! A load told in axes of the feed (`load.frame = "feed"`) has z out of the hole and x where the tool has it unturned; thrust
+//! and torque of a `drill` are such a load.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_core::frame::Isometry;
+use armill_core::load::PathLoad;
+use armill_core::nalgebra::{Point3, Unit, Vector3};
+use armill_core::optimize::PostureSearch;
+use armill_core::path::{Hole, Pace, Placing, SampledPath, Spin, Step, Track, drilled_holes, path_of_holes};
+use armill_core::robot::Robot;
+use armill_formats::toolpath::format::{self, Format, Wanted};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::format::AskTable;
+use super::path::drill::DrillTable;
+use super::path::program::{self, BESIDE_STUDY, ProgramTable, SpinName};
+use super::path::{PathAsk, PathSource, Push, put_on};
+use super::places::Places;
+use super::quantities::pose_mm_deg;
+use super::resolve::Setting;
+use crate::StudyError;
+
+/// A list of holes, here or in a file.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HolesTable {
+    /// Where the tip stands at the end of each: x, y, z in the part frame (z = outward normal of the plane, origin at its
+    /// centre), moved by `part_from_holes_mm_deg`.
+    #[schemars(length(max = 100_000), inner(inner(range(min = -1e6, max = 1e6))))]
+    pub at_mm: Option<Vec<[f64; 3]>>,
+    /// Directions out of the part, same axes, of any length: one a hole or one for all; the normal of the plane if left
+    /// out.
+    #[schemars(length(max = 100_000), inner(inner(range(min = -1e6, max = 1e6))))]
+    // unit: directions, of any length
+    pub normals: Option<Vec<[f64; 3]>>,
+    /// A CSV of them in place of `at_mm`, relative to the study: columns x_mm, y_mm, z_mm, and i, j, k out of the part.
+    pub file: Option<String>,
+    /// Where their zero lies in the part frame: x, y, z in mm, then turns about the fixed axes x, y, z in degrees.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub part_from_holes_mm_deg: Option<[f64; 6]>,
+    /// A drill: its thrust and torque are the load.
+    pub drill: Option<DrillTable>,
+}
+
+/// Holes with what pushes at them.
+#[derive(Clone, Debug)]
+pub struct HolesAsk {
+    /// Their places as points that no path joins, and what pushes there.
+    pub path: PathAsk,
+    /// Which turns and branches are tried at each.
+    pub search: PostureSearch,
+}
+
+impl HolesAsk {
+    /// Branches that are open, in words: `best` where all are.
+    pub fn branch(&self) -> String {
+        let open = self.search.branches;
+        match open == armill_core::robot::BranchPattern::default() {
+            true => "best".to_owned(),
+            false => open.to_string(),
+        }
+    }
+}
+
+/// Holes that a study may list.
+const MOST_HOLES: usize = 100_000;
+
+/// The holes of this ask; `None` where it has problems, told at their places.
+///
+/// # Errors
+/// The problems of the files that it names.
+pub(super) fn resolve(
+    places: &mut Places<'_>,
+    table: &AskTable,
+    (folder, robot): (&Path, Option<&Robot>),
+    (setting, push, search): (Option<Setting>, Option<Push<'_>>, Option<PostureSearch>),
+) -> Result<Option<HolesAsk>, StudyError> {
+    let of = table.holes.clone().unwrap_or_default();
+    let told = [of.at_mm.is_some(), of.file.is_some(), table.program.is_some()];
+    if told.iter().filter(|told| **told).count() != 1 {
+        let hint = "holes = { at_mm = [[0, 0, 0]] }, holes = { file = \"holes.csv\" }, or program = { file = \"drilling.ngc\" }";
+        places.problem_here("holes come from one list, one file or one program", hint);
+        return Ok(None);
+    }
+    let before = places.problems.len();
+    let found = match &table.program {
+        Some(program) => {
+            refuse_keys(places, program, &of);
+            let Some(setting) = &setting else { return Ok(None) };
+            of_program(places, program, (folder, robot), setting)?
+        }
+        None => of_list(places, &of, folder, setting.as_ref())?,
+    };
+    let (Some((path, placing, source)), Some(setting), Some(push), Some(search)) =
+        (found, setting, push, search)
+    else {
+        return Ok(None);
+    };
+    let mut ask = PathAsk {
+        source,
+        track: Track {
+            path,
+            placing,
+            base_from_part: setting.plane.base_from_part,
+            spins: None,
+        },
+        load: PathLoad::Cases(setting.load.clone()),
+        cut: None,
+        drill: None,
+        forces: None,
+        measured: None,
+        wants_limits: false,
+        features: Vec::new(),
+        setting,
+    };
+    let pushes = put_on(places, push, folder, &mut ask)?;
+    let fine = pushes && places.problems.len() == before;
+    Ok(fine.then_some(HolesAsk { path: ask, search }))
+}
+
+/// Points, where they lie, and what gave them.
+type Found = (SampledPath, Placing, PathSource);
+
+/// Tells keys of a program that mean nothing to holes.
+fn refuse_keys(places: &mut Places<'_>, program: &ProgramTable, of: &HolesTable) {
+    let given = [
+        ("program.feature", !program.feature.is_empty()),
+        ("program.limits", program.limits.is_some()),
+        ("program.measured", program.measured.is_some()),
+        (
+            "program.spin",
+            program.spin.is_some_and(|spin| spin != SpinName::Fixed),
+        ),
+        ("holes.normals", of.normals.is_some()),
+        (
+            "holes.part_from_holes_mm_deg",
+            of.part_from_holes_mm_deg.is_some(),
+        ),
+    ];
+    for (key, _) in given.iter().filter(|(_, given)| *given) {
+        let message = format!("`{key}` means nothing to the holes of a program");
+        places.problem(key, message, "remove it, or ask for the program as a path");
+    }
+    if of.drill.is_some() && program.drill.is_some() {
+        places.problem("holes.drill", "two drills are told", "keep `program.drill`");
+    }
+}
+
+/// The ends of the plunges of a program.
+fn of_program(
+    places: &mut Places<'_>,
+    table: &ProgramTable,
+    (folder, robot): (&Path, Option<&Robot>),
+    setting: &Setting,
+) -> Result<Option<Found>, StudyError> {
+    let cell = robot.map(|robot| (robot, setting));
+    let Some(found) = program::read(places, table, (folder, cell))? else {
+        return Ok(None);
+    };
+    let placing = program::placing(table, &setting.plane.base_from_part, found.robot.as_deref());
+    let holes = drilled_holes(&found.path, &placing);
+    if holes.points.is_empty() {
+        let message = format!(
+            "{} drills no hole: no cut goes along the tool and ends there",
+            table.file
+        );
+        let hint =
+            "drilling cycles, or plunges that nothing follows; a path is asked for with kind = \"path\"";
+        places.problem("program.file", message, hint);
+        return Ok(None);
+    }
+    let file = table.file.clone();
+    let source = PathSource::Program {
+        file,
+        summary: found.summary,
+        robot: found.robot,
+    };
+    Ok(Some((holes, placing, source)))
+}
+
+/// Holes of a list or a CSV.
+fn of_list(
+    places: &mut Places<'_>,
+    of: &HolesTable,
+    folder: &Path,
+    setting: Option<&Setting>,
+) -> Result<Option<Found>, StudyError> {
+    let part_from_holes = of
+        .part_from_holes_mm_deg
+        .as_ref()
+        .map_or_else(Isometry::identity, pose_mm_deg);
+    let axis = part_from_holes.rotation.inverse() * Vector3::z_axis();
+    let path = match (&of.at_mm, &of.file) {
+        (Some(at), _) => listed(places, at, of.normals.as_deref(), axis),
+        (None, Some(file)) => {
+            if of.normals.is_some() {
+                let hint = "columns i, j, k of the file";
+                places.problem("holes.normals", "directions of a file stand in it", hint);
+            }
+            in_file(places, file, folder, axis)?
+        }
+        (None, None) => None,
+    };
+    let (Some(path), Some(setting)) = (path, setting) else {
+        return Ok(None);
+    };
+    let placing = Placing {
+        base_from_path: setting.plane.base_from_part * part_from_holes,
+        axis,
+        keeps_axis: false,
+        spin: Spin::Fixed(0.0),
+    };
+    let file = of.file.clone();
+    Ok(Some((path, placing, PathSource::Holes { file })))
+}
+
+/// Holes that the study lists.
+fn listed(
+    places: &mut Places<'_>,
+    at_mm: &[[f64; 3]],
+    normals: Option<&[[f64; 3]]>,
+    axis: Unit<Vector3<f64>>,
+) -> Option<SampledPath> {
+    let before = places.problems.len();
+    if at_mm.is_empty() {
+        places.problem(
+            "holes.at_mm",
+            "no hole is listed",
+            "at_mm = [[0, 0, 0], [50, 0, 0]]",
+        );
+    }
+    let normals = normals.unwrap_or_default();
+    if normals.len() > 1 && normals.len() != at_mm.len() {
+        let message = format!("{} normals for {} holes", normals.len(), at_mm.len());
+        places.problem("holes.normals", message, "one a hole, or one for all");
+    }
+    let mut axes = Vec::new();
+    for (index, normal) in normals.iter().enumerate() {
+        match Unit::try_new(Vector3::from(*normal), 1e-9) {
+            Some(axis) => axes.push(axis),
+            None => {
+                let path = format!("holes.normals[{index}]");
+                places.problem(&path, "a normal without length", "such as [0, 0, 1]");
+            }
+        }
+    }
+    let axis_of = |index: usize| match axes[..] {
+        [] => axis,
+        [one] => one,
+        _ => axes[index],
+    };
+    (places.problems.len() == before).then(|| {
+        let hole = |(index, at): (usize, &[f64; 3])| Hole {
+            at: Point3::from(Vector3::from(*at) * 1e-3),
+            axis: axis_of(index),
+            line: index as u32 + 1,
+        };
+        path_of_holes(&at_mm.iter().enumerate().map(hole).collect::<Vec<_>>())
+    })
+}
+
+/// Holes of a CSV: a row each.
+///
+/// # Errors
+/// The problems of the file.
+fn in_file(
+    places: &mut Places<'_>,
+    file: &str,
+    folder: &Path,
+    axis: Unit<Vector3<f64>>,
+) -> Result<Option<SampledPath>, StudyError> {
+    let path = folder.join(file);
+    let shown = path.display().to_string();
+    let opened = match File::open(&path) {
+        Ok(opened) if !path.is_dir() => opened,
+        Ok(_) => {
+            places.problem(
+                "holes.file",
+                format!("{shown} is a folder"),
+                "name the file in it",
+            );
+            return Ok(None);
+        }
+        Err(error) => {
+            let message = format!("cannot read {shown}: {error}");
+            places.problem("holes.file", message, BESIDE_STUDY);
+            return Ok(None);
+        }
+    };
+    let (mut holes, mut paces, mut operations) = (Vec::new(), Vec::new(), Vec::new());
+    let mut too_many = false;
+    let summary = format::read(
+        &shown,
+        BufReader::new(opened),
+        &Wanted::default(),
+        &mut |step| match step {
+            Step::Operation(operation) => operations.push((holes.len(), operation)),
+            Step::Move(_) if holes.len() >= MOST_HOLES => too_many = true,
+            Step::Move(next) => {
+                paces.push(next.pace);
+                holes.push(Hole {
+                    at: next.end,
+                    axis: next.axis.unwrap_or(axis),
+                    line: next.line,
+                });
+            }
+        },
+    )?;
+    let problem = if summary.format != Format::Csv {
+        Some((
+            format!("{shown} is a program, no table of holes"),
+            "name it as program = { file = ... }",
+        ))
+    } else if too_many {
+        Some((
+            format!("{shown} has more than {MOST_HOLES} holes"),
+            "a part of them",
+        ))
+    } else if holes.is_empty() {
+        Some((
+            format!("{shown} has no hole"),
+            "a row a hole below the names of the columns",
+        ))
+    } else {
+        None
+    };
+    if let Some((message, hint)) = problem {
+        places.problem("holes.file", message, hint);
+        return Ok(None);
+    }
+    let mut path = path_of_holes(&holes);
+    path.operations = operations;
+    for (point, pace) in path.points.iter_mut().zip(paces) {
+        // A row is a hole whether the tool comes to it fast or not.
+        point.pace = if pace.cuts() { pace } else { Pace::Untold };
+    }
+    Ok(Some(path))
+}

@@ -1,0 +1,100 @@
+//! Pictures of holes: where each comes out, and which joint is to blame at the worst.
+//!
+//! | file name ends in | shows | of |
+//! |---|---|---|
+//! | `holes` | the holes from above, coloured, with arrows | every set |
+//! | `shares` | shares of the joints at the worst holes | a set with one that is reached |
+
+use armill_core::kernel::BranchChoice;
+use armill_core::optimize::HolesFound;
+use armill_core::path::PathPoint;
+use armill_core::robot::BranchPattern;
+use armill_report::{AxisLabels, ColourScale, HoleMap, HoleMark};
+
+use super::pictures::{Picture, share_bar, shares};
+use super::plates::subtitle;
+use crate::answer::HolesAnswer;
+use crate::file::holes::HolesAsk;
+use crate::file::resolve::{Setting, Study};
+
+/// Holes that are numbered in the picture.
+const NUMBERED: usize = 3;
+
+/// The pictures of a set of holes.
+pub(super) fn pictures(
+    study: &Study,
+    ask: &HolesAsk,
+    (told, found): (&HolesAnswer, &HolesFound),
+) -> Vec<Picture> {
+    let named = |what: &str, caption: &str, svg: String| Picture {
+        name: format!("{}-{what}", super::slug(&told.name)),
+        caption: format!("{}: {caption}", told.name),
+        svg,
+    };
+    let caption = "the holes seen along z of their frame, coloured by the deviation across each; the worst are numbered.";
+    let mut pictures = vec![named("holes", caption, map(ask, told, found))];
+    let bars = told.worst_holes.iter().map(|worst| {
+        let [x, y, z] = worst.point.xyz_mm;
+        share_bar(
+            &format!("hole {} ({x:.0}, {y:.0}, {z:.0})", worst.hole),
+            &worst.point,
+        )
+    });
+    let title = format!("{}: which joint is to blame", told.name);
+    let quantity = "share of deviation across the hole (µm)";
+    let setting = open_setting(ask);
+    let svg = shares(study, &title, (&setting, quantity), bars.collect());
+    if !told.worst_holes.is_empty() {
+        pictures.push(named("shares", "share of each joint at the worst holes.", svg));
+    }
+    pictures
+}
+
+/// The setting with the branches that were open.
+fn open_setting(ask: &HolesAsk) -> Setting {
+    let choice = match ask.search.branches == BranchPattern::default() {
+        true => BranchChoice::Best,
+        false => BranchChoice::Of(ask.search.branches),
+    };
+    Setting {
+        choice,
+        ..ask.path.setting.clone()
+    }
+}
+
+/// The holes along x and y of their frame.
+fn map(ask: &HolesAsk, told: &HolesAnswer, found: &HolesFound) -> String {
+    let track = &ask.path.track;
+    let path_from_base = track.placing.base_from_path.rotation.inverse();
+    let worst = |index: usize| {
+        let mut numbered = told.worst_holes.iter().take(NUMBERED);
+        numbered.any(|worst| worst.hole == index + 1)
+    };
+    let mark = |(index, point): (usize, &PathPoint)| {
+        let held = found.answers.points[index].as_ref().ok();
+        let moved =
+            held.map(|held| path_from_base * found.answers.deviations_at(index)[held.deciding_case] * 1e6);
+        HoleMark {
+            at_mm: [point.at.x * 1e3, point.at.y * 1e3],
+            error_um: moved.map_or([f64::NAN; 2], |moved| [moved.x, moved.y]),
+            deviation_um: held.map(|held| held.in_plane * 1e6),
+            name: match worst(index) {
+                true => (index + 1).to_string(),
+                false => String::new(),
+            },
+        }
+    };
+    let picture = HoleMap {
+        title: told.name.clone(),
+        subtitle: subtitle(&open_setting(ask)),
+        axes: AxisLabels {
+            horizontal: "x of the holes' frame (mm)".to_owned(),
+            vertical: "y of the holes' frame (mm)".to_owned(),
+        },
+        quantity: "deviation across the hole (µm)".to_owned(),
+        limit_um: Some(ask.path.setting.limit * 1e6),
+        scale: ColourScale::Viridis,
+        holes: track.path.points.iter().enumerate().map(mark).collect(),
+    };
+    picture.to_svg()
+}
