@@ -1,6 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
-//! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `compensate`, `identify`, `forces`, `completions`.
+//! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
+//! `identify`, `forces`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are

@@ -15,7 +15,7 @@ step_mm = 20
 
 fn cell(limit_um: &str, place: &str) -> Cell {
     let cell = Cell::new();
-    cell.file("study.toml", &format!("limit_um = {limit_um}\n{CELL}{place}"));
+    cell.file("study.toml", format!("limit_um = {limit_um}\n{CELL}{place}"));
     cell
 }
 

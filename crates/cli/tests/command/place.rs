@@ -21,7 +21,7 @@ step_mm = 10
 
 fn cell(place: &str) -> Cell {
     let cell = Cell::new();
-    cell.file("study.toml", &format!("{CELL}{place}"));
+    cell.file("study.toml", format!("{CELL}{place}"));
     cell
 }
 
@@ -53,7 +53,7 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
         .filter(|line| line.contains(" = "))
         .map(|line| format!("{line}\n"))
         .collect();
-    cell.file("there.toml", &format!("{CELL}{lines}"));
+    cell.file("there.toml", format!("{CELL}{lines}"));
     let there = cell
         .armill(&["run", "there.toml", "--no-pictures", "--json"])
         .fine()
@@ -227,4 +227,43 @@ fn what_cannot_be_placed_is_refused_with_what_to_do() {
     cell.file("map.toml", &CELL[..CELL.find("[[ask]]").unwrap()]);
     cell.armill(&["place", "map.toml"])
         .refused(&["no path that could be placed"]);
+}
+
+#[test]
+fn holes_are_placed_each_held_in_its_best_turn_and_branch() {
+    let holes =
+        CELL[..CELL.find("[[ask]]").unwrap()].replace("posture = { branch = \"front elbow-up\" }\n", "");
+    let ask = r#"
+[[ask]]
+kind = "holes"
+name = "rim"
+holes = { at_mm = [[0, 0, 0], [60, 0, 0], [60, 60, 0]], normals = [[0, 0, 1], [0.3, 0, 1], [0.3, 0, 1]] }
+posture.search.step_deg = 45
+"#;
+    let cell = Cell::new();
+    cell.file("study.toml", format!("{holes}{ask}"));
+    let args = [
+        "place",
+        "study.toml",
+        "--no-pictures",
+        "--x-mm",
+        "800,1100",
+        "--tilt-deg",
+        "0,60",
+    ];
+    let said = cell.armill(&args).fine();
+    assert!(said.out.starts_with("rim: at most "), "{}", said.out);
+    let placed = placement(&cell, "place");
+    let cost = number(&placed["found"]["cost_um"]);
+    assert!(cost < number(&placed["as_drawn"]["cost_um"]), "{placed}");
+    // The run there holds each hole so, through the door that asks for holes take.
+    let largest = number(&cell.result("place")["holes"][0]["max_in_plane_um"]);
+    assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
+    cell.armill(&["place", "study.toml", "--spin-deg", "0,90"])
+        .refused(&[
+            "holes are each held in their best turn",
+            "posture.search.turns_deg",
+        ]);
+    cell.armill(&["advise", "study.toml"])
+        .refused(&["advice is for paths", "`armill place`"]);
 }

@@ -68,10 +68,13 @@ pub struct FreeAnswer {
     /// Its key in the study, which tells the unit of the numbers.
     pub degree: &'static str,
     /// Least value.
+    // unit: the one of its degree
     pub least: f64,
     /// Greatest value.
+    // unit: the one of its degree
     pub greatest: f64,
     /// The value at the place that was found.
+    // unit: the one of its degree
     pub found: f64,
     /// Whether that is at one of its bounds: with more room there may be a better place.
     pub at_bound: bool,

@@ -110,12 +110,15 @@ fn read(file: &Path, fingerprint: u64) -> Option<BTreeMap<String, Vec<f64>>> {
         let values = bits.split('\t').filter(|bits| !bits.is_empty());
         let values = values.map(|bits| {
             let value = f64::from_bits(u64::from_str_radix(bits, 16).ok()?);
-            (0.0..=1.0).contains(&value).then_some(value)
+            (bits.len() == DIGITS && (0.0..=1.0).contains(&value)).then_some(value)
         });
         Some((name.to_owned(), values.collect::<Option<_>>()?))
     };
     lines.map(round).collect()
 }
+
+/// Hexadecimal digits of a number's bits.
+const DIGITS: usize = 16;
 
 /// A fingerprint of numbers: FNV-1a over their bits.
 #[derive(Clone, Copy, Debug)]

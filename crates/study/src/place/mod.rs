@@ -5,30 +5,31 @@
 //! ```
 //!
 //! `freedom`: what may move; `search`: from places spread over it to the best; `certificate`: whether grids of places hold a
-//! better one; [`journal`]: what is kept so that a search goes on where it was stopped; `answer`: the values of the result;
-//! `pictures`. Theory: `docs/theory/placement.md`.
+//! better one; `rounds`: all of that for every site and margin; [`journal`]: what is kept so that a search goes on where it was
+//! stopped; [`answer`]: the values of the result; `found`: the study at the place; `pictures`. Theory: `docs/theory/placement.md`.
 //!
 //! Where fixtures are told each is searched by itself, and the best is taken. Against a margin to limits and singularities
 //! the search is done again for each of some margins, with the place before as one more start.
 
 pub mod answer;
 mod certificate;
+mod found;
 mod freedom;
 pub mod journal;
 mod pictures;
+mod rounds;
 mod search;
 
 pub use answer::{FreeAnswer, MarginAnswer, OutcomeAnswer, PlacementAnswer};
 pub use certificate::{CertificateAnswer, GridAnswer};
+pub use found::Found;
 pub use freedom::PlaceAnswer;
 pub use journal::Journal;
 
 use armill_core::frame::from_xyz_and_fixed_angles;
-use armill_core::kernel::{BranchChoice, PlacedPath, Question};
+use armill_core::kernel::BranchChoice;
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
-use armill_core::optimize::{
-    Holding, Merit, Placeable, PlacementGoal, PostureSearch, Sure, ToolTurn, on_part,
-};
+use armill_core::optimize::{Holding, PlacementGoal, PostureSearch, ToolTurn, on_part};
 use armill_core::path::Spin;
 use armill_core::robot::BranchPattern;
 use armill_core::watch::Watch;
@@ -36,28 +37,21 @@ use armill_core::workpiece::Plane;
 
 use crate::answer::path::search::{counts_word, goal_word};
 use crate::error::StudyError;
-use crate::file::format::{AskKind, PlaneChange, PostureTable, StudyFile};
 use crate::file::path::PathAsk;
 use crate::file::placement::{ANY, FixtureTable, PlaceTable, SureName};
 use crate::file::posture_search::{CountsName, GoalName};
 use crate::file::resolve::{Setting, Study, Subject};
 use crate::number::decimals;
-use crate::output::Picture;
 use crate::run::runner;
-use crate::studies::FoundStudy;
 use answer::sure_word;
 use freedom::Freedom;
-use journal::Fingerprint;
-use search::{Effort, Searched, Spot};
+use rounds::{MARGINS_DEG, Prepared, Site};
+use search::Effort;
 
 /// Where the part may go where nobody says: so far to all sides, mm.
 const USUAL_MM: f64 = 300.0;
 /// Least bend of the wrist where nobody says, deg.
 const USUAL_WRIST_DEG: f64 = 3.0;
-/// Margins that are tried, deg.
-const MARGINS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0];
-/// A better place that a grid shows is taken as a start so often.
-const MOST_TRIES: usize = 3;
 
 /// A search that is ready to begin.
 pub struct Placing<'a> {
@@ -70,99 +64,6 @@ pub struct Placing<'a> {
     holes: Option<&'a PostureSearch>,
     table: PlaceTable,
     seed: u64,
-}
-
-/// What a search has found.
-pub struct Found {
-    /// In numbers.
-    pub answer: PlacementAnswer,
-    /// Front and sections.
-    pub pictures: Vec<Picture>,
-    /// Which ask was placed.
-    ask: usize,
-    /// The tool on the part at each point, where it turns with it though the study does not say so.
-    with_part: Option<Vec<UnitQuaternion<f64>>>,
-}
-
-impl Found {
-    /// Whether the path is better there than as drawn.
-    pub fn is_better(&self) -> bool {
-        let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
-        (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
-    }
-
-    /// The study with its path, alone, laid there and its tool turned as it was judged.
-    ///
-    /// # Errors
-    /// Every problem of the file, which may have changed since it was read.
-    pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
-        let mut study = found.read_changed(|file| self.lay(file))?;
-        study.asks.retain(|ask| ask.name == self.answer.ask);
-        study.statements.clear();
-        for ask in &mut study.asks {
-            let path = match &mut ask.subject {
-                Subject::Path(path) => path,
-                Subject::Holes(holes) => &mut holes.path,
-                _ => continue,
-            };
-            if let Some(part_from_tools) = &self.with_part {
-                let track = &path.track;
-                let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
-                    let judged = track.base_from_part.rotation * on_part;
-                    let turn = track.stop(index).base_from_tool.rotation.inverse() * judged;
-                    2.0 * turn.k.atan2(turn.w)
-                });
-                path.track.spins = Some(spins.collect());
-            }
-        }
-        Ok(study)
-    }
-
-    /// Lets the study file lay its path there.
-    fn lay(&self, file: &mut StudyFile) {
-        let place = &self.answer.place;
-        let Some(ask) = file.ask.get_mut(self.ask) else {
-            return;
-        };
-        ask.plane = Some(PlaneChange {
-            centre_mm: Some(place.centre_mm),
-            tilt_deg: place.tilt_deg,
-            rotation_deg: place.rotation_deg,
-            ..ask.plane.take().unwrap_or_default()
-        });
-        let whole = file.posture.as_ref();
-        let own = ask.posture.as_ref();
-        ask.posture = Some(PostureTable {
-            branch: self.answer.found.branch.clone().or_else(|| {
-                let own = own.and_then(|posture| posture.branch.clone());
-                own.or_else(|| whole.and_then(|posture| posture.branch.clone()))
-            }),
-            home_deg: own.and_then(|posture| posture.home_deg.clone()),
-            search: own.and_then(|posture| posture.search.clone()),
-        });
-        let more = |spin: Option<f64>| {
-            let sum = spin.unwrap_or(0.0) + place.spin_deg;
-            Some(sum - 360.0 * (sum / 360.0).round())
-        };
-        match &mut ask.program {
-            _ if ask.kind == AskKind::Holes => (),
-            Some(program) => program.spin_deg = more(program.spin_deg),
-            None => ask.spin_deg = more(ask.spin_deg),
-        }
-    }
-}
-
-/// One fixture, or the one place that may move.
-struct Site<'a> {
-    name: Option<&'a str>,
-    freedom: Freedom,
-}
-
-/// The best place of one search.
-#[derive(Clone)]
-struct Best {
-    site: usize,
-    spot: Spot,
 }
 
 impl<'a> Placing<'a> {
@@ -459,211 +360,4 @@ fn plane_of(fixture: &FixtureTable, setting: &Setting) -> (Plane, Option<f64>) {
         .is_none()
         .then(|| fixture.tilt_deg.unwrap_or(0.0).to_radians());
     (plane, tilt)
-}
-
-/// All that searches of one path share.
-struct Prepared<'a> {
-    of: &'a Placing<'a>,
-    question: &'a Question<'a>,
-    /// Some points of the path, and all.
-    paths: [&'a PlacedPath; 2],
-    sites: &'a [Site<'a>],
-    effort: Effort,
-    watch: Watch<'a>,
-    told: &'a dyn Fn(&str),
-}
-
-impl Prepared<'_> {
-    fn searched<'s>(&'s self, freedom: &'s Freedom, goal: PlacementGoal, effort: Effort) -> Searched<'s> {
-        let of = |path| Placeable {
-            question: self.question,
-            path,
-            goal,
-        };
-        Searched {
-            some: of(self.paths[0]),
-            all: of(self.paths[1]),
-            freedom,
-            effort,
-            seed: self.of.seed,
-        }
-    }
-
-    /// The best place of all sites; `also` is one more place to start from. Rounds are kept under `name`.
-    fn best(
-        &self,
-        (goal, effort): (PlacementGoal, Effort),
-        name: &str,
-        also: Option<&Best>,
-        journal: &mut Journal,
-    ) -> Result<Best, StudyError> {
-        let mut best: Option<Best> = None;
-        for (site, of) in self.sites.iter().enumerate() {
-            let searched = self.searched(&of.freedom, goal, effort);
-            let also = also
-                .filter(|also| also.site == site)
-                .map(|also| also.spot.at.clone());
-            let mut spots = Vec::new();
-            let mut starts: Option<Vec<Spot>> = None;
-            for round in 0..effort.rounds {
-                let at = journal.round(&format!("{name}site {site} valley {round}"), || {
-                    if starts.is_none() {
-                        starts = Some(searched.starts(self.watch)?);
-                    }
-                    let spread = starts.as_deref().unwrap_or_default();
-                    let start = match (&also, round) {
-                        (Some(also), 0) => also,
-                        // Fewer valleys than rounds: the best again, in other random steps.
-                        _ => match spread.get(round).or(spread.first()) {
-                            Some(start) => &start.at,
-                            None => return Ok(Vec::new()),
-                        },
-                    };
-                    Ok(searched.valley(start, round, self.watch)?.at)
-                })?;
-                spots.push(searched.judged(at)?);
-                self.tell(&spots, goal.sure);
-            }
-            if let Some(also) = also {
-                spots.push(searched.judged(also)?);
-            }
-            let Some(valley) = the_best(spots) else { continue };
-            let floor = journal.round(&format!("{name}site {site} floor"), || {
-                Ok(searched.floor(&valley.at, self.watch)?.at)
-            })?;
-            let spot = searched.judged(floor)?;
-            if best
-                .as_ref()
-                .is_none_or(|best| spot.merit.beats(&best.spot.merit))
-            {
-                best = Some(Best { site, spot });
-            }
-        }
-        best.ok_or_else(|| {
-            StudyError::value("there is no place to look at", "free a degree, or name fixtures")
-        })
-    }
-
-    fn tell(&self, spots: &[Spot], sure: Sure) {
-        let merit = the_best(spots.to_vec()).map_or(Merit::NONE, |spot| spot.merit);
-        (self.told)(&match merit.lost {
-            0 if matches!(sure, Sure::WithinLimit(_)) => {
-                format!("best so far {:.2} sigma from the limit", merit.cost)
-            }
-            0 => format!("best so far {:.2} µm", merit.cost * 1e6),
-            lost => format!("best so far loses {lost} points"),
-        });
-    }
-
-    /// The best place and what grids say of it; a better one that they show is gone down from.
-    fn certified(
-        &self,
-        mut best: Best,
-        goal: PlacementGoal,
-        journal: &mut Journal,
-    ) -> Result<(Best, CertificateAnswer), StudyError> {
-        let mut tried = 0;
-        loop {
-            let (certificate, better) = self.certificate(&best, goal)?;
-            let Some(better) = better else {
-                return Ok((best, certificate));
-            };
-            best = better;
-            if tried == MOST_TRIES {
-                return Ok((best, certificate));
-            }
-            let searched = self.searched(&self.sites[best.site].freedom, goal, self.effort);
-            let floor = journal.round(&format!("better {tried}"), || {
-                Ok(searched.floor(&best.spot.at, self.watch)?.at)
-            })?;
-            let spot = searched.judged(floor)?;
-            if spot.merit.beats(&best.spot.merit) {
-                best.spot = spot;
-            }
-            tried += 1;
-        }
-    }
-
-    /// What the grids of all sites say of `best`, and the best place among them where one is better.
-    fn certificate(
-        &self,
-        best: &Best,
-        goal: PlacementGoal,
-    ) -> Result<(CertificateAnswer, Option<Best>), StudyError> {
-        let here = self.searched(&self.sites[best.site].freedom, goal, self.effort);
-        let (near, better) = here.near_grid(&best.spot, self.watch)?;
-        let mut all = vec![(best.site, better)];
-        let mut wide: Option<GridAnswer> = None;
-        for (site, of) in self.sites.iter().enumerate() {
-            let searched = self.searched(&of.freedom, goal, self.effort);
-            let (told, better) = searched.wide_grid(&best.spot.merit, self.watch)?;
-            wide = Some(match wide {
-                Some(so_far) => so_far.and(told),
-                None => told,
-            });
-            all.push((site, better));
-        }
-        let better = all
-            .into_iter()
-            .filter_map(|(site, spot)| Some(Best { site, spot: spot? }))
-            .reduce(|a, b| if b.spot.merit.beats(&a.spot.merit) { b } else { a });
-        let wide = wide.unwrap_or_else(|| near.clone());
-        Ok((CertificateAnswer { near, wide }, better))
-    }
-
-    /// The best place for each margin, from the least on; where none holds the path the front ends.
-    fn front(
-        &self,
-        goal: PlacementGoal,
-        best: &Best,
-        journal: &mut Journal,
-    ) -> Result<Vec<(f64, Best)>, StudyError> {
-        let mut front: Vec<(f64, Best)> = Vec::new();
-        if best.spot.merit.lost > 0 {
-            return Ok(front);
-        }
-        front.push((goal.margin, best.clone()));
-        for margin in MARGINS_DEG.map(f64::to_radians) {
-            if margin <= goal.margin {
-                continue;
-            }
-            let goal = PlacementGoal { margin, ..goal };
-            let effort = self.effort.cheaper();
-            let name = format!("margin {:.0} ", margin.to_degrees());
-            let also = front.last().map(|(_, best)| best);
-            let found = self.best((goal, effort), &name, also, journal)?;
-            if found.spot.merit.lost > 0 {
-                break;
-            }
-            front.push((margin, found));
-        }
-        // What keeps a wide margin keeps a narrow one too.
-        for index in (1..front.len()).rev() {
-            if front[index].1.spot.merit.beats(&front[index - 1].1.spot.merit) {
-                front[index - 1].1 = front[index].1.clone();
-            }
-        }
-        Ok(front)
-    }
-
-    /// Of all that goes into the search.
-    fn fingerprint(&self, goal: &PlacementGoal) -> u64 {
-        let mut print = Fingerprint::new();
-        let of = self.of;
-        let (robot, setting) = (&of.study.robot.robot, &of.ask.setting);
-        let freedoms: Vec<&Freedom> = self.sites.iter().map(|site| &site.freedom).collect();
-        print.take(format!("{robot:?}{setting:?}{goal:?}{freedoms:?}{:?}", self.effort).as_bytes());
-        print.take(&of.seed.to_le_bytes());
-        for number in self.paths[1].numbers() {
-            print.take(&number.to_bits().to_le_bytes());
-        }
-        print.value()
-    }
-}
-
-/// The best of these; of equal ones the first.
-fn the_best(spots: Vec<Spot>) -> Option<Spot> {
-    spots
-        .into_iter()
-        .reduce(|best, spot| if spot.merit.beats(&best.merit) { spot } else { best })
 }

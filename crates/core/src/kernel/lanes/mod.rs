@@ -8,7 +8,8 @@
 //! answers, for [`super::evaluate`]).
 //!
 //! Beside them: `vector` (three numbers of a lane), `backend`, `arrays` (what goes in and comes out), `aimed` (a batch
-//! as whole answers use it), `column` (every posture of a block under one load), `placed` (a path judged where its part lies).
+//! as whole answers use it), `column` (every posture of a block under one load), `placed` (a path judged where its part
+//! lies), with `laid`, `weighed` and `tally`.
 //!
 //! Theory and accuracy: `docs/theory/lanes.md`.
 //!
@@ -63,6 +64,7 @@ mod deviation;
 mod envelope;
 mod flexibility;
 mod forward;
+mod laid;
 mod limits;
 mod placed;
 mod points;
@@ -73,16 +75,20 @@ mod screws;
 mod solve;
 mod stance;
 mod steps;
+mod tally;
 mod vector;
+mod weighed;
 
 pub use arrays::{Arrays, Envelopes, Poses};
 pub use backend::{Backend, Precision};
 pub use batch::Batch;
 
-pub(super) use placed::{Laid, Placer, Tallied};
+pub(super) use laid::Laid;
+pub(super) use placed::Placer;
 pub(super) use points::{POINTS, Points};
 pub use real::{Float, Real};
 pub use solve::flag;
+pub(super) use tally::Tallied;
 
 #[cfg(test)]
 mod tests;

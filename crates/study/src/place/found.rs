@@ -1,0 +1,90 @@
+//! What a search has found, and the study with its path there.
+
+use armill_core::nalgebra::UnitQuaternion;
+
+use super::answer::PlacementAnswer;
+use crate::error::StudyError;
+use crate::file::format::{AskKind, PlaneChange, PostureTable, StudyFile};
+use crate::file::resolve::{Study, Subject};
+use crate::output::Picture;
+use crate::studies::FoundStudy;
+
+/// What a search has found.
+pub struct Found {
+    /// In numbers.
+    pub answer: PlacementAnswer,
+    /// Front and sections.
+    pub pictures: Vec<Picture>,
+    /// Which ask was placed.
+    pub(super) ask: usize,
+    /// The tool on the part at each point, where it turns with it though the study does not say so.
+    pub(super) with_part: Option<Vec<UnitQuaternion<f64>>>,
+}
+
+impl Found {
+    /// Whether the path is better there than as drawn.
+    pub fn is_better(&self) -> bool {
+        let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
+        (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
+    }
+
+    /// The study with its path, alone, laid there and its tool turned as it was judged.
+    ///
+    /// # Errors
+    /// Every problem of the file, which may have changed since it was read.
+    pub fn study(&self, found: &FoundStudy) -> Result<Study, StudyError> {
+        let mut study = found.read_changed(|file| self.lay(file))?;
+        study.asks.retain(|ask| ask.name == self.answer.ask);
+        study.statements.clear();
+        for ask in &mut study.asks {
+            let path = match &mut ask.subject {
+                Subject::Path(path) => path,
+                Subject::Holes(holes) => &mut holes.path,
+                _ => continue,
+            };
+            if let Some(part_from_tools) = &self.with_part {
+                let track = &path.track;
+                let spins = part_from_tools.iter().enumerate().map(|(index, on_part)| {
+                    let judged = track.base_from_part.rotation * on_part;
+                    let turn = track.stop(index).base_from_tool.rotation.inverse() * judged;
+                    2.0 * turn.k.atan2(turn.w)
+                });
+                path.track.spins = Some(spins.collect());
+            }
+        }
+        Ok(study)
+    }
+
+    /// Lets the study file lay its path there.
+    fn lay(&self, file: &mut StudyFile) {
+        let place = &self.answer.place;
+        let Some(ask) = file.ask.get_mut(self.ask) else {
+            return;
+        };
+        ask.plane = Some(PlaneChange {
+            centre_mm: Some(place.centre_mm),
+            tilt_deg: place.tilt_deg,
+            rotation_deg: place.rotation_deg,
+            ..ask.plane.take().unwrap_or_default()
+        });
+        let whole = file.posture.as_ref();
+        let own = ask.posture.as_ref();
+        ask.posture = Some(PostureTable {
+            branch: self.answer.found.branch.clone().or_else(|| {
+                let own = own.and_then(|posture| posture.branch.clone());
+                own.or_else(|| whole.and_then(|posture| posture.branch.clone()))
+            }),
+            home_deg: own.and_then(|posture| posture.home_deg.clone()),
+            search: own.and_then(|posture| posture.search.clone()),
+        });
+        let more = |spin: Option<f64>| {
+            let sum = spin.unwrap_or(0.0) + place.spin_deg;
+            Some(sum - 360.0 * (sum / 360.0).round())
+        };
+        match &mut ask.program {
+            _ if ask.kind == AskKind::Holes => (),
+            Some(program) => program.spin_deg = more(program.spin_deg),
+            None => ask.spin_deg = more(ask.spin_deg),
+        }
+    }
+}

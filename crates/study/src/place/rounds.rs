@@ -1,0 +1,237 @@
+//! The rounds of a search: valleys of every site, the floor of the best, the same for each margin, and the grids.
+
+use armill_core::kernel::{PlacedPath, Question};
+use armill_core::optimize::{Merit, Placeable, PlacementGoal, Sure};
+use armill_core::watch::Watch;
+
+use super::Placing;
+use super::certificate::{CertificateAnswer, GridAnswer};
+use super::freedom::Freedom;
+use super::journal::{Fingerprint, Journal};
+use super::search::{Effort, Searched, Spot};
+use crate::error::StudyError;
+
+/// Margins that are tried, deg.
+pub(super) const MARGINS_DEG: [f64; 8] = [0.0, 5.0, 10.0, 15.0, 20.0, 30.0, 45.0, 60.0];
+/// A better place that a grid shows is taken as a start so often.
+const MOST_TRIES: usize = 3;
+
+/// One fixture, or the one place that may move.
+pub(super) struct Site<'a> {
+    pub name: Option<&'a str>,
+    pub freedom: Freedom,
+}
+
+/// The best place of one search.
+#[derive(Clone)]
+pub(super) struct Best {
+    pub site: usize,
+    pub spot: Spot,
+}
+
+/// All that searches of one path share.
+pub(super) struct Prepared<'a> {
+    pub of: &'a Placing<'a>,
+    pub question: &'a Question<'a>,
+    /// Some points of the path, and all.
+    pub paths: [&'a PlacedPath; 2],
+    pub sites: &'a [Site<'a>],
+    pub effort: Effort,
+    pub watch: Watch<'a>,
+    pub told: &'a dyn Fn(&str),
+}
+
+impl Prepared<'_> {
+    pub fn searched<'s>(&'s self, freedom: &'s Freedom, goal: PlacementGoal, effort: Effort) -> Searched<'s> {
+        let of = |path| Placeable {
+            question: self.question,
+            path,
+            goal,
+        };
+        Searched {
+            some: of(self.paths[0]),
+            all: of(self.paths[1]),
+            freedom,
+            effort,
+            seed: self.of.seed,
+        }
+    }
+
+    /// The best place of all sites; `also` is one more place to start from. Rounds are kept under `name`.
+    pub fn best(
+        &self,
+        (goal, effort): (PlacementGoal, Effort),
+        name: &str,
+        also: Option<&Best>,
+        journal: &mut Journal,
+    ) -> Result<Best, StudyError> {
+        let mut best: Option<Best> = None;
+        for (site, of) in self.sites.iter().enumerate() {
+            let searched = self.searched(&of.freedom, goal, effort);
+            let also = also
+                .filter(|also| also.site == site)
+                .map(|also| also.spot.at.clone());
+            let mut spots = Vec::new();
+            let mut starts: Option<Vec<Spot>> = None;
+            for round in 0..effort.rounds {
+                let at = journal.round(&format!("{name}site {site} valley {round}"), || {
+                    if starts.is_none() {
+                        starts = Some(searched.starts(self.watch)?);
+                    }
+                    let spread = starts.as_deref().unwrap_or_default();
+                    let start = match (&also, round) {
+                        (Some(also), 0) => also,
+                        // Fewer valleys than rounds: the best again, in other random steps.
+                        _ => match spread.get(round).or(spread.first()) {
+                            Some(start) => &start.at,
+                            None => return Ok(Vec::new()),
+                        },
+                    };
+                    Ok(searched.valley(start, round, self.watch)?.at)
+                })?;
+                spots.push(searched.judged(at)?);
+                self.tell(&spots, goal.sure);
+            }
+            if let Some(also) = also {
+                spots.push(searched.judged(also)?);
+            }
+            let Some(valley) = the_best(spots) else { continue };
+            let floor = journal.round(&format!("{name}site {site} floor"), || {
+                Ok(searched.floor(&valley.at, self.watch)?.at)
+            })?;
+            let spot = searched.judged(floor)?;
+            if best
+                .as_ref()
+                .is_none_or(|best| spot.merit.beats(&best.spot.merit))
+            {
+                best = Some(Best { site, spot });
+            }
+        }
+        best.ok_or_else(|| {
+            StudyError::value("there is no place to look at", "free a degree, or name fixtures")
+        })
+    }
+
+    fn tell(&self, spots: &[Spot], sure: Sure) {
+        let merit = the_best(spots.to_vec()).map_or(Merit::NONE, |spot| spot.merit);
+        (self.told)(&match merit.lost {
+            0 if matches!(sure, Sure::WithinLimit(_)) => {
+                format!("best so far {:.2} sigma from the limit", merit.cost)
+            }
+            0 => format!("best so far {:.2} µm", merit.cost * 1e6),
+            lost => format!("best so far loses {lost} points"),
+        });
+    }
+
+    /// The best place and what grids say of it; a better one that they show is gone down from.
+    pub fn certified(
+        &self,
+        mut best: Best,
+        goal: PlacementGoal,
+        journal: &mut Journal,
+    ) -> Result<(Best, CertificateAnswer), StudyError> {
+        let mut tried = 0;
+        loop {
+            let (certificate, better) = self.certificate(&best, goal)?;
+            let Some(better) = better else {
+                return Ok((best, certificate));
+            };
+            best = better;
+            if tried == MOST_TRIES {
+                return Ok((best, certificate));
+            }
+            let searched = self.searched(&self.sites[best.site].freedom, goal, self.effort);
+            let floor = journal.round(&format!("better {tried}"), || {
+                Ok(searched.floor(&best.spot.at, self.watch)?.at)
+            })?;
+            let spot = searched.judged(floor)?;
+            if spot.merit.beats(&best.spot.merit) {
+                best.spot = spot;
+            }
+            tried += 1;
+        }
+    }
+
+    /// What the grids of all sites say of `best`, and the best place among them where one is better.
+    fn certificate(
+        &self,
+        best: &Best,
+        goal: PlacementGoal,
+    ) -> Result<(CertificateAnswer, Option<Best>), StudyError> {
+        let here = self.searched(&self.sites[best.site].freedom, goal, self.effort);
+        let (near, better) = here.near_grid(&best.spot, self.watch)?;
+        let mut all = vec![(best.site, better)];
+        let mut wide: Option<GridAnswer> = None;
+        for (site, of) in self.sites.iter().enumerate() {
+            let searched = self.searched(&of.freedom, goal, self.effort);
+            let (told, better) = searched.wide_grid(&best.spot.merit, self.watch)?;
+            wide = Some(match wide {
+                Some(so_far) => so_far.and(told),
+                None => told,
+            });
+            all.push((site, better));
+        }
+        let better = all
+            .into_iter()
+            .filter_map(|(site, spot)| Some(Best { site, spot: spot? }))
+            .reduce(|a, b| if b.spot.merit.beats(&a.spot.merit) { b } else { a });
+        let wide = wide.unwrap_or_else(|| near.clone());
+        Ok((CertificateAnswer { near, wide }, better))
+    }
+
+    /// The best place for each margin, from the least on; where none holds the path the front ends.
+    pub fn front(
+        &self,
+        goal: PlacementGoal,
+        best: &Best,
+        journal: &mut Journal,
+    ) -> Result<Vec<(f64, Best)>, StudyError> {
+        let mut front: Vec<(f64, Best)> = Vec::new();
+        if best.spot.merit.lost > 0 {
+            return Ok(front);
+        }
+        front.push((goal.margin, best.clone()));
+        for margin in MARGINS_DEG.map(f64::to_radians) {
+            if margin <= goal.margin {
+                continue;
+            }
+            let goal = PlacementGoal { margin, ..goal };
+            let effort = self.effort.cheaper();
+            let name = format!("margin {:.0} ", margin.to_degrees());
+            let also = front.last().map(|(_, best)| best);
+            let found = self.best((goal, effort), &name, also, journal)?;
+            if found.spot.merit.lost > 0 {
+                break;
+            }
+            front.push((margin, found));
+        }
+        // What keeps a wide margin keeps a narrow one too.
+        for index in (1..front.len()).rev() {
+            if front[index].1.spot.merit.beats(&front[index - 1].1.spot.merit) {
+                front[index - 1].1 = front[index].1.clone();
+            }
+        }
+        Ok(front)
+    }
+
+    /// Of all that goes into the search.
+    pub fn fingerprint(&self, goal: &PlacementGoal) -> u64 {
+        let mut print = Fingerprint::new();
+        let of = self.of;
+        let (robot, setting) = (&of.study.robot.robot, &of.ask.setting);
+        let freedoms: Vec<&Freedom> = self.sites.iter().map(|site| &site.freedom).collect();
+        print.take(format!("{robot:?}{setting:?}{goal:?}{freedoms:?}{:?}", self.effort).as_bytes());
+        print.take(&of.seed.to_le_bytes());
+        for number in self.paths[1].numbers() {
+            print.take(&number.to_bits().to_le_bytes());
+        }
+        print.value()
+    }
+}
+
+/// The best of these; of equal ones the first.
+fn the_best(spots: Vec<Spot>) -> Option<Spot> {
+    spots
+        .into_iter()
+        .reduce(|best, spot| if spot.merit.beats(&best.merit) { spot } else { best })
+}
