@@ -51,6 +51,10 @@ pub(crate) struct PlaceOptions {
     #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
     pub spin_deg: Option<[f64; 2]>,
 
+    /// Where the rail under the robot stands
+    #[arg(long, value_name = "LEAST,GREATEST", value_parser = bounds, allow_hyphen_values = true)]
+    pub rail_mm: Option<[f64; 2]>,
+
     /// Branches that may be taken: words of a branch, or `any`
     #[arg(long, value_name = "WORDS")]
     pub branch: Option<String>,

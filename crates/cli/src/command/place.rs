@@ -72,6 +72,7 @@ pub(super) fn wanted(options: &PlaceOptions) -> Result<PlaceTable, StudyError> {
         tilt_deg: options.tilt_deg,
         roll_deg: options.roll_deg,
         spin_deg: options.spin_deg,
+        rail_mm: options.rail_mm,
         fixture: Vec::new(),
         branch: options.branch.clone(),
         counts: options.counts.map(Into::into),

@@ -3,7 +3,7 @@
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cell::{ARMILL, Cell, number};
+use crate::cell::{ARMILL, Cell, MH12_URDF, number};
 
 /// A ring on a plate, with room to move along x and to tilt.
 const CELL: &str = r#"format = 1
@@ -266,4 +266,41 @@ posture.search.step_deg = 45
         ]);
     cell.armill(&["advise", "study.toml"])
         .refused(&["advice is for paths", "`armill place`"]);
+}
+
+/// An MH12 on a rail along its side: the best place of the rail is the one that brings the arm to where a part that may move
+/// along the rail would go.
+#[test]
+fn a_rail_brings_the_arm_to_where_a_part_would_go() {
+    let cell = Cell::new();
+    let urdf = MH12_URDF.replace(
+        "<link name=\"base_link\"/>",
+        "<link name=\"floor\"/><link name=\"base_link\"/><joint name=\"rail\" type=\"prismatic\"><parent link=\"floor\"/><child link=\"base_link\"/><origin xyz=\"0 0 0\" rpy=\"0 0 0\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"2\" effort=\"0\" velocity=\"1\"/></joint>",
+    );
+    cell.file("railed.urdf", urdf);
+    let compliance = "compliance = { rad_per_n_m = [0, 2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5] }\n";
+    let study = CELL
+        .replace("\"yaskawa/mh12\"", "\"railed.urdf\"")
+        .replace("step_mm = 10\n", "step_mm = 60\n")
+        .replace("centre_mm = [1000, 0, 800]", "centre_mm = [1000, 700, 800]")
+        .replace("[[ask]]", &format!("{compliance}[[ask]]"));
+    cell.file("study.toml", study);
+    let said = cell
+        .armill(&["place", "study.toml", "--no-pictures", "--rail-mm", "0,1500"])
+        .fine();
+    assert!(said.out.contains(", rail at "), "{}", said.out);
+    assert!(said.out.contains("posture.home_deg = ["), "{}", said.out);
+    let placed = placement(&cell, "place");
+    assert_eq!(placed["found"]["lost_points"], 0);
+    // The plate faces the arm: by symmetry it stands best before the plate's middle.
+    let rail = number(&placed["place"]["rail_mm"]);
+    assert!((rail - 700.0).abs() < 100.0, "{rail}");
+    let largest = number(&cell.result("place")["paths"][0]["max_in_plane_um"]);
+    let cost = number(&placed["found"]["cost_um"]);
+    assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");
+    cell.armill(&["place", "study.toml", "--rail-mm", "0,2500"])
+        .refused(&["`rail_mm` goes from 0 to 2500 mm, joint rail from -1000 to 2000 mm"]);
+    cell.file("fixed.toml", CELL);
+    cell.armill(&["place", "fixed.toml", "--rail-mm", "0,500"])
+        .refused(&["stands on no rail"]);
 }

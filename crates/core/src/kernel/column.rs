@@ -22,7 +22,7 @@ use crate::load::Doubt;
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
-use crate::robot::{Branch, PostureName, Robot, Singularity};
+use crate::robot::{Branch, Joint, PostureName, Robot, Singularity};
 use crate::source::{Arm, Standing};
 use crate::spatial::{Twist, Wrench};
 
@@ -183,8 +183,28 @@ impl<'q> Columns<'q> {
                 frames: Frames::for_robot(arm.robot),
                 standing: Standing::new(arm),
                 tool_from_flange: arm.flange_from_tool.inverse(),
+                rail: None,
             })),
         }
+    }
+
+    /// Lets the first joint that slides stand at `at` (m) from here on; where the question says if that is `None`. Lanes have no
+    /// rail.
+    pub(super) fn stand_rail(&mut self, at: Option<f64>) {
+        let Way::General(one_by_one) = &mut self.way else {
+            return;
+        };
+        let robot = self.keeping.arm.robot;
+        let rail = (0..robot.joints().len()).find(|joint| robot.slides(*joint));
+        one_by_one.rail = at.zip(rail).map(|(at, rail)| {
+            let middle = |joint: &Joint| joint.limits.map_or(0.0, |limits| limits.middle());
+            let mut home = match self.keeping.home {
+                Some(home) => home.to_vec(),
+                None => robot.joints().iter().map(middle).collect(),
+            };
+            home[rail] = at;
+            home
+        });
     }
 
     /// Whether slots are branches, in the order of [`Branch::ALL`]; otherwise they are the postures that were found, of one
@@ -250,6 +270,8 @@ struct OneByOne<'q> {
     frames: Frames,
     standing: Standing<'q>,
     tool_from_flange: Isometry,
+    /// Joint positions at home, with the rail where it was told to stand; `None` where the question says.
+    rail: Option<Vec<f64>>,
 }
 
 impl OneByOne<'_> {
@@ -264,7 +286,7 @@ impl OneByOne<'_> {
         let wanted = Wanted {
             base_from_flange: pose * self.tool_from_flange,
             near: None,
-            home: keeping.home,
+            home: self.rail.as_deref().or(keeping.home),
         };
         // What was found at the pose before is no guide: columns may come in any order.
         self.finder.forget();

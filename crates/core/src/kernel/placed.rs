@@ -53,6 +53,9 @@ pub struct Lie {
     pub base_from_part: Isometry,
     /// Turn of the tool, rad.
     pub spin: f64,
+    /// Where the rail under the arm stands, m: its first joint that slides; `None` where the question says. Of arms that
+    /// lanes answer for, which have none, it is not looked at.
+    pub rail: Option<f64>,
 }
 
 /// How far postures keep from where they may not stand, and what deviation is tolerated.
@@ -253,6 +256,7 @@ impl Judge<'_> {
             Way::General(columns) => {
                 let named = columns.slots_are_branches();
                 let mut column = Column::default();
+                columns.stand_rail(lie.rail);
                 for index in 0..path.len() {
                     path.fill_column(columns, (index, lie), spins, &mut column);
                     let allowed = |slot: usize| !named || is_open[slot % SLOTS];
@@ -319,6 +323,7 @@ fn one_by_one(
         // One for whatever posture is best at each point.
         open = std::array::from_fn(|slot| slot == 0);
     }
+    columns.stand_rail(lie.rail);
     let mut judged = [Judged::default(); SLOTS];
     let mut column = Column::default();
     for index in 0..path.len() {

@@ -185,6 +185,7 @@ impl ToolTurn {
         Lie {
             base_from_part,
             spin: spin + more,
+            rail: None,
         }
     }
 }

@@ -9,6 +9,7 @@
 //! | `x, y, z` | centre of the plane, in the frame that the study counts from | m |
 //! | `heading` | about z of that frame, beside where the part lies | rad |
 //! | `tilt` | about its y; of a plane told by `tilt_deg` that angle itself, of others beside where it lies | rad |
+//! | `rail` | where the rail under the robot stands: the first joint that slides | m |
 //! | `roll` | about the normal of the plane, beside where the part lies | rad |
 //! | `R` | axes of the part as the study has them (without their tilt, where they are told by it) | - |
 
@@ -46,6 +47,9 @@ pub struct PlaceTable {
     /// Least and greatest turn of the tool about its axis, the same all along, beside the one it has.
     #[schemars(inner(range(min = -360.0, max = 360.0)))]
     pub spin_deg: Option<[f64; 2]>,
+    /// Where the rail under the robot may stand: its first joint that slides.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
+    pub rail_mm: Option<[f64; 2]>,
     /// Places that there are, in place of x, y, z, heading and tilt.
     #[schemars(length(max = 1000))]
     #[serde(default)]
@@ -112,7 +116,7 @@ pub type Fault = (String, String, &'static str);
 
 impl PlaceTable {
     /// Bounds by their keys.
-    pub fn bounds(&self) -> [(&'static str, Option<[f64; 2]>); 7] {
+    pub fn bounds(&self) -> [(&'static str, Option<[f64; 2]>); 8] {
         [
             ("x_mm", self.x_mm),
             ("y_mm", self.y_mm),
@@ -121,6 +125,7 @@ impl PlaceTable {
             ("tilt_deg", self.tilt_deg),
             ("roll_deg", self.roll_deg),
             ("spin_deg", self.spin_deg),
+            ("rail_mm", self.rail_mm),
         ]
     }
 
@@ -141,6 +146,7 @@ impl PlaceTable {
             tilt_deg: self.tilt_deg.or(other.tilt_deg),
             roll_deg: self.roll_deg.or(other.roll_deg),
             spin_deg: self.spin_deg.or(other.spin_deg),
+            rail_mm: self.rail_mm.or(other.rail_mm),
             fixture: if self.fixture.is_empty() {
                 other.fixture
             } else {
@@ -179,12 +185,12 @@ impl PlaceTable {
                     "a full turn at most, such as [-180, 180]",
                 ));
             }
-            let of_place = !["roll_deg", "spin_deg"].contains(&key);
+            let of_place = !["roll_deg", "spin_deg", "rail_mm"].contains(&key);
             if of_place && !self.fixture.is_empty() {
                 faults.push((
                     key.to_owned(),
                     format!("`{key}` beside fixtures, which say where the part lies"),
-                    "leave out one of them; roll_deg and spin_deg may stand beside fixtures",
+                    "leave out one of them; roll_deg, spin_deg and rail_mm may stand beside fixtures",
                 ));
             }
         }

@@ -32,6 +32,8 @@ pub struct PlacementAnswer {
     pub fixture: Option<String>,
     /// The place.
     pub place: PlaceAnswer,
+    /// `posture.home_deg` there, where the rail may move.
+    pub home_deg: Option<Vec<f64>>,
     /// What was free.
     pub free: Vec<FreeAnswer>,
     /// What grids of places say of it.
@@ -217,6 +219,9 @@ impl PlacementAnswer {
         if let Some([rx, ry, rz]) = place.rotation_deg {
             words += &format!(", turned by ({rx:.1}, {ry:.1}, {rz:.1}) deg");
         }
+        if let Some(rail) = place.rail_mm {
+            words += &format!(", rail at {rail:.1} mm");
+        }
         if place.spin_deg != 0.0 {
             words += &format!(", tool turned by {:.1} deg", place.spin_deg);
         }
@@ -242,6 +247,9 @@ impl PlacementAnswer {
         }
         if let Some(branch) = &self.found.branch {
             lines += &format!("posture.branch = \"{branch}\"\n");
+        }
+        if let Some(home) = &self.home_deg {
+            lines += &format!("posture.home_deg = {}\n", list(home));
         }
         if place.spin_deg != 0.0 {
             lines += &format!(

@@ -74,7 +74,11 @@ impl Found {
                 let own = own.and_then(|posture| posture.branch.clone());
                 own.or_else(|| whole.and_then(|posture| posture.branch.clone()))
             }),
-            home_deg: own.and_then(|posture| posture.home_deg.clone()),
+            home_deg: self
+                .answer
+                .home_deg
+                .clone()
+                .or_else(|| own.and_then(|posture| posture.home_deg.clone())),
             search: own.and_then(|posture| posture.search.clone()),
         });
         let more = |spin: Option<f64>| {

@@ -12,7 +12,7 @@ use crate::file::resolve::Setting;
 use crate::number::decimals;
 
 /// Numbers that place a part and its tool.
-pub(super) const DEGREES: usize = 7;
+pub(super) const DEGREES: usize = 8;
 
 /// Where the part may lie.
 #[derive(Clone, Debug)]
@@ -24,6 +24,8 @@ pub(super) struct Freedom {
     /// Whether the plane is told by its tilt.
     by_tilt: bool,
     turn: ToolTurn,
+    /// Whether the rail may move.
+    rail: bool,
     /// Least and greatest of each degree, m and rad; the same where it does not move.
     bounds: [[f64; 2]; DEGREES],
 }
@@ -39,16 +41,18 @@ pub struct PlaceAnswer {
     pub rotation_deg: Option<[f64; 3]>,
     /// Turn of the tool about its axis, beside the one it has.
     pub spin_deg: f64,
+    /// Where the rail stands, where it may move.
+    pub rail_mm: Option<f64>,
 }
 
 impl Freedom {
-    /// Of a path asked with `setting`, whose tool is turned as `turn` says, inside the bounds of `table`.
-    pub fn new(setting: &Setting, turn: ToolTurn, table: &PlaceTable) -> Freedom {
+    /// Of a path asked with `setting` and its rail at `rail` (m), whose tool is turned as `turn` says, inside the bounds of `table`.
+    pub fn new((setting, rail): (&Setting, f64), turn: ToolTurn, table: &PlaceTable) -> Freedom {
         let base_from_counted = setting.base_from_counted;
         let counted_from_part = base_from_counted.inverse() * setting.plane.base_from_part;
         let tilt = setting.tilt.unwrap_or(0.0);
         let at = counted_from_part.translation.vector;
-        let here = [at.x, at.y, at.z, 0.0, tilt, 0.0, 0.0];
+        let here = [at.x, at.y, at.z, 0.0, tilt, 0.0, 0.0, rail];
         let mut bounds = here.map(|value| [value, value]);
         for (bounds, (key, told)) in bounds.iter_mut().zip(table.bounds()) {
             if let Some(told) = told {
@@ -63,6 +67,7 @@ impl Freedom {
             axes: about(Vector3::y_axis(), -tilt) * counted_from_part.rotation,
             by_tilt: setting.tilt.is_some(),
             turn,
+            rail: table.rail_mm.is_some(),
             bounds,
         }
     }
@@ -88,7 +93,7 @@ impl Freedom {
     }
 
     /// The part at these values, in the frame that the study counts from.
-    fn counted_from_part(&self, [x, y, z, heading, tilt, roll, _]: [f64; DEGREES]) -> Isometry {
+    fn counted_from_part(&self, [x, y, z, heading, tilt, roll, ..]: [f64; DEGREES]) -> Isometry {
         let rotation = about(Vector3::z_axis(), heading)
             * about(Vector3::y_axis(), tilt)
             * self.axes
@@ -100,7 +105,11 @@ impl Freedom {
     pub fn lie(&self, at: &[f64]) -> Lie {
         let values = self.values(at);
         let base_from_part = self.base_from_counted * self.counted_from_part(values);
-        self.turn.lie(base_from_part, values[DEGREES - 1])
+        let [.., spin, rail] = values;
+        Lie {
+            rail: self.rail.then_some(rail),
+            ..self.turn.lie(base_from_part, spin)
+        }
     }
 
     /// The free degrees there.
@@ -127,7 +136,7 @@ impl Freedom {
     /// The same place in words of the study.
     pub fn answer(&self, at: &[f64]) -> PlaceAnswer {
         let values = self.values(at);
-        let [x, y, z, heading, tilt, roll, spin] = values;
+        let [x, y, z, heading, tilt, roll, spin, rail] = values;
         let by_tilt = self.by_tilt && heading == 0.0 && roll == 0.0;
         let rotation = fixed_angles(&self.counted_from_part(values).rotation);
         // A tenth of a micrometre: nobody lays a part more finely.
@@ -138,6 +147,7 @@ impl Freedom {
             tilt_deg: by_tilt.then(|| deg(tilt)),
             rotation_deg: (!by_tilt).then(|| rotation.map(deg).into()),
             spin_deg: deg(spin),
+            rail_mm: self.rail.then(|| told(rail * 1e3)),
         }
     }
 }
@@ -151,6 +161,7 @@ pub(super) const NAMES: [&str; DEGREES] = [
     "tilt_deg",
     "roll_deg",
     "spin_deg",
+    "rail_mm",
 ];
 
 /// Whether this degree is an angle.

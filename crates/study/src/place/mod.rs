@@ -27,25 +27,27 @@ pub use freedom::PlaceAnswer;
 pub use journal::Journal;
 
 use armill_core::frame::from_xyz_and_fixed_angles;
-use armill_core::kernel::BranchChoice;
+use armill_core::kernel::{BranchChoice, Lie};
 use armill_core::nalgebra::{Point3, UnitQuaternion, Vector3};
 use armill_core::optimize::{Holding, PlacementGoal, PostureSearch, ToolTurn, on_part};
 use armill_core::path::Spin;
-use armill_core::robot::BranchPattern;
+use armill_core::robot::{BranchPattern, Robot};
 use armill_core::watch::Watch;
 use armill_core::workpiece::Plane;
 
+use crate::ENOUGH_JOINTS;
 use crate::answer::path::search::{counts_word, goal_word};
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
 use crate::file::placement::{ANY, FixtureTable, PlaceTable, SureName};
 use crate::file::posture_search::{CountsName, GoalName};
 use crate::file::resolve::{Setting, Study, Subject};
+use crate::joint_unit::JointUnit;
 use crate::number::decimals;
 use crate::run::runner;
 use answer::sure_word;
 use freedom::Freedom;
-use rounds::{MARGINS_DEG, Prepared, Site};
+use rounds::{Best, MARGINS_DEG, Prepared, Site};
 use search::Effort;
 
 /// Where the part may go where nobody says: so far to all sides, mm.
@@ -85,6 +87,9 @@ impl<'a> Placing<'a> {
                 format!("`{name}` follows a program of a robot, which lies where its frame is told");
             let hint = "program.part_from_path_mm_deg = [0, 0, 0, 0, 0, 0] lays its frame on the plane, which can be moved";
             return Err(StudyError::value(message, hint));
+        }
+        if let Some([least, greatest]) = table.rail_mm {
+            check_rail(&study.robot.robot, [least * 1e-3, greatest * 1e-3])?;
         }
         if holes.is_some() && table.spin_deg.is_some() {
             let message =
@@ -179,7 +184,6 @@ impl<'a> Placing<'a> {
             told,
         };
         journal.take_up(prepared.fingerprint(&goal));
-        let drawn = Freedom::new(&self.ask.setting, turn, &PlaceTable::default());
         let mut best = prepared.best((goal, effort), "", None, journal)?;
         let mut front = prepared.front(goal, &best, journal)?;
         if let Some((_, first)) = front.first() {
@@ -189,23 +193,48 @@ impl<'a> Placing<'a> {
         if let Some((_, first)) = front.first_mut() {
             *first = best.clone();
         }
+        let answer = self.answer(&prepared, goal, (&best, certificate, &front), journal.taken());
+        let freedom = &sites[best.site].freedom;
+        let mut pictures = prepared
+            .searched(freedom, goal, effort)
+            .sections(&best.spot, &answer, watch)?;
+        pictures.extend(pictures::front(&answer, self.ask.setting.limit));
+        Ok(Found {
+            with_part: answer
+                .tool_turns_with_part
+                .then(|| self.tool_on_part(&freedom.lie(&best.spot.at))),
+            ask: self.index,
+            answer,
+            pictures,
+        })
+    }
+
+    /// What was found, as values of a result.
+    fn answer(
+        &self,
+        prepared: &Prepared<'_>,
+        goal: PlacementGoal,
+        (best, certificate, front): (&Best, CertificateAnswer, &[(f64, Best)]),
+        rounds_taken_up: usize,
+    ) -> PlacementAnswer {
+        let (track, setting) = (&self.ask.track, &self.ask.setting);
+        let turn = ToolTurn::of(track);
+        let rail = self.rail();
+        let drawn = Freedom::new((setting, rail), turn, &PlaceTable::default());
         let as_asked = PlacementGoal {
-            branches: match self.ask.setting.choice {
+            branches: match setting.choice {
                 BranchChoice::Of(pattern) => pattern,
                 BranchChoice::Best => BranchPattern::default(),
             },
             ..goal
         };
-        let limit = self.ask.setting.limit;
         let outcome = |freedom: &Freedom, goal: PlacementGoal, at: &[f64]| {
-            let appraised = prepared
-                .searched(freedom, goal, effort)
-                .all
-                .appraised(&freedom.lie(at));
-            OutcomeAnswer::of(&appraised, limit)
+            let searched = prepared.searched(freedom, goal, prepared.effort);
+            OutcomeAnswer::of(&searched.all.appraised(&freedom.lie(at)), setting.limit)
         };
-        let freedom = &sites[best.site].freedom;
-        let answer = PlacementAnswer {
+        let of = |best: &Best| &prepared.sites[best.site];
+        let place = of(best).freedom.answer(&best.spot.at);
+        PlacementAnswer {
             format: 1,
             ask: self.name.to_owned(),
             counts: counts_word(goal.counts),
@@ -213,47 +242,57 @@ impl<'a> Placing<'a> {
             margin_deg: decimals(goal.margin.to_degrees(), 4),
             sure: sure_word(goal.sure),
             as_drawn: outcome(&drawn, as_asked, &[]),
-            found: outcome(freedom, goal, &best.spot.at),
-            fixture: sites[best.site].name.map(str::to_owned),
-            place: freedom.answer(&best.spot.at),
-            free: freedom.told(&best.spot.at),
+            found: outcome(&of(best).freedom, goal, &best.spot.at),
+            fixture: of(best).name.map(str::to_owned),
+            home_deg: place.rail_mm.and_then(|rail| self.home_with_rail(rail)),
+            place,
+            free: of(best).freedom.told(&best.spot.at),
             certificate,
             by_margin: front
                 .iter()
                 .map(|(margin, best)| MarginAnswer {
                     margin_deg: decimals(margin.to_degrees(), 4),
-                    cost_um: outcome(&sites[best.site].freedom, goal, &best.spot.at).cost_um,
-                    fixture: sites[best.site].name.map(str::to_owned),
-                    place: sites[best.site].freedom.answer(&best.spot.at),
+                    cost_um: outcome(&of(best).freedom, goal, &best.spot.at).cost_um,
+                    fixture: of(best).name.map(str::to_owned),
+                    place: of(best).freedom.answer(&best.spot.at),
                 })
                 .collect(),
             seed: self.seed,
             points: track.len(),
-            rounds_taken_up: journal.taken(),
+            rounds_taken_up,
             tool_turns_with_part: turn == ToolTurn::WithPart
                 && !matches!(track.placing.spin, Spin::AlongFeed(_)),
+        }
+    }
+
+    /// `posture.home_deg` of the study with its rail at `rail_mm`.
+    fn home_with_rail(&self, rail_mm: f64) -> Option<Vec<f64>> {
+        let robot = &self.study.robot.robot;
+        let rail = rail_of(robot)?;
+        let home = self.ask.setting.home.as_deref();
+        let told = |joint: usize| {
+            let middle = robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle());
+            home.map_or(middle, |home| home[joint]) * JointUnit::of(robot, joint).scale
         };
-        let searched = prepared.searched(freedom, goal, effort);
-        let mut pictures = searched.sections(&best.spot, &answer, watch)?;
-        pictures.extend(pictures::front(&answer, self.ask.setting.limit));
-        let turns_with_part = answer.tool_turns_with_part;
-        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), freedom.lie(&best.spot.at).spin);
-        let on_part = |index: usize| {
-            (track.base_from_part.inverse() * track.stop(index).base_from_tool).rotation * spin
-        };
-        Ok(Found {
-            with_part: turns_with_part.then(|| (0..track.len()).map(on_part).collect()),
-            ask: self.index,
-            answer,
-            pictures,
-        })
+        let mut all: Vec<f64> = (0..robot.joints().len()).map(told).collect();
+        all[rail] = rail_mm;
+        Some(all)
+    }
+
+    /// The tool on the part at each point, turned as it is judged at this place.
+    fn tool_on_part(&self, lie: &Lie) -> Vec<UnitQuaternion<f64>> {
+        let track = &self.ask.track;
+        let part_from_base = track.base_from_part.inverse().rotation;
+        let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
+        let at = |index: usize| part_from_base * track.stop(index).base_from_tool.rotation * spin;
+        (0..track.len()).map(at).collect()
     }
 
     fn goal(&self) -> Result<PlacementGoal, StudyError> {
         let table = &self.table;
         let setting = &self.ask.setting;
         let branches = match table.branch.as_deref() {
-            None => setting.open,
+            None => self.holes.map_or(setting.open, |search| search.branches),
             Some(ANY) => BranchPattern::default(),
             Some(words) => words.parse().map_err(|error| {
                 let message = format!("place.branch: {error}");
@@ -261,7 +300,11 @@ impl<'a> Placing<'a> {
             })?,
         };
         Ok(PlacementGoal {
-            counts: table.counts.unwrap_or(CountsName::InPlane).counts(),
+            counts: match (table.counts, self.holes) {
+                (Some(counts), _) => counts.counts(),
+                (None, Some(search)) => search.counts,
+                (None, None) => CountsName::InPlane.counts(),
+            },
             goal: table.goal.unwrap_or(GoalName::Worst).goal(setting.limit),
             branches,
             margin: table.margin_deg.unwrap_or(0.0).to_radians(),
@@ -270,8 +313,23 @@ impl<'a> Placing<'a> {
                 None => Holding::InOneBranch,
             },
             sure: table.sure.unwrap_or(SureName::Nominal).sure(setting.limit),
-            wrist: table.least_wrist_deg.unwrap_or(USUAL_WRIST_DEG).to_radians(),
+            wrist: match (table.least_wrist_deg, self.holes) {
+                (Some(least), _) => least.to_radians(),
+                (None, Some(search)) => search.wrist,
+                (None, None) => USUAL_WRIST_DEG.to_radians(),
+            },
         })
+    }
+
+    /// Where the rail stands in the study, m; 0 where there is none.
+    fn rail(&self) -> f64 {
+        let robot = &self.study.robot.robot;
+        let home = self.ask.setting.home.as_deref();
+        let at = |joint: usize| match home {
+            Some(home) => home[joint],
+            None => robot.joints()[joint].limits.map_or(0.0, |limits| limits.middle()),
+        };
+        rail_of(robot).map_or(0.0, at)
     }
 
     fn sites(&self, turn: ToolTurn) -> Vec<Site<'_>> {
@@ -279,7 +337,7 @@ impl<'a> Placing<'a> {
         if self.table.fixture.is_empty() {
             return vec![Site {
                 name: None,
-                freedom: Freedom::new(setting, turn, &self.table),
+                freedom: Freedom::new((setting, self.rail()), turn, &self.table),
             }];
         }
         let at = |fixture: &'_ FixtureTable| {
@@ -289,13 +347,45 @@ impl<'a> Placing<'a> {
                 tilt,
                 ..setting.clone()
             };
-            Freedom::new(&there, turn, &self.table)
+            Freedom::new((&there, self.rail()), turn, &self.table)
         };
         let sites = self.table.fixture.iter().map(|fixture| Site {
             name: Some(&fixture.name),
             freedom: at(fixture),
         });
         sites.collect()
+    }
+}
+
+/// The joint that is the rail: the first that slides, of an arm with joints to spare.
+fn rail_of(robot: &Robot) -> Option<usize> {
+    let joints = robot.joints().len();
+    (0..joints).find(|joint| joints > ENOUGH_JOINTS && robot.slides(*joint))
+}
+
+/// Refuses a rail that is not there, or bounds (m) outside its limits.
+fn check_rail(robot: &Robot, [least, greatest]: [f64; 2]) -> Result<(), StudyError> {
+    let Some(rail) = rail_of(robot) else {
+        let message = format!("`rail_mm`: robot `{}` stands on no rail", robot.name());
+        return Err(StudyError::value(
+            message,
+            "a rail is a sliding joint before the six of the arm",
+        ));
+    };
+    let joint = &robot.joints()[rail];
+    match joint.limits {
+        Some(limits) if least < limits.lower || greatest > limits.upper => {
+            let message = format!(
+                "`rail_mm` goes from {} to {} mm, joint {} from {} to {} mm",
+                least * 1e3,
+                greatest * 1e3,
+                joint.name,
+                limits.lower * 1e3,
+                limits.upper * 1e3
+            );
+            Err(StudyError::value(message, "bounds inside those of the joint"))
+        }
+        _ => Ok(()),
     }
 }
 

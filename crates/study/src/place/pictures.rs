@@ -144,6 +144,7 @@ const WORDS: [(&str, &str); DEGREES] = [
     ("tilt", "tilt (deg)"),
     ("roll", "turn about the normal (deg)"),
     ("spin", "turn of the tool (deg)"),
+    ("rail", "rail (mm)"),
 ];
 
 /// What was to be least.

@@ -83,6 +83,7 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     // The first point is where these joints hold it.
                     base_from_part: base_from_flange * tool * path.points[0].part_from_tool.inverse(),
                     spin: 0.3 * round as f64,
+                    rail: None,
                 };
                 let open = match round {
                     3 => BranchPattern::from(Branch::ALL[1]),
@@ -137,6 +138,7 @@ fn branches_that_are_not_worth_it_are_given_up() {
     let lie = Lie {
         base_from_part: Isometry::translation(1.0, 0.0, 0.5),
         spin: 0.0,
+        rail: None,
     };
     let keeping = Keeping {
         margin: 0.0,
