@@ -16,9 +16,8 @@ use nalgebra::Vector3;
 
 use super::AT_LIMIT;
 use super::lanes::{Backend, Batch, POINTS, flag};
-use super::question::{BranchChoice, Question};
+use super::question::Question;
 use crate::frame::Isometry;
-use crate::load::Doubt;
 use crate::predict::deviation_of;
 use crate::robot::forward::{Frames, forward_into, joint_axis};
 use crate::robot::inverse::{Finder, Found, Wanted};
@@ -140,15 +139,7 @@ impl<'q> Columns<'q> {
     ///
     /// `home`: see [`Question::home`].
     pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, wrist: f64) -> Columns<'q> {
-        let none = [Wrench::ZERO];
-        let question = Question {
-            arm,
-            home,
-            cases: &none,
-            doubt: Doubt::NONE,
-            normal: Vector3::z_axis(),
-            choice: BranchChoice::Best,
-        };
+        let question = Question::unloaded(arm, home);
         let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
         match lanes {
             Some(form) => Columns {

@@ -10,9 +10,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::column::{Column, Columns, Push, SLOTS, Stand};
 use super::lanes::{Laid, Placer, Tallied};
-use super::question::{BranchChoice, Question};
+use super::question::Question;
 use crate::frame::Isometry;
-use crate::load::Doubt;
 use crate::robot::{Branch, BranchPattern};
 use crate::source::Arm;
 use crate::spatial::Wrench;
@@ -173,15 +172,7 @@ enum Way<'q> {
 impl<'q> Judge<'q> {
     /// For this arm. `home`: see [`Question::home`].
     pub fn new(arm: Arm<'q>, home: Option<&'q [f64]>, keeping: Keeping) -> Judge<'q> {
-        let none = [Wrench::ZERO];
-        let question = Question {
-            arm,
-            home,
-            cases: &none,
-            doubt: Doubt::NONE,
-            normal: Vector3::z_axis(),
-            choice: BranchChoice::Best,
-        };
+        let question = Question::unloaded(arm, home);
         let lanes = arm.robot.ortho_parallel().filter(|_| arm.model.is_drives_alone());
         Judge {
             keeping,

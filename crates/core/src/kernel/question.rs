@@ -35,3 +35,17 @@ pub struct Question<'a> {
     /// Which posture stands for a point.
     pub choice: BranchChoice,
 }
+
+impl<'a> Question<'a> {
+    /// A question about this arm without load: for work that brings its own loads, normals and branches.
+    pub fn unloaded(arm: Arm<'a>, home: Option<&'a [f64]>) -> Question<'a> {
+        Question {
+            arm,
+            home,
+            cases: &[],
+            doubt: Doubt::NONE,
+            normal: Vector3::z_axis(),
+            choice: BranchChoice::Best,
+        }
+    }
+}

@@ -69,38 +69,23 @@ impl Placer {
         mut worth: impl FnMut(usize, &Tallied) -> bool,
     ) -> [Tallied; 4] {
         self.stand(laid, lie);
-        let still = laid.rotations.is_empty();
         let mut tallied = [Tallied::default(); 4];
         let mut open = std::array::from_fn(|four| worth(four, &tallied[four]));
-        for (block, at) in laid.at.iter().enumerate() {
+        for block in 0..laid.at.len() {
             if open == [false; 4] {
                 break;
             }
-            self.batch.place(at.each_ref());
-            if let Some(rotations) = laid.rotations.get(block) {
-                self.batch.scratch.rotations = *rotations;
-                self.batch.orient(Second::InTheMiddle);
-            }
-            let used = BLOCK.min(laid.count - block * BLOCK);
-            let mut reached = None;
-            for four in (0..FOUR.len()).filter(|four| open[*four]) {
-                let signs = FOUR[four];
-                self.batch.solve_after(reached == Some(signs[0]), signs, still);
-                reached = Some(signs[0]);
-                self.batch.limit(still);
-                self.weigh(laid, block);
-                let Scratch {
-                    postures, in_plane, ..
-                } = &*self.batch.scratch;
-                self.batch.backend.run(Tally {
-                    postures,
-                    deviation: in_plane,
-                    used,
-                    bend2: self.bend2,
-                    limit: self.limit,
+            let (bend2, limit) = (self.bend2, self.limit);
+            self.each_posture(laid, block, open, |four, batch| {
+                batch.backend.run(Tally {
+                    postures: &batch.scratch.postures,
+                    deviation: &batch.scratch.in_plane,
+                    used: BLOCK.min(laid.count - block * BLOCK),
+                    bend2,
+                    limit,
                     out: &mut tallied[four],
                 });
-            }
+            });
             open = std::array::from_fn(|four| open[four] && worth(four, &tallied[four]));
         }
         tallied
@@ -115,9 +100,8 @@ impl Placer {
         open: [bool; 8],
         least: &mut Vec<f64>,
     ) {
-        let still = laid.rotations.is_empty();
         least.clear();
-        for (block, at) in laid.at.iter().enumerate() {
+        for block in 0..laid.at.len() {
             let mut best = [f64::INFINITY; BLOCK];
             for spin in spins {
                 let turned = Lie {
@@ -125,32 +109,47 @@ impl Placer {
                     ..*lie
                 };
                 self.stand(laid, &turned);
-                self.batch.place(at.each_ref());
-                if let Some(rotations) = laid.rotations.get(block) {
-                    self.batch.scratch.rotations = *rotations;
-                    self.batch.orient(Second::InTheMiddle);
-                }
-                let mut reached = None;
-                for four in (0..FOUR.len()).filter(|four| open[2 * four] || open[2 * four + 1]) {
-                    let signs = FOUR[four];
-                    self.batch.solve_after(reached == Some(signs[0]), signs, still);
-                    reached = Some(signs[0]);
-                    self.batch.limit(still);
-                    self.weigh(laid, block);
-                    let Scratch {
-                        postures, in_plane, ..
-                    } = &*self.batch.scratch;
-                    self.batch.backend.run(Lesser {
-                        postures,
-                        deviation: in_plane,
-                        open: [open[2 * four], open[2 * four + 1]],
-                        bend2: self.bend2,
+                let (bend2, fours) = (
+                    self.bend2,
+                    [0, 1, 2, 3].map(|four| [open[2 * four], open[2 * four + 1]]),
+                );
+                self.each_posture(laid, block, fours.map(|two| two[0] || two[1]), |four, batch| {
+                    batch.backend.run(Lesser {
+                        postures: &batch.scratch.postures,
+                        deviation: &batch.scratch.in_plane,
+                        open: fours[four],
+                        bend2,
                         best: &mut best,
                     });
-                }
+                });
             }
             let used = BLOCK.min(laid.count - block * BLOCK);
             least.extend_from_slice(&best[..used]);
+        }
+    }
+
+    /// Gives `told` each posture of the block that is open, solved, with its limits flagged and its deviations weighed.
+    fn each_posture(
+        &mut self,
+        laid: &Laid,
+        block: usize,
+        open: [bool; 4],
+        mut told: impl FnMut(usize, &Batch<f64>),
+    ) {
+        let still = laid.rotations.is_empty();
+        self.batch.place(laid.at[block].each_ref());
+        if let Some(rotations) = laid.rotations.get(block) {
+            self.batch.scratch.rotations = *rotations;
+            self.batch.orient(Second::InTheMiddle);
+        }
+        let mut reached = None;
+        for four in (0..FOUR.len()).filter(|four| open[*four]) {
+            let signs = FOUR[four];
+            self.batch.solve_after(reached == Some(signs[0]), signs, still);
+            reached = Some(signs[0]);
+            self.batch.limit(still);
+            self.weigh(laid, block);
+            told(four, &self.batch);
         }
     }
 

@@ -3,7 +3,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::frame::Isometry;
-use crate::load::{CutHere, CutsAlong, Cutter, CuttingLaw, Doubt, Greatest, LoadCases, Mechanistic};
+use crate::load::{CutHere, CutsAlong, Cutter, CuttingLaw, Greatest, LoadCases, Mechanistic};
 use crate::path::{Placing, Shape};
 use crate::robot::{BranchPattern, JointCompliance, Robot};
 use crate::source::{Arm, StiffnessModel};
@@ -60,19 +60,13 @@ impl Cell {
                 ..*c
             })
             .collect();
-        ask(&Question {
-            arm: Arm {
-                robot: &self.robot,
-                compliance: &compliance,
-                flange_from_tool: &self.tool,
-                model: StiffnessModel::DRIVES,
-            },
-            home: None,
-            cases: &[],
-            doubt: Doubt::NONE,
-            normal: Vector3::z_axis(),
-            choice: BranchChoice::Best,
-        })
+        let arm = Arm {
+            robot: &self.robot,
+            compliance: &compliance,
+            flange_from_tool: &self.tool,
+            model: StiffnessModel::DRIVES,
+        };
+        ask(&Question::unloaded(arm, None))
     }
 
     fn compensated(&self, load: &PathLoad) -> Compensated {

@@ -5,7 +5,7 @@ use nalgebra::{Point3, Unit, Vector3};
 use super::*;
 use crate::arms;
 use crate::frame::{Isometry, from_xyz_and_fixed_angles};
-use crate::load::{Doubt, LoadCases, LoadFrame};
+use crate::load::{LoadCases, LoadFrame};
 use crate::optimize::{Counts, Goal, Spins};
 use crate::path::{Hole, Placing, path_of_holes};
 use crate::source::{Arm, StiffnessModel};
@@ -81,19 +81,13 @@ fn found(holes: &[Hole], search: &PostureSearch) -> HolesFound {
 }
 
 fn question<'a>(robot: &'a Robot, tool: &'a Isometry) -> Question<'a> {
-    Question {
-        arm: Arm {
-            robot,
-            compliance: robot.compliance().unwrap(),
-            flange_from_tool: tool,
-            model: StiffnessModel::DRIVES,
-        },
-        home: None,
-        cases: &[],
-        doubt: Doubt::NONE,
-        normal: Vector3::z_axis(),
-        choice: BranchChoice::Best,
-    }
+    let arm = Arm {
+        robot,
+        compliance: robot.compliance().unwrap(),
+        flange_from_tool: tool,
+        model: StiffnessModel::DRIVES,
+    };
+    Question::unloaded(arm, None)
 }
 
 /// Witness: every turn in every branch, each asked by itself.

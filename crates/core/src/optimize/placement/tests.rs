@@ -6,7 +6,7 @@ use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::from_xyz_and_fixed_angles;
 use crate::kernel::BranchChoice;
-use crate::load::{Doubt, LoadCases};
+use crate::load::LoadCases;
 use crate::map::along_postures;
 use crate::path::{Pace, Placing, Shape};
 use crate::robot::Robot;
@@ -27,19 +27,13 @@ impl Cell {
     }
 
     fn question(&self) -> Question<'_> {
-        Question {
-            arm: Arm {
-                robot: &self.robot,
-                compliance: self.robot.compliance().unwrap(),
-                flange_from_tool: &self.tool,
-                model: StiffnessModel::DRIVES,
-            },
-            home: None,
-            cases: &[],
-            doubt: Doubt::NONE,
-            normal: Vector3::z_axis(),
-            choice: BranchChoice::Best,
-        }
+        let arm = Arm {
+            robot: &self.robot,
+            compliance: self.robot.compliance().unwrap(),
+            flange_from_tool: &self.tool,
+            model: StiffnessModel::DRIVES,
+        };
+        Question::unloaded(arm, None)
     }
 }
 

@@ -6,7 +6,7 @@ use nalgebra::{Point2, Point3};
 use super::*;
 use crate::arms;
 use crate::kernel::BranchChoice;
-use crate::load::{Doubt, LoadCases, LoadFrame};
+use crate::load::{LoadCases, LoadFrame};
 use crate::map::{AlongPath, along_postures};
 use crate::path::{Placing, SampledPath, Shape, Spin};
 use crate::robot::{Limits, Robot};
@@ -43,19 +43,13 @@ impl Cell {
     }
 
     fn question(&self) -> Question<'_> {
-        Question {
-            arm: Arm {
-                robot: &self.robot,
-                compliance: self.robot.compliance().unwrap(),
-                flange_from_tool: &self.tool,
-                model: StiffnessModel::DRIVES,
-            },
-            home: None,
-            cases: &[],
-            doubt: Doubt::NONE,
-            normal: Vector3::z_axis(),
-            choice: BranchChoice::Best,
-        }
+        let arm = Arm {
+            robot: &self.robot,
+            compliance: self.robot.compliance().unwrap(),
+            flange_from_tool: &self.tool,
+            model: StiffnessModel::DRIVES,
+        };
+        Question::unloaded(arm, None)
     }
 
     fn found(&self, track: &Track, search: &PostureSearch) -> PostureFound {
