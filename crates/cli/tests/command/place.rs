@@ -278,7 +278,7 @@ fn a_rail_brings_the_arm_to_where_a_part_would_go() {
         "<link name=\"floor\"/><link name=\"base_link\"/><joint name=\"rail\" type=\"prismatic\"><parent link=\"floor\"/><child link=\"base_link\"/><origin xyz=\"0 0 0\" rpy=\"0 0 0\"/><axis xyz=\"0 1 0\"/><limit lower=\"-1\" upper=\"2\" effort=\"0\" velocity=\"1\"/></joint>",
     );
     cell.file("railed.urdf", urdf);
-    let compliance = "compliance = { rad_per_n_m = [0, 2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5] }\n";
+    let compliance = "compliance = { rad_per_n_m = [0, 2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5], source = \"the library's MH12\" }\n";
     let study = CELL
         .replace("\"yaskawa/mh12\"", "\"railed.urdf\"")
         .replace("step_mm = 10\n", "step_mm = 60\n")
@@ -292,9 +292,24 @@ fn a_rail_brings_the_arm_to_where_a_part_would_go() {
     assert!(said.out.contains("posture.home_deg = ["), "{}", said.out);
     let placed = placement(&cell, "place");
     assert_eq!(placed["found"]["lost_points"], 0);
-    // The plate faces the arm: by symmetry it stands best before the plate's middle.
+    // The same arm without a rail, and the part moved in place of it: by lanes, not one pose after the other.
+    cell.file("plain.toml", CELL.replace("step_mm = 10\n", "step_mm = 60\n"));
+    let moved = [
+        "place",
+        "plain.toml",
+        "--no-pictures",
+        "--y-mm",
+        "-800,700",
+        "--out",
+        "moved",
+    ];
+    cell.armill(&moved).fine();
+    let moved = placement(&cell, "moved");
     let rail = number(&placed["place"]["rail_mm"]);
-    assert!((rail - 700.0).abs() < 100.0, "{rail}");
+    let y = number(&moved["place"]["centre_mm"][1]);
+    assert!((700.0 - rail - y).abs() < 5.0, "{rail} {y}");
+    let costs = [&placed, &moved].map(|of| number(&of["found"]["cost_um"]));
+    assert!((costs[0] - costs[1]).abs() < 1e-3 * costs[1], "{costs:?}");
     let largest = number(&cell.result("place")["paths"][0]["max_in_plane_um"]);
     let cost = number(&placed["found"]["cost_um"]);
     assert!((largest - cost).abs() < 1e-3 * cost, "{largest} {cost}");

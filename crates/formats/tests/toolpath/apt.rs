@@ -5,6 +5,7 @@ use std::path::Path;
 
 use armill_core::nalgebra::{Point3, Rotation3, Vector3};
 use armill_core::path::{Course, Move, Pace, Step};
+use armill_formats::robot_program::Language;
 use armill_formats::toolpath::Summary;
 use armill_formats::toolpath::apt::{self, Wanted};
 use armill_formats::toolpath::format::Format;
@@ -281,23 +282,30 @@ fn the_format_of_every_tool_path_and_robot_program_is_known() {
     }
     assert!(programs >= 100, "{programs} programs");
     let folder = samples.join("programs/same-poses-six-languages");
-    for name in [
-        "ABB_RAPID_IRC5.mod",
-        "Comau_C5G.pdl",
-        "Fanuc_R30iA.LS",
-        "KUKA_KRC2_DAT.src",
-        "KUKA_KRC4.src",
-        "KUKA_KRC4_DAT.src",
-        "Motoman.JBI",
-        "Staubli_VAL3_simplified.pgx",
-        "Universal_Robots_SCRIPT.script",
-    ] {
+    // Not by its ending.
+    let known = |name: &str| {
         let bytes = std::fs::read(folder.join(name)).expect("the sample is there");
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        // Not by its ending.
-        let told = Format::of(Path::new("unnamed"), &text)
-            .expect_err(name)
-            .to_string();
-        assert!(told.contains("a program of a robot"), "{name}: {told}");
+        Format::of(Path::new("unnamed"), &String::from_utf8_lossy(&bytes))
+    };
+    for (name, language) in [
+        ("ABB_RAPID_IRC5.mod", Language::Rapid),
+        ("Fanuc_R30iA.LS", Language::Tp),
+        ("KUKA_KRC2_DAT.src", Language::Krl),
+        ("KUKA_KRC4.src", Language::Krl),
+        ("KUKA_KRC4_DAT.src", Language::Krl),
+        ("Motoman.JBI", Language::Inform),
+        ("Universal_Robots_SCRIPT.script", Language::UrScript),
+    ] {
+        assert_eq!(known(name), Ok(Format::Robot(language)), "{name}");
     }
+    // Moves of a VAL3 program alone look like those of URScript: its name tells.
+    let name = "Staubli_VAL3_simplified.pgx";
+    let text = std::fs::read_to_string(folder.join(name)).expect("the sample is there");
+    assert_eq!(
+        Format::of(Path::new(name), &text),
+        Ok(Format::Robot(Language::Val3))
+    );
+    // A language that nobody here reads.
+    let told = known("Comau_C5G.pdl").expect_err("Comau").to_string();
+    assert!(told.contains("a program of a robot"), "{told}");
 }
