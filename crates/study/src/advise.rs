@@ -112,27 +112,23 @@ pub fn advise(
     let as_drawn = statistics(&drawn, &run(&drawn, quiet)?);
     let placed = placing.search(journal, watch, told)?;
     let moves = placed.is_better();
-    let mut there = match moves {
+    let there = match moves {
         true => placed.study(found)?,
         false => drawn,
     };
     told("turns of the tool");
     let mut turned = there.clone();
     turned.search_postures(None)?;
-    let (still, with) = (
-        statistics(&there, &run(&there, quiet)?),
-        statistics(&turned, &run(&turned, quiet)?),
-    );
-    let turns = is_better(&with, &still);
-    if turns {
-        there = turned;
-    }
+    let (still, with) = (run(&there, quiet)?, run(&turned, quiet)?);
+    let turns = is_better(&statistics(&turned, &with), &statistics(&there, &still));
+    let (advised, done) = match turns {
+        true => (&turned, with),
+        false => (&there, still),
+    };
     told("compensation");
-    let commanded = compensate(&there, Some(name), quiet)?;
+    let commanded = compensate(advised, Some(name), quiet)?;
     let compensated = commanded.first().map(|path| path.told.after);
-    drop(commanded);
-    let done = run(&there, quiet)?;
-    let answer = crate::answer::answer(&there, &done);
+    let answer = crate::answer::answer(advised, &done);
     let path = answer.paths.into_iter().next();
     let of_path = done.first().and_then(path_of);
     let (Some(path), Some((ask, of_path)), Some(compensated)) = (path, of_path, compensated) else {
@@ -155,18 +151,17 @@ pub fn advise(
         as_advised,
         placement: placed.answer,
         moves,
-        not_held: not_held(&there, (ask, of_path), &path),
+        not_held: not_held(advised, (ask, of_path), &path),
         turns: path.search.filter(|_| turns),
         compensated,
         limits: path.limits,
         compliance_assumed: study.compliance_is_assumed(),
     };
     answer.advice = answer.sentences();
-    drop(done);
     Ok(Advice {
         answer,
         pictures: placed.pictures,
-        study: there,
+        study: advised.clone(),
     })
 }
 

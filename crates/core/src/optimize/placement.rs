@@ -23,7 +23,6 @@ use crate::load::{LoadFrame, PathLoad};
 use crate::path::{Spin, ToldSpin, Track};
 use crate::robot::{Branch, BranchPattern, JointCompliance};
 use crate::source::Arm;
-use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
 /// What is searched for.
@@ -107,8 +106,7 @@ pub fn on_part((track, load): (&Track, &PathLoad), counts: Counts, indices: &[us
     };
     let cases = load.case_count();
     let at = |index: usize| {
-        let mut wrenches = vec![Wrench::ZERO; cases];
-        track.wrenches(load, index, &mut wrenches);
+        let mut wrenches = track.loaded_stop(index, load).cases;
         if told_in == ToldIn::Part {
             for wrench in &mut wrenches {
                 wrench.force = part_from_base * wrench.force;

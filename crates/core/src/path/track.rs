@@ -104,14 +104,6 @@ impl Track {
         }
     }
 
-    /// Poses, normals and wrenches of all points, in their order: all that a search for places or postures needs of points
-    /// that no path joins.
-    pub fn loaded_stops(&self, load: &PathLoad) -> Vec<LoadedStop> {
-        (0..self.len())
-            .map(|index| self.loaded_stop(index, load))
-            .collect()
-    }
-
     /// The tool axis, from the tip towards the spindle, base, if it is the same at all points.
     pub fn steady_normal(&self) -> Option<Unit<Vector3<f64>>> {
         let first = self.path.points.first()?;

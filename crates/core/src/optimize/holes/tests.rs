@@ -176,15 +176,14 @@ fn turning_gains_and_a_bounded_search_keeps_its_branch() {
 }
 
 #[test]
-fn poses_normals_and_wrenches_of_all_holes_are_told_in_one_list() {
+fn the_tool_looks_into_each_hole_and_its_thrust_comes_out_of_it() {
     let holes = holes();
     let (track, load) = (track(&holes), load());
-    let stops = track.loaded_stops(&load);
-    assert_eq!(stops.len(), holes.len());
-    for (stop, hole) in stops.iter().zip(&holes) {
+    assert_eq!(track.len(), holes.len());
+    for (index, hole) in holes.iter().enumerate() {
+        let stop = track.loaded_stop(index, &load);
         let out = track.placing.base_from_path.rotation * hole.axis;
         assert!((stop.stop.normal.into_inner() - out.into_inner()).norm() < 1e-12);
-        // The tool looks into the hole, and its thrust comes out of it.
         let looks = stop.stop.base_from_tool * Vector3::z();
         assert!((looks + out.into_inner()).norm() < 1e-12);
         assert!((stop.cases[0].force.dot(&out) - 120.0).abs() < 1e-9);

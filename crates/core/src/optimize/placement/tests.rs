@@ -11,6 +11,7 @@ use crate::map::along_postures;
 use crate::path::{Pace, Placing, Shape};
 use crate::robot::Robot;
 use crate::source::{Arm, StiffnessModel};
+use crate::spatial::Wrench;
 use crate::workpiece::Plane;
 
 struct Cell {
