@@ -9,7 +9,7 @@
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`robot_program`]: programs of robot controllers, in and out.
-//! - [`measurement`]: records of forces and tables of load tests in.
+//! - [`measurement`]: records of forces, tables of load tests and points of round profiles in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
 //!
 //! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`

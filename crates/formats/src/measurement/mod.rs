@@ -1,9 +1,10 @@
-//! What was measured? Records of force over time in, and tables of load tests.
+//! What was measured? Records of force over time in, tables of load tests, points of round profiles.
 //!
 //! - [`format`](mod@format): a force record in either format, whichever the file is.
 //! - [`dynoware`]: text exports of Kistler's DynoWare.
 //! - [`csv`]: any other table with a column for each channel.
 //! - [`load_tests`]: loads on a standing robot, and how far it gave way.
+//! - [`profile`]: points of a profile that was to be round.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor stands, no file tells: the caller says it.
@@ -15,3 +16,4 @@ pub mod csv;
 pub mod dynoware;
 pub mod format;
 pub mod load_tests;
+pub mod profile;

@@ -28,7 +28,7 @@ pub mod urdf;
 pub mod xacro;
 
 mod description;
-mod xml;
+pub(crate) mod xml;
 
 /// More joints than this are no serial arm, and what looks at pairs of joints would take long: the longest snake robots
 /// have about thirty. The schema of our own robot file says the same.

@@ -1,4 +1,4 @@
-//! XML with the place of everything that is wrong in it: the ground of URDF and xacro.
+//! XML with the place of everything that is wrong in it: the ground of URDF, xacro and QIF.
 //!
 //! The parser is the crate `roxmltree`; before it runs, and behind it, what would take it or those who walk its tree
 //! too long is refused. Places are bytes of the text.
@@ -9,7 +9,7 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::document::{Problems, Source};
 
-/// More elements, attributes and texts than this are no robot: the largest of ROS-Industrial has 2000.
+/// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
 /// Attributes of one element: none has ten.
 const MOST_ATTRIBUTES: usize = 200;
@@ -20,7 +20,7 @@ const MOST_LEVELS: usize = 64;
 ///
 /// # Errors
 /// What is not well-formed, at its place; elements that nest deeper than [`MOST_LEVELS`].
-pub(super) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
+pub(crate) fn parse(source: &Source) -> Result<Document<'_>, Problems> {
     if let Some(place) = too_many_attributes(source.text()) {
         let message = format!("an element with more than {MOST_ATTRIBUTES} attributes");
         return Err(source.problem(place, message, None).into());
@@ -104,7 +104,7 @@ pub(super) fn children<'a, 'input: 'a>(
 /// Where the start tag of an element stands.
 ///
 /// From `<` to the end of its name; it ends early where the name has a prefix.
-pub(super) fn tag(node: Node<'_, '_>) -> Range<usize> {
+pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
     let start = node.range().start;
     start..start + 1 + node.tag_name().name().len()
 }

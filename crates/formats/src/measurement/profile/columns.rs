@@ -1,0 +1,260 @@
+//! What a column of a profile is, in which unit; and the point that a row tells.
+//!
+//! | column | meaning | units |
+//! |---|---|---|
+//! | `x_mm`, `y_mm`; `z_mm` too | coordinates, of any axes | `_mm`, `_um`, `_m`, `_in` |
+//! | `angle_deg` or `theta_deg` | angle about the centre of the instrument, counter-clockwise | `_deg`, `_rad` |
+//! | `radius_mm` or `r_mm` | distance from it | `_mm`, `_um`, `_m`, `_in` |
+//! | `deviation_um` or `radius_dev_um` | the same, less a radius that is told beside the file | `_mm`, `_um`, `_m`, `_in` |
+//!
+//! Names and units in any case.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// No coordinate is larger, m: what [`armill_core::roundness::Profile`] takes.
+const FARTHEST: f64 = 1e6;
+/// No angle is larger: a thousand turns of an instrument, rad.
+const MOST_TURNS: f64 = 1e3 * std::f64::consts::TAU;
+
+/// A unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LengthUnit {
+    /// mm
+    Millimetre,
+    /// um
+    Micrometre,
+    /// m
+    Metre,
+    /// in, 25.4 mm
+    Inch,
+}
+
+impl LengthUnit {
+    /// What one of it is in m.
+    pub fn factor(self) -> f64 {
+        match self {
+            LengthUnit::Millimetre => 1e-3,
+            LengthUnit::Micrometre => 1e-6,
+            LengthUnit::Metre => 1.0,
+            LengthUnit::Inch => 25.4e-3,
+        }
+    }
+}
+
+/// No unit of length that is understood.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("units of length are mm, um, m and in")]
+pub struct NoUnit;
+
+impl FromStr for LengthUnit {
+    type Err = NoUnit;
+
+    fn from_str(text: &str) -> Result<LengthUnit, NoUnit> {
+        match text.to_lowercase().as_str() {
+            "mm" => Ok(LengthUnit::Millimetre),
+            "um" | "\u{b5}m" | "\u{3bc}m" => Ok(LengthUnit::Micrometre),
+            "m" => Ok(LengthUnit::Metre),
+            "in" | "inch" => Ok(LengthUnit::Inch),
+            _ => Err(NoUnit),
+        }
+    }
+}
+
+impl fmt::Display for LengthUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            LengthUnit::Millimetre => "mm",
+            LengthUnit::Micrometre => "um",
+            LengthUnit::Metre => "m",
+            LengthUnit::Inch => "in",
+        })
+    }
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Quantity {
+    /// Along x, y or z: 0, 1, 2.
+    Coordinate(usize),
+    /// About the centre of the instrument.
+    Angle,
+    /// From it.
+    Radius,
+    /// From it, less the radius that is told.
+    Deviation,
+}
+
+/// A column: what it holds, and the factor from its unit to m or rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Column {
+    pub quantity: Quantity,
+    pub factor: f64,
+}
+
+impl Quantity {
+    /// The quantity of a name without its unit.
+    fn of_name(name: &str) -> Option<Quantity> {
+        Some(match name {
+            "x" => Quantity::Coordinate(0),
+            "y" => Quantity::Coordinate(1),
+            "z" => Quantity::Coordinate(2),
+            "angle" | "theta" | "phi" => Quantity::Angle,
+            "radius" | "r" => Quantity::Radius,
+            "deviation" | "radius_deviation" | "radius_dev" => Quantity::Deviation,
+            _ => return None,
+        })
+    }
+
+    /// Units that it may have, for people.
+    fn units(self) -> &'static str {
+        match self {
+            Quantity::Angle => "deg or rad",
+            _ => "mm, um, m or in",
+        }
+    }
+
+    /// The factor to SI of a unit.
+    fn factor(self, unit: &str) -> Option<f64> {
+        match (self, unit) {
+            (Quantity::Angle, "deg") => Some(1f64.to_radians()),
+            (Quantity::Angle, "rad") => Some(1.0),
+            (Quantity::Angle, _) => None,
+            _ => unit.parse::<LengthUnit>().ok().map(LengthUnit::factor),
+        }
+    }
+}
+
+/// The column of a name that ends in its unit; `None` for one that means nothing here.
+///
+/// # Errors
+/// A name of ours without unit, or with one that is none of its own: what is wrong, and what to do.
+pub(super) fn named(name: &str) -> Result<Option<Column>, (String, String)> {
+    let lower = name.trim().to_lowercase();
+    if let Some(quantity) = Quantity::of_name(&lower) {
+        return Err((
+            format!("nothing tells the unit of `{name}`"),
+            format!("end the name with its unit: {}", quantity.units()),
+        ));
+    }
+    let Some((plain, unit)) = lower.rsplit_once('_') else {
+        return Ok(None);
+    };
+    let Some(quantity) = Quantity::of_name(plain) else {
+        return Ok(None);
+    };
+    match quantity.factor(unit) {
+        Some(factor) => Ok(Some(Column { quantity, factor })),
+        None => Err((
+            format!("`{unit}` is no unit of `{plain}`"),
+            format!("understood are {}", quantity.units()),
+        )),
+    }
+}
+
+/// How a row becomes a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Layout {
+    /// From x and y.
+    Plane,
+    /// From x, y and z.
+    Space,
+    /// From angle and radius.
+    Polar,
+    /// From angle and deviation from this radius, m.
+    Deviation(f64),
+}
+
+/// The quantities in the order in which [`Layout::point`] takes their values.
+const IN_ORDER: [Quantity; 6] = [
+    Quantity::Coordinate(0),
+    Quantity::Coordinate(1),
+    Quantity::Coordinate(2),
+    Quantity::Angle,
+    Quantity::Radius,
+    Quantity::Deviation,
+];
+
+impl Layout {
+    /// How rows with these columns become points; `radius_mm` is the radius that deviations are told from.
+    ///
+    /// # Errors
+    /// Columns that make no point, or more than one; a radius that is missing, idle or not above 0: what is wrong, and
+    /// what to do.
+    pub fn of(columns: &[Quantity], radius_mm: Option<f64>) -> Result<Layout, (String, &'static str)> {
+        let has = IN_ORDER.map(|quantity| columns.contains(&quantity));
+        let layout = match has {
+            [true, true, false, false, false, false] => Layout::Plane,
+            [true, true, true, false, false, false] => Layout::Space,
+            [false, false, false, true, true, false] => Layout::Polar,
+            [false, false, false, true, false, true] => {
+                let Some(radius_mm) = radius_mm else {
+                    let message = "deviations need the radius that they are told from".to_owned();
+                    return Err((message, "tell it (option `radius_mm`)"));
+                };
+                if !(radius_mm > 0.0 && radius_mm * 1e-3 <= FARTHEST) {
+                    let message = format!("a radius of {radius_mm} mm is not above 0 mm, or beyond 1e9 mm");
+                    return Err((message, "the radius at a deviation of 0"));
+                }
+                return Ok(Layout::Deviation(radius_mm * 1e-3));
+            }
+            _ => {
+                let message = "these columns do not make points of a profile".to_owned();
+                return Err((message, COLUMNS_HINT));
+            }
+        };
+        match radius_mm {
+            Some(radius_mm) => {
+                let message =
+                    format!("a radius of {radius_mm} mm was told, but no column holds deviations from it");
+                Err((message, "leave the radius out"))
+            }
+            None => Ok(layout),
+        }
+    }
+
+    /// The point of a row with these values in SI, by [`Quantity`]; z is 0 in a plane.
+    ///
+    /// # Errors
+    /// A value that no profile has, with its quantity: what is wrong, and what it may be.
+    pub fn point(self, value: impl Fn(Quantity) -> f64) -> Result<[f64; 3], (Quantity, String)> {
+        let coordinate = |axis: usize| {
+            let quantity = Quantity::Coordinate(axis);
+            match value(quantity) {
+                at if at.abs() <= FARTHEST => Ok(at),
+                at => Err((quantity, format!("a coordinate of {at} m is beyond {FARTHEST} m"))),
+            }
+        };
+        let around = |quantity: Quantity, radius: f64| {
+            let angle = value(Quantity::Angle);
+            if !(angle.abs() <= MOST_TURNS) {
+                let message = format!("an angle of {} deg is beyond 1000 turns", angle.to_degrees());
+                return Err((Quantity::Angle, message));
+            }
+            if !(radius > 0.0 && radius <= FARTHEST) {
+                let message = format!(
+                    "a radius of {} mm is not above 0 mm, or beyond 1e9 mm",
+                    radius * 1e3
+                );
+                return Err((quantity, message));
+            }
+            let (sin, cos) = angle.sin_cos();
+            Ok([radius * cos, radius * sin, 0.0])
+        };
+        match self {
+            Layout::Plane => Ok([coordinate(0)?, coordinate(1)?, 0.0]),
+            Layout::Space => Ok([coordinate(0)?, coordinate(1)?, coordinate(2)?]),
+            Layout::Polar => around(Quantity::Radius, value(Quantity::Radius)),
+            Layout::Deviation(radius) => around(Quantity::Deviation, radius + value(Quantity::Deviation)),
+        }
+    }
+
+    /// Whether its points lie in space.
+    pub fn is_space(self) -> bool {
+        self == Layout::Space
+    }
+}
+
+/// What columns make points.
+pub(super) const COLUMNS_HINT: &str = "name the columns `x_mm,y_mm`, `x_mm,y_mm,z_mm`, `angle_deg,radius_mm`, or \
+                                       `angle_deg,deviation_um` with a radius beside the file";

@@ -1,0 +1,231 @@
+//! Points in rows without names: two or three coordinates a row, the unit told beside the file.
+//!
+//! The first line may hold how many points follow, as in the files of NIST's Algorithm Testing System. Numbers are
+//! separated by blanks, tabs, `;` or `,`; a decimal comma is read where a row has no other commas to part its numbers.
+//!
+//! ```text
+//! 5
+//! -0.26182    0.71022    -0.53523
+//! 0.44656    -0.01363    -0.53523
+//! ```
+
+use std::io::BufRead;
+
+use super::columns::Layout;
+use super::table::{next, too_many};
+use super::{Format, MOST_POINTS, Measured, Points, Wanted};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::number;
+
+/// Reads the rows in `reader`; `path` is what problems show.
+///
+/// # Errors
+/// Every problem of the file, at most 200: no unit told, cells that are no numbers, rows of another length, another
+/// count of rows than the first line tells, coordinates that no part has.
+pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(mut line) = next(&mut lines)? else {
+        return Err(Problem::of_file(path, "no points in this file", UNIT_HINT).into());
+    };
+    let mut problems = Vec::new();
+    let factor = wanted.unit.map_or(1.0, super::LengthUnit::factor);
+    if wanted.unit.is_none() {
+        let message = "nothing tells the unit of these numbers";
+        problems.push(line.problem(path, 0..line.text.len(), message, UNIT_HINT));
+    }
+    if let Some(radius_mm) = wanted.radius_mm {
+        let message = format!("a radius of {radius_mm} mm was told, but these are coordinates");
+        problems.push(line.problem(path, 0..line.text.len(), message, "leave the radius out"));
+    }
+    let count: Option<(usize, Line)> = match line.text.trim().parse() {
+        Ok(count) => Some((count, line.clone())),
+        Err(_) => None,
+    };
+    if count.is_some() {
+        let Some(second) = next(&mut lines)? else {
+            return Err(Problem::of_file(path, "no points in this file", ROWS_HINT).into());
+        };
+        line = second;
+    }
+    let width = pieces(&line.text).count();
+    let layout = match width {
+        2 => Layout::Plane,
+        3 => Layout::Space,
+        _ => {
+            let message = format!("{width} numbers in a row: points have 2 or 3 coordinates");
+            problems.push(line.problem(path, 0..line.text.len(), message, ROWS_HINT));
+            return Err(problems.into());
+        }
+    };
+    let mut measured = Measured {
+        format: Format::Plain,
+        points: match layout.is_space() {
+            true => Points::Space(Vec::new()),
+            false => Points::Plane(Vec::new()),
+        },
+        lines: Vec::new(),
+        unused: Vec::new(),
+    };
+    let mut rows = 0;
+    let mut row = Some(line);
+    while let Some(line) = row.take()
+        && problems.len() < MOST_PROBLEMS
+    {
+        rows += 1;
+        if rows > MOST_POINTS {
+            problems.push(too_many(path, &line));
+            break;
+        }
+        match point(path, &line, (layout, width), factor) {
+            Ok(point) => {
+                measured.points.push(point);
+                measured.lines.push(line.number);
+            }
+            Err(wrong) => problems.extend(wrong),
+        }
+        row = next(&mut lines).unwrap_or_else(|wrong| {
+            problems.extend(wrong);
+            None
+        });
+    }
+    if let Some((count, line)) = count
+        && count != rows
+        && problems.len() < MOST_PROBLEMS
+    {
+        let message = format!("{count} points are announced, but {rows} follow");
+        problems.push(line.problem(path, 0..line.text.len(), message, "is the file whole?"));
+    }
+    Problems::from(problems).into_result()?;
+    Ok(measured)
+}
+
+/// The numbers of a row, each with where it begins.
+fn pieces(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    // A comma parts numbers only where blanks and semicolons part none.
+    let is_parted = text.trim().contains([' ', '\t', ';']);
+    let parts = move |c: char| c.is_whitespace() || c == ';' || (c == ',' && !is_parted);
+    text.split(parts)
+        .filter(|piece| !piece.is_empty())
+        .map(move |piece| {
+            let at = piece.as_ptr() as usize - text.as_ptr() as usize;
+            (at, piece.trim_end_matches(','))
+        })
+        .filter(|(_, piece)| !piece.is_empty())
+}
+
+/// The point of a row, m.
+fn point(
+    path: &str,
+    line: &Line,
+    (layout, width): (Layout, usize),
+    factor: f64,
+) -> Result<[f64; 3], Problems> {
+    let found: Vec<(usize, &str)> = pieces(&line.text).collect();
+    let whole = || 0..line.text.len();
+    if found.len() != width {
+        let message = format!("{} numbers in a row, {width} in the first", found.len());
+        return Err(line
+            .problem(path, whole(), message, "every row has as many")
+            .into());
+    }
+    let mut values = [0.0; 3];
+    let mut problems = Vec::new();
+    for ((at, piece), value) in found.iter().zip(&mut values) {
+        match number(piece, ';').filter(|number| number.is_finite()) {
+            Some(number) => *value = number * factor,
+            None => {
+                let message = format!("`{piece}` is not a number");
+                problems.push(line.problem(path, *at..at + piece.len(), message, ROWS_HINT));
+            }
+        }
+    }
+    Problems::from(problems).into_result()?;
+    let value = |quantity| match quantity {
+        super::columns::Quantity::Coordinate(axis) => values[axis],
+        _ => 0.0,
+    };
+    layout.point(value).map_err(|(_, message)| {
+        line.problem(path, whole(), message, "is the unit the one meant?")
+            .into()
+    })
+}
+
+const UNIT_HINT: &str = "tell it (option `unit`: mm, um, m or in), or name the columns, such as `x_mm,y_mm`";
+const ROWS_HINT: &str = "a row holds x and y, or x, y and z; the first line may hold the count of points";
+
+#[cfg(test)]
+mod tests {
+    use armill_core::nalgebra::{Point2, Point3};
+
+    use super::super::LengthUnit;
+    use super::*;
+
+    fn read_in(unit: Option<LengthUnit>, text: &str) -> Result<Measured, String> {
+        let wanted = Wanted {
+            radius_mm: None,
+            unit,
+        };
+        super::super::read("cir.ds", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())
+    }
+
+    #[test]
+    fn rows_with_and_without_a_count_are_points() {
+        let three = [Point3::new(1e-3, 2e-3, 3e-3), Point3::new(4.5e-3, -5e-3, 6e-3)];
+        for text in [
+            "2\n1\t2\t3\n4.5 -5  6\n",
+            "\u{feff}# NIST\r\n 2 \r\n  1 2 3\r\n\r\n4,5 -5,0 6\r\n",
+            "1,2,3\n4.5,-5,6\n",
+            "1;2;3\n4,5;-5;6\n",
+            "1, 2, 3\n4.5, -5, 6\n",
+        ] {
+            let found = read_in(Some(LengthUnit::Millimetre), text).unwrap();
+            let Points::Space(points) = found.points else {
+                panic!("{text}")
+            };
+            for (a, b) in points.iter().zip(&three) {
+                assert!((a - b).norm() < 1e-18, "{text}: {a}");
+            }
+            assert_eq!(points.len(), 2);
+        }
+        let inches = read_in(Some(LengthUnit::Inch), "1 2\n3 4\n").unwrap();
+        assert_eq!(
+            inches.points,
+            Points::Plane(vec![
+                Point2::new(0.0254, 0.0508),
+                Point2::new(3.0 * 0.0254, 0.1016)
+            ])
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_place() {
+        let mm = Some(LengthUnit::Millimetre);
+        for (unit, text, part) in [
+            (None, "2\n1 2 3\n4 5 6\n", "1:1: nothing tells the unit"),
+            (
+                mm,
+                "3\n1 2 3\n4 5 6\n",
+                "1:1: 3 points are announced, but 2 follow",
+            ),
+            (mm, "3\n", "no points in this file"),
+            (mm, "1 2 3 4\n", "4 numbers in a row"),
+            (mm, "1 2 3\n1 2\n", "2:1: 2 numbers in a row, 3 in the first"),
+            (mm, "1 2 3\n1 x 3\n", "2:3: `x` is not a number"),
+            (mm, "1 2 3\n1 2 inf\n", "2:5: `inf` is not a number"),
+            (mm, "1 2 3\n1 2 1e300\n", "2:1: a coordinate of"),
+        ] {
+            let told = read_in(unit, text).unwrap_err();
+            assert!(told.contains(part) && told.contains("help: "), "{text}: {told}");
+        }
+        let told = read_in(None, "9\n1 2 3\n1 x 3\n1 2\n").unwrap_err();
+        for part in [
+            "nothing tells the unit",
+            "9 points are announced, but 3",
+            "3:3",
+            "4:1",
+        ] {
+            assert!(told.contains(part), "{part}: {told}");
+        }
+    }
+}

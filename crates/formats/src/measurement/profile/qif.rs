@@ -1,0 +1,241 @@
+//! Results of coordinate measuring machines in QIF 2.1 or 3: the circles that the machine made of its points.
+//!
+//! Of a feature QIF tells what was found, not what was touched: `CircleFeatureActual` and `CylinderFeatureActual` hold a
+//! centre (or a point of the axis), a direction and a diameter, and a form error only where one was asked for. From
+//! these no circle can be put to points again. So a QIF file is read for what it tells, and refused as a profile:
+//! the refusal lists its circles. Points that were touched stand in a `MeasurePointSets` of QIF 3; no public file with one
+//! is known, and it is not read.
+//!
+//! | element | here |
+//! |---|---|
+//! | `CircleFeatureActual`, `CylinderFeatureActual` | one circle each |
+//! | `FeatureItemId`, then `FeatureName` of the item with that id | its name |
+//! | `Location`, or `Axis/AxisPoint` | its place |
+//! | `Diameter` | its diameter |
+//! | `Form` | its form error |
+//! | `FileUnits/PrimaryUnits/LinearUnit/UnitConversion/Factor` | what one of the file's unit is in m |
+//!
+//! Source: QIF 2.1 and 3.0, Part 3, Features (ANSI/DMSC) as used in the samples of the standard.
+
+use std::io::{BufRead, Read};
+
+use roxmltree::{Document, Node};
+
+use super::Measured;
+use crate::document::{Problem, Problems, Source};
+use crate::robot::xml;
+
+/// A circle that a machine found. m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActualCircle {
+    /// What the file calls the feature.
+    pub name: String,
+    /// Its centre, or a point of its axis.
+    pub centre: Option<[f64; 3]>,
+    /// m
+    pub diameter: Option<f64>,
+    /// Form error, m.
+    pub form: Option<f64>,
+}
+
+/// A file is no larger, in bytes.
+const LARGEST: u64 = 64 << 20;
+/// Circles that a refusal lists.
+const MOST_LISTED: usize = 20;
+
+/// Refuses the file as a profile, and tells the circles in it.
+///
+/// # Errors
+/// Always: what is wrong with the file, or what it holds in place of points.
+pub fn read(path: &str, reader: impl BufRead) -> Result<Measured, Problems> {
+    let mut bytes = Vec::new();
+    let whole = reader.take(LARGEST + 1).read_to_end(&mut bytes);
+    whole
+        .map_err(|error| Problem::of_file(path, format!("cannot read it: {error}"), "is the disk there?"))?;
+    if bytes.len() as u64 > LARGEST {
+        let message = format!("a QIF file of more than {} MB", LARGEST >> 20);
+        return Err(Problem::of_file(path, message, "export one feature alone, as a table").into());
+    }
+    let text = String::from_utf8_lossy(&bytes);
+    let found = circles(path, &text)?;
+    let message = match found.len() {
+        0 => "this QIF file holds neither points nor circles".to_owned(),
+        1 => format!(
+            "this QIF file holds a circle, but no points of it: {}",
+            told(&found)
+        ),
+        count => format!(
+            "this QIF file holds {count} circles, but no points of them: {}",
+            told(&found)
+        ),
+    };
+    Err(Problem::of_file(
+        path,
+        message,
+        "roundness needs the points that were touched: export them as a table with `x_mm,y_mm,z_mm`",
+    )
+    .into())
+}
+
+/// The circles of a QIF text.
+///
+/// # Errors
+/// What is not XML, or not QIF; a unit that is none.
+pub fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
+    let source = Source::new(path, text);
+    let document = xml::parse(&source)?;
+    let root = document.root_element();
+    if root.tag_name().name() != "QIFDocument" {
+        let message = format!("`{}` is no QIF document", root.tag_name().name());
+        let hint = "a profile is a table, or rows of numbers".to_owned();
+        return Err(source.problem(xml::tag(root), message, Some(hint)).into());
+    }
+    let factor = unit(&source, &document)?;
+    let is_actual = |node: &Node<'_, '_>| {
+        matches!(
+            node.tag_name().name(),
+            "CircleFeatureActual" | "CylinderFeatureActual"
+        )
+    };
+    let circle = |node: Node<'_, '_>| {
+        let length = |name| Some(numbers::<1>(inside(node, name)?)?[0] * factor);
+        let place = inside(node, "Location").or_else(|| inside(inside(node, "Axis")?, "AxisPoint"));
+        ActualCircle {
+            name: name(&document, node),
+            centre: place.and_then(numbers::<3>).map(|at| at.map(|x| x * factor)),
+            diameter: length("Diameter"),
+            form: length("Form"),
+        }
+    };
+    Ok(document.descendants().filter(is_actual).map(circle).collect())
+}
+
+/// What one of the file's unit is in m; 1 where nothing tells it, for QIF is then in SI.
+fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
+    let units = document
+        .descendants()
+        .find(|node| node.has_tag_name_of("LinearUnit"));
+    let factor = units
+        .and_then(|units| inside(units, "UnitConversion"))
+        .and_then(|conversion| inside(conversion, "Factor"));
+    let Some(factor) = factor else { return Ok(1.0) };
+    match numbers::<1>(factor) {
+        Some([told]) if told > 0.0 => Ok(told),
+        _ => {
+            let message = "the factor of the unit of length is no number above 0";
+            let hint = "0.001 for mm".to_owned();
+            Err(source.problem(factor.range(), message, Some(hint)).into())
+        }
+    }
+}
+
+/// What the item of an actual feature is called.
+fn name(document: &Document<'_>, actual: Node<'_, '_>) -> String {
+    let id = inside(actual, "FeatureItemId").and_then(|id| id.text());
+    let item = id.and_then(|id| {
+        document
+            .descendants()
+            .find(|node| node.attribute("id") == Some(id.trim()) && inside(*node, "FeatureName").is_some())
+    });
+    let name = item.and_then(|item| inside(item, "FeatureName")?.text());
+    name.map_or_else(|| "without name".to_owned(), |name| name.trim().to_owned())
+}
+
+fn inside<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
+    node.children().find(|child| child.has_tag_name_of(name))
+}
+
+/// The `N` finite numbers in an element, and no more.
+fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
+    let words: Option<Vec<f64>> = node
+        .text()?
+        .split_whitespace()
+        .map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
+        .collect();
+    words?.try_into().ok()
+}
+
+/// Names of elements, whatever their namespace.
+trait Tagged {
+    fn has_tag_name_of(&self, name: &str) -> bool;
+}
+
+impl Tagged for Node<'_, '_> {
+    fn has_tag_name_of(&self, name: &str) -> bool {
+        self.is_element() && self.tag_name().name() == name
+    }
+}
+
+/// Circles in words.
+fn told(circles: &[ActualCircle]) -> String {
+    let one = |circle: &ActualCircle| {
+        let mut words = vec![circle.name.clone()];
+        words.extend(circle.diameter.map(|d| format!("diameter {:.4} mm", d * 1e3)));
+        words.extend(circle.centre.map(|at| {
+            let [x, y, z] = at.map(|x| x * 1e3);
+            format!("at ({x:.4}, {y:.4}, {z:.4}) mm")
+        }));
+        words.extend(circle.form.map(|form| format!("form {:.2} um", form * 1e6)));
+        words.join(" ")
+    };
+    let mut listed: Vec<String> = circles.iter().take(MOST_LISTED).map(one).collect();
+    if circles.len() > MOST_LISTED {
+        listed.push(format!("and {} more", circles.len() - MOST_LISTED));
+    }
+    listed.join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RESULTS: &str = r#"<?xml version="1.0"?>
+<QIFDocument xmlns="http://qifstandards.org/xsd/qif3">
+  <FileUnits><PrimaryUnits><LinearUnit><UnitName>mm</UnitName><UnitConversion><Factor>0.001</Factor></UnitConversion>
+  </LinearUnit></PrimaryUnits></FileUnits>
+  <FeatureItems><CircleFeatureItem id="4"><FeatureName> BORE </FeatureName></CircleFeatureItem></FeatureItems>
+  <FeatureActuals>
+    <CircleFeatureActual id="5"><FeatureItemId>4</FeatureItemId><Location>1 2.5 -3</Location><Diameter>19.007</Diameter>
+      <Form>0.012</Form></CircleFeatureActual>
+    <CylinderFeatureActual id="6"><Axis><AxisPoint>0 0 1</AxisPoint></Axis><Diameter>x</Diameter></CylinderFeatureActual>
+  </FeatureActuals>
+</QIFDocument>"#;
+
+    #[test]
+    fn circles_are_told_in_metres_with_their_names() {
+        let [bore, other] = circles("r.qif", RESULTS).unwrap().try_into().unwrap();
+        assert_eq!(bore.name, "BORE");
+        let centre = bore.centre.unwrap();
+        assert!((centre[1] - 2.5e-3).abs() < 1e-18 && (centre[2] + 3e-3).abs() < 1e-18);
+        assert!((bore.diameter.unwrap() - 19.007e-3).abs() < 1e-15);
+        assert!((bore.form.unwrap() - 12e-6).abs() < 1e-18);
+        assert_eq!(
+            (other.name.as_str(), other.diameter, other.form),
+            ("without name", None, None)
+        );
+        assert_eq!(other.centre, Some([0.0, 0.0, 1e-3]));
+    }
+
+    #[test]
+    fn results_without_points_are_refused_with_what_they_hold() {
+        let told = read("r.qif", RESULTS.as_bytes()).unwrap_err().to_string();
+        assert!(told.contains("2 circles, but no points of them: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{told}");
+        assert!(told.contains("export them as a table"));
+        let told = read("r.qif", "<QIFDocument/>".as_bytes())
+            .unwrap_err()
+            .to_string();
+        assert!(told.contains("neither points nor circles"));
+    }
+
+    #[test]
+    fn what_is_no_qif_is_told() {
+        for (text, part) in [
+            ("<html></html>", "1:1: `html` is no QIF document"),
+            ("<QIFDocument>", "not XML"),
+            (&RESULTS.replace(">0.001<", ">-1<"), "no number above 0"),
+        ] {
+            let told = read("r.qif", text.as_bytes()).unwrap_err().to_string();
+            assert!(told.contains(part), "{told}");
+        }
+    }
+}

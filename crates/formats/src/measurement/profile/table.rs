@@ -1,0 +1,323 @@
+//! A profile as a table: one row a point, the unit of each column in its name.
+//!
+//! Columns: see [`columns`](super::columns). Others are passed over and listed. Cells are separated by `;`, tab or `,`;
+//! with the first two a decimal comma is read too. Lines that begin with `#` and empty ones are passed over.
+//!
+//! ```text
+//! angle_deg,radius_mm             # bore 3            x_mm;y_mm;z_mm
+//! 0,25.0012                       angle_deg;deviation_um    12,5013;-3,2;100
+//! 0.1,25.0013                     0;1,2
+//! ```
+
+use std::io::BufRead;
+
+use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
+use super::{Format, MOST_POINTS, Measured, Points, Wanted};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+
+/// Reads the table in `reader`; `path` is what problems show.
+///
+/// # Errors
+/// Every problem of the file, at most 200: columns that make no points, double ones, units that are missing or unknown,
+/// cells that are no numbers, rows of another length, points that no profile has.
+pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(first) = next(&mut lines)? else {
+        return Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into());
+    };
+    let table = Table::of(path, &first, wanted)?;
+    let mut measured = Measured {
+        format: Format::Table,
+        points: match table.layout.is_space() {
+            true => Points::Space(Vec::new()),
+            false => Points::Plane(Vec::new()),
+        },
+        lines: Vec::new(),
+        unused: table.unused.clone(),
+    };
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        match next(&mut lines) {
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
+            Ok(Some(line)) if measured.points.count() == MOST_POINTS => {
+                problems.push(too_many(path, &line));
+                break;
+            }
+            Ok(Some(line)) => match table.point(&line) {
+                Ok(point) => {
+                    measured.points.push(point);
+                    measured.lines.push(line.number);
+                }
+                Err(wrong) => problems.extend(wrong),
+            },
+        }
+    }
+    Problems::from(problems).into_result()?;
+    if measured.points.count() == 0 {
+        return Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into());
+    }
+    Ok(measured)
+}
+
+/// The next line that is neither empty nor a remark.
+pub(super) fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
+    loop {
+        match lines.next()? {
+            Some(line) if is_remark(&line.text) => {}
+            other => return Ok(other),
+        }
+    }
+}
+
+/// A line beyond the last that is read.
+pub(super) fn too_many(path: &str, line: &Line) -> Problem {
+    let message = format!("more than {MOST_POINTS} points");
+    line.problem(path, 0..line.text.len(), message, "every tenth or so will do")
+}
+
+/// What the columns of a file are.
+struct Table<'a> {
+    path: &'a str,
+    separator: char,
+    /// `None` is passed over.
+    columns: Vec<Option<Column>>,
+    layout: Layout,
+    unused: Vec<String>,
+}
+
+impl<'a> Table<'a> {
+    /// From the line of names.
+    fn of(path: &'a str, line: &Line, wanted: &Wanted) -> Result<Table<'a>, Problems> {
+        let whole = 0..line.text.len();
+        let separator = separator_of(&line.text);
+        let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
+        for cell in cells(&line.text, separator) {
+            let column = named(&cell.text).unwrap_or_else(|(message, hint)| {
+                problems.push(line.problem(path, cell.span.clone(), message, &hint));
+                None
+            });
+            let held = |before: &Option<Column>| {
+                column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
+            };
+            if columns.iter().any(held) {
+                let message = format!("`{}` tells what a column before it tells", cell.text);
+                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+            }
+            if column.is_none() {
+                unused.push(cell.text.to_string());
+            }
+            columns.push(column);
+        }
+        if let Some(unit) = wanted.unit {
+            let message = format!("the unit {unit} was told, but columns name theirs");
+            problems.push(line.problem(path, whole.clone(), message, "leave the unit out"));
+        }
+        // What is wrong with a name is wrong with what its columns make, too.
+        Problems::from(problems).into_result()?;
+        let quantities: Vec<Quantity> = columns.iter().flatten().map(|c: &Column| c.quantity).collect();
+        let layout = Layout::of(&quantities, wanted.radius_mm)
+            .map_err(|(message, hint)| line.problem(path, whole, message, hint))?;
+        Ok(Table {
+            path,
+            separator,
+            columns,
+            layout,
+            unused,
+        })
+    }
+
+    /// The point of a row.
+    fn point(&self, line: &Line) -> Result<[f64; 3], Problems> {
+        let found = cells(&line.text, self.separator);
+        if found.len() != self.columns.len() {
+            let message = format!(
+                "{} cells in a table of {} columns",
+                found.len(),
+                self.columns.len()
+            );
+            let hint = match self.separator {
+                ',' => "decimal commas need `;` or a tab between cells",
+                _ => "every row has a cell for each column",
+            };
+            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
+        }
+        let mut values = [(Quantity::Angle, 0.0); 6];
+        let mut problems = Vec::new();
+        let meant = found
+            .iter()
+            .zip(&self.columns)
+            .filter_map(|(cell, column)| Some((cell, (*column)?)));
+        for ((cell, column), value) in meant.clone().zip(&mut values) {
+            match number(&cell.text, self.separator).filter(|number| number.is_finite()) {
+                Some(number) => *value = (column.quantity, number * column.factor),
+                None => {
+                    let message = format!("`{}` is not a number", cell.text);
+                    let hint = "units stand in the column's name; leave out rows that were not measured";
+                    problems.push(line.problem(self.path, cell.span.clone(), message, hint));
+                }
+            }
+        }
+        Problems::from(problems).into_result()?;
+        let value = |wanted: Quantity| {
+            let found = values.iter().find(|(quantity, _)| *quantity == wanted);
+            found.map_or(0.0, |(_, value)| *value)
+        };
+        self.layout.point(value).map_err(|(quantity, message)| {
+            let cell = meant.clone().find(|(_, column)| column.quantity == quantity);
+            let span = cell.map_or(0..line.text.len(), |(cell, _)| cell.span.clone());
+            line.problem(
+                self.path,
+                span,
+                message,
+                "is the unit in the column's name the one meant?",
+            )
+            .into()
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use armill_core::nalgebra::{Point2, Point3};
+
+    use super::*;
+
+    fn read_with(text: &str, radius_mm: Option<f64>) -> Result<Measured, String> {
+        let wanted = Wanted {
+            radius_mm,
+            unit: None,
+        };
+        super::super::read("bore.csv", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())
+    }
+
+    fn plane(text: &str) -> Vec<Point2<f64>> {
+        match read_with(text, None).unwrap().points {
+            Points::Plane(points) => points,
+            Points::Space(_) => panic!("points in space"),
+        }
+    }
+
+    #[test]
+    fn the_same_points_in_other_units_separators_and_coordinates_are_the_same() {
+        let first = plane("x_mm,y_mm\n25,0\n0,25.001\n-25,0\n");
+        assert!((first[1] - Point2::new(0.0, 0.025_001)).norm() < 1e-17);
+        for text in [
+            "\u{feff}# bore 3\r\nX_um;note;Y_mm\r\n\r\n25000;a;0\r\n0;b;25,001\r\n;;\r\n-25000;;0,0\r\n",
+            "y_in\tx_m\n0\t0.025\n0.984291338582677\t0\n0,0\t-0,025\n",
+            "angle_deg,radius_mm\n0,25\n90,25.001\n-180,25\n",
+            "Theta_rad;r_um\n0;25000\n1,5707963267948966;25001\n3,141592653589793;25000\n",
+        ] {
+            let other = plane(text);
+            for (a, b) in first.iter().zip(&other) {
+                assert!((a - b).norm() < 1e-15, "{text}: {b}");
+            }
+            assert_eq!(other.len(), 3, "{text}");
+        }
+        let by_deviation = read_with("angle_deg,deviation_um\n0,0\n90,1\n180,0\n", Some(25.0)).unwrap();
+        let Points::Plane(points) = by_deviation.points else {
+            panic!("points in space")
+        };
+        assert!((points[1] - first[1]).norm() < 1e-15);
+    }
+
+    #[test]
+    fn points_in_space_lines_and_columns_without_meaning_are_told() {
+        let found = read_with("x_mm,y_mm,z_mm,probe\n1,2,3,a\n# b\n4,5,6,c\n", None).unwrap();
+        assert_eq!(
+            found.points,
+            Points::Space(vec![Point3::new(1e-3, 2e-3, 3e-3), Point3::new(4e-3, 5e-3, 6e-3)])
+        );
+        assert_eq!(
+            (found.lines, found.unused),
+            (vec![2, 4], vec!["probe".to_owned()])
+        );
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_its_place() {
+        for (text, radius_mm, part) in [
+            ("", None, "no points in this file"),
+            ("x_mm,y_mm\n", None, "no points in this file"),
+            ("a,b\n1,2\n", None, "these columns do not make points"),
+            ("x_mm,radius_mm\n1,2\n", None, "these columns do not make points"),
+            (
+                "x_mm,y_mm,angle_deg,radius_mm\n1,2,3,4\n",
+                None,
+                "these columns do not make points",
+            ),
+            ("x,y_mm\n1,2\n", None, "1:1: nothing tells the unit of `x`"),
+            ("x_mm,y_kg\n1,2\n", None, "1:6: `kg` is no unit of `y`"),
+            (
+                "angle_mm,radius_mm\n1,2\n",
+                None,
+                "1:1: `mm` is no unit of `angle`",
+            ),
+            (
+                "x_mm,y_mm,X_um\n1,2,3\n",
+                None,
+                "1:11: `X_um` tells what a column before it tells",
+            ),
+            (
+                "x_mm,y_mm\n1,2\n3\n",
+                None,
+                "3:1: 1 cells in a table of 2 columns",
+            ),
+            ("x_mm,y_mm\n1,5,2,5\n", None, "decimal commas need `;`"),
+            ("x_mm,y_mm\n1,two\n", None, "2:3: `two` is not a number"),
+            ("x_mm,y_mm\n1,nan\n", None, "2:3: `nan` is not a number"),
+            ("x_mm,y_mm\n1,1e300\n", None, "2:3: a coordinate of 1"),
+            (
+                "angle_deg,radius_mm\n1,-2\n",
+                None,
+                "2:3: a radius of -2 mm is not above 0 mm",
+            ),
+            ("angle_deg,radius_mm\n1e9,2\n", None, "beyond 1000 turns"),
+            (
+                "angle_deg,deviation_um\n1,2\n",
+                None,
+                "deviations need the radius",
+            ),
+            (
+                "angle_deg,deviation_um\n1,2\n",
+                Some(0.0),
+                "a radius of 0 mm is not above 0 mm",
+            ),
+            (
+                "angle_deg,deviation_mm\n1,-7\n",
+                Some(5.0),
+                "2:3: a radius of -2 mm",
+            ),
+            (
+                "x_mm,y_mm\n1,2\n",
+                Some(5.0),
+                "no column holds deviations from it",
+            ),
+        ] {
+            let told = read_with(text, radius_mm).unwrap_err();
+            assert!(told.contains(part) && told.contains("help: "), "{text}: {told}");
+        }
+        let unit = Wanted {
+            radius_mm: None,
+            unit: Some(super::super::LengthUnit::Inch),
+        };
+        let told = read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
+            .unwrap_err()
+            .to_string();
+        assert!(told.contains("the unit in was told"), "{told}");
+    }
+
+    #[test]
+    fn all_problems_are_told_at_once() {
+        let told = read_with("x_mm,y_mm\na,b\n1,2\n3\n4,c\n", None).unwrap_err();
+        for place in ["2:1", "2:3", "4:1", "5:3"] {
+            assert!(told.contains(&format!("bore.csv:{place}:")), "{told}");
+        }
+    }
+}
