@@ -9,7 +9,7 @@
 //! | where does it keep within the limit, what part fits there? | [`RegionMap`] |
 //! | how does that change with distance or tilt? | [`MapSeries`] |
 //! | which way is the tool pushed along a path? | [`VectorField`] |
-//! | how large is it along the path, how round is a circle? | [`PathPlot`], [`PolarPlot`] |
+//! | how large is it along the path, how round is a circle, made or measured? | [`PathPlot`], [`PolarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
 //! | where does each hole come out? | [`HoleMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
@@ -93,7 +93,7 @@ pub use map_series::{MapSeries, Panel};
 pub use marker::{Marker, MarkerKind};
 pub use path_plot::{PathPlot, Series};
 pub use plane::{AxisLabels, Growth};
-pub use polar_plot::{PolarPlot, RadialSeries};
+pub use polar_plot::{PolarPlot, RadialReference, RadialSeries};
 pub use process_map::ProcessMap;
 pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};

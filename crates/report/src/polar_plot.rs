@@ -1,14 +1,15 @@
-//! How round a circle comes out: the radial deviation, magnified, around the nominal circle.
+//! How round a circle comes out: the radial deviation, magnified, around the nominal circle or a reference circle.
 //!
 //! `radius = hole + (um - first) / (last - first) (rim - hole)`: the deviation of the innermost ring stands at
-//! 0.22 of the rim's radius, that of the outermost at the rim. The nominal circle, deviation 0, is the dashed
+//! 0.22 of the rim's radius, that of the outermost at the rim. The circle of deviation 0 is the dashed
 //! ring between. Lengths along the radius are true to scale among each other; shapes are not, since the hole
-//! stands for no deviation.
+//! stands for no deviation. Circles about another centre are drawn as they are seen from this one, and their centres
+//! marked in the same scale.
 
 use crate::axis::{extent, nice_step};
 use crate::chart::runs;
 use crate::colour::{FAINT, GRID, INK, MUTED, category};
-use crate::legend::Entry;
+use crate::legend::{Entry, draw_cross};
 use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::plane::Growth;
 use crate::svg::{Point, Style, Svg, Text};
@@ -44,6 +45,15 @@ impl RadialSeries {
     }
 }
 
+/// A circle, or two of one centre, that belong to the profile.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RadialReference {
+    /// The circles as seen from the centre of the plot; what is not finite parts one from the next.
+    pub seen: RadialSeries,
+    /// Its centre from that of the plot, along the horizontal and the vertical axis, in um.
+    pub centre_um: [f64; 2],
+}
+
 /// What a polar plot shows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolarPlot {
@@ -57,15 +67,19 @@ pub struct PolarPlot {
     pub vertical: String,
     /// Which way the horizontal axis grows: to the left, the angles run clockwise on the picture.
     pub growth: Growth,
+    /// Name of the circle of deviation 0: `nominal circle`.
+    pub zero: String,
     /// The load cases.
     pub series: Vec<RadialSeries>,
+    /// Other circles of the same profile, and their centres.
+    pub references: Vec<RadialReference>,
 }
 
 impl PolarPlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
-        let finite = self.series.iter().flat_map(|s| &s.radial_um).copied();
+        let finite = self.all_series().flat_map(|s| &s.radial_um).copied();
         let Some((low, high)) = extent(finite.chain([0.0])).filter(|_| self.has_values()) else {
             return heading.notice("There is nothing to draw: the circle has no values.");
         };
@@ -82,11 +96,59 @@ impl PolarPlot {
                 page.svg.polyline(&run, &case_style(k));
             }
         }
+        for (style, reference) in self.styled_references() {
+            let points = reference.seen.points();
+            let points = points.map(|[deg, um]| self.on_circle(centre, deg, rings.radius_px(um)));
+            for run in runs(points) {
+                page.svg.polyline(&run, &style);
+            }
+        }
+        self.mark_centres(&mut page.svg, centre, &rings);
         self.write_scale(&mut page.svg, centre, &rings);
-        let mut entries = vec![Entry::line(nominal_style(), "nominal circle")];
+        let zero = format!(
+            "{}; one ring {} µm",
+            self.zero,
+            rings.ticks.label(rings.ticks.step)
+        );
+        let mut entries = vec![Entry::line(nominal_style(), zero)];
         let cases = self.series.iter().enumerate();
         entries.extend(cases.map(|(k, series)| Entry::line(case_style(k), series.name.clone())));
+        let references = self.styled_references();
+        entries.extend(references.map(|(style, reference)| Entry::line(style, reference.seen.name.clone())));
         page.finish_with_legend(&entries, [BORDER_PX + 20.0, centre[1] + RADIUS_PX + 32.0])
+    }
+
+    /// Load cases and references.
+    fn all_series(&self) -> impl Iterator<Item = &RadialSeries> {
+        let references = self.references.iter().map(|reference| &reference.seen);
+        self.series.iter().chain(references)
+    }
+
+    /// The references, each with its line: told apart by colour and by dashes.
+    fn styled_references(&self) -> impl Iterator<Item = (Style, &RadialReference)> {
+        const DASHES: [&str; 3] = ["9 3", "2.5 2.5", "9 3 2.5 3"];
+        let styles = DASHES.iter().cycle().enumerate();
+        let styles = styles.map(|(k, dash)| Style::line(category(self.series.len() + k), 1.5).dashed(dash));
+        styles.zip(&self.references)
+    }
+
+    /// A cross at the centre of each circle, where there are references.
+    fn mark_centres(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
+        const HALF_PX: f64 = 5.0;
+        if self.references.is_empty() {
+            return;
+        }
+        draw_cross(svg, centre, (HALF_PX, &Style::line(INK, 1.3)));
+        let px_per_um = rings.px_per_um();
+        for (k, reference) in self.references.iter().enumerate() {
+            let [right, up] = reference.centre_um.map(|um| um * px_per_um);
+            // A centre out of the plot has no place in it.
+            if right.hypot(up) < RADIUS_PX {
+                let at = [centre[0] + self.growth.sign() * right, centre[1] - up];
+                let style = Style::line(category(self.series.len() + k), 1.3);
+                draw_cross(svg, at, (HALF_PX, &style));
+            }
+        }
     }
 
     /// Whether some point has an angle and a deviation.
@@ -142,8 +204,7 @@ impl PolarPlot {
         const HALF_PX: Point = [24.0, 9.0];
         let centre = [0.0, 0.0];
         let points: Vec<Point> = self
-            .series
-            .iter()
+            .all_series()
             .flat_map(RadialSeries::points)
             .map(|[deg, um]| self.on_circle(centre, deg, rings.radius_px(um)))
             .collect();
@@ -196,8 +257,13 @@ impl Rings {
 
     /// Distance from the centre of a deviation, px.
     fn radius_px(&self, um: f64) -> f64 {
-        let [first, last] = self.ends_um;
-        HOLE_PX + (um - first) / (last - first) * (RADIUS_PX - HOLE_PX)
+        let first = self.first_um();
+        HOLE_PX + (um - first) * self.px_per_um()
+    }
+
+    /// How much a deviation is magnified.
+    fn px_per_um(&self) -> f64 {
+        (RADIUS_PX - HOLE_PX) / (self.ends_um[1] - self.ends_um[0])
     }
 
     fn first_um(&self) -> f64 {
@@ -276,5 +342,35 @@ mod tests {
         let ray = |series| plot(series).clearest_ray_deg(&rings, &numbered);
         assert!((ray(Vec::new()) - 75.0).abs() < 1e-9);
         assert!((ray(vec![on_ring(75.0), on_ring(105.0)]) - 255.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn references_are_told_apart_and_their_centres_stand_where_they_are() {
+        let seen = |name: &str| RadialSeries {
+            name: name.to_owned(),
+            angle_deg: vec![0.0, 90.0, 180.0, 270.0, 360.0],
+            radial_um: vec![4.0; 5],
+        };
+        let reference = |name: &str, centre_um| RadialReference {
+            seen: seen(name),
+            centre_um,
+        };
+        let mut plot = PolarPlot {
+            zero: "LSCI".to_owned(),
+            series: vec![seen("profile")],
+            references: vec![reference("MCCI", [1.0, 0.0]), reference("MICI", [1e9, 0.0])],
+            ..PolarPlot::default()
+        };
+        let svg = plot.to_svg();
+        for part in ["LSCI; one ring", "MCCI", "MICI", "9 3", "2.5 2.5"] {
+            assert!(svg.contains(part), "{part}");
+        }
+        // Without references no centre is marked; a centre out of the plot has no mark.
+        let crosses = |plot: &PolarPlot| {
+            plot.to_svg().matches("<line").count() + plot.to_svg().matches("<path").count()
+        };
+        let both = crosses(&plot);
+        plot.references[1].centre_um = [0.0, 1.0];
+        assert!(crosses(&plot) > both);
     }
 }

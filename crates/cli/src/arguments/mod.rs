@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `forces`, `completions`.
+//! `identify`, `forces`, `roundness`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -23,6 +23,7 @@ mod place;
 mod pose;
 mod posture;
 mod robots;
+mod roundness;
 mod run;
 
 pub(crate) use advise::AdviseArguments;
@@ -38,6 +39,7 @@ pub(crate) use place::{PlaceArguments, PlaceOptions};
 pub(crate) use pose::PoseArguments;
 pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
+pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
 
 use clap::{Parser, Subcommand};
@@ -88,6 +90,8 @@ pub(crate) enum Command {
     Identify(IdentifyArguments),
     /// What is in a record of a dynamometer, without drift and teeth
     Forces(ForcesArguments),
+    /// How round a measured profile is: the four reference circles, filter, harmonics
+    Roundness(RoundnessArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -113,6 +117,7 @@ impl Command {
             Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,
+            Command::Roundness(a) => a.json,
             Command::Completions(_) => false,
         }
     }

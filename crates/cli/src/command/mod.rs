@@ -1,7 +1,7 @@
 //! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
 //!
 //! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `advise`, `compensate`, `identify`,
-//! `forces`, `completions`. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
+//! `forces`, `roundness`, `completions`. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
 //! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
@@ -22,6 +22,7 @@ pub(crate) mod place;
 pub(crate) mod pose;
 pub(crate) mod posture;
 pub(crate) mod robots;
+pub(crate) mod roundness;
 pub(crate) mod run;
 
 mod drawing;

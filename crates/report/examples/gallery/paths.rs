@@ -2,8 +2,9 @@
 
 use armill_report::{
     Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot,
-    ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap, RadialSeries,
-    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
+    ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap,
+    RadialReference, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap,
+    VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -28,6 +29,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("cell_map", cell_map().to_svg()),
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
+        ("polar_plot_roundness", roundness_plot().to_svg()),
         ("comparison", comparison().to_svg()),
         ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
@@ -278,7 +280,53 @@ fn polar_plot() -> PolarPlot {
         horizontal: "y".into(),
         vertical: "z'".into(),
         growth: Growth::Left,
+        zero: "nominal circle".into(),
         series: vec![series(0), series(2)],
+        references: Vec::new(),
+    }
+}
+
+/// A measured bore of three lobes with its four reference circles.
+fn roundness_plot() -> PolarPlot {
+    let circle = |name: &str, [x, y]: [f64; 2], radii_um: &[f64]| {
+        let seen = radii_um.iter().flat_map(|r| {
+            let at = move |m: i32| {
+                let a = (f64::from(m) * 2.0).to_radians();
+                (f64::from(m) * 2.0, r + x * a.cos() + y * a.sin())
+            };
+            (0..=180).map(at).chain([(0.0, f64::NAN)])
+        });
+        let (angle_deg, radial_um) = seen.unzip();
+        RadialReference {
+            seen: RadialSeries {
+                name: name.into(),
+                angle_deg,
+                radial_um,
+            },
+            centre_um: [x, y],
+        }
+    };
+    let profile = |m: i32| {
+        let a = (f64::from(m) * 2.0).to_radians();
+        4.0 * (3.0 * a).cos() + 1.5 * (5.0 * a + 0.6).sin() + 0.4 * (31.0 * a).sin()
+    };
+    PolarPlot {
+        title: "Bore 25 mm".into(),
+        subtitle: "RONt 10.6 µm LSCI, 9.9 µm MZCI".into(),
+        horizontal: "x".into(),
+        vertical: "y".into(),
+        growth: Growth::Right,
+        zero: "LSCI".into(),
+        series: vec![RadialSeries {
+            name: "profile".into(),
+            angle_deg: (0..=180).map(|m| f64::from(m) * 2.0).collect(),
+            radial_um: (0..=180).map(profile).collect(),
+        }],
+        references: vec![
+            circle("MZCI", [0.3, 0.4], &[-4.9, 5.1]),
+            circle("MCCI", [-0.5, 0.2], &[5.4]),
+            circle("MICI", [0.6, -0.3], &[-4.6]),
+        ],
     }
 }
 

@@ -295,7 +295,9 @@ impl Drawing<'_> {
             horizontal: "base y".to_owned(),
             vertical: "z′".to_owned(),
             growth: Growth::Left,
+            zero: "nominal circle".to_owned(),
             series: self.found.radial.iter().enumerate().map(series).collect(),
+            references: Vec::new(),
         };
         let caption = "radial deviation of the circle, magnified.";
         (!self.found.radial.is_empty()).then(|| self.picture("polar", caption, picture.to_svg()))

@@ -1,0 +1,45 @@
+//! What can be typed behind `armill roundness`.
+//!
+//! `--unit` and `--radius-mm` say what a file does not; `--upr` and `--harmonics` what is asked of its points.
+
+use std::path::PathBuf;
+
+use armill_formats::measurement::profile::LengthUnit;
+use clap::Args;
+
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+FILE is a table whose names end in units (x_mm,y_mm or x_mm,y_mm,z_mm or angle_deg,radius_mm), or rows of numbers with
+--unit. The guide: docs/guide/roundness.md
+
+Examples:
+  armill roundness bore.csv
+  armill roundness bore.csv --upr 50 --out bore
+  armill roundness deviations.csv --radius-mm 25 --json
+  armill roundness cir2d1.ds --unit mm"
+)]
+pub(crate) struct RoundnessArguments {
+    /// Points of a profile, one file a profile
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// Cut-off of the Gaussian filter, undulations per revolution (nothing is filtered if left out)
+    #[arg(long, value_name = "N")]
+    pub upr: Option<u32>,
+    /// Waves a turn to tell, from 1
+    #[arg(long, value_name = "N", default_value_t = 15)]
+    pub harmonics: usize,
+    /// The radius that deviations are told from, of a table with angle and deviation
+    #[arg(long, value_name = "R")]
+    pub radius_mm: Option<f64>,
+    /// Unit of rows without names: mm, um, m or in
+    #[arg(long, value_name = "UNIT")]
+    pub unit: Option<LengthUnit>,
+    /// Write table and picture into this folder
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}

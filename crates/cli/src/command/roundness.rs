@@ -1,0 +1,216 @@
+//! `armill roundness`: how round a measured profile is, by the four circles of ISO 12181.
+//!
+//! `--unit` and `--radius-mm` say how a file is read, `--upr` and `--harmonics` what is asked. Stdout holds a
+//! [`RoundnessAnswer`], in words or as JSON: one for a file, a list of them for several. `--out` takes table and picture,
+//! of several files in a folder each.
+//!
+//! ```text
+//! bore.csv: table, 3600 points, largest gap 0.10 deg                 file, format
+//! plane  normal (0, 0, 1), flatness 1.20 um                          of points in space
+//! circle   RONt um   radius mm   centre mm                           LSCI, MZCI, MCCI, MICI, or why there is none
+//! RONp, RONv, RONq                                                   about LSCI
+//! waves   amplitude um   phase deg                                   harmonics
+//! ```
+//!
+//! Roundness is told to a nanometre, places to a ten thousandth of a millimetre.
+
+use std::path::Path;
+
+use armill_formats::measurement::profile::Wanted;
+use armill_study::StudyError;
+use armill_study::roundness::{Question, RoundnessAnswer, answer, judge, output, read};
+
+use crate::Outcome;
+use crate::arguments::RoundnessArguments;
+use crate::terminal::{print, say};
+
+/// More waves than this are no harmonics but noise, and their sums take long.
+const MOST_HARMONICS: usize = 500;
+/// A filter of more passes what no instrument sees.
+const MOST_UPR: u32 = 15_000;
+/// Outliers that are named one by one.
+const MOST_NAMED: usize = 5;
+
+/// Reads, judges, writes what was asked for and prints.
+///
+/// # Errors
+/// A file that cannot be read, or its problems; points without a circle; options that cannot be; a folder or stdout that
+/// takes no more.
+pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError> {
+    let question = question(arguments)?;
+    let wanted = Wanted {
+        radius_mm: arguments.radius_mm,
+        unit: arguments.unit,
+    };
+    let mut answers = Vec::new();
+    let mut judged = Vec::new();
+    for file in &arguments.files {
+        let shown = file.display().to_string();
+        let measured = read((&shown, file), &wanted)?;
+        let found = judge(&shown, &measured, &question)?;
+        answers.push(answer(&shown, &measured, &question, &found));
+        judged.push(found);
+    }
+    if let Some(out) = &arguments.out {
+        for (index, (answer, judged)) in answers.iter().zip(&judged).enumerate() {
+            output::write(answer, judged, &folder(out, arguments, index))?;
+        }
+        say(&format!("tables and pictures in {}", out.display()));
+    }
+    let text = match (arguments.json, &answers[..]) {
+        (true, [one]) => serde_json::to_string_pretty(one)?,
+        (true, all) => serde_json::to_string_pretty(all)?,
+        (false, all) => all.iter().map(as_text).collect::<Vec<_>>().join("\n\n"),
+    };
+    print(&text)?;
+    Ok(Outcome::Fine)
+}
+
+/// What is asked of every file.
+fn question(arguments: &RoundnessArguments) -> Result<Question, StudyError> {
+    if let Some(upr) = arguments.upr.filter(|upr| !(1..=MOST_UPR).contains(upr)) {
+        return Err(StudyError::value(
+            format!("--upr: {upr} is not from 1 to {MOST_UPR}"),
+            "usual cut-offs are 15, 50, 150, 500 and 1500 undulations per revolution",
+        ));
+    }
+    if arguments.harmonics > MOST_HARMONICS {
+        return Err(StudyError::value(
+            format!("--harmonics: {} is above {MOST_HARMONICS}", arguments.harmonics),
+            "the coarse waves are what a machine makes",
+        ));
+    }
+    Ok(Question {
+        upr: arguments.upr,
+        harmonics: arguments.harmonics,
+    })
+}
+
+/// Where table and picture of a file go: of several each has a folder named after its file and its number.
+fn folder(out: &Path, arguments: &RoundnessArguments, index: usize) -> std::path::PathBuf {
+    if arguments.files.len() == 1 {
+        return out.to_owned();
+    }
+    let stem = arguments.files[index].file_stem().unwrap_or_default();
+    out.join(format!("{}-{}", index + 1, stem.to_string_lossy()))
+}
+
+/// The answer as a person reads it, see the head of this file.
+fn as_text(answer: &RoundnessAnswer) -> String {
+    let filter = match answer.filter_upr {
+        Some(upr) => format!("Gaussian filter {upr} UPR"),
+        None => "not filtered".to_owned(),
+    };
+    let mut lines = vec![format!(
+        "{}: {}, {} points, largest gap {:.2} deg, {filter}",
+        answer.file, answer.format, answer.points, answer.largest_gap_deg
+    )];
+    if !answer.unused.is_empty() {
+        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+    }
+    if let Some(plane) = &answer.plane {
+        lines.push(format!(
+            "plane        normal {}, x along {}, flatness {:.3} um",
+            direction(plane.normal),
+            direction(plane.x_axis),
+            plane.flatness_mm * 1e3
+        ));
+    }
+    lines.push(String::new());
+    lines.push(format!(
+        "{:<8} {:>12} {:>14}   centre mm",
+        "circle", "RONt um", "radius mm"
+    ));
+    let lsci = &answer.lsci;
+    lines.push(circle(
+        "LSCI",
+        lsci.ront_mm,
+        &told(lsci.radius_mm),
+        &lsci.centre_mm,
+    ));
+    lines.push(match &answer.mzci {
+        Some(zone) => {
+            let [inner, outer] = zone.radii_mm;
+            let mean = told((inner + outer) / 2.0);
+            circle("MZCI", zone.ront_mm, &mean, &zone.centre_mm)
+        }
+        None => format!(
+            "MZCI     none: {}",
+            answer.mzci_refused.as_deref().unwrap_or_default()
+        ),
+    });
+    let mcci = &answer.mcci;
+    lines.push(circle(
+        "MCCI",
+        mcci.ront_mm,
+        &told(mcci.radius_mm),
+        &mcci.centre_mm,
+    ));
+    lines.push(match &answer.mici {
+        Some(mici) => circle("MICI", mici.ront_mm, &told(mici.radius_mm), &mici.centre_mm),
+        None => format!(
+            "MICI     none: {}",
+            answer.mici_refused.as_deref().unwrap_or_default()
+        ),
+    });
+    lines.push(String::new());
+    lines.push(format!(
+        "about LSCI   RONp {:.3} um, RONv {:.3} um, RONq {:.3} um",
+        lsci.ronp_mm * 1e3,
+        lsci.ronv_mm * 1e3,
+        lsci.ronq_mm * 1e3
+    ));
+    if !answer.harmonics.is_empty() {
+        lines.push(String::new());
+        lines.push(format!(
+            "{:>5} {:>14} {:>10}",
+            "waves", "amplitude um", "phase deg"
+        ));
+        lines.extend(answer.harmonics.iter().map(|wave| {
+            format!(
+                "{:>5} {:>14.3} {:>10.1}",
+                wave.waves, wave.amplitude_um, wave.phase_deg
+            )
+        }));
+    }
+    if !answer.outliers.is_empty() {
+        lines.push(String::new());
+    }
+    lines.extend(answer.outliers.iter().take(MOST_NAMED).map(|point| {
+        format!(
+            "stands out   line {}, at {:.2} deg: {:+.2} um off its neighbours",
+            point.line, point.angle_deg, point.off_um
+        )
+    }));
+    if answer.outliers.len() > MOST_NAMED {
+        lines.push(format!(
+            "             and {} more",
+            answer.outliers.len() - MOST_NAMED
+        ));
+    }
+    lines.push(String::new());
+    lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));
+    lines.extend(answer.sources.iter().map(|source| format!("source: {source}")));
+    lines.join("\n")
+}
+
+/// A row of the table of circles.
+fn circle(name: &str, ront_mm: f64, radius: &str, centre_mm: &[f64]) -> String {
+    let centre: Vec<String> = centre_mm.iter().map(|x| format!("{x:.4}")).collect();
+    format!(
+        "{name:<8} {:>12.3} {radius:>14}   ({})",
+        ront_mm * 1e3,
+        centre.join(", ")
+    )
+}
+
+/// A radius, to a ten thousandth of a millimetre.
+fn told(radius_mm: f64) -> String {
+    format!("{radius_mm:.4}")
+}
+
+/// A direction of length one, without what rounding leaves behind.
+fn direction(direction: [f64; 3]) -> String {
+    let [x, y, z] = direction.map(|part| armill_study::number::decimals(part, 4));
+    format!("({x}, {y}, {z})")
+}

@@ -1,0 +1,37 @@
+//! How round is what was measured? Points of a profile from their file to the four circles of the standard.
+//!
+//! ```text
+//! file -> Measured -> judge: plane, circles, filter, waves, what stands out -> RoundnessAnswer, table, picture
+//! ```
+//!
+//! [`judge`](mod@judge): the circles of a profile, and what else is asked of it. [`answer`](mod@answer): what came of it, in
+//! numbers. [`output`]: table and picture of it.
+
+pub mod answer;
+pub mod judge;
+pub mod output;
+
+pub use answer::{CircleAnswer, RoundnessAnswer, ZoneAnswer, answer};
+pub use judge::{Judged, Question, judge};
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_formats::measurement::profile::{self, Measured, Wanted};
+
+use crate::StudyError;
+
+/// Reads the profile in `path`; `shown` is what problems call it.
+///
+/// # Errors
+/// The file cannot be read; its problems.
+pub fn read((shown, path): (&str, &Path), wanted: &Wanted) -> Result<Measured, StudyError> {
+    let file = File::open(path).map_err(|error| {
+        StudyError::value(
+            format!("cannot read {shown}: {error}"),
+            "a table with `x_mm,y_mm` or `angle_deg,radius_mm`, or rows of numbers with --unit",
+        )
+    })?;
+    Ok(profile::read(shown, BufReader::new(file), wanted)?)
+}

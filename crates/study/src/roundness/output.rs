@@ -1,0 +1,217 @@
+//! Table and picture of a profile.
+//!
+//! ```text
+//! roundness.csv     angle_deg, radius_mm, deviation_um, deviation_measured_um; round the circle, one row a point
+//! roundness.svg     the profile, magnified, with its four circles and their centres; roundness.png is the same
+//! ```
+
+use std::path::{Path, PathBuf};
+
+use armill_core::nalgebra::Point2;
+use armill_core::roundness::Polar;
+use armill_formats::file::write_atomically;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::{Growth, PolarPlot, RadialReference, RadialSeries};
+
+use super::{Judged, RoundnessAnswer};
+use crate::StudyError;
+use crate::output::prepare;
+
+/// Pixels that a picture is drawn in for each of its own.
+#[cfg(feature = "png")]
+const PNG_SCALE: f64 = 2.0;
+/// A line on the picture has no more points: of more, the extremes of each step are drawn.
+const MOST_DRAWN: usize = 3600;
+/// A gap wider than this is no part of the profile: nothing is drawn in it.
+const OPEN_DEG: f64 = 20.0;
+/// Steps of a circle on the picture.
+const CIRCLE_STEPS: usize = 360;
+
+/// Writes table and picture into the folder `out` and gives their paths.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(answer: &RoundnessAnswer, judged: &Judged, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    prepare(out)?;
+    let svg = plot(answer, judged).to_svg();
+    let mut files = vec![("roundness.csv", csv::write(&table(judged)?))];
+    #[cfg(feature = "png")]
+    files.push(("roundness.png", armill_report::raster::png(&svg, PNG_SCALE)?));
+    files.push(("roundness.svg", svg.into_bytes()));
+    let mut written = Vec::new();
+    for (name, bytes) in files {
+        write_atomically(out.join(name), &bytes)?;
+        written.push(out.join(name));
+    }
+    Ok(written)
+}
+
+/// The picture of a profile.
+pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
+    let polar = &judged.polar;
+    let um = |circle_mm: f64| circle_mm * 1e3;
+    let mut told = vec![format!("{:.2} µm LSCI", um(answer.lsci.ront_mm))];
+    told.extend(answer.mzci.as_ref().map(|c| format!("{:.2} MZCI", um(c.ront_mm))));
+    told.push(format!("{:.2} MCCI", um(answer.mcci.ront_mm)));
+    told.extend(answer.mici.as_ref().map(|c| format!("{:.2} MICI", um(c.ront_mm))));
+    let filter = match answer.filter_upr {
+        Some(upr) => format!("Gaussian filter {upr} UPR"),
+        None => "not filtered".to_owned(),
+    };
+    let drawn: Vec<usize> = drawn(polar);
+    let mut series = RadialSeries {
+        name: format!("profile, {} points", answer.points),
+        angle_deg: drawn.iter().map(|i| polar.angles[*i].to_degrees()).collect(),
+        radial_um: drawn.iter().map(|i| polar.deviations[*i] * 1e6).collect(),
+    };
+    if !is_open(polar) {
+        // The first point again closes the line.
+        series.angle_deg.extend(series.angle_deg.first().copied());
+        series.radial_um.extend(series.radial_um.first().copied());
+    }
+    let mut references = Vec::new();
+    if let Ok(zone) = &judged.zone {
+        references.push(reference("MZCI", polar, (zone.centre, &[zone.inner, zone.outer])));
+    }
+    let outer = &judged.circumscribed;
+    references.push(reference("MCCI", polar, (outer.centre, &[outer.radius])));
+    if let Ok(inner) = &judged.inscribed {
+        references.push(reference("MICI", polar, (inner.centre, &[inner.radius])));
+    }
+    PolarPlot {
+        title: format!("RONt {}", told.join(", ")),
+        subtitle: format!("{}; {filter}; crosses: centres", answer.file),
+        horizontal: "x".to_owned(),
+        vertical: "y".to_owned(),
+        growth: Growth::Right,
+        zero: format!("LSCI, radius {:.4} mm", answer.lsci.radius_mm),
+        series: vec![series],
+        references,
+    }
+}
+
+/// Whether the points leave so much open that nothing is to be drawn there.
+fn is_open(polar: &Polar) -> bool {
+    polar.gap.width.to_degrees() > OPEN_DEG
+}
+
+/// Circles about `centre` with these radii (m), as they are seen from the centre of `polar`, where it has points.
+fn reference(name: &str, polar: &Polar, (centre, radii): (Point2<f64>, &[f64])) -> RadialReference {
+    let shift = centre - polar.centre;
+    let gap = &polar.gap;
+    let (begin, sweep) = match is_open(polar) {
+        true => (gap.from + gap.width, std::f64::consts::TAU - gap.width),
+        false => (0.0, std::f64::consts::TAU),
+    };
+    let mut seen = RadialSeries {
+        name: name.to_owned(),
+        ..RadialSeries::default()
+    };
+    for radius in radii {
+        for step in 0..=CIRCLE_STEPS {
+            let angle = begin + sweep * step as f64 / CIRCLE_STEPS as f64;
+            let (sin, cos) = angle.sin_cos();
+            let (along, across) = (shift.x * cos + shift.y * sin, shift.y * cos - shift.x * sin);
+            // From the centre of the plot the circle is met at `along` and what is left of the radius.
+            let distance = along + (radius * radius - across * across).max(0.0).sqrt();
+            seen.angle_deg.push(angle.to_degrees());
+            seen.radial_um.push((distance - polar.radius) * 1e6);
+        }
+        // Ends the line of this circle.
+        seen.angle_deg.push(0.0);
+        seen.radial_um.push(f64::NAN);
+    }
+    RadialReference {
+        seen,
+        centre_um: [shift.x * 1e6, shift.y * 1e6],
+    }
+}
+
+/// The points that are drawn, round the circle from behind the gap: all, or the lowest and highest of each step.
+fn drawn(polar: &Polar) -> Vec<usize> {
+    let count = polar.order.len();
+    // Behind the widest gap an arc begins; a full circle may begin there too.
+    let first = polar
+        .order
+        .iter()
+        .position(|i| polar.angles[*i] > polar.gap.from)
+        .unwrap_or(0);
+    let round: Vec<usize> = (0..count).map(|k| polar.order[(first + k) % count]).collect();
+    if count <= MOST_DRAWN {
+        return round;
+    }
+    let by = |a: &&usize, b: &&usize| polar.deviations[**a].total_cmp(&polar.deviations[**b]);
+    let extremes = |step: &[usize]| {
+        let [low, high] = [step.iter().position_min(by), step.iter().position_max(by)];
+        let (first, last) = (low.min(high), low.max(high));
+        [step[first], step[last]]
+    };
+    round
+        .chunks(count.div_ceil(MOST_DRAWN / 2))
+        .flat_map(extremes)
+        .collect()
+}
+
+/// Where the least and the greatest of a list stand.
+trait Extremes<'a>: Iterator<Item = &'a usize> + Sized {
+    fn position_min(self, by: impl Fn(&&usize, &&usize) -> std::cmp::Ordering) -> usize {
+        self.enumerate()
+            .min_by(|(_, a), (_, b)| by(a, b))
+            .map_or(0, |(k, _)| k)
+    }
+
+    fn position_max(self, by: impl Fn(&&usize, &&usize) -> std::cmp::Ordering) -> usize {
+        self.enumerate()
+            .max_by(|(_, a), (_, b)| by(a, b))
+            .map_or(0, |(k, _)| k)
+    }
+}
+
+impl<'a, I: Iterator<Item = &'a usize>> Extremes<'a> for I {}
+
+/// A row a point, round the circle.
+fn table(judged: &Judged) -> Result<Table, StudyError> {
+    let polar = &judged.polar;
+    let all = |of: &dyn Fn(usize) -> f64| polar.order.iter().map(|i| of(*i)).collect::<Vec<f64>>();
+    let mut columns = vec![
+        column(
+            "angle_deg",
+            "deg",
+            "about the centre of the least-squares circle",
+            (7, all(&|i| polar.angles[i].to_degrees())),
+        ),
+        column(
+            "radius_mm",
+            "mm",
+            "distance from that centre",
+            (9, all(&|i| (polar.radius + polar.deviations[i]) * 1e3)),
+        ),
+        column(
+            "deviation_um",
+            "um",
+            "outward from the least-squares circle",
+            (6, all(&|i| polar.deviations[i] * 1e6)),
+        ),
+    ];
+    if let Some(measured) = &judged.measured {
+        let values = all(&|i| measured.deviations[i] * 1e6);
+        columns.push(column(
+            "deviation_measured_um",
+            "um",
+            "the same before the filter",
+            (6, values),
+        ));
+    }
+    Ok(Table::new("roundness", columns)?)
+}
+
+/// A column whose every row has a number.
+fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit: Some(unit.to_owned()),
+        description: description.to_owned(),
+        decimals: Some(decimals),
+        data: ColumnData::Float(values),
+    }
+}
