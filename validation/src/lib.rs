@@ -40,6 +40,8 @@ mod mh12_readings;
 mod mh12_regression;
 #[path = "../milling-mean-force/case.rs"]
 mod milling_mean_force;
+#[path = "../nist-circles/case.rs"]
+mod nist_circles;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
 #[path = "../tx200-compliance/case.rs"]
@@ -73,6 +75,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "milling-mean-force",
         checks: milling_mean_force::checks,
+    },
+    Case {
+        folder: "nist-circles",
+        checks: nist_circles::checks,
     },
     Case {
         folder: "fanuc-rows",

@@ -18,6 +18,7 @@ use std::path::Path;
 
 use armill_formats::measurement::profile::Wanted;
 use armill_study::StudyError;
+use armill_study::number::decimals;
 use armill_study::roundness::{Question, RoundnessAnswer, answer, judge, output, read};
 
 use crate::Outcome;
@@ -102,8 +103,11 @@ fn as_text(answer: &RoundnessAnswer) -> String {
         None => "not filtered".to_owned(),
     };
     let mut lines = vec![format!(
-        "{}: {}, {} points, largest gap {:.2} deg, {filter}",
-        answer.file, answer.format, answer.points, answer.largest_gap_deg
+        "{}: {}, {} points, largest gap {} deg, {filter}",
+        answer.file,
+        answer.format,
+        answer.points,
+        decimals(answer.largest_gap_deg, 4)
     )];
     if !answer.unused.is_empty() {
         lines.push(format!("passed over: {}", answer.unused.join(", ")));
@@ -196,7 +200,10 @@ fn as_text(answer: &RoundnessAnswer) -> String {
 
 /// A row of the table of circles.
 fn circle(name: &str, ront_mm: f64, radius: &str, centre_mm: &[f64]) -> String {
-    let centre: Vec<String> = centre_mm.iter().map(|x| format!("{x:.4}")).collect();
+    let centre: Vec<String> = centre_mm
+        .iter()
+        .map(|x| format!("{:.4}", decimals(*x, 4)))
+        .collect();
     format!(
         "{name:<8} {:>12.3} {radius:>14}   ({})",
         ront_mm * 1e3,
@@ -211,6 +218,6 @@ fn told(radius_mm: f64) -> String {
 
 /// A direction of length one, without what rounding leaves behind.
 fn direction(direction: [f64; 3]) -> String {
-    let [x, y, z] = direction.map(|part| armill_study::number::decimals(part, 4));
+    let [x, y, z] = direction.map(|part| decimals(part, 4));
     format!("({x}, {y}, {z})")
 }

@@ -45,6 +45,8 @@ const STANDS_OUT: f64 = 10.0;
 const LEAST_PART: f64 = 0.05;
 /// Neighbours on each side that a point is compared with.
 const NEIGHBOURS: usize = 3;
+/// Points do not neighbour each other across a gap of so much, rad.
+const ENDS: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// For normal noise the median of the amounts is so much of the standard deviation.
 const MEDIAN_OF_NORMAL: f64 = 0.6745;
 
@@ -90,25 +92,30 @@ impl Polar {
     }
 
     /// Points that stand out of their neighbours by many times what others do, in the order of the points, each with how
-    /// far (m, outward): dirt and scratches, or a true edge. None below three times the neighbours.
+    /// far (m, outward): dirt and scratches, or a true edge. None below three times the neighbours; the ends of an arc have
+    /// too few neighbours to be compared with.
     pub fn outliers(&self) -> Vec<(usize, f64)> {
         let count = self.order.len();
         if count < 6 * NEIGHBOURS {
             return Vec::new();
         }
-        let at = |place: usize| self.deviations[self.order[place % count]];
+        // From behind the widest gap on.
+        let begin = self.order.iter().position(|i| self.angles[*i] > self.gap.from);
+        let index = |place: usize| self.order[(begin.unwrap_or(0) + place) % count];
+        let at = |place: usize| self.deviations[index(place)];
+        let ends = if self.gap.width > ENDS { NEIGHBOURS } else { 0 };
         let off = |place: usize| {
             let before = (1..=NEIGHBOURS).map(|by| at(place + count - by));
             let after = (1..=NEIGHBOURS).map(|by| at(place + by));
             at(place) - median(before.chain(after).collect())
         };
-        let off: Vec<f64> = (0..count).map(off).collect();
-        let spread = median(off.iter().map(|by| by.abs()).collect()) / MEDIAN_OF_NORMAL;
-        let least = (STANDS_OUT * spread).max(LEAST_PART * (self.highest_peak() + self.deepest_valley()));
-        let mut found: Vec<_> = (0..count)
-            .filter(|place| off[*place].abs() > least)
-            .map(|place| (self.order[place], off[place]))
+        let off: Vec<(usize, f64)> = (ends..count - ends)
+            .map(|place| (index(place), off(place)))
             .collect();
+        let spread = median(off.iter().map(|(_, by)| by.abs()).collect()) / MEDIAN_OF_NORMAL;
+        let least = (STANDS_OUT * spread).max(LEAST_PART * (self.highest_peak() + self.deepest_valley()));
+        let mut found = off;
+        found.retain(|(_, by)| by.abs() > least);
         found.sort_by_key(|(index, _)| *index);
         found
     }
@@ -203,6 +210,12 @@ mod tests {
         );
         assert!(profile(360, |_| 0.0).outliers().is_empty());
         assert!(profile(36, |_| 0.0).outliers().is_empty());
+        // The ends of an arc lie on no step.
+        let arc: Vec<_> = (0..200)
+            .map(|i| (f64::from(i) / 2.0 + 30.0).to_radians())
+            .map(|a| Point2::new(a.cos(), 1.001 * a.sin()) * 0.05)
+            .collect();
+        assert!(Profile::new(arc).unwrap().polar().outliers().is_empty());
         // Too few to know what is usual.
         assert!(
             profile(12, |i| if i == 3 { 1e-3 } else { 0.0 })

@@ -49,18 +49,14 @@ pub fn write(answer: &RoundnessAnswer, judged: &Judged, out: &Path) -> Result<Ve
 /// The picture of a profile.
 pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
     let polar = &judged.polar;
-    let um = |circle_mm: f64| circle_mm * 1e3;
-    let mut told = vec![format!("{:.2} µm LSCI", um(answer.lsci.ront_mm))];
-    told.extend(answer.mzci.as_ref().map(|c| format!("{:.2} MZCI", um(c.ront_mm))));
-    told.push(format!("{:.2} MCCI", um(answer.mcci.ront_mm)));
-    told.extend(answer.mici.as_ref().map(|c| format!("{:.2} MICI", um(c.ront_mm))));
+    let told = |name: &str, ront_mm: f64| format!("{name}, RONt {:.2} µm", ront_mm * 1e3);
     let filter = match answer.filter_upr {
         Some(upr) => format!("Gaussian filter {upr} UPR"),
         None => "not filtered".to_owned(),
     };
     let drawn: Vec<usize> = drawn(polar);
     let mut series = RadialSeries {
-        name: format!("profile, {} points", answer.points),
+        name: "profile".to_owned(),
         angle_deg: drawn.iter().map(|i| polar.angles[*i].to_degrees()).collect(),
         radial_um: drawn.iter().map(|i| polar.deviations[*i] * 1e6).collect(),
     };
@@ -70,17 +66,33 @@ pub fn plot(answer: &RoundnessAnswer, judged: &Judged) -> PolarPlot {
         series.radial_um.extend(series.radial_um.first().copied());
     }
     let mut references = Vec::new();
-    if let Ok(zone) = &judged.zone {
-        references.push(reference("MZCI", polar, (zone.centre, &[zone.inner, zone.outer])));
+    if let (Ok(zone), Some(answer)) = (&judged.zone, &answer.mzci) {
+        references.push(reference(
+            &told("MZCI", answer.ront_mm),
+            polar,
+            (zone.centre, &[zone.inner, zone.outer]),
+        ));
     }
-    let outer = &judged.circumscribed;
-    references.push(reference("MCCI", polar, (outer.centre, &[outer.radius])));
-    if let Ok(inner) = &judged.inscribed {
-        references.push(reference("MICI", polar, (inner.centre, &[inner.radius])));
+    // About an arc the smallest circle is another one altogether, which would be all that the picture shows.
+    if !is_open(polar) {
+        let outer = &judged.circumscribed;
+        let name = told("MCCI", answer.mcci.ront_mm);
+        references.push(reference(&name, polar, (outer.centre, &[outer.radius])));
+    }
+    if let (Ok(inner), Some(answer)) = (&judged.inscribed, &answer.mici) {
+        references.push(reference(
+            &told("MICI", answer.ront_mm),
+            polar,
+            (inner.centre, &[inner.radius]),
+        ));
     }
     PolarPlot {
-        title: format!("RONt {}", told.join(", ")),
-        subtitle: format!("{}; {filter}; crosses: centres", answer.file),
+        title: format!("Roundness of {}", answer.file),
+        subtitle: format!(
+            "{}, {} points, {filter}; crosses: centres",
+            told("LSCI", answer.lsci.ront_mm),
+            answer.points
+        ),
         horizontal: "x".to_owned(),
         vertical: "y".to_owned(),
         growth: Growth::Right,
