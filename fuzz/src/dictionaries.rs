@@ -159,6 +159,13 @@ pub const FORCES: &[&str] = &[
     "nan", "1e308", "-",
 ];
 
+/// Words of round profiles.
+#[rustfmt::skip]
+pub const PROFILE: &[&str] = &[
+    "x_mm", "y_um", "z_m", "x_in", "angle_deg", "theta_rad", "radius_mm", "r_mm", "deviation_um", "radius_dev_um", "\t", ";", "0,000", "# ", "\n3\n", "nan", "inf", "1e308", "1e-300",
+    "<QIFDocument>", "</QIFDocument>", "<CircleFeatureActual>", "<CylinderFeatureActual>", "<Axis>", "<AxisPoint>", "<Location>", "<Diameter>", "<Factor>", "<FeatureName>",
+];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

@@ -196,6 +196,18 @@ pub fn force_csv() -> Vec<Vec<u8>> {
     ])
 }
 
+/// Points in every form that is read, and results that hold none.
+pub fn profiles() -> Vec<Vec<u8>> {
+    seeds(&[
+        "x_mm,y_mm\n25,0\n0,25.001\n-25,0\n0,-25\n",
+        "# bore\r\nangle_deg;deviation_um;note\r\n0;1,5;a\r\n120;-2,25;b\r\n240;0;c\r\n",
+        "x_um\ty_in\tz_m\n1\t2\t3\n4\t5\t7\n9\t8\t7\n1\t1\t0\n",
+        "4\n0 25.001 3\n-25 0 3\n0 -25 3\n25 0 3\n",
+        "<QIFDocument><LinearUnit><UnitConversion><Factor>0.001</Factor></UnitConversion></LinearUnit>\
+         <CircleFeatureActual><Location>1 2 3</Location><Diameter>9.5</Diameter></CircleFeatureActual></QIFDocument>",
+    ])
+}
+
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()

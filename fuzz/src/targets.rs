@@ -77,5 +77,6 @@ pub const TARGETS: &[Target] = &[
     target("dynoware", verdicts::dynoware, fixtures::dynoware, &[], words::FORCES),
     target("force-csv", verdicts::force_csv, fixtures::force_csv, &[], words::FORCES),
     target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),
+    target("profile", verdicts::profile, fixtures::profiles, &["ds", "csv", "QIF"], words::PROFILE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

@@ -9,11 +9,12 @@ use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Pace, Step, ToldSpin};
 use armill_core::robot::Robot;
 use armill_core::robot::inverse::posture_at;
+use armill_core::roundness::{Plane, Profile};
 use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::format::{self as forces, Measured};
-use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests};
+use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
@@ -322,6 +323,44 @@ pub fn forces(bytes: &[u8]) {
         ActsOn::Tool,
         &forces::Wanted::default(),
     ));
+}
+
+/// Points of a profile, with and without what a file does not tell; what can be read is judged too.
+pub fn profile(bytes: &[u8]) {
+    let plain = profile::Wanted {
+        unit: Some(profile::LengthUnit::Millimetre),
+        radius_mm: None,
+    };
+    let by_deviation = profile::Wanted {
+        unit: None,
+        radius_mm: Some(25.0),
+    };
+    for wanted in [profile::Wanted::default(), plain, by_deviation] {
+        let found = match profile::read("bore", bytes, &wanted) {
+            Err(problems) => {
+                refused(&problems);
+                continue;
+            }
+            Ok(found) => found,
+        };
+        assert_eq!(found.points.count(), found.lines.len());
+        assert!(found.lines.is_sorted_by(|before, after| before < after));
+        let points = match found.points {
+            profile::Points::Plane(points) => points,
+            profile::Points::Space(points) => match Plane::nearest(&points) {
+                Some(plane) => points.iter().map(|point| plane.seen(point)).collect(),
+                None => continue,
+            },
+        };
+        assert!(points.iter().all(|p| p.x.is_finite() && p.y.is_finite()));
+        if let Ok(round) = Profile::new(points) {
+            let circle = round.minimum_circumscribed();
+            assert!(
+                circle.radius.is_finite() && circle.peak_to_valley.is_finite(),
+                "{circle:?}"
+            );
+        }
+    }
 }
 
 /// Records hold numbers that are numbers, and their time goes on.
