@@ -24,8 +24,6 @@ const LEAST_SQUARES: f64 = 1e-9;
 
 /// One set with what others found.
 struct Set {
-    /// As NIST counts.
-    number: usize,
     /// `cir2dN.ds`.
     points: &'static [[f64; 3]],
     /// `cir2dN.fit`: centre, and last of all the diameter.
@@ -129,7 +127,6 @@ pub fn checks() -> Vec<Check> {
 #[rustfmt::skip]
 const SETS: &[Set] = &[
     Set {
-        number: 4,
         points: &[
             [-289.2632, 624.68116, 326.52149],
             [-289.2632, 625.68271, 324.58693],
@@ -149,7 +146,6 @@ const SETS: &[Set] = &[
         mici_radius: 2.478814405,
     },
     Set {
-        number: 8,
         points: &[
             [-124.61539, 147.25256, 794.45169],
             [-127.82836, 150.27059, 794.45169],
@@ -171,7 +167,6 @@ const SETS: &[Set] = &[
         mici_radius: 6.439807053,
     },
     Set {
-        number: 11,
         points: &[
             [-0.26182, 0.71022, -0.53523],
             [0.44656, -0.01363, -0.53523],
@@ -189,7 +184,6 @@ const SETS: &[Set] = &[
         mici_radius: 0.861534657,
     },
     Set {
-        number: 13,
         points: &[
             [15.1397, -129.72597, -3.6404],
             [15.1397, -41.46951, -134.86389],
@@ -206,7 +200,6 @@ const SETS: &[Set] = &[
         mici_radius: 111.164842088,
     },
     Set {
-        number: 16,
         points: &[
             [-68.96646, -495.10298, -256.71324],
             [-68.96646, -482.0437, -269.48596],
@@ -226,7 +219,6 @@ const SETS: &[Set] = &[
         mici_radius: 21.044737375,
     },
     Set {
-        number: 23,
         points: &[
             [-83.08709, -38.0873, 273.17073],
             [-125.51215, -38.0873, 246.13144],
@@ -246,7 +238,6 @@ const SETS: &[Set] = &[
         mici_radius: 57.997215481,
     },
     Set {
-        number: 25,
         points: &[
             [-13.93285, -1.97183, 6.62144],
             [-10.04374, -1.97183, 9.34289],
@@ -267,7 +258,6 @@ const SETS: &[Set] = &[
         mici_radius: 6.245383149,
     },
     Set {
-        number: 27,
         points: &[
             [17.77819, 12.79763, -144.44361],
             [17.77819, 44.83319, -59.75112],

@@ -5,6 +5,8 @@ use armill_core::roundness::RoundnessError;
 use super::*;
 
 /// RONt of LSCI and MZCI, centre of MZCI (axes as the files have them), radii of MCCI and MICI, of the full circles.
+///
+/// The inscribed radius of set 19 is that of trying all triples; a first computation by another way had ended at 22.864515118.
 #[rustfmt::skip]
 const FULL: &[(usize, [f64; 6])] = &[
     (1, [0.266197023, 0.262769892, -560.3201249, 34.2417191, 13.419031134, 13.160359917]),
@@ -18,7 +20,7 @@ const FULL: &[(usize, [f64; 6])] = &[
     (16, [0.002852135, 0.002552022, -475.3146903, -249.5463963, 21.046782717, 21.044737375]),
     (17, [0.014235357, 0.013953657, -0.2328178, 0.7881531, 0.715512614, 0.703139214]),
     (18, [0.035954366, 0.035295794, -0.0768974, 0.0024226, 1.663205314, 1.628689784]),
-    (19, [0.025468724, 0.023461627, 167.3563616, -600.3649059, 22.887225968, 22.864515118]),
+    (19, [0.025468724, 0.023461627, 167.3563616, -600.3649059, 22.887225968, 22.864516155]),
     (22, [0.000012004, 0.000011870, -600.5093622, -428.7134351, 169.462372040, 169.462360212]),
     (23, [0.031067341, 0.028847185, -132.3718566, 303.7392081, 58.022195185, 57.997215481]),
     (25, [0.056791793, 0.052282545, -8.7185639, 3.1890994, 6.291115474, 6.245383149]),
@@ -42,6 +44,12 @@ const ARCS: &[(usize, [f64; 2])] = &[
     (28, [1.167252341, 1.029891578]),
     (30, [0.665404352, 0.640129029]),
 ];
+
+/// Between two computations of the peak to valley about least-squares circles.
+const TWICE_COMPUTED: f64 = 1.1e-9;
+
+/// Which sets are typed, as NIST counts.
+const TYPED: [usize; 8] = [4, 8, 11, 13, 16, 23, 25, 27];
 
 /// The numbers of a file of a set; nothing where the samples are not at hand.
 fn numbers(set: usize, ending: &str) -> Option<Vec<f64>> {
@@ -73,11 +81,11 @@ fn profile(points: &[Point3<f64>]) -> (Plane, Profile) {
 
 #[test]
 fn typed_sets_are_those_of_the_data_set() {
-    for set in SETS {
-        let Some(points) = points(set.number) else { return };
+    for (number, set) in TYPED.into_iter().zip(SETS) {
+        let Some(points) = points(number) else { return };
         assert!(points.iter().zip(set.points).all(|(a, b)| *a == Point3::from(*b)));
         assert_eq!(points.len(), set.points.len());
-        let fit = numbers(set.number, "fit").unwrap();
+        let fit = numbers(number, "fit").unwrap();
         assert_eq!((&fit[..3], fit[6]), (&set.centre[..], set.diameter));
     }
 }
@@ -104,7 +112,8 @@ fn full_circles_have_the_zone_and_radii_that_were_computed() {
         let (plane, profile) = profile(&points);
         let zone = profile.minimum_zone().unwrap();
         let near = |ours: f64, told: f64| (ours - told).abs() < PRINTED;
-        assert!(near(profile.least_squares().peak_to_valley, *lsci), "{set}");
+        let told = profile.least_squares().peak_to_valley;
+        assert!((told - lsci).abs() < TWICE_COMPUTED, "{set}: {told} {lsci}");
         assert!(near(zone.peak_to_valley(), *mzci), "{set}: {zone:?}");
         assert!(near(profile.minimum_circumscribed().radius, *mcci), "{set}");
         assert!(near(profile.maximum_inscribed().unwrap().radius, *mici), "{set}");

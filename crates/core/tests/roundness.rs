@@ -315,6 +315,22 @@ fn arcs_have_a_zone_and_no_inscribed_circle() {
 }
 
 #[test]
+fn a_cloud_of_points_is_answered_or_refused_in_time() {
+    // No profile at all: points all over a disc, by a sequence that fills it evenly.
+    let at = |i: i32| {
+        let (turn, out) = (f64::from(i) * 2.399_963, (f64::from(i) * 0.754_877_666).fract());
+        Point2::new(turn.cos(), turn.sin()) * out.sqrt()
+    };
+    let profile = Profile::new((0..20_000).map(at).collect()).unwrap();
+    for refused in [profile.minimum_zone().err(), profile.maximum_inscribed().err()] {
+        assert!(
+            matches!(refused, None | Some(RoundnessError::NotProven { .. })),
+            "{refused:?}"
+        );
+    }
+}
+
+#[test]
 fn points_without_a_circle_are_refused_with_their_reason() {
     let line: Points = (0..7)
         .map(|i| Point2::new(f64::from(i), 2.0 * f64::from(i)))

@@ -16,8 +16,13 @@
 //! other waves have moved that circle, and it tells by how much.
 
 use nalgebra::{Complex, DMatrix, DVector};
+use rayon::prelude::*;
 
 use super::polar::Polar;
+
+/// Sums over many points are made in so many parts at most, none shorter than the second.
+const PARTS: usize = 64;
+const LEAST_PART: usize = 256;
 
 /// One wave of a profile.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,16 +85,30 @@ impl Polar {
 
 /// The sums over all points of `value e^(i m angle)`, for `m` from 0 to `most`.
 pub(super) fn wave_sums(angles: &[f64], values: &[f64], most: usize) -> Vec<Complex<f64>> {
-    let mut sums = vec![Complex::new(0.0, 0.0); most + 1];
-    for (angle, value) in angles.iter().zip(values) {
-        let turn = Complex::from_polar(1.0, *angle);
-        let mut term = Complex::new(*value, 0.0);
-        for sum in &mut sums {
-            *sum += term;
-            term *= turn;
+    let of_part = |(angles, values): (&[f64], &[f64])| {
+        let mut sums = vec![Complex::new(0.0, 0.0); most + 1];
+        for (angle, value) in angles.iter().zip(values) {
+            let turn = Complex::from_polar(1.0, *angle);
+            let mut term = Complex::new(*value, 0.0);
+            for sum in &mut sums {
+                *sum += term;
+                term *= turn;
+            }
         }
-    }
-    sums
+        sums
+    };
+    // Parts of a size that the count of points alone decides, added in order: any number of threads gives the same.
+    let part = angles.len().div_ceil(PARTS).max(LEAST_PART);
+    let parts: Vec<_> = angles
+        .par_chunks(part)
+        .zip(values.par_chunks(part))
+        .map(of_part)
+        .collect();
+    let zero = vec![Complex::new(0.0, 0.0); most + 1];
+    parts.into_iter().fold(zero, |mut sums, part| {
+        sums.iter_mut().zip(part).for_each(|(sum, part)| *sum += part);
+        sums
+    })
 }
 
 /// Unknown 0 is the mean; odd ones are cosines, even ones sines.

@@ -80,6 +80,10 @@ impl Objective for Clearance<'_> {
         -inner
     }
 
+    fn work(&self) -> [usize; 2] {
+        [self.points.len(), 4 * self.near.len() + self.sides.len()]
+    }
+
     fn bound(&self, cell: &Cell) -> Bound {
         let mut bound = Bound {
             least: f64::INFINITY,

@@ -19,8 +19,10 @@ use super::RoundnessError;
 
 /// What is found may be above the least of all by this, in radii of the profile: some tens of roundings.
 const TOLERANCE: f64 = 1e-14;
-/// Most cells: a profile takes some thousands.
-const MOST_CELLS: usize = 2_000_000;
+/// Most distances that are looked at, and as many times all points beside them: a profile takes some hundred thousand, and
+/// all points a hundred times.
+const MOST_WORK: usize = 300_000_000;
+const MOST_TIMES_ALL: usize = 1000;
 
 /// A rectangle of centres.
 #[derive(Clone, Copy, Debug)]
@@ -98,6 +100,8 @@ pub(super) trait Objective {
     fn value(&mut self, centre: &Vector2<f64>) -> f64;
     /// What is known of a cell from the working points.
     fn bound(&self, cell: &Cell) -> Bound;
+    /// How many points a value looks at, and how many a bound.
+    fn work(&self) -> [usize; 2];
 }
 
 /// A cell that may hold better.
@@ -118,7 +122,7 @@ pub(super) fn least(
 ) -> Result<(Vector2<f64>, f64), RoundnessError> {
     let mut best = (start, objective.value(&start));
     let bound = objective.bound(&root);
-    let mut cells = 1;
+    let (mut cells, mut work) = (1, 0);
     let mut open = BinaryHeap::from([Open {
         least: bound.least,
         by_side: bound.by_side,
@@ -132,6 +136,7 @@ pub(super) fn least(
             let mut bound = objective.bound(&cell);
             if bound.at_middle < best.1 {
                 let value = objective.value(&cell.middle);
+                work += objective.work()[0];
                 if value < best.1 {
                     best = (cell.middle, value);
                 }
@@ -146,7 +151,8 @@ pub(super) fn least(
             }
         }
         cells += 2;
-        if cells > MOST_CELLS {
+        work += 2 * objective.work()[1];
+        if work > MOST_WORK + MOST_TIMES_ALL * objective.work()[0] {
             return Err(RoundnessError::NotProven { cells });
         }
     }

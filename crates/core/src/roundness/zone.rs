@@ -93,6 +93,10 @@ impl Objective for Width<'_> {
         outer - inner
     }
 
+    fn work(&self) -> [usize; 2] {
+        [self.points.len(), 4 * (self.far.len() + self.near.len())]
+    }
+
     fn bound(&self, cell: &Cell) -> Bound {
         let [_, (far, f)] = reach(&self.far, &cell.middle);
         let [(near, g), _] = reach(&self.near, &cell.middle);
