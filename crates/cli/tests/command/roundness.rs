@@ -76,7 +76,8 @@ fn the_four_circles_are_told_as_json_without_a_filter() {
     for (circle, radius) in [("lsci", 25.0), ("mcci", 25.0045), ("mici", 24.9955)] {
         let circle = &told[circle];
         assert!((number(&circle["radius_mm"]) - radius).abs() < 5e-4, "{circle}");
-        assert!((number(&circle["ront_mm"]) - 0.009).abs() < 1e-4, "{circle}");
+        // Crests of 31 waves do not meet those of three everywhere.
+        assert!((number(&circle["ront_mm"]) - 0.009).abs() < 2e-4, "{circle}");
         assert!((number(&circle["centre_mm"][0]) - 10.0).abs() < 1e-3, "{circle}");
         assert!((number(&circle["centre_mm"][1]) + 5.0).abs() < 1e-3, "{circle}");
     }
