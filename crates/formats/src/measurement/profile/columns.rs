@@ -227,7 +227,7 @@ impl Layout {
         };
         let around = |quantity: Quantity, radius: f64| {
             let angle = value(Quantity::Angle);
-            if !(angle.abs() <= MOST_TURNS) {
+            if angle.abs() > MOST_TURNS {
                 let message = format!("an angle of {} deg is beyond 1000 turns", angle.to_degrees());
                 return Err((Quantity::Angle, message));
             }
