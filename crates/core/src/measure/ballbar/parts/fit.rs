@@ -9,7 +9,8 @@
 //! and left out.
 //!
 //! Terms that the runs cannot tell apart are named: clockwise alone, a radius that goes with the direction is a radius.
-//! Of each such set the last term is left out, so that the first holds the sum.
+//! Of each such set the last term is left out, so that the first holds the sum. A term that stands alone in its set was not
+//! seen at all: a reversal in a gap.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -47,7 +48,8 @@ pub struct Part {
 pub struct Parts {
     /// One a term that was told apart.
     pub parts: Vec<Part>,
-    /// Sets of terms of which only a sum is known, as they were found; the last of each is not among the parts.
+    /// Sets of terms of which only a sum is known, or a single one that nothing is known of; the last of each is not
+    /// among the parts.
     pub together: Vec<Vec<Term>>,
     /// Root mean square of the radial deviation about the least-squares circle, m.
     pub rms_before: f64,
@@ -82,7 +84,13 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
     let u = standard_uncertainties(&samples, (&rows, &rest), &spread.covariance);
-    let found = terms.iter().zip(values.iter().zip(&u));
+    // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
+    let unseen = unseen(test, &asked.reversals);
+    let found = terms
+        .iter()
+        .zip(values.iter().zip(&u))
+        .filter(|(term, _)| !unseen.contains(term));
+    let together = together.into_iter().chain(unseen.iter().map(|term| vec![*term]));
     let rms = |squares: f64| (squares / samples.at.len() as f64).sqrt();
     Some(Parts {
         parts: found
@@ -92,7 +100,7 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
                 u: *u,
             })
             .collect(),
-        together,
+        together: together.collect(),
         rms_before: rms(about_circle(&samples, &terms, &rows, &values)),
         rms_after: rms(rest.norm_squared()),
         samples: samples.at.len(),
@@ -143,6 +151,17 @@ impl Samples {
             begins,
         }
     }
+}
+
+/// Reversals whose every step lies in a gap of all runs.
+fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
+    let profiles: Vec<Profile> = test.runs().iter().map(Profile::of).collect();
+    let is_seen = |angle: f64| profiles.iter().any(|profile| profile.at(angle).is_some());
+    let reversals = reversals.iter().enumerate();
+    reversals
+        .filter(|(_, reversal)| !reversal.steps.iter().any(|step| is_seen(step.angle)))
+        .map(|(index, _)| Term::Reversal(index))
+        .collect()
 }
 
 /// Every term that is asked for, in the order in which they are told.
