@@ -3,7 +3,8 @@
 //! Pure mathematics: no files, no clock, no printing, no randomness. SI units throughout (m, N, N m, rad, s).
 //!
 //! Read [`predict`] first: it is the whole idea in one function. Then, in the order in which a number comes
-//! about: [`frame`] and [`spatial`] (poses, twists, wrenches), [`robot`] (chain, postures), [`compliance`],
+//! about: [`frame`] and [`spatial`] (poses, twists, wrenches), [`roundness`] (circles of measured points, which need no
+//! robot), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`measure`] (what
@@ -22,6 +23,7 @@ pub mod optimize;
 pub mod path;
 pub mod predict;
 pub mod robot;
+pub mod roundness;
 pub mod source;
 pub mod spatial;
 pub mod watch;

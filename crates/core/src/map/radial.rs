@@ -3,7 +3,8 @@
 use nalgebra::{Point2, Vector2, Vector3};
 
 use crate::kernel::Answers;
-use crate::path::{Roundness, Track, roundness};
+use crate::path::Track;
+use crate::roundness::{ReferenceCircle, least_squares};
 
 /// What becomes of a circle under one load case. m.
 #[derive(Clone, Debug)]
@@ -11,7 +12,7 @@ pub struct RadialDeviation {
     /// Outward part of the deviation at each point.
     pub outward: Vec<f64>,
     /// The least-squares circle of the deviated points and their roundness about it, path axes.
-    pub roundness: Roundness,
+    pub roundness: ReferenceCircle,
     /// How far its centre was moved, path x and y.
     pub centre_shift: Vector2<f64>,
 }
@@ -30,7 +31,7 @@ pub fn radial_deviations(track: &Track, answers: &Answers, centre: Point2<f64>) 
         let moved = |i: usize| -> Vector3<f64> { path_from_base * answers.deviations_at(i)[case] };
         let all = || nominal.iter().enumerate().map(|(i, at)| (*at, moved(i).xy()));
         let deviated: Vec<Point2<f64>> = all().map(|(at, by)| at + by).collect();
-        let roundness = roundness(&deviated)?;
+        let roundness = least_squares(&deviated)?;
         Some(RadialDeviation {
             outward: all().map(|(at, by)| (at - centre).normalize().dot(&by)).collect(),
             centre_shift: roundness.centre.coords - mean,

@@ -12,10 +12,10 @@
 //! Straightness and flatness are peak to valley about the least-squares line or plane (LSLI, LSPL of ISO 12780 and 12781,
 //! without filter), roundness about the least-squares circle (LSCI of ISO 12181).
 
-use nalgebra::{Matrix3, Point2, Point3, Unit, Vector3};
+use nalgebra::{Matrix3, Point3, Unit, Vector3};
 
-use super::roundness::roundness;
 use crate::frame::some_across;
+use crate::roundness::{Plane, least_squares};
 
 /// What a stretch of the path was to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -90,19 +90,15 @@ pub fn became(kind: FeatureKind, points: &[Strayed]) -> Option<Became> {
 }
 
 fn circle(points: &[Strayed]) -> Option<Became> {
-    let middle = mean(points.iter().map(|p| p.at.coords))?;
-    let normal = least_direction(points.iter().map(|p| p.at.coords - middle))?;
-    let x = some_across(&normal);
-    let y = normal.cross(&x);
-    let seen = |v: Vector3<f64>| Point2::new((v - middle).dot(&x), (v - middle).dot(&y));
-    let told: Vec<_> = points.iter().map(|p| seen(p.at.coords)).collect();
-    let made: Vec<_> = points.iter().map(|p| seen(p.at.coords + p.by)).collect();
-    let (told, made) = (roundness(&told)?, roundness(&made)?);
-    let shift = made.centre - told.centre;
+    let nominal: Vec<_> = points.iter().map(|p| p.at).collect();
+    let plane = Plane::nearest(&nominal)?;
+    let told: Vec<_> = nominal.iter().map(|at| plane.seen(at)).collect();
+    let made: Vec<_> = points.iter().map(|p| plane.seen(&(p.at + p.by))).collect();
+    let (told, made) = (least_squares(&told)?, least_squares(&made)?);
     Some(Became::Circle {
         radius: told.radius,
         radius_change: made.radius - told.radius,
-        centre_shift: x * shift.x + y * shift.y,
+        centre_shift: plane.at(&made.centre) - plane.at(&told.centre),
         roundness: made.peak_to_valley,
     })
 }
@@ -162,17 +158,6 @@ fn greatest_direction(vectors: impl Iterator<Item = Vector3<f64>> + Clone) -> Op
     let spread: Matrix3<f64> = vectors.map(|v| v * v.transpose()).sum();
     let eigen = spread.symmetric_eigen();
     (longest > 1e-9).then(|| eigen.eigenvectors.column(eigen.eigenvalues.imax()).into_owned())
-}
-
-/// The direction in which these vectors reach least.
-fn least_direction(vectors: impl Iterator<Item = Vector3<f64>>) -> Option<Vector3<f64>> {
-    let spread: Matrix3<f64> = vectors.map(|v| v * v.transpose()).sum();
-    let eigen = spread.symmetric_eigen();
-    let values = eigen.eigenvalues;
-    let (least, most) = (values.imin(), values.imax());
-    // Points on a line have no plane.
-    let middle = values.sum() - values[least] - values[most];
-    (middle > 1e-9 * values[most]).then(|| eigen.eigenvectors.column(least).into_owned())
 }
 
 /// Peak to valley of the heights (third entries) about their least-squares plane over the first two; about a line, where

@@ -3,8 +3,8 @@
 //! [`program`]: what a tool path program tells, move after move. [`sampler`]: those moves as points. [`shape`]: circles and
 //! lines on a workpiece plane. [`sampled`]: the points of either. [`placing`] and [`track`]: where they lie in the cell and
 //! how the tool is turned. [`thinned`](mod@thinned): fewer points of a path. [`clock`]: when the tip is where. [`stock`], `sweep`, `front` and [`bite`]: what the cutter meets
-//! on its way; [`cutting`], [`drilled`]: what that pushes with. [`roundness`](mod@roundness) and [`feature`]: the circle,
-//! line, plane or hole that comes out. [`holes`]: points that no path joins.
+//! on its way; [`cutting`], [`drilled`]: what that pushes with. [`feature`]: the circle, line, plane or hole that comes
+//! out. [`holes`]: points that no path joins.
 
 pub mod bite;
 pub mod clock;
@@ -15,7 +15,6 @@ mod front;
 pub mod holes;
 pub mod placing;
 pub mod program;
-pub mod roundness;
 pub mod sampled;
 pub mod sampler;
 pub mod shape;
@@ -33,7 +32,6 @@ pub use feature::{Became, FeatureKind, Strayed, became};
 pub use holes::{Hole, drilled_holes, path_of_holes};
 pub use placing::{Placing, Spin};
 pub use program::{Arc, Course, DepthOfCut, Move, Operation, Pace, Step, ToldSpin};
-pub use roundness::{Roundness, roundness};
 pub use sampled::{PathBuilder, SampledPath, TooManyPoints};
 pub use sampler::{PathPoint, Sampler, Sampling};
 pub use shape::Shape;

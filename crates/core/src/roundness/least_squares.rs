@@ -1,4 +1,4 @@
-//! What a closed path has become: the circle nearest to its points, and how far they lie off it.
+//! The least-squares circle (LSCI): the circle nearest to points.
 //!
 //! Least over `c` and `R`: `sum of (|p - c| - R)^2`, by Gauss-Newton steps from the circle with the least
 //! `sum of (|p - c|^2 - R^2)^2`, which has a closed form about the mean of the points:
@@ -20,14 +20,14 @@
 
 use nalgebra::{Matrix2, Matrix3, Point2, Vector2, Vector3};
 
-/// The least-squares circle of a closed path, and how far its points lie off it.
+/// A circle that belongs to points, and how far they lie off it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Roundness {
+pub struct ReferenceCircle {
     /// Centre, m.
     pub centre: Point2<f64>,
     /// m
     pub radius: f64,
-    /// Peak to valley of the radial distances from the least-squares circle (RONt, LSCI), m.
+    /// Peak to valley of the distances from the centre (RONt), m.
     pub peak_to_valley: f64,
 }
 
@@ -38,9 +38,9 @@ const SETTLED: f64 = 1e-13;
 /// Most steps: each takes off all but about the roundness over the radius, so that a circle needs four or five.
 const MOST_ROUNDS: usize = 50;
 
-/// Roundness of `points` (m) about their least-squares circle (LSCI); `None` below three points, where they lie on a line,
-/// and where no circle is nearest.
-pub fn roundness(points: &[Point2<f64>]) -> Option<Roundness> {
+/// The least-squares circle of `points` (m); `None` below three points, where they lie on a line, and where no circle is
+/// nearest.
+pub fn least_squares(points: &[Point2<f64>]) -> Option<ReferenceCircle> {
     if points.len() < 3 {
         return None;
     }
@@ -65,7 +65,7 @@ pub fn roundness(points: &[Point2<f64>]) -> Option<Roundness> {
             let distances = off.iter().map(|p| (p - centre).norm());
             let (low, high) =
                 distances.fold((f64::MAX, f64::MIN), |(low, high), d| (low.min(d), high.max(d)));
-            return (radius > 0.0).then_some(Roundness {
+            return (radius > 0.0).then_some(ReferenceCircle {
                 centre: (centre + mean).into(),
                 radius,
                 peak_to_valley: high - low,
@@ -105,7 +105,7 @@ mod tests {
                 Point2::new(0.3 + r * phi.cos(), -0.1 + r * phi.sin())
             })
             .collect();
-        let round = roundness(&points).unwrap();
+        let round = least_squares(&points).unwrap();
         assert!((round.centre - Point2::new(0.3, -0.1)).norm() < 1e-12);
         assert!((round.peak_to_valley - 40e-6).abs() < 1e-9, "{round:?}");
     }
@@ -125,7 +125,7 @@ mod tests {
         for lobes in 2..9 {
             // A sum over even steps leaves no cosine behind.
             let whole: Vec<_> = arc([0.0, 360.0], 0.1, |phi| 8e-6 * (f64::from(lobes) * phi).cos());
-            let round = roundness(&whole[..400]).unwrap();
+            let round = least_squares(&whole[..400]).unwrap();
             // 400 points miss the crests by at most (lobes/2 step)^2/2 of the height; the centre goes with height squared.
             let missed = 8e-6 * (f64::from(lobes) * PI / 400.0).powi(2) + 2e-9;
             assert!(
@@ -135,7 +135,7 @@ mod tests {
             assert!((round.radius - 0.1).abs() < 1e-9, "{lobes}: {round:?}");
         }
         let shifted = arc([0.0, 360.0], 0.1, |phi| 8e-6 * phi.cos());
-        let round = roundness(&shifted[..400]).unwrap();
+        let round = least_squares(&shifted[..400]).unwrap();
         // What is left is the square of the shift over the radius.
         assert!(round.peak_to_valley < 8e-6 * 8e-6 / 0.1 && (round.centre.x - 0.300_008).abs() < 1e-12);
     }
@@ -144,7 +144,7 @@ mod tests {
     fn a_part_of_a_circle_has_the_centre_and_radius_of_the_whole() {
         for sweep in [360.0, 200.0, 120.0, 60.0, 20.0] {
             for from in [0.0, 77.0, 230.0] {
-                let round = roundness(&arc([from, sweep], 0.1, |_| 0.0)).unwrap();
+                let round = least_squares(&arc([from, sweep], 0.1, |_| 0.0)).unwrap();
                 // Rounding of 1e-17 m, times 1/(1 - cos(sweep/2)) squared or so.
                 let told = (round.centre - Point2::new(0.3, -0.1)).norm();
                 assert!(
@@ -162,7 +162,7 @@ mod tests {
             let wavy = arc([10.0, sweep], 0.1, |phi| {
                 6e-6 * (5.0 * phi).cos() + 3e-6 * (11.0 * phi).sin()
             });
-            let round = roundness(&wavy).unwrap();
+            let round = least_squares(&wavy).unwrap();
             let squares = |centre: Point2<f64>, radius: f64| -> f64 {
                 wavy.iter().map(|p| ((p - centre).norm() - radius).powi(2)).sum()
             };
@@ -180,12 +180,12 @@ mod tests {
     #[test]
     fn the_same_points_elsewhere_turned_and_larger_have_the_same_roundness() {
         let wave = |phi: f64| 20e-6 * (3.0 * phi).cos();
-        let here = roundness(&arc([0.0, 150.0], 0.1, wave)).unwrap();
+        let here = least_squares(&arc([0.0, 150.0], 0.1, wave)).unwrap();
         let turned: Vec<_> = arc([0.0, 150.0], 0.1, wave)
             .iter()
             .map(|p| Point2::new(5.0 - 2.0 * p.y, 2.0 * p.x - 7.0))
             .collect();
-        let there = roundness(&turned).unwrap();
+        let there = least_squares(&turned).unwrap();
         // Places of 7 m are rounded to 1e-15 m.
         assert!((there.peak_to_valley - 2.0 * here.peak_to_valley).abs() < 1e-13);
         assert!((there.radius - 2.0 * here.radius).abs() < 1e-11);
@@ -194,15 +194,15 @@ mod tests {
     #[test]
     fn three_points_lie_on_their_circle_and_points_on_a_line_on_none() {
         let three = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(Point2::from);
-        let round = roundness(&three).unwrap();
+        let round = least_squares(&three).unwrap();
         assert!((round.centre - Point2::new(0.5, 0.5)).norm() < 1e-14 && round.peak_to_valley < 1e-14);
         for turn in [0.0, 0.7] {
             let on_line =
                 |i: i32| Point2::new(3.0, -2.0) + Vector2::new(f64::cos(turn), turn.sin()) * f64::from(i);
             let line: Vec<_> = (0..5).map(on_line).collect();
-            assert_eq!(roundness(&line), None);
-            assert_eq!(roundness(&line[..2]), None);
+            assert_eq!(least_squares(&line), None);
+            assert_eq!(least_squares(&line[..2]), None);
         }
-        assert_eq!(roundness(&[Point2::new(0.1, 0.2); 9]), None);
+        assert_eq!(least_squares(&[Point2::new(0.1, 0.2); 9]), None);
     }
 }
