@@ -1,15 +1,15 @@
 //! How round does the tool go, and why not rounder? Circular tests with a ball-bar.
 //!
 //! In reading order: [`run`] (what was measured), [`profile`] (a run as radii over the angle), [`centre`] (where the circle
-//! lies), [`quantities`] (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`harmonics`]
-//! (lobes), [`outlier`] (dirt), [`parts`] (scale, squareness, steps at reversals: each with its uncertainty),
+//! lies), [`quantities`] (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`lobes`](mod@lobes)
+//! (how much goes round n times a turn), [`outlier`] (dirt), [`parts`] (scale, squareness, steps at reversals: each with its uncertainty),
 //! [`taught`] (the circle to teach instead).
 //!
 //! Theory, signs and what the numbers leave out: `docs/theory/ballbar.md`.
 
 pub mod centre;
 pub mod difference;
-pub mod harmonics;
+pub mod lobes;
 pub mod outlier;
 pub mod parts;
 pub mod profile;
@@ -19,7 +19,7 @@ pub mod taught;
 
 pub use centre::{Centre, least_squares_centre};
 pub use difference::{Difference, Span, between_directions, between_runs};
-pub use harmonics::{Harmonic, harmonics};
+pub use lobes::{Lobes, lobes};
 pub use outlier::{Outlier, outliers};
 pub use profile::Profile;
 pub use quantities::{Extreme, Quantities, hysteresis, mean_bidirectional, quantities};

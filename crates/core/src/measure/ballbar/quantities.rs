@@ -18,8 +18,9 @@ use nalgebra::Point2;
 
 use super::centre::least_squares_centre;
 use super::difference::between_directions;
-use super::profile::{Profile, wrapped};
+use super::profile::{self, wrapped};
 use super::run::{CircularTest, Run};
+use crate::roundness::{Profile, RoundnessError};
 
 /// A radial deviation, and where it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,8 +34,11 @@ pub struct Extreme {
 /// What some runs show together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantities {
-    /// Circular deviation G (minimum zone), m; none where no two circles are nearest: samples on a line, or at one place.
-    pub circular: Option<f64>,
+    /// Circular deviation G (minimum zone), m.
+    ///
+    /// # Errors
+    /// Samples that no ring is narrowest about: at one place, or on an arc too short for its form.
+    pub circular: Result<f64, RoundnessError>,
     /// Radial deviation F: least, greatest.
     pub radial: [Extreme; 2],
     /// The least part of a turn that one of the runs has samples on, rad: a whole one if it has no gap.
@@ -60,20 +64,23 @@ pub fn quantities(test: &CircularTest, runs: &[&Run]) -> Option<Quantities> {
     let place = |(a, dr): (f64, f64)| Point2::new(a.cos(), a.sin()) * (test.radius() + dr);
     let places: Vec<Point2<f64>> = samples().map(place).collect();
     Some(Quantities {
-        circular: circular_deviation(&places),
+        circular: Profile::new(places)
+            .and_then(|profile| profile.minimum_zone())
+            .map(|zone| zone.peak_to_valley()),
         radial: [least, greatest],
-        arc: runs.iter().map(|run| Profile::of(run).arc()).fold(TAU, f64::min),
+        arc: runs
+            .iter()
+            .map(|run| profile::Profile::of(run).arc())
+            .fold(TAU, f64::min),
     })
-}
-
-/// Least radial distance of two concentric circles with all points between them, m.
-fn circular_deviation(places: &[Point2<f64>]) -> Option<f64> {
-    crate::path::roundness::roundness(places).map(|round| round.peak_to_valley)
 }
 
 /// Mean bidirectional radial deviation D, m; `None` unless there are full turns both ways.
 pub fn mean_bidirectional(test: &CircularTest) -> Option<f64> {
-    let full = test.runs().iter().all(|run| Profile::of(run).arc() >= TAU);
+    let full = test
+        .runs()
+        .iter()
+        .all(|run| profile::Profile::of(run).arc() >= TAU);
     let centre = least_squares_centre(test).filter(|_| full && test.is_bidirectional());
     centre.map(|centre| centre.radius - test.radius())
 }

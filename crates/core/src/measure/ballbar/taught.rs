@@ -13,7 +13,7 @@
 
 use super::centre::{least_squares_centre, seen_from};
 use super::difference::between_directions;
-use super::harmonics::{Harmonic, common, harmonics};
+use super::lobes::{Lobes, common, lobes};
 use super::profile::Profile;
 use super::quantities::{Quantities, quantities};
 use super::run::{CircularTest, Run};
@@ -21,8 +21,8 @@ use super::run::{CircularTest, Run};
 /// A circle to teach, and what is expected of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Taught {
-    /// What is taken off: lobes of orders 0, 2, 3, ...
-    pub lobes: Vec<Harmonic>,
+    /// What is taken off: the mean and lobes 2, 3, ...
+    pub lobes: Lobes,
     /// Half of the largest difference between the directions, m: stays; `None` of one direction alone.
     pub stays: Option<f64>,
     /// G and F of all runs about their centre before, m.
@@ -34,7 +34,7 @@ pub struct Taught {
 impl Taught {
     /// What is added to the taught radius at an angle (rad), m.
     pub fn correction(&self, angle: f64) -> f64 {
-        -self.lobes.iter().map(|lobe| lobe.at(angle)).sum::<f64>()
+        -self.lobes.at(angle)
     }
 }
 
@@ -42,8 +42,8 @@ impl Taught {
 pub fn taught(test: &CircularTest, most: usize) -> Option<Taught> {
     let centre = least_squares_centre(test)?;
     let centred = seen_from(test, centre.offset).ok()?;
-    let lobes = harmonics(&common(&centred), most)?;
-    let lobes: Vec<Harmonic> = lobes.into_iter().filter(|lobe| lobe.order != 1).collect();
+    let mut lobes = lobes(&common(&centred), most)?;
+    lobes.harmonics.retain(|lobe| lobe.waves != 1);
     let all: Vec<&Run> = centred.runs().iter().collect();
     let mut taught = Taught {
         lobes,
@@ -103,7 +103,13 @@ mod tests {
         let runs = Direction::BOTH.map(|direction| run(direction, |a, _| 5e-6 * (9.0 * a).cos()));
         let test = CircularTest::new(0.1, runs.to_vec()).unwrap();
         let coarse = taught(&test, 8).unwrap();
-        assert!(coarse.lobes.iter().all(|lobe| lobe.amplitude.abs() < 1e-9));
+        assert!(
+            coarse
+                .lobes
+                .harmonics
+                .iter()
+                .all(|lobe| lobe.amplitude.abs() < 1e-9)
+        );
         let fine = taught(&test, 9).unwrap();
         assert!(fine.expected.circular.unwrap() < 1e-7);
         assert!((coarse.expected.circular.unwrap() - 10e-6).abs() < 1e-7);
