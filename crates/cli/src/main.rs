@@ -40,6 +40,7 @@ fn main() -> ExitCode {
         Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
         Command::Forces(forces) => command::forces::run(forces),
+        Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

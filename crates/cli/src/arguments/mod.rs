@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `forces`, `completions`.
+//! `identify`, `forces`, `ballbar`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod advise;
+mod ballbar;
 mod check;
 mod compare;
 mod compensate;
@@ -26,6 +27,7 @@ mod robots;
 mod run;
 
 pub(crate) use advise::AdviseArguments;
+pub(crate) use ballbar::{BallbarArguments, CentreChoice};
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
@@ -88,6 +90,8 @@ pub(crate) enum Command {
     Identify(IdentifyArguments),
     /// What is in a record of a dynamometer, without drift and teeth
     Forces(ForcesArguments),
+    /// How round the tool goes, and why not rounder, from a ball-bar
+    Ballbar(Box<BallbarArguments>),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -113,6 +117,7 @@ impl Command {
             Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,
+            Command::Ballbar(a) => a.json,
             Command::Completions(_) => false,
         }
     }

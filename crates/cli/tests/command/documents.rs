@@ -100,6 +100,7 @@ fn guide_runs() {
         "holes",
         "material-file",
         "measured-forces",
+        "ballbar",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -110,7 +111,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 13, "name the new page in `guide_runs`");
+    assert_eq!(pages, 14, "name the new page in `guide_runs`");
 }
 
 #[test]

@@ -27,7 +27,7 @@ use super::answer::{BallbarAnswer, ShownAnswer};
 use super::read::Measured;
 use crate::error::StudyError;
 use crate::output::report::cells::{columns, input, um};
-use crate::output::{Picture, REPORT, RESULT, picture_files, replace, save_pictures};
+use crate::output::{Picture, REPORT, RESULT, picture_files, prepare, replace, save_pictures};
 
 /// The points to teach.
 const TAUGHT: &str = "taught.csv";
@@ -43,6 +43,7 @@ pub fn write(
     (measured, found): (&Measured, &Found),
     (out, taught): (&Path, Option<&[u8]>),
 ) -> Result<Vec<PathBuf>, StudyError> {
+    prepare(out)?;
     let drawn = pictures(told, (measured, found));
     let names: Vec<String> = TABLES
         .map(str::to_owned)
