@@ -14,7 +14,7 @@
 
 use roxmltree::Node;
 
-use crate::document::{Problem, Problems, Source};
+use crate::document::{Problems, Source};
 use crate::xml::{children, parse, tag};
 
 /// What Renishaw's program made of a test.
@@ -89,7 +89,7 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
             "FEATURE" => match feature(&source, node) {
                 Ok(Ok(feature)) => results.features.push(feature),
                 Ok(Err(name)) => results.without_number.push(name),
-                Err(problem) => problems.push(problem),
+                Err(wrong) => problems.extend(wrong),
             },
             _ => {}
         }
@@ -108,10 +108,10 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
 }
 
 /// A feature, or the name of one without number.
-fn feature(source: &Source, node: Node<'_, '_>) -> Result<Result<Feature, String>, Problem> {
+fn feature(source: &Source, node: Node<'_, '_>) -> Result<Result<Feature, String>, Problems> {
     let Some(name) = node.attribute("NAME") else {
         let message = "<FEATURE> has no attribute `NAME`";
-        return Err(source.problem(tag(node), message, None));
+        return Err(source.problem(tag(node), message, None).into());
     };
     // The value stands in the element, or in one inside it.
     let inner = children(node, "VALUE").next().and_then(|value| value.text());
@@ -123,7 +123,7 @@ fn feature(source: &Source, node: Node<'_, '_>) -> Result<Result<Feature, String
     };
     if !value.is_finite() || value.abs() > 1e12 {
         let message = format!("{name} is {text}: no result of a ball-bar");
-        return Err(source.problem(tag(node), message, None));
+        return Err(source.problem(tag(node), message, None).into());
     }
     let called = node.attribute("DT").unwrap_or_default().trim();
     let unit = UNITS

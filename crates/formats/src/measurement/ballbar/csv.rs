@@ -60,7 +60,7 @@ pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, P
             }
         };
         if is_remark(&line.text) {
-            problems.extend(remarks.take(path, &line).err());
+            problems.extend(remarks.take(path, &line).err().into_iter().flatten());
             continue;
         }
         match &mut table {
@@ -149,7 +149,7 @@ impl Table {
         for (cell, column) in found.iter().zip(&self.columns.columns) {
             let number = |factor: f64| {
                 let number = measured(&cell.text, self.separator).map(|number| number * factor);
-                number.ok_or_else(|| self.no_number(line, cell))
+                number.ok_or_else(|| Problems::from(self.no_number(line, cell)))
             };
             let taken = match column {
                 Some(Column::Angle(factor)) => number(*factor).map(|number| angle = number),
@@ -164,7 +164,9 @@ impl Table {
                     }
                     None => {
                         let message = format!("`{}` is no direction", cell.text);
-                        Err(line.problem(&self.path, cell.span.clone(), message, "CW or CCW"))
+                        Err(line
+                            .problem(&self.path, cell.span.clone(), message, "CW or CCW")
+                            .into())
                     }
                 },
                 Some(Column::Run) => {
@@ -173,7 +175,7 @@ impl Table {
                 }
                 Some(Column::ForPeople) | None => Ok(()),
             };
-            problems.extend(taken.err());
+            problems.extend(taken.err().into_iter().flatten());
         }
         if !problems.is_empty() {
             return Err(problems);

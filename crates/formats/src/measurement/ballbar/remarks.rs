@@ -14,7 +14,7 @@
 use super::{Told, direction_of};
 use armill_core::measure::ballbar::Direction;
 
-use crate::document::Problem;
+use crate::document::Problems;
 use crate::document::lines::Line;
 use crate::table::sheet::number;
 
@@ -55,14 +55,16 @@ impl Remarks {
     ///
     /// # Errors
     /// A value that its key cannot have, or another one than was told before.
-    pub fn take(&mut self, path: &str, line: &Line) -> Result<(), Problem> {
+    pub fn take(&mut self, path: &str, line: &Line) -> Result<(), Problems> {
         let plain = line.text.trim_start().trim_start_matches('#');
         let Some((key, value)) = plain.split_once([':', '=']) else {
             return Ok(());
         };
         // Spreadsheets fill a line up with separators.
         let value = value.trim().trim_end_matches([';', ',']).trim();
-        let refused = |message: String, hint: &str| line.problem(path, 0..line.text.len(), message, hint);
+        let refused = |message: String, hint: &str| -> Problems {
+            line.problem(path, 0..line.text.len(), message, hint).into()
+        };
         let quantity = |[least, most]: [f64; 2], unit: &str| {
             // A single number needs no separator: a comma is a decimal one.
             let value = number(value, ';').filter(|value| *value > least && *value <= most);
