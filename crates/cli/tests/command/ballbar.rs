@@ -263,8 +263,8 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
     write(
         "mixed.csv",
         &format!(
-            "# radius_mm: 100\n{NAMES}{}",
-            rows("CW", 1, |_| 0.0).replace("\n-179.5,", "\n-179.5,9e6")
+            "# radius_mm: 100\n{NAMES}{}0.5,90000000,CW,1\n",
+            rows("CW", 1, |_| 0.0)
         ),
     );
     write(

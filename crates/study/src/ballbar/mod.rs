@@ -5,6 +5,7 @@
 //! ```
 //!
 //! [`read`](mod@read): files into one circle. [`analyse`](mod@analyse): what it shows. [`answer`](mod@answer): that, in numbers with their units.
+//! `warnings`: what to know before use.
 //! [`teach`](mod@teach): the circle to teach instead, and the test before beside the one after. [`output`]: tables, pictures, report.
 
 pub mod analyse;
@@ -12,6 +13,7 @@ pub mod answer;
 pub mod output;
 pub mod read;
 pub mod teach;
+mod warnings;
 
 pub use analyse::{Centring, Cyclic, Found, Question, analyse};
 pub use answer::{BallbarAnswer, answer};
