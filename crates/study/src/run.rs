@@ -126,13 +126,13 @@ pub fn point_count(study: &Study) -> usize {
 }
 
 /// How often a path is passed over until it is followed: a stock is cut in a pass of its own, and a search answers the path
-/// without it too and passes over the lattice once or twice.
+/// without it too and passes over the lattice once or twice; where turning back has a price once more, and answers two
+/// chains.
 pub(crate) fn passes(path: &PathAsk) -> usize {
-    let searched = match path.setting.search.map(|search| search.goal) {
-        Some(Goal::Worst) => 3,
-        Some(_) => 2,
-        None => 0,
-    };
+    let searched = path.setting.search.map_or(0, |search| {
+        let worst = usize::from(search.goal == Goal::Worst);
+        2 + worst + if search.back_price > 0.0 { 3 } else { 0 }
+    });
     1 + searched + usize::from(path.has_stock())
 }
 
@@ -287,13 +287,7 @@ impl Runner<'_> {
             });
         };
         let searched = self.search(ask, &load, search)?;
-        // What was found counts from the turn that the tool had.
-        let had = |index: usize| ask.track.spins.as_ref().map_or(0.0, |spins| spins[index]);
-        let found = searched.posture.spins.iter().enumerate();
-        let turned = Track {
-            spins: Some(found.map(|(index, spin)| had(index) + spin).collect()),
-            ..ask.track.clone()
-        };
+        let turned = searched.posture.turned(&ask.track);
         let choices = searched.posture.choices();
         Ok(Followed {
             along: along_postures(&question, (&turned, load), choices, self.watch)?,

@@ -40,6 +40,10 @@ pub(crate) struct PostureArguments {
     /// Least angle by which the wrist is bent [default: 3]
     #[arg(long, value_name = "DEG")]
     pub least_wrist_deg: Option<f64>,
+
+    /// What a joint that turns back weighs: as much as so much more deviation over 1 mm of the path [default: 0]
+    #[arg(long, value_name = "UM*MM")]
+    pub reversal_um_mm: Option<f64>,
 }
 
 /// `--goal`.
@@ -89,5 +93,6 @@ Examples:
   armill posture cell                              the tool free about its axis, in every branch
   armill posture cell --turns-deg -30,30 --goal mean
   armill posture cell --counts cross-track --step-deg 2 --out best
+  armill posture cell --reversal-um-mm 200         fewer reversals: each is worth 20 um more over 10 mm
 The result is that of `armill run` with the turns found; the table of a path has them as turn_deg, the picture
 NAME-turns.svg shows what each turn would bring.";

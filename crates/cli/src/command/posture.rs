@@ -48,6 +48,7 @@ fn wanted(arguments: &PostureArguments) -> Result<Option<SearchTable>, StudyErro
         goal: arguments.goal.map(GoalName::from),
         turn_deg_per_mm: bounded("--turn-deg-per-mm", arguments.turn_deg_per_mm, [1e-6, 1e3])?,
         least_wrist_deg: bounded("--least-wrist-deg", arguments.least_wrist_deg, [0.0, 80.0])?,
+        reversal_um_mm: bounded("--reversal-um-mm", arguments.reversal_um_mm, [0.0, 1e9])?,
     };
     Ok((!table.is_empty()).then_some(table))
 }

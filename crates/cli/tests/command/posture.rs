@@ -55,6 +55,41 @@ fn before_and_after_stand_in_one_sentence_and_the_table_has_the_turns() {
 }
 
 #[test]
+fn joints_turn_back_less_often_where_that_has_a_price() {
+    let cell = Cell::new();
+    cell.file("study.toml", CELL);
+    let with = |price: &str| {
+        let said = cell.armill(&[
+            "posture",
+            "study.toml",
+            "--step-deg",
+            "15",
+            "--goal",
+            "mean",
+            "--reversal-um-mm",
+            price,
+            "--no-pictures",
+            "--json",
+        ]);
+        let json = said.fine().json();
+        let with = &json["paths"][0]["search"]["with"];
+        let backs = with["reversals"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(number)
+            .sum::<f64>();
+        (backs, number(&with["mean_in_plane_um"]))
+    };
+    let (backs, mean) = with("0");
+    let (fewer, dearer) = with("1e6");
+    assert!(
+        fewer < backs && dearer > mean,
+        "{fewer} of {backs}, {dearer} after {mean} um"
+    );
+}
+
+#[test]
 fn pictures_have_the_lattice() {
     let cell = Cell::new();
     cell.file("study.toml", CELL);
@@ -70,6 +105,8 @@ fn what_cannot_be_is_refused_with_the_option() {
     cell.file("study.toml", CELL);
     cell.armill(&["posture", "study.toml", "--step-deg", "0"])
         .refused(&["--step-deg: 0 is outside 0.1 to 180"]);
+    cell.armill(&["posture", "study.toml", "--reversal-um-mm", "1e10"])
+        .refused(&["--reversal-um-mm: 10000000000 is outside 0 to 1000000000"]);
     cell.armill(&["posture", "study.toml", "--turns-deg", "90,-90"])
         .refused(&["turns from 90 to -90 deg"]);
     let map = CELL

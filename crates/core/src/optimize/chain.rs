@@ -12,10 +12,16 @@
 //! | `k_i` | steps that the tool may turn by there |
 //! | `t` | price of a step |
 //!
+//! Where turning back has a price, both minima have that of the joints that turn back on the way besides. How they went is
+//! known of the cheapest chain to each state alone, so that a chain that was dearer until there and turns back less later is
+//! missed: with that price the chain is a good one, not surely the cheapest, unless the tool keeps its turn. Turning goes by
+//! steps there, against which joints turn back that do not once the steps are taken out.
+//!
 //! Where the goal is the worst point, sums become maxima. A column that nothing leads to begins anew behind the cheapest
 //! chain so far, and counts as a break: the arm stops there and takes another posture. A column without any state is
 //! passed over.
 
+use super::heading::Heading;
 use crate::kernel::SLOTS;
 
 /// How costs along a chain become one.
@@ -32,8 +38,12 @@ pub(super) trait Links {
     /// Whether the tip can go on from posture `from` of the column before to posture `to`, the tool turned by step `turn`
     /// at both.
     fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool;
+    /// How the joints move there.
+    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading;
     /// Whether the tool can turn, in the column, from posture `from` at step `turn` to posture `to` at step `next`.
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool;
+    /// How the joints move there.
+    fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading;
 }
 
 /// The turns of a lattice and how they neighbour.
@@ -47,6 +57,8 @@ pub(super) struct Turns {
     pub kept_slots: bool,
     /// Price of a step.
     pub price: f64,
+    /// Price of a joint that turns back; nothing is looked at where it is zero.
+    pub back_price: f64,
 }
 
 /// What a column begins with.
@@ -86,12 +98,23 @@ pub(super) struct Chain {
     values: Vec<f64>,
     next: Vec<f64>,
     ways: Vec<u8>,
+    /// How the joints came to the states of the last column, and how often they turned back until there; empty where that
+    /// has no price.
+    came: Vec<Came>,
+    next_came: Vec<Came>,
+}
+
+/// How the joints came along a chain.
+#[derive(Clone, Copy, Debug, Default)]
+struct Came {
+    heading: Heading,
+    backs: u32,
 }
 
 /// The cheapest chain.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cheapest {
-    /// Its cost.
+    /// Its cost, without the price of turning back.
     pub cost: f64,
     /// State at each column: turn times [`SLOTS`] plus slot; `None` where there is none.
     pub states: Vec<Option<usize>>,
@@ -103,6 +126,7 @@ impl Chain {
     /// Before the first column. `traced`: whether the chain itself is asked for, or its cost alone.
     pub fn new(turns: Turns, together: Together, traced: Option<usize>) -> Chain {
         let states = turns.count * SLOTS;
+        let headed = if turns.back_price > 0.0 { states } else { 0 };
         Chain {
             turns,
             together,
@@ -111,6 +135,8 @@ impl Chain {
             values: vec![f64::INFINITY; states],
             next: vec![f64::INFINITY; states],
             ways: vec![0; states],
+            came: vec![Came::default(); headed],
+            next_came: vec![Came::default(); headed],
         }
     }
 
@@ -137,20 +163,26 @@ impl Chain {
             _ => Entry::From(least(&self.values).map(|state| state as u32)),
         };
         if let Entry::From(Some(state)) | Entry::Broken(state) = entry {
-            let before = self.values[state as usize];
-            self.begin(costs, before);
+            let backs = self.came.get(state as usize).map_or(0, |came| came.backs);
+            self.begin(costs, self.values[state as usize], backs);
         } else if entry == Entry::From(None) {
-            self.begin(costs, 0.0);
+            self.begin(costs, 0.0, 0);
         }
         self.entries.push(entry);
         if let Some(back) = &mut self.back {
             back.extend_from_slice(&self.ways);
         }
         std::mem::swap(&mut self.values, &mut self.next);
+        std::mem::swap(&mut self.came, &mut self.next_came);
     }
 
-    fn begin(&mut self, costs: &[f64], before: f64) {
+    /// Begins anew behind a chain that cost so much and turned back so often.
+    fn begin(&mut self, costs: &[f64], before: f64, backs: u32) {
         self.ways.fill(0);
+        self.next_came.fill(Came {
+            heading: Heading::default(),
+            backs,
+        });
         for (value, cost) in self.next.iter_mut().zip(costs) {
             *value = self.together.of(before, *cost);
         }
@@ -171,10 +203,20 @@ impl Chain {
                 }
                 let from = if kept_slots { to..to + 1 } else { 0..SLOTS };
                 for slot in from {
-                    let before = self.values[turn * SLOTS + slot];
-                    if before < self.next[state] && links.goes_on(turn, slot, to) {
-                        self.next[state] = before;
+                    let origin = turn * SLOTS + slot;
+                    let before = self.values[origin];
+                    if before >= self.next[state] || !links.goes_on(turn, slot, to) {
+                        continue;
+                    }
+                    let came = self.came.get(origin);
+                    let came = came.map(|came| came.then(links.moves_on(turn, slot, to)));
+                    let value = before + self.back_price(came);
+                    if value < self.next[state] {
+                        self.next[state] = value;
                         self.ways[state] = way(0, slot);
+                        if let Some((came, _)) = came {
+                            self.next_came[state] = came;
+                        }
                     }
                 }
             }
@@ -194,9 +236,11 @@ impl Chain {
             around,
             kept_slots,
             price,
+            ..
         } = self.turns;
         let before = self.next.clone();
         let ways = self.ways.clone();
+        let came = self.next_came.clone();
         for turn in 0..count {
             for (sense, neighbour) in neighbours(turn, count, around) {
                 for to in 0..SLOTS {
@@ -208,10 +252,19 @@ impl Chain {
                     for slot in from {
                         let there = neighbour * SLOTS + slot;
                         let value = before[there] + price;
-                        if value < self.next[state] && links.turns(neighbour, turn, slot, to) {
+                        if value >= self.next[state] || !links.turns(neighbour, turn, slot, to) {
+                            continue;
+                        }
+                        let came = came.get(there);
+                        let came = came.map(|came| came.then(links.moves_by_turn(neighbour, turn, slot, to)));
+                        let value = value + self.back_price(came);
+                        if value < self.next[state] {
                             let (by, origin) = steps_and_slot(ways[there]);
                             self.next[state] = value;
                             self.ways[state] = way(by + sense, origin);
+                            if let Some((came, _)) = came {
+                                self.next_came[state] = came;
+                            }
                         }
                     }
                 }
@@ -219,10 +272,18 @@ impl Chain {
         }
     }
 
+    /// Price of what turned back on the last step.
+    fn back_price(&self, came: Option<(Came, u32)>) -> f64 {
+        came.map_or(0.0, |(_, backs)| self.turns.back_price * f64::from(backs))
+    }
+
     /// The cheapest chain through all columns; its states where they were asked for.
     pub fn cheapest(&self) -> Cheapest {
         let last = least(&self.values);
-        let cost = last.map_or(0.0, |state| self.values[state]);
+        let backs = |state: usize| self.came.get(state).map_or(0.0, |came| f64::from(came.backs));
+        let cost = last.map_or(0.0, |state| {
+            self.values[state] - self.turns.back_price * backs(state)
+        });
         let breaks = (0..self.entries.len()).filter(|i| matches!(self.entries[*i], Entry::Broken(_)));
         let breaks = breaks.collect();
         let mut states = vec![None; self.entries.len()];
@@ -248,6 +309,18 @@ impl Chain {
             }
         }
         Cheapest { cost, states, breaks }
+    }
+}
+
+impl Came {
+    /// After moving on so, and how many joints turned back for it.
+    fn then(self, moves: Heading) -> (Came, u32) {
+        let backs = self.heading.turned_by(moves);
+        let came = Came {
+            heading: self.heading.then(moves),
+            backs: self.backs + backs,
+        };
+        (came, backs)
     }
 }
 

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::chain::Links;
+use super::heading::Heading;
 use crate::kernel::{Column, SLOTS, Stand};
 use crate::robot::{Joint, Limits, Robot};
 
@@ -39,14 +40,19 @@ impl JointRate {
         robot.joints().iter().enumerate().map(of).collect()
     }
 
-    /// Whether the joint can go from one position to the other in this time, s.
-    fn can(&self, from: f64, to: f64, time: Option<f64>) -> bool {
+    /// How far the joint moves from one position to the other, the shorter way round where it has both.
+    fn by(&self, from: f64, to: f64) -> f64 {
         let by = to - from;
-        let by = if self.wraps {
+        if self.wraps {
             by - TAU * (by / TAU).round()
         } else {
             by
-        };
+        }
+    }
+
+    /// Whether the joint can go from one position to the other in this time, s.
+    fn can(&self, from: f64, to: f64, time: Option<f64>) -> bool {
+        let by = self.by(from, to);
         let in_time = self
             .most
             .zip(time)
@@ -64,22 +70,37 @@ pub(super) struct Between<'a> {
     pub turn_time: Option<f64>,
 }
 
-impl Between<'_> {
-    fn can(&self, from: (&Column, usize), to: (&Column, usize), time: Option<f64>) -> bool {
-        let count = self.joints.len();
+impl<'a> Between<'a> {
+    fn can(&self, from: (&'a Column, usize), to: (&'a Column, usize), time: Option<f64>) -> bool {
         let holds = |(column, slot): (&Column, usize)| column.stands[slot] == Stand::Holds;
-        let positions = from
-            .0
-            .joints_of(from.1, count)
-            .iter()
-            .zip(to.0.joints_of(to.1, count));
         holds(from)
             && holds(to)
             && self
-                .joints
-                .iter()
-                .zip(positions)
-                .all(|(joint, (from, to))| joint.can(*from, *to, time))
+                .positions(from, to)
+                .all(|(joint, from, to)| joint.can(from, to, time))
+    }
+
+    /// Which way the joints move between two states.
+    fn heading(&self, from: (&'a Column, usize), to: (&'a Column, usize)) -> Heading {
+        Heading::of(
+            self.positions(from, to)
+                .map(|(joint, from, to)| joint.by(from, to)),
+        )
+    }
+
+    /// Every joint, with where it stands in the one state and in the other.
+    fn positions(
+        &self,
+        from: (&'a Column, usize),
+        to: (&'a Column, usize),
+    ) -> impl Iterator<Item = (&'a JointRate, f64, f64)> {
+        let count = self.joints.len();
+        let [from, to] = [from, to].map(|(column, slot)| column.joints_of(slot, count));
+        let pairs = from.iter().zip(to);
+        self.joints
+            .iter()
+            .zip(pairs)
+            .map(|(joint, (from, to))| (joint, *from, *to))
     }
 }
 
@@ -89,8 +110,18 @@ impl Links for Between<'_> {
         self.can((self.before, first + from), (self.here, first + to), self.time)
     }
 
+    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
+        let first = turn * SLOTS;
+        self.heading((self.before, first + from), (self.here, first + to))
+    }
+
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
         let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
         self.can((self.here, from), (self.here, to), self.turn_time)
+    }
+
+    fn moves_by_turn(&self, turn: usize, next: usize, from: usize, to: usize) -> Heading {
+        let (from, to) = (turn * SLOTS + from, next * SLOTS + to);
+        self.heading((self.here, from), (self.here, to))
     }
 }

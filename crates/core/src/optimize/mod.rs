@@ -7,12 +7,13 @@
 //! - [`nodes`]: the same by a few targets with straight moves between them.
 //! - [`reversals`](fn@reversals): how often each joint turns back.
 //!
-//! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `lattice`: what a picture
-//! shows of them; `smooth`: turns without steps; `sureness`: how sure
+//! `chain`: the cheapest way through columns of postures; `links`: what leads from one to the next; `heading`: which way joints
+//! went there; `lattice`: what a picture shows of them; `smooth`: turns without steps; `sureness`: how sure
 //! the cost of a place is.
 
 mod chain;
 pub mod compensation;
+mod heading;
 pub mod holes;
 mod lattice;
 mod links;

@@ -12,6 +12,10 @@
 //! | a jump | no joint turns by half a radian from one point to the next |
 //! | turn of the tool | so many radians for a metre of the path, in steps; then without them, half a step away at the most |
 //!
+//! Where a joint turns back its backlash prints on the part. With a price on that ([`PostureSearch::back_price`]) a second
+//! chain is looked for that turns back less, and of both, answered without the steps of the lattice, the one is taken whose
+//! mean deviation and price together are less.
+//!
 //! Branches change between cuts alone. The chain is the best of the lattice, not of all turns between its steps; forces are
 //! those of the path as drawn. Both are looked at again when the path is answered with what was found
 //! ([`crate::map::along_postures`]).
@@ -24,10 +28,12 @@ use rayon::prelude::*;
 use super::chain::{Beginning, Chain, Cheapest, MOST_STEPS, Together, Turns};
 use super::lattice::Lattice;
 use super::links::{Between, JointRate};
+use super::reversals::reversals;
 use super::smooth::without_steps;
 use crate::frame::{Isometry, some_across};
 use crate::kernel::{BranchChoice, Column, Columns, Push, Question, SLOTS, Stand};
 use crate::load::PathLoad;
+use crate::map::along_postures;
 use crate::path::{LoadedStop, Pace, Track};
 use crate::robot::{Branch, BranchPattern};
 use crate::watch::{Cancelled, Watch};
@@ -80,6 +86,8 @@ pub struct PostureSearch {
     pub turn_rate: f64,
     /// What a step of turning must gain at least, m.
     pub turn_price: f64,
+    /// What a joint that turns back weighs: the mean deviation may grow by this over the length of the path for each, m m.
+    pub back_price: f64,
     /// Least bend of the wrist, rad.
     pub wrist: f64,
 }
@@ -133,18 +141,30 @@ pub fn postures_along(
         search,
         joints: JointRate::all(question.arm.robot),
     };
-    Ok(match search.goal {
-        Goal::Worst => {
-            let worst = walk.chain(Cost::Worst, watch)?.0.cost;
-            let chain = walk.chain(Cost::Within(worst), watch)?;
-            PostureFound {
-                reached: worst,
-                ..walk.told(chain)
-            }
+    let cost = match search.goal {
+        Goal::Worst => Cost::Within(walk.chain((Cost::Worst, 0.0), watch)?.0.cost),
+        Goal::Mean => Cost::Within(f64::INFINITY),
+        Goal::Above(limit) => Cost::Above(limit),
+    };
+    let mut found = walk.told(walk.chain((cost, 0.0), watch)?);
+    if search.back_price > 0.0 && track.path.length() > 0.0 {
+        let price = search.back_price / track.path.length();
+        let other = walk.told(walk.chain((cost, price * track.len() as f64), watch)?);
+        let worth = |found: &PostureFound| -> Result<f64, Cancelled> {
+            let turned = (&found.turned(track), load.clone());
+            let along = along_postures(question, turned, found.choices(), watch)?;
+            let backs: usize = reversals(&track.path, &along.answers).iter().sum();
+            Ok(found.reached + price * backs as f64)
+        };
+        // Whoever stops on the way has not turned back there.
+        if (other.breaks.len(), worth(&other)?) < (found.breaks.len(), worth(&found)?) {
+            found = other;
         }
-        Goal::Mean => walk.told(walk.chain(Cost::Within(f64::INFINITY), watch)?),
-        Goal::Above(limit) => walk.told(walk.chain(Cost::Above(limit), watch)?),
-    })
+    }
+    if let (Goal::Worst, Cost::Within(worst)) = (search.goal, cost) {
+        found.reached = worst;
+    }
+    Ok(found)
 }
 
 /// What a state costs, of its deviation.
@@ -198,7 +218,12 @@ struct Seen {
 }
 
 impl Walk<'_> {
-    fn chain(&self, cost: Cost, watch: Watch<'_>) -> Result<(Cheapest, Seen), Cancelled> {
+    /// The cheapest chain, where a joint that turns back has this price.
+    fn chain(
+        &self,
+        (cost, back_price): (Cost, f64),
+        watch: Watch<'_>,
+    ) -> Result<(Cheapest, Seen), Cancelled> {
         let Spins { step, count, .. } = self.search.spins;
         let (arm, home) = (self.question.arm, self.question.home);
         let maker = || Columns::new(arm, home, self.search.wrist);
@@ -208,6 +233,7 @@ impl Walk<'_> {
             around: (step * count as f64 - TAU).abs() < 1e-9,
             kept_slots: maker().slots_are_branches(),
             price: if worst_alone { 0.0 } else { self.search.turn_price },
+            back_price,
         };
         let points = self.track.len();
         let mut chain = Chain::new(turns, cost.together(), (!worst_alone).then_some(points));
@@ -330,6 +356,16 @@ impl Counts {
 }
 
 impl PostureFound {
+    /// `track`, along which these postures were found, with the tool turned as they say beside the turn that it had.
+    pub fn turned(&self, track: &Track) -> Track {
+        let had = |index: usize| track.spins.as_ref().map_or(0.0, |spins| spins[index]);
+        let spins = self.spins.iter().enumerate();
+        Track {
+            spins: Some(spins.map(|(index, spin)| had(index) + spin).collect()),
+            ..track.clone()
+        }
+    }
+
     /// The branches of the path, each with the point that it begins at, for [`crate::map::along_postures`].
     pub fn choices(&self) -> Vec<(usize, BranchChoice)> {
         let mut choices: Vec<(usize, BranchChoice)> = Vec::new();

@@ -274,6 +274,10 @@ impl Resolver<'_> {
                 "turn_deg_per_mm",
                 own.is_some_and(|table| table.turn_deg_per_mm.is_some()),
             ),
+            (
+                "reversal_um_mm",
+                own.is_some_and(|table| table.reversal_um_mm.is_some()),
+            ),
         ];
         for (key, _) in given.iter().filter(|(_, given)| *given) {
             let message = format!("`{key}` means nothing to holes: each is held for itself");

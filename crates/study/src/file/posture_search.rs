@@ -29,6 +29,9 @@ pub struct SearchTable {
     /// Least angle by which the wrist is bent; 3 if left out.
     #[schemars(range(min = 0.0, max = 80.0))]
     pub least_wrist_deg: Option<f64>,
+    /// What a joint that turns back weighs: as much as so much more deviation over 1 mm of the path; 0 if left out.
+    #[schemars(range(min = 0.0, max = 1e9))]
+    pub reversal_um_mm: Option<f64>,
 }
 
 /// Which part of the deviation counts.
@@ -92,6 +95,7 @@ impl SearchTable {
             && self.goal.is_none()
             && self.turn_deg_per_mm.is_none()
             && self.least_wrist_deg.is_none()
+            && self.reversal_um_mm.is_none()
     }
 
     /// As the core searches, for a path whose tolerance is `limit` (m), in branches that match `branches`; `None` where it
@@ -133,6 +137,7 @@ impl SearchTable {
             branches,
             turn_rate: self.turn_deg_per_mm.unwrap_or(1.0).to_radians() * 1e3,
             turn_price: TURN_PRICE * limit,
+            back_price: self.reversal_um_mm.unwrap_or(0.0) * 1e-9,
             wrist: self.least_wrist_deg.unwrap_or(3.0).to_radians(),
         })
     }

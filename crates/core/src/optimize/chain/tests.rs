@@ -29,8 +29,21 @@ impl Links for MadeLinks {
     fn goes_on(&self, turn: usize, from: usize, to: usize) -> bool {
         self.holds([0, turn, from, to, 0])
     }
+    fn moves_on(&self, turn: usize, from: usize, to: usize) -> Heading {
+        let up = |joint| {
+            if self.holds([2, turn, from, to, joint]) {
+                1.0
+            } else {
+                -1.0
+            }
+        };
+        Heading::of((0..3).map(up))
+    }
     fn turns(&self, turn: usize, next: usize, from: usize, to: usize) -> bool {
         self.holds([1, turn, next, from, to])
+    }
+    fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
+        unreachable!("the tool keeps its turn wherever turning back has a price")
     }
 }
 
@@ -41,6 +54,7 @@ fn made(seed: u64, kept_slots: bool) -> Made {
         around: random.next() < 0.5,
         kept_slots,
         price: 0.1 * random.next(),
+        back_price: 0.0,
     };
     let columns = 2 + (random.next() * 4.0) as usize;
     let cost = |random: &mut Stream| {
@@ -221,6 +235,68 @@ fn no_chain_is_cheaper_and_the_chain_told_costs_what_is_told() {
     assert!(whole > 1500, "{whole} lattices have a chain");
 }
 
+/// Times that joints turn back along the states of `chain`, which begin nowhere but at the first.
+fn backs(made: &Made, chain: &[usize]) -> u32 {
+    let (mut heading, mut backs) = (Heading::default(), 0);
+    for (column, pair) in chain.windows(2).enumerate() {
+        let links = MadeLinks {
+            seed: made.seed,
+            column: column + 1,
+        };
+        let moves = links.moves_on(pair[0] / SLOTS, pair[0] % SLOTS, pair[1] % SLOTS);
+        backs += heading.turned_by(moves);
+        heading = heading.then(moves);
+    }
+    backs
+}
+
+#[test]
+fn joints_turn_back_less_where_that_has_a_price_and_a_tool_that_keeps_its_turn_has_the_cheapest_chain() {
+    let mut fewer = 0;
+    for seed in 0..20_000 {
+        let mut made = made(seed, true);
+        for beginning in &mut made.beginnings[1..] {
+            *beginning = Beginning::Follows(0);
+        }
+        let without = found(&made, Together::Sum);
+        made.turns.back_price = 0.4;
+        let with = found(&made, Together::Sum);
+        if !without.breaks.is_empty() || without.states.contains(&None) {
+            continue;
+        }
+        let states = |of: &Cheapest| of.states.iter().flatten().copied().collect::<Vec<_>>();
+        let told = |of: &Cheapest| of.cost + 0.4 * f64::from(backs(&made, &states(of)));
+        let sum: f64 = states(&with)
+            .iter()
+            .zip(&made.costs)
+            .map(|(state, costs)| costs[*state])
+            .sum();
+        assert!(
+            (sum - with.cost).abs() < 1e-12,
+            "seed {seed}: {sum} and {}",
+            with.cost
+        );
+        assert!(told(&with) <= told(&without) + 1e-12, "seed {seed}");
+        // Each turn and slot is a chain of its own.
+        let all = (0..made.turns.count * SLOTS).filter_map(|state| {
+            let chain = vec![state; made.costs.len()];
+            let links = |column| MadeLinks { seed, column };
+            let holds = |column: usize| links(column).goes_on(state / SLOTS, state % SLOTS, state % SLOTS);
+            let whole = (1..made.costs.len()).all(holds);
+            let cost: f64 = made.costs.iter().map(|costs| costs[state]).sum();
+            (whole && cost.is_finite()).then(|| cost + 0.4 * f64::from(backs(&made, &chain)))
+        });
+        let least = all.fold(f64::INFINITY, f64::min);
+        assert!(
+            (told(&with) - least).abs() < 1e-12,
+            "seed {seed}: {} {least}",
+            told(&with)
+        );
+        fewer += usize::from(backs(&made, &states(&with)) < backs(&made, &states(&without)));
+    }
+    assert!(fewer > 10, "{fewer}");
+}
+
 #[test]
 fn the_tool_may_turn_the_short_way_round_and_no_faster_than_allowed() {
     struct All;
@@ -228,8 +304,14 @@ fn the_tool_may_turn_the_short_way_round_and_no_faster_than_allowed() {
         fn goes_on(&self, _: usize, _: usize, _: usize) -> bool {
             true
         }
+        fn moves_on(&self, _: usize, _: usize, _: usize) -> Heading {
+            Heading::default()
+        }
         fn turns(&self, _: usize, _: usize, _: usize, _: usize) -> bool {
             true
+        }
+        fn moves_by_turn(&self, _: usize, _: usize, _: usize, _: usize) -> Heading {
+            Heading::default()
         }
     }
     let lattice = |around, steps| {
@@ -238,6 +320,7 @@ fn the_tool_may_turn_the_short_way_round_and_no_faster_than_allowed() {
             around,
             kept_slots: true,
             price: 0.0,
+            back_price: 0.0,
         };
         let mut chain = Chain::new(turns, Together::Sum, Some(3));
         let dear_but = |turn: usize| {

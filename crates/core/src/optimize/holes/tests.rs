@@ -71,6 +71,7 @@ const SEARCH: PostureSearch = PostureSearch {
     },
     turn_rate: 1.0,
     turn_price: 0.0,
+    back_price: 0.0,
     wrist: 0.05,
 };
 

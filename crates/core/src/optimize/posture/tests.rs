@@ -109,6 +109,7 @@ fn search(goal: Goal) -> PostureSearch {
         branches: BranchPattern::default(),
         turn_rate: 20.0,
         turn_price: 1e-9,
+        back_price: 0.0,
         wrist: 0.05,
     }
 }
@@ -235,6 +236,40 @@ fn each_goal_is_the_best_at_its_own() {
         // What is within the limit counts a thousandth.
         let within = WITHIN * told[2].iter().sum::<f64>();
         assert!(above(&told[2]) <= above(other) + within);
+    }
+}
+
+#[test]
+fn joints_turn_back_less_often_for_a_price_and_the_worst_point_gets_no_worse() {
+    let (cell, track) = (Cell::new(), square());
+    for goal in [Goal::Worst, Goal::Mean] {
+        let with = |back_price: f64| {
+            let search = PostureSearch {
+                back_price,
+                ..search(goal)
+            };
+            let found = cell.found(&track, &search);
+            let along = cell.answered(&track, found.turned(&track).spins.unwrap(), found.choices());
+            let backs: usize = reversals(&track.path, &along.answers).iter().sum();
+            (found.reached, mean(&in_plane(&along)), backs)
+        };
+        let (reached, before, backs) = with(0.0);
+        // A micrometre over a tenth of the path, and so much that nothing else counts.
+        for price in [1e-6 * 0.12, 1e-3] {
+            let (dear, after, fewer) = with(price);
+            assert!(fewer <= backs, "{goal:?}: {fewer} {backs}");
+            let worth = |mean: f64, backs: usize| mean + price / track.path.length() * backs as f64;
+            // The lattice is compared by its steps, the path here without them: within the price of a turn or two.
+            assert!(
+                worth(after, fewer) <= worth(before, backs) * 1.02,
+                "{goal:?} {price}"
+            );
+            if goal == Goal::Worst {
+                assert!((dear - reached).abs() < 1e-15, "{dear} {reached}");
+            }
+        }
+        let most = with(1e-3).2;
+        assert!(most < backs, "{goal:?}: {most} of {backs}");
     }
 }
 
