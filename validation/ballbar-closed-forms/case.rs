@@ -116,7 +116,7 @@ pub fn checks() -> Vec<Check> {
     let rounding = |what: &str, errors: Vec<f64>| {
         let gap = Gap {
             worst: worst(errors),
-            tolerance: 1e-9,
+            tolerance: 1e-12,
             unit: "m",
         };
         Check::computed(format!("{what}, {CIRCLES} circles"), GEOMETRY, gap)
@@ -124,7 +124,7 @@ pub fn checks() -> Vec<Check> {
     let second_order = |what: &str, errors: Vec<f64>, (factor, unit)| {
         let gap = Gap {
             worst: worst(errors) * factor,
-            tolerance: 1.0,
+            tolerance: 0.1,
             unit,
         };
         Check::printed(format!("{what}, {CIRCLES} machines"), GEOMETRY, gap, 2)
