@@ -166,6 +166,13 @@ pub const PROFILE: &[&str] = &[
     "<QIFDocument>", "</QIFDocument>", "<CircleFeatureActual>", "<CylinderFeatureActual>", "<Axis>", "<AxisPoint>", "<Location>", "<Diameter>", "<Factor>", "<FeatureName>",
 ];
 
+/// Columns and remarks of circular tests, elements of a ball-bar's results.
+#[rustfmt::skip]
+pub const BALLBAR: &[&str] = &[
+    "angle_deg", "angle_rad", "index", "radius_dev_um", "radius_mm", "direction", "run", "# radius_mm: ", "# start_deg: ", "# run: ", "# direction: ", "CW", "CCW", ";", "\t",
+    "<FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>", "</FEATURE>", "<PLANE TEST_PLANE='XY'/>", "nan", "1e308",
+];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

@@ -208,6 +208,27 @@ pub fn profiles() -> Vec<Vec<u8>> {
     ])
 }
 
+/// Runs by angle and by number, of both separators.
+pub fn ballbar_csv() -> Vec<Vec<u8>> {
+    let turn = |row: &dyn Fn(usize) -> String| (0..12).map(row).collect::<String>();
+    let angles = turn(&|k| format!("{},{k}.5,CCW,1\n", 30 * k));
+    let numbers = turn(&|k| format!("{k};100,0{k}\n"));
+    seeds(&[
+        &format!("# radius_mm: 100\nangle_deg,radius_dev_um,direction,run\n{angles}"),
+        &format!(
+            "# radius_mm: 100\n# start_deg: 0\n# direction: CW\nindex;radius_mm\n{numbers}# direction: CCW\n{numbers}"
+        ),
+    ])
+}
+
+/// Results of a ball-bar's own program.
+pub fn ballbar_results() -> Vec<Vec<u8>> {
+    seeds(&[
+        "<B><TEST_SPEC NAME='a'/><PLANE TEST_PLANE='XY'/><MACHINE_TESTED NAME='m'/><OPERATOR>o</OPERATOR>\
+             <FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>9.5</FEATURE><FEATURE NAME='AF_X'><VALUE>1</VALUE></FEATURE></B>",
+    ])
+}
+
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()

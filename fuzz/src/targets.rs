@@ -78,5 +78,7 @@ pub const TARGETS: &[Target] = &[
     target("force-csv", verdicts::force_csv, fixtures::force_csv, &[], words::FORCES),
     target("forces", verdicts::forces, fixtures::forces, &[], words::FORCES),
     target("profile", verdicts::profile, fixtures::profiles, &["ds", "csv", "QIF"], words::PROFILE),
+    target("ballbar-csv", verdicts::ballbar_csv, fixtures::ballbar_csv, &[], words::BALLBAR),
+    target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
+use armill_core::measure::ballbar::{Direction, Run};
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Pace, Step, ToldSpin};
 use armill_core::robot::Robot;
@@ -13,6 +14,7 @@ use armill_core::roundness::{Plane, Profile};
 use armill_formats::convention::Convention;
 use armill_formats::document::Problems;
 use armill_formats::material;
+use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, Measured};
 use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
 use armill_formats::robot::format::{self, Format, Wanted};
@@ -374,6 +376,33 @@ fn judge_forces(read: Result<Measured, Problems>) {
         assert!(record.time().is_sorted_by(|before, after| before < after));
         let samples = record.force().iter().chain(record.moment().into_iter().flatten());
         assert!(samples.flatten().all(|value| value.is_finite()));
+    }
+}
+
+/// Runs of a circular test: angles and radii are numbers.
+pub fn ballbar_csv(bytes: &[u8]) {
+    for start in [None, Some(0.0)] {
+        let told = ballbar::Told {
+            direction: start.map(|_| Direction::Clockwise),
+            start,
+            radius: None,
+        };
+        match ballbar::csv::read("bar.csv", bytes, &told) {
+            Err(problems) => refused(&problems),
+            Ok(found) => {
+                assert_eq!(found.runs.len(), found.names.len());
+                let mut samples = found.runs.iter().flat_map(Run::samples);
+                assert!(samples.all(|(angle, deviation)| angle.is_finite() && deviation.is_finite()));
+            }
+        }
+    }
+}
+
+/// Results of a ball-bar's own program.
+pub fn ballbar_results(bytes: &[u8]) {
+    match ballbar::b5r::read("bar.b5r", &String::from_utf8_lossy(bytes)) {
+        Err(problems) => refused(&problems),
+        Ok(found) => assert!(found.features.iter().all(|feature| feature.value.is_finite())),
     }
 }
 

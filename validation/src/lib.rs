@@ -20,6 +20,8 @@ mod arms;
 mod random;
 mod studies;
 
+#[path = "../ballbar-closed-forms/case.rs"]
+mod ballbar_closed_forms;
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
 #[path = "../fanuc-identification/case.rs"]
@@ -111,6 +113,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "jacobian-differences",
         checks: jacobian_differences::checks,
+    },
+    Case {
+        folder: "ballbar-closed-forms",
+        checks: ballbar_closed_forms::checks,
     },
     Case {
         folder: "plane-split",

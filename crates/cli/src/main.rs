@@ -41,6 +41,7 @@ fn main() -> ExitCode {
         Command::Identify(identify) => command::identify::run(identify),
         Command::Forces(forces) => command::forces::run(forces),
         Command::Roundness(roundness) => command::roundness::run(roundness),
+        Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

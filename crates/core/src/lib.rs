@@ -7,7 +7,8 @@
 //! robot), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests).
+//! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`measure`] (what
+//! circular tests show).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
@@ -17,6 +18,7 @@ pub mod identify;
 pub mod kernel;
 pub mod load;
 pub mod map;
+pub mod measure;
 pub mod optimize;
 pub mod path;
 pub mod predict;

@@ -9,8 +9,10 @@
 //! - [`table`]: columns of results as CSV, Parquet and VTK.
 //! - [`toolpath`]: tool path programs in.
 //! - [`robot_program`]: programs of robot controllers, in and out.
-//! - [`measurement`]: records of forces, tables of load tests and points of round profiles in.
+//! - [`measurement`]: records of forces, tables of load tests, points of round profiles and circular tests in.
 //! - [`file`](mod@file): files that are either written whole or not at all.
+//!
+//! `xml` is the ground of all that is XML.
 //!
 //! Nothing in this crate prints, but for the words of Rust itself where a fault of the crates `parquet` and `xacro-rs`
 //! is caught and told as a problem of the file. Same input, same bytes.
@@ -25,3 +27,5 @@ pub mod robot_program;
 pub mod sources;
 pub mod table;
 pub mod toolpath;
+
+mod xml;

@@ -10,6 +10,7 @@
 //! | how does that change with distance or tilt? | [`MapSeries`] |
 //! | which way is the tool pushed along a path? | [`VectorField`] |
 //! | how large is it along the path, how round is a circle, made or measured? | [`PathPlot`], [`PolarPlot`] |
+//! | how round does the tool go, which way round? | [`BallbarPlot`] |
 //! | where on a tool path, seen from above? | [`TrackMap`] |
 //! | where does each hole come out? | [`HoleMap`] |
 //! | what depth and feed hold the limit? | [`ProcessMap`] |
@@ -36,6 +37,7 @@ mod map;
 mod map_series;
 mod region;
 
+mod ballbar_plot;
 mod force_plot;
 mod path_plot;
 mod polar_plot;
@@ -80,6 +82,7 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
+pub use ballbar_plot::{BallbarPlot, BallbarTrace, Sense};
 pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use comparison::{ComparedCell, Comparison};

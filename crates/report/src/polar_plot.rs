@@ -16,8 +16,8 @@ use crate::svg::{Point, Style, Svg, Text};
 use crate::ticks::Ticks;
 
 /// Radius of the rim, and width of the picture.
-const RADIUS_PX: f64 = 190.0;
-const WIDTH_PX: f64 = 500.0;
+pub(crate) const RADIUS_PX: f64 = 190.0;
+pub(crate) const WIDTH_PX: f64 = 500.0;
 /// Radius of the innermost ring, which keeps clear of the centre.
 const HOLE_PX: f64 = 0.22 * RADIUS_PX;
 /// Font size of the rings' values, and the least distance of two of them.
@@ -79,12 +79,10 @@ impl PolarPlot {
     /// The plot as a complete SVG document; no values gives a picture that says so.
     pub fn to_svg(&self) -> String {
         let heading = Heading::new(&self.title, &self.subtitle);
-        let finite = self.all_series().flat_map(|s| &s.radial_um).copied();
-        let Some((low, high)) = extent(finite.chain([0.0])).filter(|_| self.has_values()) else {
+        let Some(rings) = self.rings() else {
             return heading.notice("There is nothing to draw: the circle has no values.");
         };
         let mut page = heading.page(WIDTH_PX);
-        let rings = Rings::covering(low, high);
         let centre = [WIDTH_PX / 2.0, page.top_px + RADIUS_PX + 24.0];
         self.draw_spokes(&mut page.svg, centre, &rings);
         rings.draw(&mut page.svg, centre);
@@ -151,6 +149,13 @@ impl PolarPlot {
         }
     }
 
+    /// Rings that hold all deviations and the nominal circle; `None` where nothing has a value.
+    pub(crate) fn rings(&self) -> Option<Rings> {
+        let finite = self.all_series().flat_map(|s| &s.radial_um).copied();
+        let (low, high) = extent(finite.chain([0.0])).filter(|_| self.has_values())?;
+        Some(Rings::covering(low, high))
+    }
+
     /// Whether some point has an angle and a deviation.
     fn has_values(&self) -> bool {
         let mut points = self.series.iter().flat_map(RadialSeries::points);
@@ -158,7 +163,7 @@ impl PolarPlot {
     }
 
     /// The point of the picture at an angle and a distance from the centre.
-    fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
+    pub(crate) fn on_circle(&self, centre: Point, angle_deg: f64, radius_px: f64) -> Point {
         let (sin, cos) = angle_deg.to_radians().sin_cos();
         [
             centre[0] + self.growth.sign() * radius_px * cos,
@@ -167,7 +172,7 @@ impl PolarPlot {
     }
 
     /// Rays from the innermost ring outwards, every 30 degrees, with their names.
-    fn draw_spokes(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
+    pub(crate) fn draw_spokes(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
         for spoke in 0..12 {
             let angle = f64::from(spoke) * 30.0;
             let inner = self.on_circle(centre, angle, rings.radius_px(rings.first_um()));
@@ -223,7 +228,7 @@ impl PolarPlot {
     }
 
     /// The rings' values, along a ray between two spokes.
-    fn write_scale(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
+    pub(crate) fn write_scale(&self, svg: &mut Svg, centre: Point, rings: &Rings) {
         let numbered_um = rings.numbered_um();
         let ray_deg = self.clearest_ray_deg(rings, &numbered_um);
         for um in numbered_um {
@@ -237,7 +242,7 @@ impl PolarPlot {
 }
 
 /// Rings of equal deviation around the nominal circle.
-struct Rings {
+pub(crate) struct Rings {
     ticks: Ticks,
     /// The deviations of the innermost and of the outermost ring: at least one step below 0 and one above.
     ends_um: [f64; 2],
@@ -256,7 +261,7 @@ impl Rings {
     }
 
     /// Distance from the centre of a deviation, px.
-    fn radius_px(&self, um: f64) -> f64 {
+    pub(crate) fn radius_px(&self, um: f64) -> f64 {
         let first = self.first_um();
         HOLE_PX + (um - first) * self.px_per_um()
     }
@@ -264,6 +269,11 @@ impl Rings {
     /// How much a deviation is magnified.
     fn px_per_um(&self) -> f64 {
         (RADIUS_PX - HOLE_PX) / (self.ends_um[1] - self.ends_um[0])
+    }
+
+    /// From one ring to the next.
+    pub(crate) fn division_um(&self) -> f64 {
+        self.ticks.step
     }
 
     fn first_um(&self) -> f64 {
@@ -276,7 +286,7 @@ impl Rings {
     }
 
     /// The rings, the nominal one dashed.
-    fn draw(&self, svg: &mut Svg, centre: Point) {
+    pub(crate) fn draw(&self, svg: &mut Svg, centre: Point) {
         for um in &self.ticks.at {
             let style = if um.abs() < self.slack_um() {
                 nominal_style()
@@ -306,7 +316,7 @@ fn case_style(index: usize) -> Style {
     Style::line(category(index), 1.9)
 }
 
-fn nominal_style() -> Style {
+pub(crate) fn nominal_style() -> Style {
     Style::line(INK, 1.3).dashed("6 4")
 }
 

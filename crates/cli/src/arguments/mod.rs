@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `forces`, `roundness`, `completions`.
+//! `identify`, `forces`, `roundness`, `ballbar`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod advise;
+mod ballbar;
 mod check;
 mod compare;
 mod compensate;
@@ -27,6 +28,7 @@ mod roundness;
 mod run;
 
 pub(crate) use advise::AdviseArguments;
+pub(crate) use ballbar::{BallbarArguments, CentreChoice};
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
@@ -92,6 +94,8 @@ pub(crate) enum Command {
     Forces(ForcesArguments),
     /// How round a measured profile is: the four reference circles, filter, harmonics
     Roundness(RoundnessArguments),
+    /// How round the tool goes, and why not rounder, from a ball-bar
+    Ballbar(Box<BallbarArguments>),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -118,6 +122,7 @@ impl Command {
             Command::Identify(a) => a.json,
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
+            Command::Ballbar(a) => a.json,
             Command::Completions(_) => false,
         }
     }

@@ -101,6 +101,7 @@ fn guide_runs() {
         "material-file",
         "measured-forces",
         "roundness",
+        "ballbar",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -111,7 +112,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 14, "name the new page in `guide_runs`");
+    assert_eq!(pages, 15, "name the new page in `guide_runs`");
 }
 
 #[test]

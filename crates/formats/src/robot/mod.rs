@@ -13,7 +13,7 @@
 //! [`format`](mod@format) tells which of them a file is, and reads it.
 //!
 //! [`spring_tables`]: tables of springs and masses, which studies have as well. [`pendant`]: what a pendant
-//! shows. `xml` is the ground of URDF and xacro.
+//! shows.
 //! `description`: what all of them give.
 
 pub mod armill;
@@ -28,7 +28,6 @@ pub mod urdf;
 pub mod xacro;
 
 mod description;
-pub(crate) mod xml;
 
 /// More joints than this are no serial arm, and what looks at pairs of joints would take long: the longest snake robots
 /// have about thirty. The schema of our own robot file says the same.

@@ -1,10 +1,10 @@
 //! Made-up deviations along paths, shares of joints and compliances.
 
 use armill_report::{
-    Arrow, ArrowCase, AxisLabels, Cell, CellMap, ColourScale, ComparedCell, Comparison, Envelope, ForcePlot,
-    ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot, PolarPlot, ProcessMap,
-    RadialReference, RadialSeries, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap,
-    VectorField,
+    Arrow, ArrowCase, AxisLabels, BallbarPlot, BallbarTrace, Cell, CellMap, ColourScale, ComparedCell,
+    Comparison, Envelope, ForcePlot, ForceTrace, Growth, HoleMap, HoleMark, Marker, MarkerKind, PathPlot,
+    PolarPlot, ProcessMap, RadialReference, RadialSeries, Sense, Series, ShareBar, ShareBars,
+    StiffnessEllipse, Stretch, TrackMap, VectorField,
 };
 
 /// Load cases by the direction of the feed.
@@ -30,6 +30,7 @@ pub fn pictures() -> Vec<(&'static str, String)> {
         ("force_plot", force_plot().to_svg()),
         ("polar_plot", polar_plot().to_svg()),
         ("polar_plot_roundness", roundness_plot().to_svg()),
+        ("ballbar_plot", ballbar_plot().to_svg()),
         ("comparison", comparison().to_svg()),
         ("shares", shares().to_svg()),
         ("ellipse", ellipse().to_svg()),
@@ -327,6 +328,41 @@ fn roundness_plot() -> PolarPlot {
             circle("MCCI", [-0.5, 0.2], &[5.4]),
             circle("MICI", [0.6, -0.3], &[-4.6]),
         ],
+    }
+}
+
+/// Two runs each way: an ellipse, 20 um of backlash that step where an axis reverses, and noise.
+fn ballbar_plot() -> BallbarPlot {
+    let trace = |(name, sense, repeat): (&str, Sense, usize)| {
+        let sign = if sense == Sense::Clockwise { -1.0 } else { 1.0 };
+        let radial = |deg: usize| {
+            let a = (deg as f64 + 0.5).to_radians();
+            let gap = 25.0 * sign * (a.sin().signum() * a.cos() - 0.6 * a.cos().signum() * a.sin());
+            let noise =
+                5.0 * (f64::sin(7.3 * a + repeat as f64) + f64::sin(23.0 * a * (1.0 + repeat as f64)));
+            35.0 * (2.0 * a - 0.6).cos() + 12.0 * (3.0 * a).sin() + gap + noise
+        };
+        BallbarTrace {
+            name: name.into(),
+            sense,
+            angle_deg: (0..=360).map(|deg| deg as f64 + 0.5).collect(),
+            radial_um: (0..=360).map(radial).collect(),
+            start_deg: Some(180.0),
+        }
+    };
+    let runs = [
+        ("CW1", Sense::Clockwise, 0),
+        ("CW2", Sense::Clockwise, 1),
+        ("CCW1", Sense::Anticlockwise, 0),
+        ("CCW2", Sense::Anticlockwise, 1),
+    ];
+    BallbarPlot {
+        title: "Circular test".into(),
+        subtitle: "radius 100 mm, 1000 mm/min; G(b) 118 µm".into(),
+        horizontal: "X".into(),
+        vertical: "Y".into(),
+        growth: Growth::Right,
+        traces: runs.map(trace).to_vec(),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Made-up inputs, sound and unsound, for each picture.
 
 use armill_report::{
-    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, CircleMm, ComparedCell, Comparison,
-    DeviationMap, Envelope, ForcePlot, ForceTrace, Grid, HoleMap, HoleMark, MapSeries, Marker, MarkerKind,
-    Overlay, Panel, PathPlot, PointState, PolarPlot, ProcessMap, RadialSeries, RectangleMm, RegionMap,
-    Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField, View,
+    ArmDrawing, ArmJoint, ArmPosture, Arrow, ArrowCase, AxisLabels, BallbarPlot, BallbarTrace, CircleMm,
+    ComparedCell, Comparison, DeviationMap, Envelope, ForcePlot, ForceTrace, Grid, HoleMap, HoleMark,
+    MapSeries, Marker, MarkerKind, Overlay, Panel, PathPlot, PointState, PolarPlot, ProcessMap, RadialSeries,
+    RectangleMm, RegionMap, Series, ShareBar, ShareBars, StiffnessEllipse, Stretch, TrackMap, VectorField,
+    View,
 };
 
 pub const NASTY: &str = "a <&\"> 'b' \u{1}";
@@ -181,6 +182,23 @@ pub fn polar(radial_um: Vec<f64>) -> PolarPlot {
     }
 }
 
+pub fn ballbar(radial_um: Vec<f64>) -> BallbarPlot {
+    let angle_deg = (0..radial_um.len()).map(|k| 10.0 * k as f64).collect();
+    BallbarPlot {
+        title: NASTY.into(),
+        subtitle: NASTY.into(),
+        horizontal: NASTY.into(),
+        traces: vec![BallbarTrace {
+            name: NASTY.into(),
+            angle_deg,
+            radial_um,
+            start_deg: Some(f64::NAN),
+            ..BallbarTrace::default()
+        }],
+        ..BallbarPlot::default()
+    }
+}
+
 pub fn field(arrows: Vec<Arrow>) -> VectorField {
     VectorField {
         cases: vec![ArrowCase {
@@ -332,6 +350,7 @@ pub fn everything() -> Vec<String> {
     ];
     all.extend(rows.iter().map(|r| path_plot(r.clone()).to_svg()));
     all.extend(rows.iter().map(|r| polar(r.clone()).to_svg()));
+    all.extend(rows.iter().map(|r| ballbar(r.clone()).to_svg()));
     all.extend(rows.iter().map(|r| track(r.clone()).to_svg()));
     all.extend(rows.iter().map(|r| forces(r.clone()).to_svg()));
     all.extend(

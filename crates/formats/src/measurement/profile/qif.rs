@@ -23,7 +23,7 @@ use roxmltree::{Document, Node};
 
 use super::Measured;
 use crate::document::{Problem, Problems, Source};
-use crate::robot::xml;
+use crate::xml;
 
 /// A circle that a machine found. m.
 #[derive(Clone, Debug, PartialEq)]

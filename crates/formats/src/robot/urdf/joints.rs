@@ -20,8 +20,8 @@ use armill_core::robot::chain::LONGEST;
 use roxmltree::Node;
 
 use super::super::TWO_TURNS;
-use super::super::xml::{children, numbers, required, tag, value_place};
 use crate::document::{Problems, Source};
+use crate::xml::{children, numbers, required, tag, value_place};
 
 /// An axis is a direction; squares of far larger components are none.
 const LARGEST_AXIS: f64 = 1e6;

@@ -29,9 +29,10 @@ use armill_core::robot::model::NamedFrame;
 use armill_core::robot::{Amount, Axis, Joint, Limits, Motion, Robot};
 
 use self::joints::{JointElement, Kind};
+use super::MOST_JOINTS;
 use super::description::RobotDescription;
-use super::{MOST_JOINTS, xml};
 use crate::document::{self, Problems};
+use crate::xml;
 
 /// Joints of a chain, fixed ones included: a few stand between two that move.
 const MOST_ELEMENTS: usize = 4 * MOST_JOINTS;

@@ -7,9 +7,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use roxmltree::Node;
 
-use super::super::xml::{children, tag};
 use super::joints::{JointElement, Kind};
 use crate::document::{Problems, Source};
+use crate::xml::{children, tag};
 
 /// More links than this are not listed in a hint.
 const MOST_LISTED: usize = 30;

@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use xacro_rs::extensions::ExtensionHandler;
 use xacro_rs::{XacroError, XacroProcessor};
 
-use super::super::xml;
 use super::{growth, packages};
 use crate::document::{Problem, Problems, Source};
+use crate::xml;
 
 /// Brackets within one another in an expression: the evaluator calls itself for each.
 const MOST_BRACKETS: usize = 40;

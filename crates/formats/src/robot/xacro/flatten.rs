@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 
 use roxmltree::Node;
 
-use super::super::xml;
 use super::{DIRECTIVES, packages};
 use crate::document::{Problem, Problems, Source};
+use crate::xml;
 
 /// Files within files deeper than this are a circle.
 const DEEPEST: usize = 16;

@@ -1,4 +1,4 @@
-//! XML with the place of everything that is wrong in it: the ground of URDF, xacro and QIF.
+//! XML with the place of everything that is wrong in it: the ground of URDF, xacro, QIF and results of ball-bars.
 //!
 //! The parser is the crate `roxmltree`; before it runs, and behind it, what would take it or those who walk its tree
 //! too long is refused. Places are bytes of the text.
@@ -93,7 +93,7 @@ fn offset(text: &str, row: u32, column: u32) -> usize {
 }
 
 /// The elements inside `node` that are called `name`, whatever their namespace.
-pub(super) fn children<'a, 'input: 'a>(
+pub(crate) fn children<'a, 'input: 'a>(
     node: Node<'a, 'input>,
     name: &'a str,
 ) -> impl Iterator<Item = Node<'a, 'input>> {
@@ -110,7 +110,7 @@ pub(crate) fn tag(node: Node<'_, '_>) -> Range<usize> {
 }
 
 /// Where the value of an attribute stands; the start tag if there is no such attribute.
-pub(super) fn value_place(node: Node<'_, '_>, attribute: &str) -> Range<usize> {
+pub(crate) fn value_place(node: Node<'_, '_>, attribute: &str) -> Range<usize> {
     node.attribute_node(attribute)
         .map_or_else(|| tag(node), |found| found.range_value())
 }
@@ -119,7 +119,7 @@ pub(super) fn value_place(node: Node<'_, '_>, attribute: &str) -> Range<usize> {
 ///
 /// # Errors
 /// The attribute is missing.
-pub(super) fn required<'a>(
+pub(crate) fn required<'a>(
     source: &Source,
     node: Node<'a, '_>,
     attribute: &str,
@@ -134,7 +134,7 @@ pub(super) fn required<'a>(
 ///
 /// # Errors
 /// Another count of numbers than wanted, or what is no finite number.
-pub(super) fn numbers<const N: usize>(
+pub(crate) fn numbers<const N: usize>(
     source: &Source,
     node: Node<'_, '_>,
     attribute: &str,

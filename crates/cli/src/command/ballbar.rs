@@ -1,0 +1,376 @@
+//! `armill ballbar`: how round the tool goes, and why not rounder, from files of a ball-bar.
+//!
+//! Stdout holds a [`BallbarAnswer`], in words or as JSON; `--out` takes it with tables, pictures and a report, `--teach`
+//! the points of the circle to teach.
+//!
+//! ```text
+//! circle of 100 mm in XY, 1000 mm/min; least-squares centre, (12.1, -3.4) um from the set-up
+//! runs   G   F max   F min           each run, then each direction
+//! G(b), D, H                         ISO 230-4
+//! differences                        runs the same way, and the directions
+//! parts                              what makes the circle what it is, with standard uncertainty
+//! lobes                              of what both directions have in common
+//! ```
+
+use armill_formats::file::write_atomically;
+use armill_formats::measurement::ballbar::Told;
+use armill_study::StudyError;
+use armill_study::ballbar::answer::{FeatureAnswer, LobeAnswer, PartAnswer, ShownAnswer};
+use armill_study::ballbar::read::direction_of;
+use armill_study::ballbar::teach::ComparedQuantity;
+use armill_study::ballbar::{
+    BallbarAnswer, Centring, Cyclic, Question, Wanted, analyse, answer, before, output, read, teach,
+};
+use armill_study::number::decimals;
+
+use super::numbers::{above_zero, finite};
+use crate::Outcome;
+use crate::arguments::{BallbarArguments, CentreChoice};
+use crate::terminal::{Align, columns, print, say};
+
+/// Most lobes and points: beyond these nothing is measured.
+const MOST: usize = 360;
+/// Outliers that are told in words.
+const MOST_OUTLIERS: usize = 10;
+
+/// Reads, analyses, writes what was asked for and prints.
+///
+/// # Errors
+/// Files that cannot be read, or their problems; options that cannot be; a place where nothing can be written.
+pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
+    let (wanted, question) = (wanted(arguments)?, question(arguments)?);
+    let measured = read(&arguments.files, &wanted)?;
+    let found = analyse(&measured, &question)?;
+    let mut answer = answer(&measured, &question, &found);
+    if !arguments.before.is_empty() {
+        let first = read(&arguments.before, &wanted)?;
+        answer.before = Some(before(&first.files, (&analyse(&first, &question)?, &found)));
+    }
+    let taught = match &arguments.teach {
+        None => None,
+        Some(file) => {
+            let (told, table) = teach(&measured, (arguments.points, arguments.teach_lobes))?;
+            answer.taught = Some(told);
+            Some((file, table))
+        }
+    };
+    if let Some((file, table)) = &taught {
+        write_atomically(file, table)?;
+        say(&format!("points to teach in {}", file.display()));
+    }
+    if let Some(out) = &arguments.out {
+        let table = taught.as_ref().map(|(_, table)| table.as_slice());
+        output::write(&answer, (&measured, &found), (out, table))?;
+        say(&format!("tables, pictures and report in {}", out.display()));
+    }
+    for warning in &answer.warnings {
+        say(&format!("warning: {warning}"));
+    }
+    print(&if arguments.json {
+        serde_json::to_string_pretty(&answer)?
+    } else {
+        as_text(&answer)
+    })?;
+    Ok(Outcome::Fine)
+}
+
+/// What files do not tell.
+fn wanted(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
+    let direction = arguments.direction.as_deref().map(|word| {
+        direction_of(word)
+            .ok_or_else(|| StudyError::value(format!("--direction: `{word}` is no direction"), "CW or CCW"))
+    });
+    let positive = |flag: &str, value: Option<f64>| value.map(|value| above_zero(flag, value)).transpose();
+    finite("--start-deg", arguments.start_deg.as_slice())?;
+    Ok(Wanted {
+        told: Told {
+            radius: positive("--radius-mm", arguments.radius_mm)?.map(|mm| mm * 1e-3),
+            direction: direction.transpose()?,
+            start: arguments.start_deg.map(f64::to_radians),
+        },
+        plane: arguments.plane.clone(),
+        feed: positive("--feed-mm-per-min", arguments.feed_mm_per_min)?.map(|feed| feed / 60e3),
+    })
+}
+
+/// What is asked.
+fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
+    for (flag, value, least) in [
+        ("--lobes", arguments.lobes, 0),
+        ("--teach-lobes", arguments.teach_lobes, 0),
+        ("--points", arguments.points, 3),
+    ] {
+        if !(least..=MOST).contains(&value) {
+            let message = format!("{flag}: {value} is outside {least} to {MOST}");
+            return Err(StudyError::value(message, "see `armill ballbar --help`"));
+        }
+    }
+    finite("--reversal-deg", &arguments.reversal_deg)?;
+    let cyclic = match arguments.cyclic.as_deref() {
+        None => Cyclic::None,
+        Some("found") => Cyclic::Found,
+        Some(word) => {
+            let period = word.parse().map_err(|_| {
+                StudyError::value(
+                    format!("--cyclic: `{word}` is no period"),
+                    "millimetres such as 10, or `found`",
+                )
+            })?;
+            Cyclic::Told(above_zero("--cyclic", period)? * 1e-3)
+        }
+    };
+    Ok(Question {
+        centring: match arguments.centre {
+            CentreChoice::Setup => Centring::Setup,
+            CentreChoice::LeastSquares => Centring::LeastSquares,
+        },
+        most_lobes: arguments.lobes,
+        cyclic,
+        reversals: arguments
+            .reversal_deg
+            .iter()
+            .map(|deg| deg.to_radians())
+            .collect(),
+        axes_reverse: !arguments.no_axes,
+        without_outliers: arguments.leave_out_outliers,
+    })
+}
+
+/// The answer as a person reads it, see the head of this file.
+fn as_text(answer: &BallbarAnswer) -> String {
+    let mut lines = vec![head(answer), String::new()];
+    lines.extend(table(
+        [["um", "samples", "G", "F max", "at deg", "F min", "at deg"]
+            .map(str::to_owned)
+            .to_vec()]
+        .into_iter()
+        .chain(
+            answer
+                .runs
+                .iter()
+                .map(|run| shown(&run.name, run.samples.to_string(), &run.shown)),
+        )
+        .chain(
+            answer
+                .directions
+                .iter()
+                .map(|of| shown(&format!("all {}", of.direction), String::new(), &of.shown)),
+        ),
+    ));
+    lines.push(String::new());
+    lines.push(format!(
+        "both ways    G(b) {} um, D {} um, H {} um",
+        um(answer.circular_bidirectional_um),
+        um(answer.mean_bidirectional_um),
+        um(answer.hysteresis_um)
+    ));
+    for of in answer.repeatability.iter().chain(&answer.between_directions) {
+        lines.push(format!(
+            "{:<12} {:.1} um at most, at {:.1} deg; {:.1} um rms",
+            format!("{} - {}", of.of[0], of.of[1]),
+            of.max_um.abs(),
+            of.max_at_deg,
+            of.rms_um
+        ));
+    }
+    lines.extend(parts(answer));
+    if !answer.lobes.is_empty() {
+        let lobe = |lobe: &LobeAnswer| {
+            format!(
+                "{}: {:.1} um at {:.0} deg",
+                lobe.waves, lobe.amplitude_um, lobe.crest_deg
+            )
+        };
+        lines.push(String::new());
+        lines.push(format!(
+            "lobes        {}",
+            answer.lobes.iter().map(lobe).collect::<Vec<_>>().join(", ")
+        ));
+    }
+    lines.extend(outliers(answer));
+    lines.extend(results(answer));
+    lines.extend(steps(answer));
+    lines.join("\n")
+}
+
+/// Circle and centre.
+fn head(answer: &BallbarAnswer) -> String {
+    let plane = answer
+        .plane
+        .as_ref()
+        .map(|plane| format!(" in {plane}"))
+        .unwrap_or_default();
+    let feed = answer
+        .feed_mm_per_min
+        .map(|feed| format!(", {feed:.0} mm/min"))
+        .unwrap_or_default();
+    let centre = match (answer.centring.centre, answer.centring.offset_um) {
+        ("setup", Some([x, y])) => {
+            format!("as set up; the least-squares centre lies ({x:.1}, {y:.1}) um from it")
+        }
+        (_, Some([x, y])) => format!("least-squares, ({x:.1}, {y:.1}) um from the set-up taken off"),
+        (_, None) => "as set up".to_owned(),
+    };
+    format!(
+        "circle of {:.3} mm{plane}{feed}\ncentre       {centre}",
+        answer.radius_mm
+    )
+}
+
+/// A row of quantities.
+fn shown(name: &str, samples: String, of: &ShownAnswer) -> Vec<String> {
+    vec![
+        name.to_owned(),
+        samples,
+        um(of.circular_um),
+        format!("{:+.1}", of.radial_max_um),
+        format!("{:.0}", of.radial_max_at_deg),
+        format!("{:+.1}", of.radial_min_um),
+        format!("{:.0}", of.radial_min_at_deg),
+    ]
+}
+
+/// Rows below each other, the first column to the left.
+fn table(rows: impl Iterator<Item = Vec<String>>) -> Vec<String> {
+    columns(&rows.collect::<Vec<_>>(), &[Align::Left])
+}
+
+/// A tenth of a micrometre; a dash where there is none.
+fn um(value: Option<f64>) -> String {
+    value.map_or_else(|| "-".to_owned(), |value| format!("{value:.1}"))
+}
+
+/// What makes the circle what it is.
+fn parts(answer: &BallbarAnswer) -> Vec<String> {
+    let Some(parts) = &answer.parts else {
+        return Vec::new();
+    };
+    let mut lines = vec![
+        String::new(),
+        format!(
+            "parts        {:.2} um rms about the circle, {:.2} um unexplained",
+            parts.rms_before_um, parts.rms_after_um
+        ),
+    ];
+    let row = |part: &PartAnswer| {
+        vec![
+            format!("  {}", part.what),
+            format!("{:+.2}", decimals(part.value_um, 2)),
+            format!("+- {:.2} um", 2.0 * part.u_um),
+        ]
+    };
+    // Lobes have a line of their own below.
+    let shown = parts.radial.iter().filter(|part| !part.what.contains(" lobes, "));
+    lines.extend(table(shown.map(row)));
+    let [a, b] = &answer.axes;
+    if let (Some([sa, sb]), Some([u, _])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
+        lines.push(format!(
+            "scale        {a} {sa:+.1} um/m, {b} {sb:+.1} um/m, +- {:.1} um/m",
+            2.0 * u
+        ));
+    }
+    if let (Some(s), Some(u)) = (parts.squareness_urad, parts.squareness_u_urad) {
+        lines.push(format!(
+            "squareness   {s:+.1} um/m, +- {:.1} um/m: the angle between +{a} and +{b} is {} than 90 deg",
+            2.0 * u,
+            if s > 0.0 { "larger" } else { "smaller" }
+        ));
+    }
+    if let (Some(late), Some(u)) = (parts.servo_mismatch_s, parts.servo_mismatch_u_s) {
+        lines.push(format!(
+            "servo        {a} follows {b} by {:+.3} ms, +- {:.3} ms",
+            late * 1e3,
+            2e3 * u
+        ));
+    }
+    lines.extend(
+        parts
+            .cyclic_period_mm
+            .map(|period| format!("cyclic       period {period:.3} mm")),
+    );
+    lines
+}
+
+/// The first outliers.
+fn outliers(answer: &BallbarAnswer) -> Vec<String> {
+    let mut lines: Vec<String> = answer
+        .outliers
+        .iter()
+        .take(MOST_OUTLIERS)
+        .map(|of| {
+            let why = if of.at_reversal {
+                ", a spike of a reversal"
+            } else {
+                ""
+            };
+            format!(
+                "outlier      {} at {:.2} deg: {:+.1} um{why}",
+                of.run, of.angle_deg, of.off_um
+            )
+        })
+        .collect();
+    if let Some(more) = answer
+        .outliers
+        .len()
+        .checked_sub(MOST_OUTLIERS)
+        .filter(|more| *more > 0)
+    {
+        lines.push(format!("             and {more} more"));
+    }
+    if !lines.is_empty() {
+        lines.insert(0, String::new());
+    }
+    lines
+}
+
+/// What the bar's own program made of it.
+fn results(answer: &BallbarAnswer) -> Vec<String> {
+    let mut lines = Vec::new();
+    for of in &answer.results {
+        lines.push(String::new());
+        lines.push(format!("{}: results of the bar's own program, no radii", of.file));
+        let row = |feature: &FeatureAnswer| {
+            let ours = feature
+                .ours
+                .map_or_else(String::new, |ours| format!("ours {ours:.1}"));
+            vec![
+                format!("  {}", feature.name),
+                feature.value.to_string(),
+                feature.unit.clone(),
+                ours,
+            ]
+        };
+        lines.extend(table(of.features.iter().map(row)));
+    }
+    lines
+}
+
+/// The circle to teach, and the test before.
+fn steps(answer: &BallbarAnswer) -> Vec<String> {
+    let mut lines = Vec::new();
+    if let Some(taught) = &answer.taught {
+        lines.push(String::new());
+        lines.push(format!(
+            "to teach     {} points, moved by up to {:.1} um: a ring of {} um becomes {} um, as expected; {} um stay whatever is taught",
+            taught.points,
+            taught.largest_correction_um,
+            um(taught.circular_before_um),
+            um(taught.circular_expected_um),
+            um(taught.stays_um)
+        ));
+    }
+    if let Some(before) = &answer.before {
+        lines.push(String::new());
+        let row = |of: &ComparedQuantity| {
+            let left = of
+                .left_percent
+                .map_or_else(String::new, |left| format!("{left:.0} %"));
+            vec![of.what.to_owned(), um(of.before_um), um(of.after_um), left]
+        };
+        let head = ["um", "before", "after", "left"].map(str::to_owned).to_vec();
+        lines.extend(table(
+            std::iter::once(head).chain(before.compared.iter().map(row)),
+        ));
+    }
+    lines
+}

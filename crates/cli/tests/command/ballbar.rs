@@ -1,0 +1,335 @@
+//! `armill ballbar` as a user runs it: numbers, tables, pictures, two-step teaching; and everything that can be wrong.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+/// Half a degree beside whole ones: 12 um large, an ellipse of 30 um, 20 um of backlash in X, 40 um off along X.
+fn deviation_um(degrees: f64, sign: f64) -> f64 {
+    let a = degrees.to_radians();
+    12.0 + 40.0 * a.cos() + 30.0 * (2.0 * a).cos() + sign * 10.0 * a.sin().signum() * a.cos()
+}
+
+/// Rows of a run.
+fn rows(way: &str, run: usize, change: impl Fn(f64) -> f64) -> String {
+    let sign = if way == "CW" { -1.0 } else { 1.0 };
+    (0..360).fold(String::new(), |mut text, k| {
+        let degrees = 180.0 + sign * (f64::from(k) + 0.5);
+        let deviation = deviation_um(degrees, sign) + change(degrees);
+        let _ = writeln!(text, "{degrees},{deviation:.4},{way},{run}");
+        text
+    })
+}
+
+const NAMES: &str = "angle_deg,radius_dev_um,direction,run\n";
+const HEAD: &str = "# radius_mm: 100\n# plane: XY\n# feed_mm_per_min: 1000\n";
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let four = |change: &dyn Fn(f64) -> f64| {
+        [("CW", 1), ("CCW", 1), ("CW", 2), ("CCW", 2)]
+            .map(|(way, run)| rows(way, run, |a| change(a) + 0.5 * run as f64))
+            .concat()
+    };
+    write("test.csv", &format!("{HEAD}{NAMES}{}", four(&|_| 0.0)));
+    let taught = |a: f64| -12.0 - 30.0 * (2.0 * a.to_radians()).cos();
+    write("second.csv", &format!("{HEAD}{NAMES}{}", four(&taught)));
+    write("cw.csv", &format!("{NAMES}{}", rows("CW", 1, |_| 0.0)));
+    write("ccw.csv", &format!("{NAMES}{}", rows("CCW", 1, |_| 0.0)));
+    let dirt = |a: f64| if (a - 100.5).abs() < 0.1 { 80.0 } else { 0.0 };
+    write("dirt.csv", &format!("{HEAD}{NAMES}{}", rows("CW", 1, dirt)));
+    folder
+}
+
+fn told(folder: &Path, arguments: &[&str]) -> Value {
+    let (code, out, err) = armill(folder, &[&["ballbar"], arguments, &["--json"]].concat());
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap()
+}
+
+fn number(value: &Value, expected: f64, slack: f64) {
+    let found = value.as_f64().unwrap_or_else(|| panic!("{value} for {expected}"));
+    assert!((found - expected).abs() <= slack, "{value} for {expected}");
+}
+
+fn part<'a>(told: &'a Value, what: &str) -> &'a Value {
+    let parts = told["parts"]["radial"].as_array().unwrap();
+    parts
+        .iter()
+        .find(|part| part["what"] == what)
+        .unwrap_or(&Value::Null)
+}
+
+#[test]
+fn a_test_is_told_in_quantities_differences_and_parts() {
+    let folder = folder();
+    let told = told(folder.path(), &["test.csv"]);
+    assert_eq!(told["axes"], serde_json::json!(["X", "Y"]));
+    number(&told["centring"]["offset_um"][0], 40.0, 0.02);
+    number(&told["mean_bidirectional_um"], 12.75, 0.02);
+    // At the ends of X the directions are 20 um apart.
+    number(&told["hysteresis_um"], 20.0, 0.01);
+    number(&told["repeatability"][0]["max_um"], -0.5, 1e-3);
+    number(&told["repeatability"][0]["rms_um"], 0.5, 1e-3);
+    number(&part(&told, "step X+")["value_um"], 20.0, 0.02);
+    number(&part(&told, "step Y-")["value_um"], 0.0, 0.02);
+    number(&told["parts"]["scale_um_per_m"][0], (12.75 + 30.0) / 0.1, 0.2);
+    number(&told["parts"]["squareness_urad"], 0.0, 0.2);
+    number(&told["lobes"][1]["amplitude_um"], 30.0, 0.02);
+    assert!(
+        told["warnings"].as_array().unwrap().is_empty(),
+        "{}",
+        told["warnings"]
+    );
+    // About the pivot the offset is in F, and in nothing else.
+    let setup = self::told(folder.path(), &["test.csv", "--centre", "setup"]);
+    number(
+        &setup["runs"][0]["radial_max_um"],
+        12.5 + 40.0 + 30.0 + 10.0,
+        0.05,
+    );
+    assert_eq!(setup["centring"]["centre"], "setup");
+    let [one, other] = [&told, &setup].map(|told| told["circular_bidirectional_um"].as_f64().unwrap());
+    assert!((one - other).abs() < 1e-6);
+}
+
+#[test]
+fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
+    let folder = folder();
+    let both = told(
+        folder.path(),
+        &["cw.csv", "ccw.csv", "--radius-mm", "100", "--plane", "ZX"],
+    );
+    assert_eq!(both["axes"], serde_json::json!(["Z", "X"]));
+    assert_eq!(both["runs"][1]["name"], "CCW1");
+    number(&both["hysteresis_um"], 20.0, 0.01);
+    assert!(both["warnings"].to_string().contains("one CW run alone"));
+    let one = told(folder.path(), &["cw.csv", "--radius-mm", "100"]);
+    assert!(one["circular_bidirectional_um"].is_null() && one["hysteresis_um"].is_null());
+    let warned = one["warnings"].to_string();
+    assert!(
+        warned.contains("no CCW run") && warned.contains("not told apart: squareness, servo mismatch"),
+        "{warned}"
+    );
+}
+
+#[test]
+fn tables_pictures_and_report_come_out() {
+    let folder = folder();
+    let (code, out, err) = armill(folder.path(), &["ballbar", "test.csv", "--out", "o"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        out.contains("G(b)") && out.contains("step X+") && out.contains("CW1 - CW2"),
+        "{out}"
+    );
+    for file in [
+        "result.json",
+        "report.html",
+        "runs.csv",
+        "differences.csv",
+        "parts.csv",
+        "ballbar.svg",
+        "ballbar.png",
+        "repeat-CW.png",
+        "repeat-CCW.svg",
+        "directions.png",
+    ] {
+        assert!(folder.path().join("o").join(file).is_file(), "{file}");
+    }
+    let read = |name: &str| std::fs::read_to_string(folder.path().join("o").join(name)).unwrap();
+    let runs = read("runs.csv");
+    assert!(
+        runs.starts_with("angle_deg,CW1_um,CCW1_um,CW2_um,CCW2_um") && runs.lines().count() == 721,
+        "{}",
+        &runs[..60]
+    );
+    assert!(read("ballbar.svg").contains("division 20 µm"));
+    // The folder is written again in place of what was there.
+    let (code, ..) = armill(
+        folder.path(),
+        &["ballbar", "cw.csv", "--radius-mm", "100", "--out", "o"],
+    );
+    assert!(code == 0 && !folder.path().join("o/directions.png").exists());
+}
+
+#[test]
+fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
+    let folder = folder();
+    let first = told(folder.path(), &["test.csv", "--teach", "p.csv", "--points", "36"]);
+    let table = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
+    assert_eq!(table.lines().count(), 37);
+    let row: Vec<f64> = table
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split(',')
+        .map(|cell| cell.parse().unwrap())
+        .collect();
+    assert!(
+        (row[1] - (100.0 - 0.042_75)).abs() < 1e-4 && (row[2] + 42.75).abs() < 0.1,
+        "{row:?}"
+    );
+    number(&first["taught"]["stays_um"], 10.0, 0.01);
+    assert!(first["taught"]["circular_expected_um"].as_f64().unwrap() < 22.0);
+    let second = told(folder.path(), &["second.csv", "--before", "test.csv"]);
+    let compared = second["before"]["compared"].as_array().unwrap();
+    let of = |what: &str| compared.iter().find(|of| of["what"] == what).unwrap();
+    number(&of("D")["after_um"], 0.75, 0.02);
+    assert!(of("G(b)")["left_percent"].as_f64().unwrap() < 40.0);
+}
+
+#[test]
+fn dirt_is_told_and_left_out_on_demand() {
+    let folder = folder();
+    let kept = told(folder.path(), &["dirt.csv"]);
+    assert_eq!(kept["outliers"].as_array().unwrap().len(), 1);
+    number(&kept["outliers"][0]["angle_deg"], 100.5, 1e-6);
+    assert!(kept["warnings"].to_string().contains("--leave-out-outliers"));
+    let clean = told(folder.path(), &["dirt.csv", "--leave-out-outliers"]);
+    let g = |told: &Value| told["directions"][0]["circular_um"].as_f64().unwrap();
+    // 80 um on top of a flank of the ellipse.
+    assert!(g(&kept) > g(&clean) + 5.0, "{kept} {clean}");
+}
+
+#[test]
+fn an_arc_says_that_it_is_one() {
+    let folder = folder();
+    let arc: String = (0..=220).fold(String::new(), |text, deg| {
+        text + &format!("{deg},{},CCW,1\n", deviation_um(f64::from(deg) + 0.25, 1.0))
+    });
+    std::fs::write(folder.path().join("arc.csv"), format!("{HEAD}{NAMES}{arc}")).unwrap();
+    let told = told(folder.path(), &["arc.csv"]);
+    // Seen from the least-squares centre.
+    number(&told["runs"][0]["arc_deg"], 220.0, 0.1);
+    let warned = told["warnings"].to_string();
+    assert!(warned.contains("CCW1 has no samples from"), "{warned}");
+    assert!(warned.contains("nothing is known of the step Y-"), "{warned}");
+    assert!(told["lobes"].as_array().unwrap().is_empty());
+    let (code, _, err) = armill(folder.path(), &["ballbar", "arc.csv", "--teach", "p.csv"]);
+    assert!(
+        code == 2 && err.contains("measure full turns") && !folder.path().join("p.csv").exists(),
+        "{err}"
+    );
+}
+
+#[test]
+fn an_error_that_repeats_is_found_with_its_period() {
+    let folder = folder();
+    let wave = |a: f64| 2.0 * (TAU * 100.0 * a.to_radians().cos() / 20.0).sin() * a.to_radians().cos();
+    let text = format!("{HEAD}{NAMES}{}{}", rows("CW", 1, wave), rows("CCW", 1, wave));
+    std::fs::write(folder.path().join("wave.csv"), text).unwrap();
+    let found = told(folder.path(), &["wave.csv", "--cyclic", "found"]);
+    number(&found["parts"]["cyclic_period_mm"], 20.0, 0.1);
+    let given = told(folder.path(), &["wave.csv", "--cyclic", "20"]);
+    number(&part(&given, "cyclic along X, sine")["value_um"], 2.0, 0.05);
+}
+
+#[test]
+fn results_of_the_bar_are_shown_beside_ours() {
+    let folder = folder();
+    let results = "<BALLBAR><MACHINE_TESTED NAME='MH12'/><FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>70.5</FEATURE>\
+        <FEATURE NAME='AF_BACKLASH_A_POS' DT='UT_LENGTH_UM'>19.5</FEATURE></BALLBAR>";
+    std::fs::write(folder.path().join("a.b5r"), results).unwrap();
+    let told = told(folder.path(), &["test.csv", "a.b5r"]);
+    number(&told["results"][0]["features"][1]["ours"], 20.0, 0.02);
+    let (code, _, err) = armill(folder.path(), &["ballbar", "a.b5r"]);
+    assert!(code == 2 && err.contains("results only, no radii"), "{err}");
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place_and_a_hint() {
+    let folder = folder();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("unit.csv", "angle,radius_dev\n0,1\n");
+    write("cells.csv", &format!("{NAMES}0,1,CW,1\n1,x,left,1\n2,3\n"));
+    write(
+        "mixed.csv",
+        &format!(
+            "# radius_mm: 100\n{NAMES}{}0.5,90000000,CW,1\n",
+            rows("CW", 1, |_| 0.0)
+        ),
+    );
+    write(
+        "small.csv",
+        &format!("# radius_mm: 150\n{NAMES}{}", rows("CW", 1, |_| 0.0)),
+    );
+    for (arguments, words) in [
+        (&["none.csv"][..], &["cannot read none.csv", "help:"][..]),
+        (
+            &["unit.csv"],
+            &["unit.csv:1:1", "write `angle_deg`", "write `radius_dev_um`"],
+        ),
+        (
+            &["cells.csv"],
+            &[
+                "cells.csv:3:3: `x` is not a number",
+                "cells.csv:3:5: `left` is no direction",
+                "cells.csv:4:1",
+            ],
+        ),
+        (&["unit.csv", "cells.csv"], &["unit.csv:1", "cells.csv:3"]),
+        (&["cw.csv"], &["nothing tells the nominal radius", "--radius-mm"]),
+        (
+            &["mixed.csv"],
+            &["the radius is off by", "more than half the nominal"],
+        ),
+        (
+            &["test.csv", "small.csv"],
+            &["small.csv has another nominal radius than test.csv"],
+        ),
+        (
+            &["test.csv", "--radius-mm", "150"],
+            &["another nominal radius was told before"],
+        ),
+        (&["test.csv", "--plane", "YZ"], &["another plane than the option"]),
+        (
+            &["cw.csv", "--radius-mm", "-1"],
+            &["--radius-mm: -1 is not above 0"],
+        ),
+        (&["cw.csv", "--radius-mm", "1e6"], &["a nominal radius of"]),
+        (
+            &["cw.csv", "--direction", "up"],
+            &["--direction: `up` is no direction"],
+        ),
+        (&["test.csv", "--cyclic", "no"], &["--cyclic: `no` is no period"]),
+        (&["test.csv", "--cyclic", "0"], &["--cyclic: 0 is not above 0"]),
+        (
+            &["test.csv", "--lobes", "999"],
+            &["--lobes: 999 is outside 0 to 360"],
+        ),
+        (
+            &["test.csv", "--points", "2"],
+            &["--points: 2 is outside 3 to 360"],
+        ),
+        (
+            &["test.csv", "--reversal-deg", "nan"],
+            &["--reversal-deg: NaN is not a finite number"],
+        ),
+        (&["test.csv", "--before", "none.csv"], &["cannot read none.csv"]),
+        (&["test.csv", "--out", "test.csv"], &["test.csv"]),
+    ] {
+        let (code, out, err) = armill(folder.path(), &[&["ballbar"], arguments].concat());
+        assert_eq!(code, 2, "{arguments:?}: {out}{err}");
+        for word in words {
+            assert!(err.contains(word), "{arguments:?}: no `{word}` in\n{err}");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Samples that are not of the path: dirt on a ball, a cable that pulled.
+//!
+//! A sample is compared with what its neighbours foretell: the middle between the medians of the five before it and the
+//! five behind, and the line through the medians of two fives on either side alone. `d` is the least of the three
+//! differences: noise where a run goes on smoothly, and noise on either side of a step at a reversal. A sample is an outlier where `d` is
+//! more than [`FACTOR`] times the scatter of all `d` of its run (1.4826 of their median size), and more than [`LEAST`]. The same
+//! is done once more with the profile of what is left, so that dirt of some samples is seen in a dense run as well.
+//!
+//! A spike where an axis reverses is real: friction holds the axis for a moment. Such samples are told as what they are.
+
+use super::profile::{Profile, wrapped};
+use super::run::Run;
+
+/// Samples in a row whose median is taken.
+const ROW: usize = 5;
+/// More than this many times the scatter is no noise.
+const FACTOR: f64 = 12.0;
+/// Less than this is never an outlier, m: files are rounded to a micrometre at the coarsest.
+const LEAST: f64 = 2e-6;
+/// A spike within this of a reversal belongs to it, rad: 3 degrees.
+const NEAR: f64 = std::f64::consts::TAU / 120.0;
+/// From median size to standard deviation, of a normal distribution.
+const NORMAL: f64 = 1.4826;
+
+/// A sample that its neighbours contradict.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outlier {
+    /// Place in its run, from 0.
+    pub sample: usize,
+    /// rad, from 0 to below a turn.
+    pub angle: f64,
+    /// From what its neighbours foretell, m.
+    pub off: f64,
+    /// Whether an axis reverses there.
+    pub at_reversal: bool,
+}
+
+/// The outliers of a run in the order of its samples; `reversals` are angles where an axis reverses, rad.
+pub fn outliers(run: &Run, reversals: &[f64]) -> Vec<Outlier> {
+    let mut off: Vec<Option<f64>> = strange(run.deviation());
+    let alone: Vec<usize> = (0..off.len()).filter(|at| off[*at].is_some()).collect();
+    let profile = run.without(&alone).map(|run| Profile::of(&run));
+    let (angles, deviations): (Vec<f64>, Vec<f64>) = profile.iter().flat_map(Profile::samples).unzip();
+    let cells = strange(&deviations);
+    // In a run that is no denser than its profile, the cells are the samples.
+    if run.angle().len() > 2 * angles.len() && cells.iter().any(Option::is_some) {
+        for (at, angle) in run.angle().iter().enumerate() {
+            let angle = wrapped(*angle);
+            let near = angles.partition_point(|a| *a < angle).min(angles.len() - 1);
+            let cell = match near > 0 && angle - angles[near - 1] < (angles[near] - angle).abs() {
+                true => near - 1,
+                false => near,
+            };
+            off[at] = off[at].or(cells[cell]);
+        }
+    }
+    let found = off.into_iter().enumerate();
+    found
+        .filter_map(|(sample, off)| {
+            let angle = wrapped(run.angle()[sample]);
+            let near = |reversal: &f64| {
+                let apart = wrapped(angle - reversal);
+                apart.min(std::f64::consts::TAU - apart) <= NEAR
+            };
+            Some(Outlier {
+                sample,
+                angle,
+                off: off?,
+                at_reversal: reversals.iter().any(near),
+            })
+        })
+        .collect()
+}
+
+/// How far each value is from what its neighbours foretell, where that is too much.
+fn strange(values: &[f64]) -> Vec<Option<f64>> {
+    // Medians of five in a row, by the place of the first.
+    let rows: Vec<f64> = values.windows(ROW).map(|row| median(&mut row.to_vec())).collect();
+    let row = |from: Option<usize>| from.and_then(|from| rows.get(from)).copied();
+    let off: Vec<f64> = (0..values.len())
+        .map(|at| {
+            let [before, earlier] = [row(at.checked_sub(ROW)), row(at.checked_sub(2 * ROW))];
+            let [behind, later] = [row(Some(at + 1)), row(Some(at + 1 + ROW))];
+            // The middle of a row is three samples away, that of the next five more.
+            let line = |near: Option<f64>, far: Option<f64>| Some(near? + 0.6 * (near? - far?));
+            let between = before.zip(behind).map(|(before, behind)| 0.5 * (before + behind));
+            let foretold = [between, line(before, earlier), line(behind, later)];
+            let differences = foretold.into_iter().flatten().map(|told| values[at] - told);
+            differences
+                .min_by(|a, b| a.abs().total_cmp(&b.abs()))
+                .unwrap_or(0.0)
+        })
+        .collect();
+    let mut sizes: Vec<f64> = off.iter().map(|off| off.abs()).collect();
+    let most = (FACTOR * NORMAL * median(&mut sizes)).max(LEAST);
+    off.into_iter()
+        .map(|off| (off.abs() > most).then_some(off))
+        .collect()
+}
+
+/// The middle value; 0 of none.
+fn median(values: &mut [f64]) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::run::Direction;
+    use super::*;
+
+    /// An ellipse with a step of 40 um at 180 degrees and noise of a um, and dirt of 60 um on some samples.
+    fn dirty(count: usize, dirt: std::ops::Range<usize>) -> Run {
+        let angle: Vec<f64> = (0..count)
+            .map(|k| std::f64::consts::TAU * k as f64 / count as f64)
+            .collect();
+        let deviation = angle.iter().enumerate().map(|(k, a)| {
+            // Hashed, so that neighbours have nothing to do with each other.
+            let hashed = (k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let noise = ((hashed >> 11) as f64 / (1_u64 << 53) as f64 - 0.5) * 2e-6;
+            let step = if *a > std::f64::consts::PI { 40e-6 } else { 0.0 };
+            noise + step + 50e-6 * (2.0 * a).cos() + if dirt.contains(&k) { 60e-6 } else { 0.0 }
+        });
+        let deviation = deviation.collect();
+        Run::new(Direction::Anticlockwise, angle, deviation).unwrap()
+    }
+
+    #[test]
+    fn dirt_is_found_and_steps_and_ellipses_are_not_dirt() {
+        for (count, dirt) in [(360, 30..31), (1440, 700..703), (100_000, 5000..5003)] {
+            let places: Vec<usize> = outliers(&dirty(count, dirt.clone()), &[])
+                .iter()
+                .map(|outlier| outlier.sample)
+                .collect();
+            assert_eq!(places, dirt.collect::<Vec<_>>(), "{count}");
+            assert!(outliers(&dirty(count, 0..0), &[]).is_empty(), "{count}");
+        }
+        assert!(outliers(&dirty(72, 0..0), &[]).is_empty());
+    }
+
+    #[test]
+    fn dirt_over_many_samples_of_a_dense_run_is_found_in_its_profile() {
+        // 200 samples of 100000 are 0.72 degrees: three cells.
+        let found = outliers(&dirty(100_000, 20_000..20_200), &[]);
+        assert!(found.len() >= 200, "{}", found.len());
+        let off = |outlier: &Outlier| outlier.angle.to_degrees() - 72.36;
+        assert!(found.iter().all(|outlier| off(outlier).abs() < 0.8));
+    }
+
+    #[test]
+    fn a_spike_at_a_reversal_is_told_as_one() {
+        let found = outliers(&dirty(360, 91..92), &[std::f64::consts::FRAC_PI_2, 0.0]);
+        assert!(found.len() == 1 && found[0].at_reversal, "{found:?}");
+        let found = outliers(&dirty(360, 96..97), &[std::f64::consts::FRAC_PI_2, 0.0]);
+        assert!(found.len() == 1 && !found[0].at_reversal, "{found:?}");
+        let across = outliers(&dirty(360, 358..359), &[0.0]);
+        assert!(across.len() == 1 && across[0].at_reversal, "{across:?}");
+    }
+
+    #[test]
+    fn a_run_without_any_noise_has_no_outliers_of_rounding() {
+        let angle: Vec<f64> = (0..360).map(|deg| f64::from(deg).to_radians()).collect();
+        let run = Run::new(Direction::Clockwise, angle, vec![0.1; 360]).unwrap();
+        assert!(outliers(&run, &[]).is_empty());
+    }
+}

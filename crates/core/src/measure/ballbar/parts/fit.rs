@@ -1,0 +1,231 @@
+//! All parts of a measured circle at once, by least squares.
+//!
+//! ```text
+//! dr(a, s) = sum over terms of  value * term(a, s)  +  rest
+//! ```
+//!
+//! over the profiles of all runs, about the set-up centre: there reversals are where the drives reverse. What the place
+//! of the circle makes of second order, `e^2/2R`, is taken off before. A sample on a reversal is on neither side of it
+//! and left out.
+//!
+//! Terms that the runs cannot tell apart are named: clockwise alone, a radius that goes with the direction is a radius.
+//! Of each such set the last term is left out, so that the first holds the sum. A term that stands alone in its set was not
+//! seen at all: a reversal in a gap.
+
+use nalgebra::{DMatrix, DVector, Vector2};
+
+use super::super::centre::least_squares_centre;
+use super::super::profile::Profile;
+use super::super::run::{CircularTest, Direction};
+use super::term::{Axis, Reversal, Term, Wave};
+use super::trust::standard_uncertainties;
+use crate::identify::Spread;
+
+/// Which parts are looked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    /// Where drives reverse.
+    pub reversals: Vec<Reversal>,
+    /// Most lobes; below 3 none.
+    pub most_lobes: usize,
+    /// Period of a cyclic error along either axis, m.
+    pub period: Option<f64>,
+}
+
+/// One part, with how sure it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Part {
+    /// What it is.
+    pub term: Term,
+    /// m
+    pub value: f64,
+    /// Standard uncertainty, m: see `docs/theory/ballbar.md`.
+    pub u: f64,
+}
+
+/// What a test is made of.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parts {
+    /// One a term that was told apart.
+    pub parts: Vec<Part>,
+    /// Sets of terms of which only a sum is known, or a single one that nothing is known of; the last of each is not
+    /// among the parts.
+    pub together: Vec<Vec<Term>>,
+    /// Root mean square of the radial deviation about the least-squares circle, m.
+    pub rms_before: f64,
+    /// And of what no part explains, m.
+    pub rms_after: f64,
+    /// Samples of the profiles that were used.
+    pub samples: usize,
+}
+
+impl Parts {
+    /// The part of a term, if it was told apart.
+    pub fn of(&self, term: Term) -> Option<&Part> {
+        self.parts.iter().find(|part| part.term == term)
+    }
+}
+
+/// The samples of all profiles that are used, run by run.
+pub(super) struct Samples {
+    /// Angle (rad) and direction.
+    pub at: Vec<(f64, Direction)>,
+    /// Radial deviation without what is of second order in the offset, m.
+    pub deviation: DVector<f64>,
+    /// Where each run begins, and where the last one ends.
+    pub begins: Vec<usize>,
+}
+
+/// What `asked` makes of the test; `None` where there are fewer samples than terms.
+pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
+    let samples = Samples::of(test, &asked.reversals);
+    let mut terms = all_terms(asked);
+    let (rows, spread, together) = told_apart(&samples, &mut terms, asked, test.radius())?;
+    let values = solved(&rows, &samples.deviation, &spread);
+    let rest = &samples.deviation - &rows * &values;
+    let u = standard_uncertainties(&samples, (&rows, &rest), &spread.covariance);
+    // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
+    let unseen = unseen(test, &asked.reversals);
+    let found = terms
+        .iter()
+        .zip(values.iter().zip(&u))
+        .filter(|(term, _)| !unseen.contains(term));
+    let together = together.into_iter().chain(unseen.iter().map(|term| vec![*term]));
+    let rms = |squares: f64| (squares / samples.at.len() as f64).sqrt();
+    Some(Parts {
+        parts: found
+            .map(|(term, (value, u))| Part {
+                term: *term,
+                value: *value,
+                u: *u,
+            })
+            .collect(),
+        together: together.collect(),
+        rms_before: rms(about_circle(&samples, &terms, &rows, &values)),
+        rms_after: rms(rest.norm_squared()),
+        samples: samples.at.len(),
+    })
+}
+
+/// The residuals of a fit without cyclic error, with the rows that made them; see [`super::cyclic`].
+pub(super) fn rest_without_cyclic(
+    test: &CircularTest,
+    asked: &Asked,
+) -> Option<(Samples, DMatrix<f64>, DVector<f64>)> {
+    let asked = Asked {
+        period: None,
+        ..asked.clone()
+    };
+    let samples = Samples::of(test, &asked.reversals);
+    let mut terms = all_terms(&asked);
+    let (rows, spread, _) = told_apart(&samples, &mut terms, &asked, test.radius())?;
+    let values = solved(&rows, &samples.deviation, &spread);
+    let rest = &samples.deviation - &rows * &values;
+    Some((samples, rows, rest))
+}
+
+impl Samples {
+    fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
+        let offset = least_squares_centre(test).map_or_else(Vector2::zeros, |centre| centre.offset);
+        let radius = test.radius();
+        // What is left of |R n + e| without R and e . n.
+        let second_order = |angle: f64| {
+            let n = Vector2::new(angle.cos(), angle.sin());
+            (n * radius + offset).norm() - radius - offset.dot(&n)
+        };
+        let on_step = |angle: f64| {
+            let mut steps = reversals.iter().flat_map(|reversal| &reversal.steps);
+            steps.any(|step| step.is_at(angle))
+        };
+        let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
+        for run in test.runs() {
+            for (angle, dr) in Profile::of(run).samples().filter(|(angle, _)| !on_step(*angle)) {
+                at.push((angle, run.direction()));
+                deviation.push(dr - second_order(angle));
+            }
+            begins.push(at.len());
+        }
+        Samples {
+            at,
+            deviation: deviation.into(),
+            begins,
+        }
+    }
+}
+
+/// Reversals whose every step lies in a gap of all runs.
+fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
+    let profiles: Vec<Profile> = test.runs().iter().map(Profile::of).collect();
+    let is_seen = |angle: f64| profiles.iter().any(|profile| profile.at(angle).is_some());
+    let reversals = reversals.iter().enumerate();
+    reversals
+        .filter(|(_, reversal)| !reversal.steps.iter().any(|step| is_seen(step.angle)))
+        .map(|(index, _)| Term::Reversal(index))
+        .collect()
+}
+
+/// Every term that is asked for, in the order in which they are told.
+fn all_terms(asked: &Asked) -> Vec<Term> {
+    let mut terms = vec![
+        Term::Radius,
+        Term::Offset(Axis::A),
+        Term::Offset(Axis::B),
+        Term::ScaleMismatch,
+        Term::Squareness,
+    ];
+    terms.extend((0..asked.reversals.len()).map(Term::Reversal));
+    terms.extend([Term::DirectionRadius, Term::ServoMismatch]);
+    terms.extend(
+        (3..=asked.most_lobes).flat_map(|n| [Wave::Cosine, Wave::Sine].map(|wave| Term::Lobes(n, wave))),
+    );
+    if asked.period.is_some() {
+        for axis in [Axis::A, Axis::B] {
+            terms.extend([Wave::Cosine, Wave::Sine].map(|wave| Term::Cyclic(axis, wave)));
+        }
+    }
+    terms
+}
+
+/// Rows of the terms that are told apart, and their spread; takes the others out of `terms` and gives the sets.
+fn told_apart(
+    samples: &Samples,
+    terms: &mut Vec<Term>,
+    asked: &Asked,
+    radius: f64,
+) -> Option<(DMatrix<f64>, Spread, Vec<Vec<Term>>)> {
+    let turns = asked
+        .period
+        .map_or(0.0, |period| std::f64::consts::TAU * radius / period);
+    let mut sets = Vec::new();
+    // Each round takes a term out.
+    loop {
+        if terms.is_empty() || samples.at.len() <= terms.len() {
+            return None;
+        }
+        let rows = DMatrix::from_fn(samples.at.len(), terms.len(), |row, column| {
+            terms[column].at(samples.at[row], (&asked.reversals, turns))
+        });
+        let spread = Spread::of(&rows, &DMatrix::zeros(0, terms.len()), &vec![true; terms.len()]);
+        let Some(set) = spread.together.first() else {
+            return Some((rows, spread, sets));
+        };
+        sets.push(set.iter().map(|index| terms[*index]).collect());
+        terms.remove(*set.last()?);
+    }
+}
+
+/// Least squares through the covariance, once more for what rounding left.
+fn solved(rows: &DMatrix<f64>, right: &DVector<f64>, spread: &Spread) -> DVector<f64> {
+    let first = &spread.covariance * rows.tr_mul(right);
+    let left = right - rows * &first;
+    first + &spread.covariance * rows.tr_mul(&left)
+}
+
+/// Squares of the deviation about the circle of the fit: without its radius and its place.
+fn about_circle(samples: &Samples, terms: &[Term], rows: &DMatrix<f64>, values: &DVector<f64>) -> f64 {
+    let circle = DVector::from_fn(values.len(), |index, _| match terms[index] {
+        Term::Radius | Term::Offset(_) => values[index],
+        _ => 0.0,
+    });
+    (&samples.deviation - rows * circle).norm_squared()
+}

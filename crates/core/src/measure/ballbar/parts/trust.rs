@@ -1,0 +1,95 @@
+//! How sure each part is: from what the parts leave, and from runs that should be alike.
+//!
+//! | from | standard uncertainty |
+//! |---|---|
+//! | residuals | `sqrt(C_jj sigma^2 tau)`, `C` the inverse of the normal matrix, `sigma^2` the mean square left |
+//! | repeat runs | each run adds its part to a value; the scatter of these among runs of one direction |
+//!
+//! Residuals along a circle hang together: `tau = 1 + 2 sum rho_k` counts how many samples tell what one would, `rho_k`
+//! their correlation `k` samples apart, up to the first that is not positive. Where runs scatter more than residuals
+//! say, in the mean over all parts, all are as much less sure; and no part is surer than its own scatter.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::super::run::Direction;
+use super::fit::Samples;
+
+/// One a column of `rows`, m.
+pub(super) fn standard_uncertainties(
+    samples: &Samples,
+    (rows, rest): (&DMatrix<f64>, &DVector<f64>),
+    inverse: &DMatrix<f64>,
+) -> Vec<f64> {
+    let freedom = (rows.nrows() - rows.ncols()) as f64;
+    let variance = rest.norm_squared() / freedom * hanging_together(samples, rest);
+    let of_rest: Vec<f64> = inverse.diagonal().iter().map(|c| c * variance).collect();
+    let Some(of_runs) = between_runs(samples, (rows, rest), inverse) else {
+        return of_rest.into_iter().map(f64::sqrt).collect();
+    };
+    let ratios = of_runs.iter().zip(&of_rest);
+    let ratio: f64 = ratios
+        .map(|(runs, rest)| if *rest > 0.0 { runs / rest } else { 0.0 })
+        .sum();
+    let wider = (ratio / of_rest.len() as f64).max(1.0);
+    let both = of_rest.iter().zip(&of_runs);
+    both.map(|(rest, runs)| (rest * wider).max(*runs).sqrt())
+        .collect()
+}
+
+/// `tau`: the variance of a sum of residuals over what it would be if they did not hang together.
+fn hanging_together(samples: &Samples, rest: &DVector<f64>) -> f64 {
+    let runs: Vec<&[f64]> = samples
+        .begins
+        .windows(2)
+        .map(|ends| &rest.as_slice()[ends[0]..ends[1]])
+        .collect();
+    let product = |lag: usize| -> f64 {
+        let of = |run: &&[f64]| -> f64 { (0..run.len()).map(|k| run[k] * run[(k + lag) % run.len()]).sum() };
+        runs.iter().filter(|run| run.len() > lag).map(of).sum()
+    };
+    let square = product(0);
+    let longest = runs.iter().map(|run| run.len()).max().unwrap_or(0) / 4;
+    if square <= 0.0 {
+        return 1.0;
+    }
+    let correlations = (1..longest).map(|lag| product(lag) / square);
+    1.0 + 2.0 * correlations.take_while(|rho| *rho > 0.0).sum::<f64>()
+}
+
+/// Variance of each value by the scatter among runs of one direction; `None` where no direction has two.
+fn between_runs(
+    samples: &Samples,
+    (rows, rest): (&DMatrix<f64>, &DVector<f64>),
+    inverse: &DMatrix<f64>,
+) -> Option<Vec<f64>> {
+    let added: Vec<(Direction, DVector<f64>)> = samples
+        .begins
+        .windows(2)
+        .filter(|ends| ends[1] > ends[0])
+        .map(|ends| {
+            let count = ends[1] - ends[0];
+            let of_run = rows.rows(ends[0], count).tr_mul(&rest.rows(ends[0], count));
+            (samples.at[ends[0]].1, inverse * of_run)
+        })
+        .collect();
+    let of = |direction: Direction| -> Vec<&DVector<f64>> {
+        let runs = added.iter().filter(|(of, _)| *of == direction);
+        runs.map(|(_, added)| added).collect()
+    };
+    let scatter = |runs: &[&DVector<f64>], index: usize| -> f64 {
+        let mean = runs.iter().map(|run| run[index]).sum::<f64>() / runs.len() as f64;
+        let squares: f64 = runs.iter().map(|run| (run[index] - mean).powi(2)).sum();
+        squares / (runs.len() - 1) as f64
+    };
+    let [clockwise, anticlockwise] = Direction::BOTH.map(of);
+    let variance = |index: usize| -> f64 {
+        let sides = [(&clockwise, &anticlockwise), (&anticlockwise, &clockwise)];
+        // A single run scatters as those the other way do.
+        let of = |(own, other): (&Vec<&DVector<f64>>, &Vec<&DVector<f64>>)| {
+            let repeated = if own.len() > 1 { own } else { other };
+            own.len() as f64 * scatter(repeated, index)
+        };
+        sides.into_iter().filter(|(own, _)| !own.is_empty()).map(of).sum()
+    };
+    (clockwise.len().max(anticlockwise.len()) > 1).then(|| (0..rows.ncols()).map(variance).collect())
+}

@@ -1,0 +1,269 @@
+//! What a ball-bar measured: the radius along a circle, one run after the other.
+//!
+//! ```text
+//! r(a) = R + dr(a)      a from the first axis of the plane towards the second, dr outwards positive
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `R` | nominal radius | m |
+//! | `a` | angle of a sample, of any size: turns do not count | rad |
+//! | `dr` | radial deviation there | m |
+//!
+//! Anticlockwise is the way in which `a` grows.
+
+/// Which way round the circle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Direction {
+    /// Clockwise: the angle falls.
+    Clockwise,
+    /// Anticlockwise: the angle grows.
+    Anticlockwise,
+}
+
+impl Direction {
+    /// Both, in the order in which results tell them.
+    pub const BOTH: [Direction; 2] = [Direction::Clockwise, Direction::Anticlockwise];
+
+    /// -1 clockwise, +1 anticlockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Direction::Clockwise => -1.0,
+            Direction::Anticlockwise => 1.0,
+        }
+    }
+
+    /// 0 clockwise, 1 anticlockwise.
+    pub fn index(self) -> usize {
+        usize::from(self == Direction::Anticlockwise)
+    }
+
+    /// As drawings and files call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Direction::Clockwise => "CW",
+            Direction::Anticlockwise => "CCW",
+        }
+    }
+}
+
+/// One run: at least [`Run::LEAST`] samples, in the order in which they came.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    direction: Direction,
+    /// rad
+    angle: Vec<f64>,
+    /// m
+    deviation: Vec<f64>,
+}
+
+/// Why samples are no run, or runs no test.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RunError {
+    /// Too few samples.
+    #[error("a run of {0} samples is shorter than the {least} it needs", least = Run::LEAST)]
+    TooShort(usize),
+    /// Lists of different lengths.
+    #[error("{angles} angles but {deviations} radii")]
+    Lengths {
+        /// Angles.
+        angles: usize,
+        /// Radial deviations.
+        deviations: usize,
+    },
+    /// A number that is not finite.
+    #[error("sample {0} holds a number that is not finite")]
+    NotFinite(usize),
+    /// A nominal radius that no ball-bar has.
+    #[error("a nominal radius of {} mm is not above 0 and at most {} mm", .0 * 1e3, CircularTest::LARGEST_RADIUS * 1e3)]
+    Radius(f64),
+    /// A deviation that no circular test has.
+    #[error(
+        "run {}, sample {}: the radius is off by {} mm, more than half the nominal {} mm", run + 1, sample + 1,
+        deviation * 1e3, radius * 1e3
+    )]
+    TooFar {
+        /// Which run, from 0.
+        run: usize,
+        /// Which sample, from 0.
+        sample: usize,
+        /// m
+        deviation: f64,
+        /// m
+        radius: f64,
+    },
+    /// A test without runs.
+    #[error("a test of no runs tells nothing")]
+    NoRuns,
+}
+
+impl Run {
+    /// Fewest samples of a run: every 30 degrees.
+    pub const LEAST: usize = 12;
+
+    /// A run of these angles (rad) and radial deviations (m).
+    ///
+    /// # Errors
+    /// Too few samples, lists of other lengths, numbers that are not finite.
+    pub fn new(direction: Direction, angle: Vec<f64>, deviation: Vec<f64>) -> Result<Run, RunError> {
+        if angle.len() != deviation.len() {
+            return Err(RunError::Lengths {
+                angles: angle.len(),
+                deviations: deviation.len(),
+            });
+        }
+        if angle.len() < Run::LEAST {
+            return Err(RunError::TooShort(angle.len()));
+        }
+        let finite = |(a, dr): (&f64, &f64)| a.is_finite() && dr.is_finite();
+        match angle.iter().zip(&deviation).position(|sample| !finite(sample)) {
+            Some(at) => Err(RunError::NotFinite(at)),
+            None => Ok(Run {
+                direction,
+                angle,
+                deviation,
+            }),
+        }
+    }
+
+    /// Which way round.
+    pub fn direction(&self) -> Direction {
+        self.direction
+    }
+
+    /// Angle of each sample, rad.
+    pub fn angle(&self) -> &[f64] {
+        &self.angle
+    }
+
+    /// Radial deviation of each sample, m.
+    pub fn deviation(&self) -> &[f64] {
+        &self.deviation
+    }
+
+    /// Angle and radial deviation of each sample.
+    pub fn samples(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.angle.iter().copied().zip(self.deviation.iter().copied())
+    }
+
+    /// The same run without the samples at these places, which rise; `None` where too few are left.
+    pub fn without(&self, places: &[usize]) -> Option<Run> {
+        let kept = |list: &[f64]| -> Vec<f64> {
+            let kept = list.iter().enumerate();
+            kept.filter(|(at, _)| places.binary_search(at).is_err())
+                .map(|(_, value)| *value)
+                .collect()
+        };
+        Run::new(self.direction, kept(&self.angle), kept(&self.deviation)).ok()
+    }
+}
+
+/// Runs round one circle, in both directions or one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CircularTest {
+    radius: f64,
+    runs: Vec<Run>,
+}
+
+impl CircularTest {
+    /// Longest bar, m: a longer radius is a wrong unit.
+    pub const LARGEST_RADIUS: f64 = 10.0;
+
+    /// Runs round a circle of this nominal radius (m).
+    ///
+    /// # Errors
+    /// A radius that no bar has, no runs, a deviation of more than half the radius.
+    pub fn new(radius: f64, runs: Vec<Run>) -> Result<CircularTest, RunError> {
+        // Not a number is no radius either.
+        if !(radius > 0.0 && radius <= CircularTest::LARGEST_RADIUS) {
+            return Err(RunError::Radius(radius));
+        }
+        if runs.is_empty() {
+            return Err(RunError::NoRuns);
+        }
+        for (run, of) in runs.iter().enumerate() {
+            if let Some(sample) = of.deviation.iter().position(|dr| dr.abs() > 0.5 * radius) {
+                return Err(RunError::TooFar {
+                    run,
+                    sample,
+                    deviation: of.deviation[sample],
+                    radius,
+                });
+            }
+        }
+        Ok(CircularTest { radius, runs })
+    }
+
+    /// Nominal radius, m.
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// All runs, in the order in which they came.
+    pub fn runs(&self) -> &[Run] {
+        &self.runs
+    }
+
+    /// The runs of one direction.
+    pub fn of(&self, direction: Direction) -> impl Iterator<Item = &Run> {
+        self.runs.iter().filter(move |run| run.direction == direction)
+    }
+
+    /// Whether there are runs both ways round.
+    pub fn is_bidirectional(&self) -> bool {
+        Direction::BOTH
+            .iter()
+            .all(|direction| self.of(*direction).next().is_some())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn run(count: usize) -> Result<Run, RunError> {
+        Run::new(Direction::Clockwise, vec![0.1; count], vec![1e-6; count])
+    }
+
+    #[test]
+    fn samples_that_are_no_run_are_refused() {
+        assert_eq!(run(11).unwrap_err(), RunError::TooShort(11));
+        assert!(run(12).is_ok());
+        let odd = Run::new(Direction::Clockwise, vec![0.0; 12], vec![0.0; 13]);
+        assert_eq!(odd.unwrap_err().to_string(), "12 angles but 13 radii");
+        for (angle, deviation) in [(f64::NAN, 0.0), (0.0, f64::INFINITY)] {
+            let run = Run::new(Direction::Clockwise, vec![angle; 12], vec![deviation; 12]);
+            assert_eq!(run.unwrap_err(), RunError::NotFinite(0));
+        }
+    }
+
+    #[test]
+    fn runs_that_are_no_test_are_refused() {
+        let runs = || vec![run(12).unwrap()];
+        assert!(CircularTest::new(0.1, runs()).is_ok());
+        for radius in [0.0, -0.1, 10.1, f64::NAN] {
+            assert!(matches!(
+                CircularTest::new(radius, runs()),
+                Err(RunError::Radius(_))
+            ));
+        }
+        assert_eq!(CircularTest::new(0.1, Vec::new()), Err(RunError::NoRuns));
+        let far = CircularTest::new(1.9e-6, runs()).unwrap_err().to_string();
+        assert!(
+            far.starts_with("run 1, sample 1: the radius is off by 0.001 mm"),
+            "{far}"
+        );
+    }
+
+    #[test]
+    fn samples_are_left_out_by_their_places() {
+        let run = Run::new(
+            Direction::Anticlockwise,
+            (0..14).map(f64::from).collect(),
+            vec![0.0; 14],
+        );
+        let fewer = run.unwrap().without(&[0, 13]).unwrap();
+        assert_eq!((fewer.angle()[0], fewer.angle().len()), (1.0, 12));
+        assert!(fewer.without(&[3]).is_none());
+    }
+}

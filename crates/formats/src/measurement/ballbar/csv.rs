@@ -1,0 +1,359 @@
+//! Radii along a circle as a table: one row a sample, the unit of each column in its name.
+//!
+//! | column | meaning | unit |
+//! |---|---|---|
+//! | `angle_deg` | from the first axis of the plane towards the second, any turn | `_deg`, `_rad` |
+//! | `index` | in place of it: number of the sample, even along one turn from `start_deg` on | |
+//! | `radius_dev_um` | radius minus the nominal one, outwards positive | `_um`, `_mm`, `_m` |
+//! | `radius_mm` | in place of it: the radius; the nominal one must be told | `_mm`, `_um`, `_m` |
+//! | `direction` | `CW` or `CCW`; or a remark, or told beside | |
+//! | `run` | which run of its direction; or a remark | |
+//!
+//! Columns with other names are passed over and listed. Cells are separated by `;`, tab or `,`; with the first two a decimal comma is read
+//! too. Lines that begin with `#` may tell the nominal radius, the feed and the plane, see `remarks`. Rows of one run
+//! and direction are one run, wherever they stand; without names of runs one begins where the direction changes.
+//!
+//! ```text
+//! # radius_mm: 100                         # Radius_mm: 100
+//! angle_deg,radius_dev_um,direction,run    angle_deg;radius_mm;direction
+//! 0.0,12.3,CCW,1                           0,0;100,0123;CCW
+//! 0.5,12.1,CCW,1                           0,5;100,0121;CCW
+//! ```
+
+use std::f64::consts::TAU;
+use std::io::BufRead;
+
+use armill_core::measure::ballbar::{Direction, Run};
+
+use super::columns::{Column, Columns, HEADER_HINT};
+use super::remarks::Remarks;
+use super::{Recorded, Told, direction_of};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::measurement::columns::measured;
+use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
+
+/// More samples than this are not read: an hour at 1 kHz.
+const MOST_SAMPLES: usize = 5_000_000;
+/// A run that turns further than this without a name is likely several.
+const MORE_THAN_ONE_TURN: f64 = 1.6 * TAU;
+/// Angles in degrees that never leave this are likely radians.
+const RADIANS: f64 = 6.5;
+
+/// Reads the runs in `reader`; `path` is what problems show.
+///
+/// # Errors
+/// Every problem of the file, at most 200: missing and double columns, cells that are no numbers or directions, rows of
+/// another length, a direction, a nominal radius or a start that nothing tells, runs that are too short.
+pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let mut remarks = Remarks::beside(told);
+    let mut problems = Vec::new();
+    let mut table: Option<Table> = None;
+    while problems.len() < MOST_PROBLEMS {
+        let line = match lines.next() {
+            Ok(Some(line)) => line,
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+        };
+        if is_remark(&line.text) {
+            problems.extend(remarks.take(path, &line).err().into_iter().flatten());
+            continue;
+        }
+        match &mut table {
+            Some(table) => problems.extend(table.row(&line, &remarks).err().into_iter().flatten()),
+            None => match Table::of(path, line) {
+                Ok(made) => table = Some(made),
+                Err(wrong) => {
+                    problems.extend(wrong);
+                    break;
+                }
+            },
+        }
+    }
+    let Some(table) = table else {
+        if problems.is_empty() {
+            problems.push(Problem::of_file(path, "no radii in this file", HEADER_HINT));
+        }
+        return Err(problems.into());
+    };
+    let recorded = table.finish(&remarks, &mut problems);
+    Problems::from(problems).into_result()?;
+    Ok(recorded)
+}
+
+/// A run as far as it was read.
+struct Group {
+    /// As the file calls it; of runs without names how many parts were told before.
+    key: (String, Direction, usize),
+    /// The line that it begins on.
+    first: Line,
+    /// rad, or the number of the sample.
+    angle: Vec<f64>,
+    /// m: deviations, or radii.
+    radius: Vec<f64>,
+}
+
+/// The table under its names.
+struct Table {
+    path: String,
+    separator: char,
+    header: Line,
+    columns: Columns,
+    groups: Vec<Group>,
+    /// The group of the row before.
+    current: usize,
+    /// How often the direction has changed.
+    changes: usize,
+    samples: usize,
+}
+
+impl Table {
+    fn of(path: &str, header: Line) -> Result<Table, Vec<Problem>> {
+        let separator = separator_of(&header.text);
+        Ok(Table {
+            columns: Columns::of(path, &header, separator)?,
+            path: path.to_owned(),
+            separator,
+            header,
+            groups: Vec::new(),
+            current: 0,
+            changes: 0,
+            samples: 0,
+        })
+    }
+
+    /// Takes a row.
+    ///
+    /// # Errors
+    /// Another count of cells than names; cells that are no numbers or directions; no direction; too many rows.
+    fn row(&mut self, line: &Line, remarks: &Remarks) -> Result<(), Vec<Problem>> {
+        if is_blank_row(&line.text, self.separator) {
+            return Ok(());
+        }
+        let found = cells(&line.text, self.separator);
+        if found.len() != self.columns.columns.len() {
+            let message = format!("{} cells under {} names", found.len(), self.columns.columns.len());
+            let hint = match self.separator {
+                ',' => "decimal commas need `;` or a tab between cells",
+                _ => "every row has a cell for each column",
+            };
+            return Err(vec![self.at(line, message, hint)]);
+        }
+        let (mut angle, mut radius, mut run) = (0.0, 0.0, None);
+        let mut direction = remarks.direction;
+        let mut problems = Vec::new();
+        for (cell, column) in found.iter().zip(&self.columns.columns) {
+            let number = |factor: f64| {
+                let number = measured(&cell.text, self.separator).map(|number| number * factor);
+                number.ok_or_else(|| Problems::from(self.no_number(line, cell)))
+            };
+            let taken = match column {
+                Some(Column::Angle(factor)) => number(*factor).map(|number| angle = number),
+                Some(Column::Index) => number(1.0).map(|number| angle = number),
+                Some(Column::Deviation(factor) | Column::Radius(factor)) => {
+                    number(*factor).map(|number| radius = number)
+                }
+                Some(Column::Direction) => match direction_of(&cell.text) {
+                    Some(of) => {
+                        direction = Some(of);
+                        Ok(())
+                    }
+                    None => {
+                        let message = format!("`{}` is no direction", cell.text);
+                        Err(line
+                            .problem(&self.path, cell.span.clone(), message, "CW or CCW")
+                            .into())
+                    }
+                },
+                Some(Column::Run) => {
+                    run = Some(cell.text.as_ref());
+                    Ok(())
+                }
+                Some(Column::ForPeople) | None => Ok(()),
+            };
+            problems.extend(taken.err().into_iter().flatten());
+        }
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let Some(direction) = direction else {
+            let hint = "a column `direction`, a line `# direction: CW` above, or the option --direction";
+            return match self.groups.is_empty() && self.samples == 0 {
+                // Told once, not for every row.
+                true => {
+                    self.samples = 1;
+                    Err(vec![self.at(
+                        line,
+                        "nothing tells which way round this was".to_owned(),
+                        hint,
+                    )])
+                }
+                false => Ok(()),
+            };
+        };
+        self.samples += 1;
+        if self.samples > MOST_SAMPLES {
+            let message = format!("more than {MOST_SAMPLES} samples");
+            return Err(vec![self.at(line, message, "cut the file into its runs")]);
+        }
+        let name = run.or(remarks.run.as_deref());
+        self.push((name, direction, remarks.parts), line, [angle, radius]);
+        Ok(())
+    }
+
+    /// Puts a sample into its run.
+    fn push(
+        &mut self,
+        (name, direction, parts): (Option<&str>, Direction, usize),
+        line: &Line,
+        [angle, radius]: [f64; 2],
+    ) {
+        let before = self.groups.get(self.current);
+        if before.is_some_and(|group| group.key.1 != direction) {
+            self.changes += 1;
+        }
+        // Rows of a named run belong together wherever they stand.
+        let part = if name.is_some() { 0 } else { parts + self.changes };
+        let name = name.unwrap_or_default();
+        let is_of = |group: &Group| group.key.0 == name && group.key.1 == direction && group.key.2 == part;
+        if !before.is_some_and(is_of) {
+            self.current = self.groups.iter().position(is_of).unwrap_or_else(|| {
+                self.groups.push(Group {
+                    key: (name.to_owned(), direction, part),
+                    first: line.clone(),
+                    angle: Vec::new(),
+                    radius: Vec::new(),
+                });
+                self.groups.len() - 1
+            });
+        }
+        let group = &mut self.groups[self.current];
+        group.angle.push(angle);
+        group.radius.push(radius);
+    }
+
+    /// The runs, now that all rows are read; what they lack goes to `problems`.
+    fn finish(self, remarks: &Remarks, problems: &mut Vec<Problem>) -> Recorded {
+        let mut recorded = Recorded {
+            radius: remarks.radius,
+            feed: remarks.feed,
+            plane: remarks.plane.clone(),
+            runs: Vec::new(),
+            names: Vec::new(),
+            unused: self.columns.unused.clone(),
+            notes: Vec::new(),
+        };
+        if self.groups.is_empty() && problems.is_empty() {
+            problems.push(self.at(&self.header, "no radii below these names".to_owned(), HEADER_HINT));
+        }
+        let is_radius = self.columns.have(|column| matches!(column, Column::Radius(_)));
+        if is_radius && remarks.radius.is_none() {
+            let hint = "a line `# radius_mm: 100` above, or the option --radius-mm";
+            problems.push(self.at(&self.header, "nothing tells the nominal radius".to_owned(), hint));
+        }
+        let by_index = self.columns.have(|column| column == Column::Index);
+        if by_index && remarks.start.is_none() {
+            let hint = "a line `# start_deg: 0` above, or the option --start-deg";
+            problems.push(self.at(
+                &self.header,
+                "nothing tells the angle of the first sample".to_owned(),
+                hint,
+            ));
+        }
+        let degrees = self
+            .columns
+            .have(|column| matches!(column, Column::Angle(factor) if factor < 1.0));
+        let nominal = if is_radius {
+            remarks.radius.unwrap_or(0.0)
+        } else {
+            0.0
+        };
+        let mut small = true;
+        for Group {
+            key,
+            first,
+            angle,
+            radius,
+        } in self.groups
+        {
+            let angle = match by_index {
+                true => of_indices(&angle, remarks.start.unwrap_or(0.0), key.1),
+                false => angle,
+            };
+            let far = |most: f64| angle.iter().any(|a| a.abs() > most);
+            if degrees && !far(RADIANS.to_radians()) && angle.len() >= Run::LEAST {
+                let message = format!("no angle of this run is beyond {RADIANS} deg");
+                let hint = "are they radians? call the column `angle_rad`";
+                problems.push(first.problem(&self.path, 0..first.text.len(), message, hint));
+                continue;
+            }
+            let turned = travel(&angle);
+            if key.0.is_empty() && turned > MORE_THAN_ONE_TURN {
+                recorded.notes.push(format!(
+                    "the {} run that begins on line {} turns {:.1} times: if it is several runs, name them in a column `run`",
+                    key.1.name(), first.number, turned / TAU
+                ));
+            }
+            let deviation: Vec<f64> = radius.iter().map(|radius| radius - nominal).collect();
+            small &= deviation.iter().all(|dr| dr.abs() < 0.3e-6);
+            match Run::new(key.1, angle, deviation) {
+                Ok(run) => {
+                    recorded.runs.push(run);
+                    recorded.names.push(key.0);
+                }
+                Err(error) => problems.push(first.problem(
+                    &self.path,
+                    0..first.text.len(),
+                    error.to_string(),
+                    "is it cut off, or are rows named as different runs?",
+                )),
+            }
+        }
+        if small && !recorded.runs.is_empty() {
+            recorded
+                .notes
+                .push("no deviation is beyond 0.3 um: is its unit that of the column?".to_owned());
+        }
+        recorded
+    }
+
+    /// A problem of a cell.
+    fn no_number(&self, line: &Line, cell: &Cell<'_>) -> Problem {
+        let message = format!("`{}` is not a number", cell.text);
+        let hint = "numbers without unit; `;` or tab between cells where the decimal mark is a comma";
+        line.problem(&self.path, cell.span.clone(), message, hint)
+    }
+
+    /// A problem of a whole line.
+    fn at(&self, line: &Line, message: String, hint: &str) -> Problem {
+        line.problem(&self.path, 0..line.text.len(), message, hint)
+    }
+}
+
+/// Angles of samples that are even along one turn, by their numbers.
+fn of_indices(numbers: &[f64], start: f64, direction: Direction) -> Vec<f64> {
+    let [first, last] = numbers
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| {
+            [low.min(*k), high.max(*k)]
+        });
+    // The sample behind the last would be the first again.
+    let step = TAU / (last - first + 1.0);
+    numbers
+        .iter()
+        .map(|number| start + direction.sign() * step * (number - first))
+        .collect()
+}
+
+/// How far a run turns altogether, rad; jumps by a turn are none.
+fn travel(angle: &[f64]) -> f64 {
+    let step = |pair: &[f64]| {
+        let step = (pair[1] - pair[0]).rem_euclid(TAU);
+        step.min(TAU - step)
+    };
+    angle.windows(2).map(step).sum()
+}

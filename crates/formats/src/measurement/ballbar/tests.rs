@@ -1,0 +1,268 @@
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use super::*;
+
+/// Rows of a turn, every 5 degrees: `12.5 + k` um out.
+fn rows(separator: char, direction: &str, run: &str) -> String {
+    let mut text = String::new();
+    for k in 0..72 {
+        let deviation = 12.5 + f64::from(k);
+        let number = |number: f64| match separator {
+            ';' => number.to_string().replace('.', ","),
+            _ => number.to_string(),
+        };
+        let _ = writeln!(
+            text,
+            "{}{separator}{}{separator}{direction}{separator}{run}",
+            number(5.0 * f64::from(k)),
+            number(deviation)
+        );
+    }
+    text
+}
+
+const NAMES: &str = "angle_deg,radius_dev_um,direction,run\n";
+
+fn read_as(text: &str, told: &Told) -> Result<Recorded, String> {
+    match read("bar.csv", text.as_bytes(), told) {
+        Ok(Held::Runs(recorded)) => Ok(recorded),
+        Ok(Held::Results(_)) => panic!("no results here"),
+        Err(problems) => Err(problems.to_string()),
+    }
+}
+
+fn recorded(text: &str) -> Recorded {
+    read_as(text, &Told::default()).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn problems(text: &str) -> String {
+    read_as(text, &Told::default()).unwrap_err()
+}
+
+#[test]
+fn runs_are_told_apart_by_direction_and_name_wherever_their_rows_stand() {
+    let [one, two, back] = [("CW", "1"), ("cw", "2"), ("CCW", "1")].map(|(way, run)| rows(',', way, run));
+    let halves = |text: &str| text.split_at(text.len() / 2).0.rfind('\n').unwrap() + 1;
+    let (early, late) = one.split_at(halves(&one));
+    let found = recorded(&format!("{NAMES}{early}{back}{two}{late}"));
+    assert_eq!(found.names, ["1", "1", "2"]);
+    let counts: Vec<_> = found
+        .runs
+        .iter()
+        .map(|run| (run.direction().name(), run.angle().len()))
+        .collect();
+    assert_eq!(counts, [("CW", 72), ("CCW", 72), ("CW", 72)]);
+    assert!((found.runs[0].angle()[18] - TAU / 4.0).abs() < 1e-12);
+    assert!((found.runs[2].deviation()[3] - 15.5e-6).abs() < 1e-15);
+}
+
+#[test]
+fn the_same_runs_in_other_units_and_separators_are_the_same() {
+    let first = recorded(&format!("# radius_mm: 100\n{NAMES}{}", rows(',', "CCW", "1")));
+    assert_eq!(first.radius, Some(0.1));
+    let semicolons = format!(
+        "\u{feff}# Radius_mm: 100,0;;;\r\n# a note: by hand\r\nangle_deg;radius_dev_um;Direction;run;temp_c\r\n{}",
+        rows(';', "anticlockwise", "1").replace('\n', ";20,5\r\n")
+    );
+    let found = recorded(&semicolons);
+    assert_eq!(
+        (&found.runs, &found.unused),
+        (&first.runs, &vec!["temp_c".to_owned()])
+    );
+    let mut radii =
+        "# nominal_radius_mm = 100\n# direction: CCW\n# run: 1\nangle_rad\tradius_mm\n".to_owned();
+    for k in 0..72 {
+        let _ = writeln!(
+            radii,
+            "{}\t{}",
+            TAU / 72.0 * f64::from(k),
+            100.0125 + f64::from(k) * 1e-3
+        );
+    }
+    let found = recorded(&radii);
+    let apart = found.runs[0].samples().zip(first.runs[0].samples());
+    for ((a, r), (b, s)) in apart {
+        assert!((a - b).abs() < 1e-12 && (r - s).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn remarks_and_changes_of_direction_part_runs_without_names() {
+    let plain = |way: &str| rows(',', way, "").replace(",\n", "\n");
+    let names = "angle_deg,radius_dev_um,direction\n";
+    let found = recorded(&format!("{names}{}{}{}", plain("CW"), plain("CCW"), plain("CW")));
+    assert_eq!(found.runs.len(), 3);
+    let bare: String = (0..72).fold(String::new(), |text, k| text + &format!("{},1\n", 5 * k));
+    let parted = format!(
+        "# feed_mm_per_min: 1000\n# plane: ZX\nangle_deg,radius_dev_um\n# direction: CW\n{bare}# direction: CW\n{bare}# direction: CCW\n{bare}"
+    );
+    let found = recorded(&parted);
+    assert_eq!(found.runs.len(), 3);
+    assert_eq!(
+        (found.plane.as_deref(), found.feed),
+        (Some("ZX"), Some(1.0 / 60.0))
+    );
+    let twice = recorded(&format!("# direction: CW\nangle_deg,radius_dev_um\n{bare}{bare}"));
+    assert!(twice.notes[0].contains("turns 2.0 times"), "{:?}", twice.notes);
+}
+
+#[test]
+fn numbers_of_samples_are_angles_along_the_way_round() {
+    let bare: String = (1..=36).fold(String::new(), |text, k| text + &format!("{k},2\n"));
+    let told = Told {
+        direction: Some(Direction::Clockwise),
+        start: Some(1.0),
+        radius: None,
+    };
+    let found = read_as(&format!("index,radius_dev_um\n{bare}"), &told).unwrap();
+    let angle = found.runs[0].angle();
+    assert!((angle[0] - 1.0).abs() < 1e-12 && (angle[1] - 1.0 + TAU / 36.0).abs() < 1e-12);
+    let unknown = problems(&format!("# direction: CW\nindex,radius_dev_um\n{bare}"));
+    assert!(
+        unknown.contains("nothing tells the angle of the first sample") && unknown.contains("--start-deg")
+    );
+}
+
+#[test]
+fn everything_that_is_wrong_is_told_at_once_with_its_place() {
+    let text = format!("{NAMES}{}5,x,CW,1\n6,7,left,1\n7,8,CW\n", rows(',', "CW", "1"));
+    let told = problems(&text);
+    for part in [
+        "bar.csv:74:3: `x` is not a number",
+        "bar.csv:75:5: `left` is no direction",
+        "bar.csv:76:1: 3 cells under 4 names",
+        "decimal commas need `;`",
+    ] {
+        assert!(told.contains(part), "no `{part}` in\n{told}");
+    }
+}
+
+#[test]
+fn what_is_wrong_is_told_with_what_to_do() {
+    let bare: String = (0..72).fold(String::new(), |text, k| text + &format!("{},1\n", 5 * k));
+    let small: String = (0..63).fold(String::new(), |text, k| {
+        text + &format!("{},1\n", f64::from(k) / 10.0)
+    });
+    for (text, part) in [
+        (String::new(), "no radii in this file"),
+        ("a,b\n1,2\n".to_owned(), "no column tells the angle"),
+        (
+            "angle,radius_dev_um\n1,2\n".to_owned(),
+            "angles carry their unit: write `angle_deg`",
+        ),
+        (
+            "angle_deg,radius_dev\n1,2\n".to_owned(),
+            "lengths carry their unit: write `radius_dev_um`",
+        ),
+        (
+            "angle_deg,radius_dev_um,radius_mm\n1,2,3\n".to_owned(),
+            "`radius_mm` tells what a column before it tells",
+        ),
+        (
+            format!("angle_deg,radius_dev_um\n{bare}"),
+            "nothing tells which way round",
+        ),
+        (
+            format!("# direction: CW\nangle_deg,radius_mm\n{bare}"),
+            "nothing tells the nominal radius",
+        ),
+        (
+            format!("# direction: CW\nangle_deg,radius_dev_um\n{small}"),
+            "are they radians?",
+        ),
+        (
+            "# direction: up\nangle_deg,radius_dev_um\n".to_owned(),
+            "`up` is no direction",
+        ),
+        (
+            "# radius_mm: -3\nangle_deg,radius_dev_um\n".to_owned(),
+            "is not a number above 0",
+        ),
+        (
+            "# radius_mm: 100\n# radius_mm: 150\nangle_deg,radius_dev_um\n".to_owned(),
+            "another nominal radius",
+        ),
+        (
+            "# direction: CW\nangle_deg,radius_dev_um\n1,2\n2,3\n".to_owned(),
+            "a run of 2 samples is shorter than the 12",
+        ),
+        (
+            "# direction: CW\nangle_deg,radius_dev_um\n".to_owned(),
+            "no radii below these names",
+        ),
+        (
+            format!("# direction: CW\nangle_deg,radius_dev_um\n{bare}0,nan\n"),
+            "`nan` is not a number",
+        ),
+    ] {
+        let told = problems(&text);
+        assert!(told.contains(part), "no `{part}` in\n{told}");
+        assert!(told.contains("help: "), "{told}");
+    }
+    let beside = Told {
+        radius: Some(0.15),
+        direction: Some(Direction::Clockwise),
+        start: None,
+    };
+    let told = read_as(
+        &format!("# radius_mm: 100\nangle_deg,radius_dev_um\n{bare}"),
+        &beside,
+    )
+    .unwrap_err();
+    assert!(told.contains("another nominal radius was told before"), "{told}");
+}
+
+#[test]
+fn deviations_in_the_wrong_unit_are_doubted() {
+    let small: String = (0..72).fold(String::new(), |text, k| text + &format!("{},0.0{k}\n", 5 * k));
+    let found = recorded(&format!("# direction: CW\nangle_deg,radius_dev_um\n{small}"));
+    assert!(found.notes[0].contains("is its unit that of the column?"));
+}
+
+const RESULTS: &str = "<?xml version='1.0'?><BALLBAR><TEST_SPEC NAME='XY 100mm'/><OPERATOR>me</OPERATOR>\
+    <MACHINE_TESTED NAME='MH12'><SERIAL_NUMBER>H12</SERIAL_NUMBER></MACHINE_TESTED><PLANE TEST_PLANE='XY'/>\
+    <FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>96.4</FEATURE>\
+    <FEATURE NAME='AF_SQUARENESS' DT='UT_SQUARENESS'>-120,5</FEATURE>\
+    <FEATURE NAME='AF_NEW' DT='UT_NEW'>1</FEATURE><FEATURE NAME='AF_NOTE'>none</FEATURE></BALLBAR>";
+
+#[test]
+fn results_of_a_bar_are_read_with_their_units() {
+    let Ok(Held::Results(found)) = read("a.b5r", RESULTS.as_bytes(), &Told::default()) else {
+        panic!("results are wanted");
+    };
+    assert_eq!(found.machine.as_deref(), Some("MH12"));
+    assert_eq!(
+        (found.plane.as_deref(), found.operator.as_deref()),
+        (Some("XY"), Some("me"))
+    );
+    let told: Vec<_> = found
+        .features
+        .iter()
+        .map(|of| (of.name.as_str(), of.value, of.unit.as_str()))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("AF_CIRCULARITY", 96.4, "um"),
+            ("AF_SQUARENESS", -120.5, "um/m"),
+            ("AF_NEW", 1.0, "UT_NEW")
+        ]
+    );
+    assert_eq!(found.without_number, ["AF_NOTE"]);
+}
+
+#[test]
+fn xml_that_is_no_result_is_refused_at_its_place() {
+    for (text, part) in [
+        ("<a><b></a>", "not XML"),
+        ("<robot/>", "<robot> holds no FEATURE"),
+        ("<r><FEATURE DT='x'>1</FEATURE></r>", "has no attribute `NAME`"),
+        ("<r><FEATURE NAME='x'>1e300</FEATURE></r>", "x is 1e300"),
+    ] {
+        let told = read("a.b5r", text.as_bytes(), &Told::default())
+            .unwrap_err()
+            .to_string();
+        assert!(told.contains(part), "no `{part}` in\n{told}");
+    }
+}

@@ -1,0 +1,184 @@
+//! What a circular test shows, in SI.
+
+use armill_core::measure::ballbar::centre::seen_from;
+use armill_core::measure::ballbar::lobes::common;
+use armill_core::measure::ballbar::parts::{Asked, Parts, Reversal, Step, of_axes, parts, strongest_period};
+use armill_core::measure::ballbar::{
+    Centre, CircularTest, Difference, Direction, Lobes, Outlier, Quantities, Run, between_directions,
+    between_runs, hysteresis, least_squares_centre, lobes, mean_bidirectional, outliers, quantities,
+};
+
+use super::Measured;
+use crate::StudyError;
+
+/// From which centre radii are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Centring {
+    /// Where the pivot was set up.
+    Setup,
+    /// The least-squares centre of all runs.
+    LeastSquares,
+}
+
+/// Whether an error that repeats along an axis is looked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cyclic {
+    /// No.
+    None,
+    /// With this period, m.
+    Told(f64),
+    /// With the period that stands out, if one does.
+    Found,
+}
+
+/// What is asked of a test.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Question {
+    /// From which centre.
+    pub centring: Centring,
+    /// Most lobes that are told and taken into account.
+    pub most_lobes: usize,
+    /// Error of an axis that repeats.
+    pub cyclic: Cyclic,
+    /// Angles at which something reverses beside the axes, rad.
+    pub reversals: Vec<f64>,
+    /// Whether the axes of the plane reverse at their ends: not those of an arm with turning joints.
+    pub axes_reverse: bool,
+    /// Whether outliers are left out.
+    pub without_outliers: bool,
+}
+
+/// What a test shows.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// The runs as they are told: from the centre that was asked for, without outliers where these were left out.
+    pub test: CircularTest,
+    /// The least-squares centre of all runs, from the set-up; none of short arcs.
+    pub centre: Option<Centre>,
+    /// Whether radii are counted from it.
+    pub is_centred: bool,
+    /// Of each run.
+    pub runs: Vec<Quantities>,
+    /// Of the runs of each direction together, clockwise first.
+    pub directions: [Option<Quantities>; 2],
+    /// Of all runs.
+    pub all: Quantities,
+    /// D, m.
+    pub mean_bidirectional: Option<f64>,
+    /// H, m.
+    pub hysteresis: Option<f64>,
+    /// Pairs of runs the same way, by their places, and what they differ by.
+    pub repeats: Vec<([usize; 2], Difference)>,
+    /// Clockwise minus anticlockwise, of the means.
+    pub between: Difference,
+    /// What was looked for.
+    pub asked: Asked,
+    /// What makes the test what it is; none of too few samples.
+    pub parts: Option<Parts>,
+    /// Lobes of what both directions have in common; none where there is a gap.
+    pub lobes: Option<Lobes>,
+    /// Of each run.
+    pub outliers: Vec<Vec<Outlier>>,
+}
+
+/// What `measured` shows.
+///
+/// # Errors
+/// Runs of which too little is left without their outliers; a centre that is too far off.
+pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyError> {
+    let [a, b] = measured.axes();
+    let mut reversals = match question.axes_reverse {
+        true => of_axes([a.as_str(), b.as_str()]),
+        false => Vec::new(),
+    };
+    reversals.extend(question.reversals.iter().map(|angle| Reversal {
+        name: format!("at {} deg", crate::number::decimals(angle.to_degrees(), 3)),
+        steps: vec![Step {
+            angle: *angle,
+            outwards: [1.0; 2],
+        }],
+    }));
+    let angles: Vec<f64> = (reversals.iter().flat_map(|reversal| &reversal.steps))
+        .map(|step| step.angle)
+        .collect();
+    let dirt: Vec<Vec<Outlier>> = measured
+        .test
+        .runs()
+        .iter()
+        .map(|run| outliers(run, &angles))
+        .collect();
+    let test = match question.without_outliers {
+        true => without(&measured.test, &dirt)?,
+        false => measured.test.clone(),
+    };
+    let centre = least_squares_centre(&test);
+    let mut asked = Asked {
+        reversals,
+        most_lobes: question.most_lobes,
+        period: None,
+    };
+    asked.period = match question.cyclic {
+        Cyclic::None => None,
+        Cyclic::Told(period) => Some(period),
+        Cyclic::Found => strongest_period(&test, &asked),
+    };
+    let parts = parts(&test, &asked);
+    let offset = centre.filter(|_| question.centring == Centring::LeastSquares);
+    let shown = match offset {
+        Some(centre) => seen_from(&test, centre.offset).map_err(|error| {
+            StudyError::value(
+                error.to_string(),
+                "set the pivot up nearer to the centre of the path",
+            )
+        })?,
+        None => test,
+    };
+    let nothing = || StudyError::value("a test without runs", "name a file with radii");
+    let of = |runs: &[&Run]| quantities(&shown, runs);
+    let direction = |direction: Direction| of(&shown.of(direction).collect::<Vec<_>>());
+    let runs = shown.runs().iter().map(|run| of(&[run]).ok_or_else(nothing));
+    Ok(Found {
+        centre,
+        is_centred: offset.is_some(),
+        runs: runs.collect::<Result<_, _>>()?,
+        directions: Direction::BOTH.map(direction),
+        all: of(&shown.runs().iter().collect::<Vec<_>>()).ok_or_else(nothing)?,
+        mean_bidirectional: mean_bidirectional(&shown),
+        hysteresis: hysteresis(&shown),
+        repeats: repeats(&shown),
+        between: between_directions(&shown),
+        asked,
+        parts,
+        lobes: lobes(&common(&shown), question.most_lobes.max(2)),
+        outliers: dirt,
+        test: shown,
+    })
+}
+
+/// The runs without the outliers that belong to no reversal.
+fn without(test: &CircularTest, dirt: &[Vec<Outlier>]) -> Result<CircularTest, StudyError> {
+    let clean = |(run, dirt): (&Run, &Vec<Outlier>)| {
+        let places: Vec<usize> = (dirt.iter().filter(|of| !of.at_reversal))
+            .map(|of| of.sample)
+            .collect();
+        run.without(&places)
+    };
+    let runs: Option<Vec<Run>> = test.runs().iter().zip(dirt).map(clean).collect();
+    let left = runs.and_then(|runs| CircularTest::new(test.radius(), runs).ok());
+    left.ok_or_else(|| {
+        StudyError::value(
+            "without its outliers too little is left of a run",
+            "keep them, and look at the run",
+        )
+    })
+}
+
+/// Every pair of runs of one direction.
+fn repeats(test: &CircularTest) -> Vec<([usize; 2], Difference)> {
+    let runs = test.runs();
+    let pairs = (0..runs.len()).flat_map(|second| (0..second).map(move |first| [first, second]));
+    pairs
+        .filter(|[first, second]| runs[*first].direction() == runs[*second].direction())
+        .map(|pair| (pair, between_runs(&runs[pair[0]], &runs[pair[1]])))
+        .collect()
+}

@@ -1,0 +1,477 @@
+//! What a circular test shows, in numbers with their units.
+//!
+//! Deviations are outwards positive. Angles count from the first axis of the plane towards the second.
+
+use armill_core::measure::ballbar::parts::{Axis, Part, Parts, Term, Wave};
+use armill_core::measure::ballbar::{Difference, Direction, Quantities, Run};
+use serde::Serialize;
+
+use super::analyse::{Found, Question};
+use super::read::Measured;
+use super::teach::{BeforeAnswer, TaughtAnswer};
+use super::warnings::warnings;
+
+/// A circular test in numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct BallbarAnswer {
+    /// Its files.
+    pub files: Vec<String>,
+    /// Nominal radius.
+    pub radius_mm: f64,
+    /// Speed along the circle, if it was told.
+    pub feed_mm_per_min: Option<f64>,
+    /// The plane, if it was told.
+    pub plane: Option<String>,
+    /// Names of its axes.
+    pub axes: [String; 2],
+    /// From which centre radii are counted.
+    pub centring: CentringAnswer,
+    /// Every run.
+    pub runs: Vec<RunAnswer>,
+    /// The runs of each direction together.
+    pub directions: Vec<DirectionAnswer>,
+    /// G(b): circular deviation of both directions together; none of one alone.
+    pub circular_bidirectional_um: Option<f64>,
+    /// D: radius of the least-squares circle of both directions minus the nominal one.
+    pub mean_bidirectional_um: Option<f64>,
+    /// H: largest difference between the directions.
+    pub hysteresis_um: Option<f64>,
+    /// Runs the same way, two by two.
+    pub repeatability: Vec<DifferenceAnswer>,
+    /// Clockwise minus anticlockwise.
+    pub between_directions: Option<DifferenceAnswer>,
+    /// What makes the circle what it is; none of too few samples.
+    pub parts: Option<PartsAnswer>,
+    /// Lobes of what both directions have in common, from the centre that radii are counted from.
+    pub lobes: Vec<LobeAnswer>,
+    /// Samples that their neighbours contradict.
+    pub outliers: Vec<OutlierAnswer>,
+    /// Whether these were left out, but for those at a reversal.
+    pub outliers_left_out: bool,
+    /// What the bar's own program made of it: results only.
+    pub results: Vec<ResultsAnswer>,
+    /// The circle to teach, where that was asked for.
+    pub taught: Option<TaughtAnswer>,
+    /// The test before, where one was named.
+    pub before: Option<BeforeAnswer>,
+    /// Columns that were passed over.
+    pub unused: Vec<String>,
+    /// What a user must know, each a sentence.
+    pub warnings: Vec<String>,
+}
+
+/// From which centre.
+#[derive(Clone, Debug, Serialize)]
+pub struct CentringAnswer {
+    /// `least-squares` or `setup`.
+    pub centre: &'static str,
+    /// Where the least-squares centre of all runs lies from the set-up, whether it is used or not; none of short arcs.
+    pub offset_um: Option<[f64; 2]>,
+    /// Radius of that circle.
+    pub radius_mm: Option<f64>,
+}
+
+/// One run.
+#[derive(Clone, Debug, Serialize)]
+pub struct RunAnswer {
+    /// `CW1`.
+    pub name: String,
+    /// As its file calls it.
+    pub label: String,
+    /// Its file.
+    pub file: String,
+    /// `CW` or `CCW`.
+    pub direction: &'static str,
+    /// How many samples.
+    pub samples: usize,
+    /// Where it began.
+    pub start_deg: f64,
+    /// How much of a turn it has.
+    pub arc_deg: f64,
+    /// Where no samples are, from and to.
+    pub gaps_deg: Vec<[f64; 2]>,
+    /// What it shows.
+    #[serde(flatten)]
+    pub shown: ShownAnswer,
+}
+
+/// The runs of one direction together.
+#[derive(Clone, Debug, Serialize)]
+pub struct DirectionAnswer {
+    /// `CW` or `CCW`.
+    pub direction: &'static str,
+    /// How many.
+    pub runs: usize,
+    /// What they show.
+    #[serde(flatten)]
+    pub shown: ShownAnswer,
+}
+
+/// Circular and radial deviation.
+#[derive(Clone, Debug, Serialize)]
+pub struct ShownAnswer {
+    /// G; none where no ring is narrowest.
+    pub circular_um: Option<f64>,
+    /// F, greatest.
+    pub radial_max_um: f64,
+    /// Where.
+    pub radial_max_at_deg: f64,
+    /// F, least.
+    pub radial_min_um: f64,
+    /// Where.
+    pub radial_min_at_deg: f64,
+}
+
+/// A difference along the angle.
+#[derive(Clone, Debug, Serialize)]
+pub struct DifferenceAnswer {
+    /// Which is taken from which: first minus second.
+    pub of: [String; 2],
+    /// Largest by size.
+    pub max_um: f64,
+    /// Where.
+    pub max_at_deg: f64,
+    /// Root mean square.
+    pub rms_um: f64,
+}
+
+/// What makes the circle what it is.
+#[derive(Clone, Debug, Serialize)]
+pub struct PartsAnswer {
+    /// Each as it shows along the radius.
+    pub radial: Vec<PartAnswer>,
+    /// Scale error of each axis.
+    pub scale_um_per_m: Option<[f64; 2]>,
+    /// Its standard uncertainty.
+    pub scale_u_um_per_m: Option<[f64; 2]>,
+    /// Angle between the positive axes, beyond a right one; um/m is the same number.
+    pub squareness_urad: Option<f64>,
+    /// Its standard uncertainty.
+    pub squareness_u_urad: Option<f64>,
+    /// How much later the first axis follows than the second; where the feed is known.
+    pub servo_mismatch_s: Option<f64>,
+    /// Its standard uncertainty.
+    pub servo_mismatch_u_s: Option<f64>,
+    /// Period of a cyclic error along either axis, as it was told or found.
+    pub cyclic_period_mm: Option<f64>,
+    /// Sets of parts of which only a sum is known, or a single one that nothing is known of.
+    pub not_told_apart: Vec<Vec<String>>,
+    /// Root mean square about the least-squares circle.
+    pub rms_before_um: f64,
+    /// And of what no part explains.
+    pub rms_after_um: f64,
+}
+
+/// One part.
+#[derive(Clone, Debug, Serialize)]
+pub struct PartAnswer {
+    /// Its name.
+    pub what: String,
+    /// How large it is along the radius.
+    pub value_um: f64,
+    /// Standard uncertainty.
+    pub u_um: f64,
+}
+
+/// So many lobes.
+#[derive(Clone, Debug, Serialize)]
+pub struct LobeAnswer {
+    /// A turn.
+    pub waves: usize,
+    /// Half of crest to trough.
+    pub amplitude_um: f64,
+    /// Where a crest is.
+    pub crest_deg: f64,
+}
+
+/// A sample that its neighbours contradict.
+#[derive(Clone, Debug, Serialize)]
+pub struct OutlierAnswer {
+    /// Its run.
+    pub run: String,
+    /// Where.
+    pub angle_deg: f64,
+    /// How far off.
+    pub off_um: f64,
+    /// Whether an axis reverses there: then it is a spike, no dirt.
+    pub at_reversal: bool,
+}
+
+/// What the bar's own program made of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct ResultsAnswer {
+    /// Its file.
+    pub file: String,
+    /// What was planned.
+    pub test: Option<String>,
+    /// On which machine.
+    pub machine: Option<String>,
+    /// When.
+    pub date: Option<String>,
+    /// In which plane.
+    pub plane: Option<String>,
+    /// Each result as the file has it.
+    pub features: Vec<FeatureAnswer>,
+}
+
+/// One result of the bar's own program, and ours of the same kind.
+#[derive(Clone, Debug, Serialize)]
+pub struct FeatureAnswer {
+    /// As the file calls it.
+    pub name: String,
+    /// As the file has it.
+    // unit: the field `unit` tells it
+    pub value: f64,
+    /// The unit of both.
+    pub unit: String,
+    /// Ours in that unit, where both tell the same kind of thing; definitions and signs may differ.
+    // unit: the field `unit` tells it
+    pub ours: Option<f64>,
+}
+
+/// What `found` says of `measured`.
+pub fn answer(measured: &Measured, question: &Question, found: &Found) -> BallbarAnswer {
+    let axes = measured.axes();
+    let um = |value: f64| value * 1e6;
+    let parts = found
+        .parts
+        .as_ref()
+        .map(|parts| of_parts(parts, (measured, found)));
+    let names: Vec<&str> = measured
+        .origins
+        .iter()
+        .map(|origin| origin.name.as_str())
+        .collect();
+    let difference = |of: [String; 2], difference: &Difference| {
+        difference.span().map(|span| DifferenceAnswer {
+            of,
+            max_um: um(span.largest),
+            max_at_deg: span.angle.to_degrees(),
+            rms_um: um(span.rms),
+        })
+    };
+    let both = found.test.is_bidirectional();
+    let mut told = BallbarAnswer {
+        files: measured.files.clone(),
+        radius_mm: measured.test.radius() * 1e3,
+        feed_mm_per_min: measured.feed.map(|feed| feed * 60e3),
+        plane: measured.plane.clone(),
+        centring: CentringAnswer {
+            centre: if found.is_centred {
+                "least-squares"
+            } else {
+                "setup"
+            },
+            offset_um: found
+                .centre
+                .map(|centre| [um(centre.offset.x), um(centre.offset.y)]),
+            radius_mm: found.centre.map(|centre| centre.radius * 1e3),
+        },
+        runs: (0..names.len())
+            .map(|index| of_run(measured, found, index))
+            .collect(),
+        directions: Direction::BOTH
+            .iter()
+            .filter_map(|direction| {
+                Some(DirectionAnswer {
+                    direction: direction.name(),
+                    runs: found.test.of(*direction).count(),
+                    shown: ShownAnswer::of(&found.directions[direction.index()]?),
+                })
+            })
+            .collect(),
+        circular_bidirectional_um: found.all.circular.ok().filter(|_| both).map(um),
+        mean_bidirectional_um: found.mean_bidirectional.map(um),
+        hysteresis_um: found.hysteresis.map(um),
+        repeatability: (found.repeats.iter())
+            .filter_map(|([one, other], of)| {
+                difference([names[*one].to_owned(), names[*other].to_owned()], of)
+            })
+            .collect(),
+        between_directions: difference(["CW", "CCW"].map(str::to_owned), &found.between),
+        lobes: found
+            .lobes
+            .iter()
+            .flat_map(|lobes| &lobes.harmonics)
+            .map(LobeAnswer::of)
+            .collect(),
+        outliers: outliers(&names, found),
+        outliers_left_out: question.without_outliers,
+        results: measured
+            .results
+            .iter()
+            .map(|(file, results)| ResultsAnswer {
+                file: file.clone(),
+                test: results.test.clone(),
+                machine: results.machine.clone(),
+                date: results.date.clone(),
+                plane: results.plane.clone(),
+                features: (results.features.iter())
+                    .map(|feature| FeatureAnswer {
+                        name: feature.name.clone(),
+                        value: feature.value,
+                        unit: feature.unit.clone(),
+                        ours: None,
+                    })
+                    .collect(),
+            })
+            .collect(),
+        axes,
+        parts,
+        taught: None,
+        before: None,
+        unused: measured.unused.clone(),
+        warnings: Vec::new(),
+    };
+    beside(&mut told);
+    told.warnings = warnings(measured, question, (found, &told));
+    told
+}
+
+impl ShownAnswer {
+    fn of(shown: &Quantities) -> ShownAnswer {
+        let [least, greatest] = shown.radial;
+        ShownAnswer {
+            circular_um: shown.circular.ok().map(|g| g * 1e6),
+            radial_max_um: greatest.deviation * 1e6,
+            radial_max_at_deg: greatest.angle.to_degrees(),
+            radial_min_um: least.deviation * 1e6,
+            radial_min_at_deg: least.angle.to_degrees(),
+        }
+    }
+}
+
+impl LobeAnswer {
+    fn of(lobe: &armill_core::roundness::Harmonic) -> LobeAnswer {
+        let waves = lobe.waves as f64;
+        LobeAnswer {
+            waves: lobe.waves,
+            amplitude_um: lobe.amplitude * 1e6,
+            crest_deg: (lobe.phase.to_degrees() / waves).rem_euclid(360.0 / waves),
+        }
+    }
+}
+
+fn of_run(measured: &Measured, found: &Found, index: usize) -> RunAnswer {
+    let (origin, shown) = (&measured.origins[index], &found.runs[index]);
+    let run: &Run = &measured.test.runs()[index];
+    let profile = armill_core::measure::ballbar::Profile::of(&found.test.runs()[index]);
+    RunAnswer {
+        name: origin.name.clone(),
+        label: origin.label.clone(),
+        file: origin.file.clone(),
+        direction: run.direction().name(),
+        samples: run.angle().len(),
+        start_deg: run.angle()[0].to_degrees().rem_euclid(360.0),
+        arc_deg: shown.arc.to_degrees(),
+        gaps_deg: profile
+            .gaps()
+            .iter()
+            .map(|gap| gap.map(f64::to_degrees))
+            .collect(),
+        shown: ShownAnswer::of(shown),
+    }
+}
+
+/// What a term is called.
+pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> String {
+    let axis = |axis: Axis| match axis {
+        Axis::A => &axes[0],
+        Axis::B => &axes[1],
+    };
+    let wave = |wave: Wave| match wave {
+        Wave::Cosine => "cosine",
+        Wave::Sine => "sine",
+    };
+    match term {
+        Term::Radius => "radius".to_owned(),
+        Term::Offset(of) => format!("offset along {}", axis(of)),
+        Term::ScaleMismatch => "scale mismatch".to_owned(),
+        Term::Squareness => "squareness".to_owned(),
+        Term::DirectionRadius => "radius CCW minus CW".to_owned(),
+        Term::ServoMismatch => "servo mismatch".to_owned(),
+        Term::Reversal(index) => format!("step {}", found.asked.reversals[index].name),
+        Term::Lobes(count, of) => format!("{count} lobes, {}", wave(of)),
+        Term::Cyclic(along, of) => format!("cyclic along {}, {}", axis(along), wave(of)),
+    }
+}
+
+fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswer {
+    let axes = measured.axes();
+    let radius = measured.test.radius();
+    let name = |term: Term| name_of(term, (&axes, found));
+    let of = |term: Term| parts.of(term);
+    // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R; of a good test the two hang together little.
+    let scale = of(Term::Radius).zip(of(Term::ScaleMismatch));
+    let per_m = 1e6 / radius;
+    let both = |part: &Part, other: &Part| part.u.hypot(other.u) * per_m;
+    let servo = of(Term::ServoMismatch).zip(measured.feed);
+    PartsAnswer {
+        radial: (parts.parts.iter())
+            .map(|part| PartAnswer {
+                what: name(part.term),
+                value_um: part.value * 1e6,
+                u_um: part.u * 1e6,
+            })
+            .collect(),
+        scale_um_per_m: scale.map(|(mean, half)| {
+            [
+                (mean.value + half.value) * per_m,
+                (mean.value - half.value) * per_m,
+            ]
+        }),
+        scale_u_um_per_m: scale.map(|(mean, half)| [both(mean, half); 2]),
+        squareness_urad: of(Term::Squareness).map(|part| 2.0 * part.value * per_m),
+        squareness_u_urad: of(Term::Squareness).map(|part| 2.0 * part.u * per_m),
+        servo_mismatch_s: servo.map(|(part, feed)| 2.0 * part.value / feed),
+        servo_mismatch_u_s: servo.map(|(part, feed)| 2.0 * part.u / feed),
+        cyclic_period_mm: found.asked.period.map(|period| period * 1e3),
+        not_told_apart: (parts.together.iter())
+            .map(|set| set.iter().map(|term| name(*term)).collect())
+            .collect(),
+        rms_before_um: parts.rms_before * 1e6,
+        rms_after_um: parts.rms_after * 1e6,
+    }
+}
+
+fn outliers(names: &[&str], found: &Found) -> Vec<OutlierAnswer> {
+    let of_run = names.iter().zip(&found.outliers);
+    of_run
+        .flat_map(|(name, outliers)| {
+            outliers.iter().map(|outlier| OutlierAnswer {
+                run: (*name).to_owned(),
+                angle_deg: outlier.angle.to_degrees(),
+                off_um: outlier.off * 1e6,
+                at_reversal: outlier.at_reversal,
+            })
+        })
+        .collect()
+}
+
+/// Puts our numbers beside those of the bar's own program.
+fn beside(told: &mut BallbarAnswer) {
+    let part = |what: &str| {
+        let parts = told.parts.iter().flat_map(|parts| &parts.radial);
+        parts
+            .clone()
+            .find(|part| part.what == what)
+            .map(|part| part.value_um)
+    };
+    let [a, b] = &told.axes;
+    let step = |axis: &str, side: &str| part(&format!("step {axis}{side}"));
+    let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
+    let ours = [
+        ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
+        ("AF_SQUARENESS", "um/m", squareness),
+        ("AF_BACKLASH_A_POS", "um", step(a, "+")),
+        ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
+        ("AF_BACKLASH_B_POS", "um", step(b, "+")),
+        ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
+    ];
+    for feature in told.results.iter_mut().flat_map(|results| &mut results.features) {
+        let of = ours
+            .iter()
+            .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);
+        feature.ours = of.and_then(|(.., value)| *value);
+    }
+}

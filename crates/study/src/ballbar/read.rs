@@ -1,0 +1,185 @@
+//! Files into one circle: runs of all of them, and results of the bar's own program beside.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use armill_core::measure::ballbar::{CircularTest, Direction, Run};
+use armill_formats::document::{Problem, Problems};
+use armill_formats::measurement::ballbar::{self, Held, Recorded, Results, Told};
+
+use crate::StudyError;
+
+/// What files do not tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Wanted {
+    /// What a file does not tell of its runs.
+    pub told: Told,
+    /// The plane, by its two axes.
+    pub plane: Option<String>,
+    /// Speed along the circle, m/s.
+    pub feed: Option<f64>,
+}
+
+/// A run, and where it came from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Origin {
+    /// `CW1`: which run of its direction.
+    pub name: String,
+    /// As its file calls it; empty where it does not.
+    pub label: String,
+    /// Its file.
+    pub file: String,
+}
+
+/// One circle, as files have it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// All runs.
+    pub test: CircularTest,
+    /// One a run.
+    pub origins: Vec<Origin>,
+    /// All files, in the order in which they were named.
+    pub files: Vec<String>,
+    /// Speed along the circle, m/s.
+    pub feed: Option<f64>,
+    /// The plane, as it is called.
+    pub plane: Option<String>,
+    /// What the bar's own program made of it, each with its file.
+    pub results: Vec<(String, Results)>,
+    /// Columns that were passed over, each with its file.
+    pub unused: Vec<String>,
+    /// What a user must know, each a sentence.
+    pub notes: Vec<String>,
+}
+
+impl Measured {
+    /// Names of the two axes of the plane; A and B where nobody tells them.
+    pub fn axes(&self) -> [String; 2] {
+        let plane = self.plane.as_deref().unwrap_or_default();
+        match plane.chars().collect::<Vec<_>>()[..] {
+            [a, b] if a.is_alphabetic() && b.is_alphabetic() && a != b => [a, b].map(String::from),
+            _ => ["A", "B"].map(String::from),
+        }
+    }
+}
+
+/// Reads one circle from all `files`.
+///
+/// # Errors
+/// Files that cannot be read; the problems of all files; no runs; radii, planes or feeds of different circles.
+pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, StudyError> {
+    let mut problems: Vec<Problem> = Vec::new();
+    let mut recorded: Vec<(String, Recorded)> = Vec::new();
+    let mut results = Vec::new();
+    for path in files {
+        let shown = path.as_ref().display().to_string();
+        let file = File::open(path.as_ref()).map_err(|error| {
+            StudyError::value(
+                format!("cannot read {shown}: {error}"),
+                "a CSV with `angle_deg,radius_dev_um,direction,run`, or results of a ball-bar (.b5r)",
+            )
+        })?;
+        match ballbar::read(&shown, BufReader::new(file), &wanted.told) {
+            Ok(Held::Runs(runs)) => recorded.push((shown, runs)),
+            Ok(Held::Results(found)) => results.push((shown, found)),
+            Err(wrong) => problems.extend(wrong),
+        }
+    }
+    Problems::from(problems).into_result()?;
+    let radius = one_of(&recorded, "nominal radius", wanted.told.radius, |file| {
+        file.radius
+    })?;
+    let feed = one_of(&recorded, "feed", wanted.feed, |file| file.feed)?;
+    let plane = one_of(&recorded, "plane", wanted.plane.clone(), |file| {
+        file.plane.clone()
+    })?;
+    if recorded.is_empty() {
+        let message = match results.is_empty() {
+            true => "no file was named".to_owned(),
+            false => "these files hold results only, no radii".to_owned(),
+        };
+        let hint = "name a CSV with the radii too; what Renishaw's program made of them is shown beside";
+        return Err(StudyError::value(message, hint));
+    }
+    let Some(radius) = radius else {
+        return Err(StudyError::value(
+            "nothing tells the nominal radius",
+            "a line `# radius_mm: 100` in the file, or --radius-mm 100",
+        ));
+    };
+    let mut notes = Vec::new();
+    let mut unused = Vec::new();
+    let mut runs: Vec<Run> = Vec::new();
+    let mut origins = Vec::new();
+    for (file, recorded) in recorded {
+        notes.extend(recorded.notes.into_iter().map(|note| format!("{file}: {note}")));
+        unused.extend(recorded.unused.into_iter().map(|name| format!("{file}: {name}")));
+        for (run, label) in recorded.runs.into_iter().zip(recorded.names) {
+            let before = runs
+                .iter()
+                .filter(|other| other.direction() == run.direction())
+                .count();
+            origins.push(Origin {
+                name: format!("{}{}", run.direction().name(), before + 1),
+                label,
+                file: file.clone(),
+            });
+            runs.push(run);
+        }
+    }
+    let test = CircularTest::new(radius, runs).map_err(|error| {
+        StudyError::value(
+            error.to_string(),
+            "is the nominal radius right, and the unit of the radii?",
+        )
+    })?;
+    Ok(Measured {
+        test,
+        origins,
+        files: files
+            .iter()
+            .map(|path| path.as_ref().display().to_string())
+            .collect(),
+        feed,
+        plane,
+        results,
+        unused,
+        notes,
+    })
+}
+
+/// What all files tell alike, or what is told beside them.
+///
+/// # Errors
+/// Two files, or a file and an option, that differ.
+fn one_of<T: PartialEq + std::fmt::Debug>(
+    files: &[(String, Recorded)],
+    what: &str,
+    beside: Option<T>,
+    of: impl Fn(&Recorded) -> Option<T>,
+) -> Result<Option<T>, StudyError> {
+    let mut found: Option<(T, &str)> = beside.map(|value| (value, "the option"));
+    for (file, recorded) in files {
+        let Some(value) = of(recorded) else {
+            continue;
+        };
+        match &found {
+            Some((before, place)) if *before != value => {
+                let message = format!("{file} has another {what} than {place}");
+                return Err(StudyError::value(
+                    message,
+                    "files of one command are of one circle",
+                ));
+            }
+            Some(_) => {}
+            None => found = Some((value, file)),
+        }
+    }
+    Ok(found.map(|(value, _)| value))
+}
+
+/// A direction by its name on the command line.
+pub fn direction_of(word: &str) -> Option<Direction> {
+    ballbar::direction_of(word)
+}

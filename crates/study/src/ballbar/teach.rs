@@ -1,0 +1,141 @@
+//! Two-step teaching: the circle to teach after a first test, and a second test beside the first.
+//!
+//! | column of the table | unit | meaning |
+//! |---|---|---|
+//! | `angle_deg` | deg | along the circle |
+//! | `radius_mm`, `correction_um` | mm, um | radius to teach, and what it has more than the nominal one |
+//! | `x_mm`, `y_mm` | mm | the point from the centre, along the axes of the plane |
+
+use std::f64::consts::TAU;
+
+use armill_core::measure::ballbar::{Extreme, taught};
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use serde::Serialize;
+
+use super::analyse::Found;
+use super::read::Measured;
+use crate::StudyError;
+
+/// A circle to teach.
+#[derive(Clone, Debug, Serialize)]
+pub struct TaughtAnswer {
+    /// How many points.
+    pub points: usize,
+    /// Lobes up to this number are corrected.
+    pub most_lobes: usize,
+    /// Largest move of a point.
+    pub largest_correction_um: f64,
+    /// Circular deviation of all runs before, about their own centre.
+    pub circular_before_um: Option<f64>,
+    /// And as it is expected with the taught circle.
+    pub circular_expected_um: Option<f64>,
+    /// Radial deviation about the least-squares centre before: least, greatest.
+    pub radial_before_um: [f64; 2],
+    /// And as it is expected.
+    pub radial_expected_um: [f64; 2],
+    /// Half of the largest difference between the directions: no taught circle takes it off. None of one direction.
+    pub stays_um: Option<f64>,
+}
+
+/// A test before the one that is told.
+#[derive(Clone, Debug, Serialize)]
+pub struct BeforeAnswer {
+    /// Its files.
+    pub files: Vec<String>,
+    /// Each quantity, before and after.
+    pub compared: Vec<ComparedQuantity>,
+}
+
+/// A quantity before and after.
+#[derive(Clone, Debug, Serialize)]
+pub struct ComparedQuantity {
+    /// What it is.
+    pub what: &'static str,
+    /// In the first test; none where it does not tell it.
+    pub before_um: Option<f64>,
+    /// In the second.
+    pub after_um: Option<f64>,
+    /// How much is left.
+    pub left_percent: Option<f64>,
+}
+
+/// The circle to teach at `points` even angles with lobes up to `most_lobes`: in numbers, and as a table.
+///
+/// # Errors
+/// Runs that are no full turns.
+pub fn teach(
+    measured: &Measured,
+    (points, most_lobes): (usize, usize),
+) -> Result<(TaughtAnswer, Vec<u8>), StudyError> {
+    let found = taught(&measured.test, most_lobes).ok_or_else(|| {
+        StudyError::value(
+            "no circle can be taught from runs that leave a part of the turn open",
+            "measure full turns",
+        )
+    })?;
+    let um = |extremes: [Extreme; 2]| extremes.map(|extreme| extreme.deviation * 1e6);
+    let corrections: Vec<f64> = (0..points)
+        .map(|k| found.correction(TAU * k as f64 / points as f64))
+        .collect();
+    let told = TaughtAnswer {
+        points,
+        most_lobes,
+        largest_correction_um: corrections.iter().map(|c| c.abs()).fold(0.0, f64::max) * 1e6,
+        circular_before_um: found.before.circular.ok().map(|g| g * 1e6),
+        circular_expected_um: found.expected.circular.ok().map(|g| g * 1e6),
+        radial_before_um: um(found.before.radial),
+        radial_expected_um: um(found.expected.radial),
+        stays_um: found.stays.map(|stays| stays * 1e6),
+    };
+    Ok((told, csv::write(&table(measured.test.radius(), &corrections)?)))
+}
+
+/// A row a point.
+fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
+    let angle = |k: usize| TAU * k as f64 / corrections.len() as f64;
+    let column = |name: &str, unit: &str, (decimals, of): (u8, &dyn Fn(usize) -> f64)| Column {
+        name: name.to_owned(),
+        unit: Some(unit.to_owned()),
+        description: String::new(),
+        decimals: Some(decimals),
+        data: ColumnData::Float((0..corrections.len()).map(of).collect()),
+    };
+    let taught = |k: usize| radius + corrections[k];
+    let columns = vec![
+        column("angle_deg", "deg", (6, &|k| angle(k).to_degrees())),
+        column("radius_mm", "mm", (6, &|k| taught(k) * 1e3)),
+        column("correction_um", "um", (3, &|k| corrections[k] * 1e6)),
+        column("x_mm", "mm", (6, &|k| taught(k) * angle(k).cos() * 1e3)),
+        column("y_mm", "mm", (6, &|k| taught(k) * angle(k).sin() * 1e3)),
+    ];
+    Ok(Table::new("taught", columns)?)
+}
+
+/// The test `first` of `files` beside the test `second`.
+pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnswer {
+    let g = |found: &Found, direction: usize| found.directions[direction].and_then(|of| of.circular.ok());
+    let both = |found: &Found| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
+    let f = |found: &Found, end: usize| Some(found.all.radial[end].deviation);
+    let compared = |what: &'static str, of: &dyn Fn(&Found) -> Option<f64>| {
+        let [before, after] = [first, second].map(|found| of(found).map(|value| value * 1e6));
+        let left = before.zip(after).filter(|(before, _)| *before != 0.0);
+        ComparedQuantity {
+            what,
+            before_um: before,
+            after_um: after,
+            left_percent: left.map(|(before, after)| 100.0 * (after / before).abs()),
+        }
+    };
+    BeforeAnswer {
+        files: files.to_vec(),
+        compared: vec![
+            compared("G CW", &|found| g(found, 0)),
+            compared("G CCW", &|found| g(found, 1)),
+            compared("G(b)", &both),
+            compared("F max", &|found| f(found, 1)),
+            compared("F min", &|found| f(found, 0)),
+            compared("D", &|found| found.mean_bidirectional),
+            compared("H", &|found| found.hysteresis),
+        ],
+    }
+}

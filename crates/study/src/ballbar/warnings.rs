@@ -1,0 +1,68 @@
+//! What a user must know before the numbers of a circular test are used.
+
+use armill_core::measure::ballbar::Direction;
+
+use super::analyse::{Centring, Found, Question};
+use super::answer::BallbarAnswer;
+use super::read::Measured;
+
+/// Each a sentence: what is missing, what was doubted, what cannot be told apart.
+pub(super) fn warnings(
+    measured: &Measured,
+    question: &Question,
+    (found, told): (&Found, &BallbarAnswer),
+) -> Vec<String> {
+    let mut warnings = measured.notes.clone();
+    for direction in Direction::BOTH {
+        match found.test.of(direction).count() {
+            0 => warnings.push(format!(
+                "no {} run: G(b), D and H are not told, and steps not parted from what is the same both ways",
+                direction.name()
+            )),
+            1 => warnings.push(format!(
+                "one {} run alone: nothing tells how well it repeats",
+                direction.name()
+            )),
+            _ => {}
+        }
+    }
+    for run in told.runs.iter().filter(|run| !run.gaps_deg.is_empty()) {
+        let gaps = run
+            .gaps_deg
+            .iter()
+            .map(|[from, to]| format!("{from:.1} to {to:.1} deg"));
+        warnings.push(format!(
+            "{} has no samples from {}: its G and F are those of the arc, D and lobes are not told",
+            run.name,
+            gaps.collect::<Vec<_>>().join(" and from ")
+        ));
+    }
+    if question.centring == Centring::LeastSquares && !found.is_centred {
+        warnings.push(
+            "no arc is long enough for a least-squares centre: radii are counted from the set-up".to_owned(),
+        );
+    }
+    let dirt = told
+        .outliers
+        .iter()
+        .filter(|outlier| !outlier.at_reversal)
+        .count();
+    if dirt > 0 {
+        warnings.push(match question.without_outliers {
+            true => format!("{dirt} outliers were left out"),
+            false => format!("{dirt} samples are off their neighbours and count: dirt? --leave-out-outliers leaves them out"),
+        });
+    }
+    if told.runs.iter().any(|run| run.shown.circular_um.is_none()) {
+        warnings
+            .push("no ring is the narrowest about some runs: their arc is too short for its form".to_owned());
+    }
+    match &told.parts {
+        None => warnings.push("too few samples for the parts of the deviation".to_owned()),
+        Some(parts) => warnings.extend(parts.not_told_apart.iter().map(|set| match &set[..] {
+            [one] => format!("nothing is known of the {one}: no samples beside it"),
+            set => format!("not told apart: {}; the first holds the sum", set.join(", ")),
+        })),
+    }
+    warnings
+}
