@@ -319,6 +319,16 @@ fn warnings(
         }
     }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
+    let beside_paths = study
+        .asks
+        .iter()
+        .any(|ask| !matches!(ask.subject, Subject::Path(_)));
+    if beside_paths && study.settings().any(|setting| setting.model.moves_unloaded()) {
+        warnings.push(
+            "Backlash and the measured arm move the tool along paths alone: maps, sections, volumes and holes leave them out."
+                .to_owned(),
+        );
+    }
     warnings.extend(study.robot.note.clone());
     warnings
 }

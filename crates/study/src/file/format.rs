@@ -27,6 +27,9 @@ pub struct StudyFile {
     pub question: Option<String>,
     /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
+    /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise. It moves the
+    /// tool along paths.
+    pub actual_robot: Option<String>,
     /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,
     /// Joint compliances in place of the robot file's, or where it has none.
