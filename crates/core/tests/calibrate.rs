@@ -13,7 +13,10 @@ use armill_core::robot::{Amount, Axis, Motion, Robot};
 
 fn flange(robot: &Robot, joints: &[f64]) -> Isometry {
     let flange = forward(robot, joints).base_from_flange;
-    Isometry::from_parts(flange.translation, UnitQuaternion::from_rotation_matrix(&flange.rotation))
+    Isometry::from_parts(
+        flange.translation,
+        UnitQuaternion::from_rotation_matrix(&flange.rotation),
+    )
 }
 
 fn frames() -> [Isometry; 2] {
@@ -66,13 +69,23 @@ fn question(asked: Asked) -> Question {
 }
 
 fn largest(found: &Calibrated, robot: &Robot, poses: &[MeasuredPose]) -> f64 {
-    found.errors_of(robot, poses).unwrap().of_position().unwrap().largest
+    found
+        .errors_of(robot, poses)
+        .unwrap()
+        .of_position()
+        .unwrap()
+        .largest
 }
 
 #[test]
 fn a_bent_arm_is_predicted_where_it_was_not_measured_to_rounding() {
     let mut stream = arms::Stream(5);
-    for robot in [arms::mh12(), arms::other::ur10(), arms::other::on_rail(&arms::mh12()), arms::other::iiwa14()] {
+    for robot in [
+        arms::mh12(),
+        arms::other::ur10(),
+        arms::other::on_rail(&arms::mh12()),
+        arms::other::iiwa14(),
+    ] {
         for turns in [false, true] {
             let real = bent(&robot, &mut stream);
             let [train, held_out] = [60, 40].map(|count| measured(&real, count, turns, &mut stream));
@@ -82,7 +95,11 @@ fn a_bent_arm_is_predicted_where_it_was_not_measured_to_rounding() {
             assert!(largest(&plain, &robot, &held_out) > 1e-3, "{}", robot.name());
             let after = largest(&found, &robot, &held_out);
             assert!(after < 6e-6, "{} {turns}: {after}", robot.name());
-            let angle = found.errors_of(&robot, &held_out).unwrap().of_turn().map_or(0.0, |turn| turn.largest);
+            let angle = found
+                .errors_of(&robot, &held_out)
+                .unwrap()
+                .of_turn()
+                .map_or(0.0, |turn| turn.largest);
             assert!(angle < 6e-6, "{}: {angle}", robot.name());
         }
     }
@@ -120,10 +137,22 @@ fn six_turning_joints_have_four_errors_each_and_base_and_tool_whatever_the_arm()
 fn the_zero_of_the_first_joint_is_the_turn_of_the_base() {
     let mut stream = arms::Stream(8);
     let robot = arms::mh12();
-    let found = fit(&robot, &measured(&robot, 40, true, &mut stream), &question(Asked::Zeros)).unwrap();
+    let found = fit(
+        &robot,
+        &measured(&robot, 40, true, &mut stream),
+        &question(Asked::Zeros),
+    )
+    .unwrap();
     let first = &found.redundant[0];
     assert_eq!(found.unknowns[first.unknown].place, Place::After(0));
-    assert_eq!(first.same_as.iter().map(|k| found.unknowns[*k].place).collect::<Vec<_>>(), [Place::Base]);
+    assert_eq!(
+        first
+            .same_as
+            .iter()
+            .map(|k| found.unknowns[*k].place)
+            .collect::<Vec<_>>(),
+        [Place::Base]
+    );
     assert_eq!(found.redundant.len(), 1);
 }
 
@@ -142,13 +171,15 @@ fn wrong_zeros_are_found_within_their_uncertainties() {
         let mut poses = measured(&real, 30, false, &mut stream);
         for pose in &mut poses {
             // Sum of twelve uniform numbers: nearly normal, standard deviation 1.
-            pose.position += Vector3::from_fn(|_, _| 5e-5 * (0..12).map(|_| stream.between(-0.5, 0.5)).sum::<f64>());
+            pose.position +=
+                Vector3::from_fn(|_, _| 5e-5 * (0..12).map(|_| stream.between(-0.5, 0.5)).sum::<f64>());
         }
         let found = fit(&robot, &poses, &question(Asked::Zeros)).unwrap();
         for estimate in &found.estimates {
             if let Place::After(joint) = estimate.unknown.place {
                 all += 1;
-                inside += usize::from((estimate.value - wrong[joint]).abs() < 1.96 * estimate.standard_uncertainty);
+                inside +=
+                    usize::from((estimate.value - wrong[joint]).abs() < 1.96 * estimate.standard_uncertainty);
             }
         }
     }
@@ -167,10 +198,13 @@ fn turning_and_shifting_the_tracker_changes_nothing_but_the_frame() {
         .iter()
         .map(|pose| MeasuredPose {
             joints: pose.joints.clone(),
-            position: (moved_from_tracker * Isometry::translation(pose.position.x, pose.position.y, pose.position.z))
-                .translation
-                .vector,
-            rotation: pose.rotation.map(|rotation| moved_from_tracker.rotation * rotation),
+            position: (moved_from_tracker
+                * Isometry::translation(pose.position.x, pose.position.y, pose.position.z))
+            .translation
+            .vector,
+            rotation: pose
+                .rotation
+                .map(|rotation| moved_from_tracker.rotation * rotation),
         })
         .collect();
     let [here, there] = [&train, &moved].map(|poses| fit(&robot, poses, &question(Asked::Geometry)).unwrap());
@@ -187,17 +221,32 @@ fn what_cannot_be_a_measurement_is_refused() {
     let mut stream = arms::Stream(10);
     let poses = measured(&robot, 12, true, &mut stream);
     let asked = question(Asked::Geometry);
-    assert!(matches!(fit(&robot, &poses[..3], &asked), Err(Refusal::TooFew { poses: 3, .. })));
+    assert!(matches!(
+        fit(&robot, &poses[..3], &asked),
+        Err(Refusal::TooFew { poses: 3, .. })
+    ));
     let mut wrong = poses.clone();
     wrong[4].position.x = f64::NAN;
-    assert!(matches!(fit(&robot, &wrong, &asked), Err(Refusal::Pose { index: 4, .. })));
+    assert!(matches!(
+        fit(&robot, &wrong, &asked),
+        Err(Refusal::Pose { index: 4, .. })
+    ));
     wrong = poses.clone();
     wrong[2].joints.pop();
-    assert!(matches!(fit(&robot, &wrong, &asked), Err(Refusal::Pose { index: 2, .. })));
+    assert!(matches!(
+        fit(&robot, &wrong, &asked),
+        Err(Refusal::Pose { index: 2, .. })
+    ));
     wrong = poses.clone();
     wrong[7].rotation = None;
-    assert_eq!(fit(&robot, &wrong, &asked), Err(Refusal::TurnsMissing { with: 11, poses: 12 }));
-    let no_length = Question { turn_length: 0.0, ..asked };
+    assert_eq!(
+        fit(&robot, &wrong, &asked),
+        Err(Refusal::TurnsMissing { with: 11, poses: 12 })
+    );
+    let no_length = Question {
+        turn_length: 0.0,
+        ..asked
+    };
     assert_eq!(fit(&robot, &poses, &no_length), Err(Refusal::TurnLength(0.0)));
 }
 

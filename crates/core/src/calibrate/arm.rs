@@ -13,8 +13,8 @@ use nalgebra::{DMatrix, Matrix3, UnitQuaternion, Vector3};
 use super::pose::MeasuredPose;
 use super::unknown::{Place, Unknown};
 use crate::frame::{Isometry, turn_between};
-use crate::robot::chain::{Amount, Motion};
 use crate::robot::Robot;
+use crate::robot::chain::{Amount, Motion};
 
 /// What was found so far.
 #[derive(Clone, Debug)]
@@ -96,9 +96,8 @@ impl<'a> Arm<'a> {
     /// Measured less predicted: position (m), and turn (rad) where that was measured, in the axes of the tracker.
     pub fn residual(&self, pose: &MeasuredPose) -> (Vector3<f64>, Option<Vector3<f64>>) {
         let (position, axes) = self.predicted(&pose.joints);
-        let turn = |rotation: UnitQuaternion<f64>| {
-            turn_between(&axes, &rotation.to_rotation_matrix().into_inner())
-        };
+        let turn =
+            |rotation: UnitQuaternion<f64>| turn_between(&axes, &rotation.to_rotation_matrix().into_inner());
         (pose.position - position, pose.rotation.map(turn))
     }
 
@@ -111,7 +110,8 @@ impl<'a> Arm<'a> {
         let mut put = |column: usize, linear: Vector3<f64>, angular: Vector3<f64>| {
             rows.fixed_view_mut::<3, 1>(0, column).copy_from(&linear);
             if height == 6 {
-                rows.fixed_view_mut::<3, 1>(3, column).copy_from(&(angular * length));
+                rows.fixed_view_mut::<3, 1>(3, column)
+                    .copy_from(&(angular * length));
             }
         };
         let base_axes = self.tracker_from_base.rotation.to_rotation_matrix().into_inner();
@@ -131,7 +131,11 @@ impl<'a> Arm<'a> {
                 },
             };
             match step.turns {
-                true => put(column, step.axis.cross(&(reached.position - step.origin)), step.axis),
+                true => put(
+                    column,
+                    step.axis.cross(&(reached.position - step.origin)),
+                    step.axis,
+                ),
                 false => put(column, step.axis, Vector3::zeros()),
             }
         }
@@ -199,7 +203,11 @@ mod tests {
                 };
                 let slope = (side(-1.0) - side(1.0)) / (2.0 * step);
                 // Rounding of metres over the step, and its square.
-                assert!((slope - rows.columns(column, 1)).norm() < 1e-9, "{:?}", asked[column]);
+                assert!(
+                    (slope - rows.columns(column, 1)).norm() < 1e-9,
+                    "{:?}",
+                    asked[column]
+                );
             }
         }
     }

@@ -255,7 +255,11 @@ fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isome
         })
         .collect();
     let count = poses.len() as f64;
-    let here = base_from_point.iter().map(|frame| frame.translation.vector).sum::<Vector3<f64>>() / count;
+    let here = base_from_point
+        .iter()
+        .map(|frame| frame.translation.vector)
+        .sum::<Vector3<f64>>()
+        / count;
     let there = poses.iter().map(|pose| pose.position).sum::<Vector3<f64>>() / count;
     let mut spread = Matrix3::zeros();
     for (frame, pose) in base_from_point.iter().zip(poses) {

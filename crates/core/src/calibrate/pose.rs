@@ -19,6 +19,11 @@ impl MeasuredPose {
         let turned = self
             .rotation
             .is_none_or(|rotation| rotation.coords.iter().all(|part| part.is_finite()));
-        turned && self.position.iter().chain(&self.joints).all(|number| number.is_finite())
+        turned
+            && self
+                .position
+                .iter()
+                .chain(&self.joints)
+                .all(|number| number.is_finite())
     }
 }

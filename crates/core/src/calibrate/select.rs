@@ -84,7 +84,10 @@ mod tests {
         ]);
         let (kept, left_out) = select(&j);
         assert_eq!(kept, [0, 2, 4]);
-        let named: Vec<_> = left_out.into_iter().map(|one| (one.unknown, one.same_as)).collect();
+        let named: Vec<_> = left_out
+            .into_iter()
+            .map(|one| (one.unknown, one.same_as))
+            .collect();
         assert_eq!(named, [(1, vec![]), (3, vec![2, 0])]);
     }
 }

@@ -46,7 +46,9 @@ impl Triangle {
         let width = self.held.ncols();
         let mut whole = DMatrix::zeros(width + self.filled, width);
         whole.rows_mut(0, width).copy_from(&self.held);
-        whole.rows_mut(width, self.filled).copy_from(&self.block.rows(0, self.filled));
+        whole
+            .rows_mut(width, self.filled)
+            .copy_from(&self.block.rows(0, self.filled));
         self.held = whole.qr().r();
         self.filled = 0;
     }
@@ -64,7 +66,11 @@ impl Triangle {
 
 /// The least-squares solution of `J x = r` held back by `damping` (0: not at all), and the inverse of `J'J`; columns are
 /// brought to length one first. `None` where the columns are not independent.
-pub(super) fn solve(j: &DMatrix<f64>, r: &DVector<f64>, damping: f64) -> Option<(DVector<f64>, DMatrix<f64>)> {
+pub(super) fn solve(
+    j: &DMatrix<f64>,
+    r: &DVector<f64>,
+    damping: f64,
+) -> Option<(DVector<f64>, DMatrix<f64>)> {
     let count = j.ncols();
     let scale = DVector::from_fn(count, |k, _| j.column(k).norm());
     if scale.iter().any(|length| *length == 0.0) {
@@ -74,7 +80,9 @@ pub(super) fn solve(j: &DMatrix<f64>, r: &DVector<f64>, damping: f64) -> Option<
     let mut right = DVector::zeros(j.nrows() + count);
     right.rows_mut(0, j.nrows()).copy_from(r);
     for k in 0..count {
-        whole.view_mut((0, k), (j.nrows(), 1)).copy_from(&(j.column(k) / scale[k]));
+        whole
+            .view_mut((0, k), (j.nrows(), 1))
+            .copy_from(&(j.column(k) / scale[k]));
         whole[(j.nrows() + k, k)] = damping.sqrt();
     }
     let qr = whole.qr();
@@ -107,7 +115,11 @@ mod tests {
         let (x, inverse) = solve(&r, &z, 0.0).unwrap();
         let j = rows.columns(0, 3).into_owned();
         let normal = j.transpose() * &j;
-        let direct = normal.clone().cholesky().unwrap().solve(&(j.transpose() * rows.column(3)));
+        let direct = normal
+            .clone()
+            .cholesky()
+            .unwrap()
+            .solve(&(j.transpose() * rows.column(3)));
         assert!((x - direct).norm() < 1e-13);
         assert!((normal * inverse - DMatrix::identity(3, 3)).norm() < 1e-12);
     }
@@ -119,6 +131,9 @@ mod tests {
         let j = DMatrix::from_row_slice(3, 1, &[1.0, 0.0, 1.0]);
         let r = DVector::from_vec(vec![1.0, 0.0, 1.0]);
         let [free, held] = [0.0, 1.0].map(|damping| solve(&j, &r, damping).unwrap().0[0]);
-        assert!((free - 1.0).abs() < 1e-15 && (held - 0.5).abs() < 1e-15, "{free} {held}");
+        assert!(
+            (free - 1.0).abs() < 1e-15 && (held - 0.5).abs() < 1e-15,
+            "{free} {held}"
+        );
     }
 }

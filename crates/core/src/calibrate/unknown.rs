@@ -105,6 +105,9 @@ mod tests {
         assert_eq!(unknowns(&robot, Asked::Zeros, true).len(), 17);
         assert_eq!(unknowns(&robot, Asked::Geometry, false).len(), 39);
         let zeros = unknowns(&robot, Asked::Geometry, false);
-        assert_eq!(zeros.iter().filter(|unknown| unknown.is_zero_of(&robot)).count(), 5);
+        assert_eq!(
+            zeros.iter().filter(|unknown| unknown.is_zero_of(&robot)).count(),
+            5
+        );
     }
 }

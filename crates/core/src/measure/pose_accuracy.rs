@@ -60,7 +60,10 @@ pub fn pose_accuracy(commanded: &Attained, cycles: &[Attained]) -> Option<PoseAc
     }
     let count = cycles.len() as f64;
     let barycentre = cycles.iter().map(|cycle| cycle.position).sum::<Vector3<f64>>() / count;
-    let distances: Vec<f64> = cycles.iter().map(|cycle| (cycle.position - barycentre).norm()).collect();
+    let distances: Vec<f64> = cycles
+        .iter()
+        .map(|cycle| (cycle.position - barycentre).norm())
+        .collect();
     let mean = distances.iter().sum::<f64>() / count;
     let scatter = |of: &dyn Fn(usize) -> f64| {
         let squares: f64 = (0..cycles.len()).map(|j| of(j) * of(j)).sum();
@@ -70,7 +73,10 @@ pub fn pose_accuracy(commanded: &Attained, cycles: &[Attained]) -> Option<PoseAc
     let turns: Option<Vec<UnitQuaternion<f64>>> = cycles.iter().map(|cycle| cycle.turn).collect();
     let turned = turns.zip(commanded.turn).map(|(turns, commanded)| {
         let mean = mean_turn(&turns);
-        let from_mean: Vec<Vector3<f64>> = turns.iter().map(|turn| (turn * mean.inverse()).scaled_axis()).collect();
+        let from_mean: Vec<Vector3<f64>> = turns
+            .iter()
+            .map(|turn| (turn * mean.inverse()).scaled_axis())
+            .collect();
         ((mean * commanded.inverse()).scaled_axis(), from_mean)
     });
     Some(PoseAccuracy {
@@ -96,7 +102,10 @@ fn mean_turn(turns: &[UnitQuaternion<f64>]) -> UnitQuaternion<f64> {
     let mut mean = turns[0];
     // Each round leaves the cube of the spread.
     for _ in 0..4 {
-        let sum: Vector3<f64> = turns.iter().map(|turn| (turn * mean.inverse()).scaled_axis()).sum();
+        let sum: Vector3<f64> = turns
+            .iter()
+            .map(|turn| (turn * mean.inverse()).scaled_axis())
+            .sum();
         mean = UnitQuaternion::from_scaled_axis(sum / turns.len() as f64) * mean;
     }
     mean
