@@ -2,7 +2,8 @@
 //!
 //! Base and measured point are fitted, the chain is taken as the robot file says; the commanded place of a pose is what
 //! the chain makes of the joint positions of its cycles. Rows are cycles of one pose if their `pose` cells are the same,
-//! or else, without such a column, if their commanded poses (or joint positions) are the same to the last digit.
+//! or else, without such a column, if the arm stood in the same posture, and commanded poses, where they are told, are the
+//! same to the last digit.
 
 use std::collections::BTreeMap;
 
@@ -104,7 +105,9 @@ pub fn answer(
     let found = fit(robot, &measured.poses, &question.for_core(Asked::BaseAndTool))
         .map_err(|error| refused(shown, &error))?;
     let groups = groups(measured);
-    let visits: Vec<[Attained; 2]> = (0..measured.poses.len()).map(|k| visit(measured, &found, k)).collect();
+    let visits: Vec<[Attained; 2]> = (0..measured.poses.len())
+        .map(|k| visit(measured, &found, k))
+        .collect();
     let by_pose: Vec<PoseAnswer> = groups
         .iter()
         .filter(|places| places.len() > 1)
@@ -112,13 +115,17 @@ pub fn answer(
         .collect();
     let repeated = repeated(&by_pose);
     let mut notes = vec![
-        "base and measured point are fitted to these poses; what they can take up is no error here".to_owned(),
+        "base and measured point are fitted to these poses; what they can take up is no error here"
+            .to_owned(),
         "a pose is commanded where the robot file puts its joint positions".to_owned(),
     ];
     match &repeated {
         None => notes.push("no pose was reached twice: repeatability is not known".to_owned()),
         Some(all) if all.fewest_cycles < CYCLES => {
-            notes.push(format!("ISO 9283 asks for {CYCLES} cycles a pose; fewest here: {}", all.fewest_cycles));
+            notes.push(format!(
+                "ISO 9283 asks for {CYCLES} cycles a pose; fewest here: {}",
+                all.fewest_cycles
+            ));
         }
         Some(_) => {}
     }
@@ -136,25 +143,46 @@ pub fn answer(
         unused: measured.unused.clone(),
         not_measured: measured.not_measured,
         notes,
-        sources: vec!["ISO 9283:1998, definitions from memory: compare with the standard before claiming conformity"],
+        sources: vec![
+            "ISO 9283:1998, definitions from memory: compare with the standard before claiming conformity",
+        ],
     })
 }
 
+/// Joint positions nearer to each other than this (rad, m) are of one posture.
+const SAME_POSTURE: f64 = 1e-2;
+
 /// Visits of the same pose, in the order of their first one.
 fn groups(measured: &Measured) -> Vec<Vec<usize>> {
-    let bits = |numbers: &[f64]| numbers.iter().map(|number| number.to_bits()).collect::<Vec<u64>>();
+    let bits = |numbers: &[f64]| {
+        numbers
+            .iter()
+            .map(|number| number.to_bits())
+            .collect::<Vec<u64>>()
+    };
+    let joints = |place: usize| measured.poses[place].joints.as_slice();
     let key = |place: usize| match (&measured.names, &measured.commanded) {
         (Some(names), _) => (names[place].clone(), Vec::new()),
         (None, Some(commanded)) => (String::new(), bits(&commanded[place])),
-        (None, None) => (String::new(), bits(&measured.poses[place].joints)),
+        (None, None) => (String::new(), bits(joints(place))),
     };
-    let mut by_key = BTreeMap::new();
+    let is_one_posture = |a: usize, b: usize| {
+        let mut both = joints(a).iter().zip(joints(b));
+        measured.names.is_some() || both.all(|(a, b)| (a - b).abs() < SAME_POSTURE)
+    };
+    let mut by_key: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for place in 0..measured.poses.len() {
-        let group = *by_key.entry(key(place)).or_insert(groups.len());
-        match groups.get_mut(group) {
-            Some(places) => places.push(place),
-            None => groups.push(vec![place]),
+        let alike = by_key.entry(key(place)).or_default();
+        match alike
+            .iter()
+            .find(|group| is_one_posture(groups[**group][0], place))
+        {
+            Some(group) => groups[*group].push(place),
+            None => {
+                alike.push(groups.len());
+                groups.push(vec![place]);
+            }
         }
     }
     groups
@@ -210,7 +238,10 @@ fn variation(measured: &Measured, visits: &[[Attained; 2]], places: &[usize]) ->
     let directions = measured.directions.as_ref()?;
     let mut by_direction: BTreeMap<&str, Vec<Attained>> = BTreeMap::new();
     for place in places {
-        by_direction.entry(&directions[*place]).or_default().push(visits[*place][1]);
+        by_direction
+            .entry(&directions[*place])
+            .or_default()
+            .push(visits[*place][1]);
     }
     let centres: Vec<Vector3<f64>> = by_direction
         .values()

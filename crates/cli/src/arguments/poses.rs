@@ -11,9 +11,9 @@ pub(crate) struct PosesOptions {
     /// Use the measured turns too (rx, ry, rz)
     #[arg(long)]
     pub turns: bool,
-    /// Axes that measured turns go about, x first
-    #[arg(long, value_enum, default_value_t = TurnArgument::FixedXyz)]
-    pub turn_order: TurnArgument,
+    /// Axes that measured turns go about, x first (fixed ones if left out)
+    #[arg(long, value_enum)]
+    pub turn_order: Option<TurnArgument>,
     /// A radian counts as much as so many millimetres (with --turns)
     #[arg(long, value_name = "L", default_value_t = 250.0)]
     pub turn_mm: f64,

@@ -14,7 +14,9 @@
 use armill_core::calibrate::Asked;
 use armill_formats::file::write_atomically;
 use armill_study::calibrate::answer::ParameterAnswer;
-use armill_study::calibrate::{CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, read, residuals, robot_file};
+use armill_study::calibrate::{
+    CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, read, residuals, robot_file,
+};
 use armill_study::{StudyError, robots};
 
 use super::poses::{errors_head, errors_text, frames_text, question};
@@ -96,7 +98,10 @@ fn as_text(answer: &CalibrateAnswer) -> String {
         lines.push(errors_text("after", &set.after));
         let standing_out = set.worst.iter().filter(|pose| pose.stands_out);
         lines.extend(standing_out.map(|pose| {
-            format!("stands out             line {} of {}: {:.3} mm", pose.line, set.file, pose.error_mm)
+            format!(
+                "stands out             line {} of {}: {:.3} mm",
+                pose.line, set.file, pose.error_mm
+            )
         }));
     };
     set("found from", training);
@@ -104,13 +109,26 @@ fn as_text(answer: &CalibrateAnswer) -> String {
         set("held out", held_out);
     }
     lines.push(String::new());
-    lines.push(format!("{:<16} {:>10}    standard uncertainty", "after joint", "value"));
+    lines.push(format!(
+        "{:<16} {:>10}    standard uncertainty",
+        "after joint", "value"
+    ));
     lines.extend(answer.parameters.iter().map(parameter_text));
     lines.push(String::new());
-    lines.extend(answer.not_identifiable.iter().map(|redundant| match &redundant.same_as[..] {
-        [] => format!("not seen        {}: no pose shows it", redundant.name),
-        same => format!("not told apart  {}: {} do the same", redundant.name, same.join(", ")),
-    }));
+    lines.extend(
+        answer
+            .not_identifiable
+            .iter()
+            .map(|redundant| match &redundant.same_as[..] {
+                [] => format!("not seen        {}: no pose shows it", redundant.name),
+                [one] => format!("not told apart  {}: {one} does the same", redundant.name),
+                same => format!(
+                    "not told apart  {}: {} together do the same",
+                    redundant.name,
+                    same.join(", ")
+                ),
+            }),
+    );
     lines.push(String::new());
     lines.extend(frames_text(&answer.tracker_from_base, &answer.flange_from_point));
     lines.push(String::new());

@@ -55,19 +55,28 @@ fn as_text(answer: &PoseAccuracyAnswer) -> String {
     if let Some(all) = &answer.repeated {
         lines.push(String::new());
         lines.push(format!("{} poses reached more than once", all.poses));
-        lines.push(format!("AP   mean {:.3} mm, worst {:.3} mm", all.ap_mean_mm, all.ap_max_mm));
-        lines.push(format!("RP   mean {:.3} mm, worst {:.3} mm", all.rp_mean_mm, all.rp_max_mm));
+        lines.push(format!(
+            "AP   mean {:.3} mm, worst {:.3} mm",
+            all.ap_mean_mm, all.ap_max_mm
+        ));
+        lines.push(format!(
+            "RP   mean {:.3} mm, worst {:.3} mm",
+            all.rp_mean_mm, all.rp_max_mm
+        ));
         lines.extend(all.vap_max_mm.map(|vap| format!("vAP  worst {vap:.3} mm")));
         lines.push(String::new());
-        lines.push(format!("{:<16} {:>6} {:>8} {:>8}   worst AP first", "pose", "cycles", "AP mm", "RP mm"));
+        lines.push(format!(
+            "{:<16} {:>6} {:>8} {:>8}   worst AP first",
+            "pose", "cycles", "AP mm", "RP mm"
+        ));
         let mut worst: Vec<_> = answer.by_pose.iter().collect();
         worst.sort_by(|a, b| b.ap_mm.total_cmp(&a.ap_mm));
-        lines.extend(
-            worst
-                .iter()
-                .take(MOST_TOLD)
-                .map(|pose| format!("{:<16} {:>6} {:>8.3} {:>8.3}", pose.name, pose.cycles, pose.ap_mm, pose.rp_mm)),
-        );
+        lines.extend(worst.iter().take(MOST_TOLD).map(|pose| {
+            format!(
+                "{:<16} {:>6} {:>8.3} {:>8.3}",
+                pose.name, pose.cycles, pose.ap_mm, pose.rp_mm
+            )
+        }));
         if worst.len() > MOST_TOLD {
             lines.push(format!("and {} more (--json)", worst.len() - MOST_TOLD));
         }

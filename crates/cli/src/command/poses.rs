@@ -27,10 +27,10 @@ pub(super) fn question(options: &PosesOptions, asked: Asked) -> Result<(Question
     };
     let told = Told {
         columns: options.columns.clone(),
-        turns: match options.turn_order {
+        turns: options.turn_order.map(|order| match order {
             TurnArgument::FixedXyz => TurnOrder::FixedXyz,
             TurnArgument::MovingXyz => TurnOrder::MovingXyz,
-        },
+        }),
     };
     Ok((question, told))
 }
@@ -50,14 +50,21 @@ pub(super) fn errors_text(name: &str, errors: &ErrorsAnswer) -> String {
 
 /// The heads of such lines.
 pub(super) fn errors_head(name: &str) -> String {
-    format!("{name:<22} {:>8} {:>8} {:>8}   rms of x, y, z", "mean mm", "rms mm", "max mm")
+    format!(
+        "{name:<22} {:>8} {:>8} {:>8}   rms of x, y, z",
+        "mean mm", "rms mm", "max mm"
+    )
 }
 
 /// Where base and measured point were found.
 pub(super) fn frames_text(base: &FrameAnswer, point: &FrameAnswer) -> [String; 2] {
     let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
     [
-        format!("base   at {} mm in the tracker, turned {} deg", three(base.at_mm), three(base.turned_deg)),
+        format!(
+            "base   at {} mm in the tracker, turned {} deg",
+            three(base.at_mm),
+            three(base.turned_deg)
+        ),
         format!("point  at {} mm on the flange", three(point.at_mm)),
     ]
 }

@@ -10,8 +10,8 @@
 mod advise;
 mod assumed;
 mod ballbar;
-mod cell;
 mod calibrate;
+mod cell;
 mod compare;
 mod compensate;
 mod documents;

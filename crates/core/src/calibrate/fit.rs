@@ -308,7 +308,7 @@ fn settle<'a>(
     length: f64,
 ) -> Result<(Arm<'a>, Vec<Unknown>, Vec<Redundant>), Refusal> {
     let (r, _) = triangle(&arm, unknowns, poses, length).whole();
-    let (kept, redundant) = select(&r);
+    let (kept, redundant) = select(&r, unknowns);
     let kept: Vec<Unknown> = kept.into_iter().map(|k| unknowns[k]).collect();
     let mut least = cost(&arm, poses, length);
     let mut damping = DAMPING[0];

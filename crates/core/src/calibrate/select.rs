@@ -1,14 +1,19 @@
 //! Which unknowns can these poses tell apart?
 //!
-//! Unknowns are taken in order, and one is kept if a part of its column of at least [`OWN`] of its length stands across all
-//! columns kept before it (Gram and Schmidt, twice). What is left out does within the poses what others do together: it
+//! Unknowns are taken in order, and one is kept if a part of its column of at least so much of its length stands across all
+//! columns kept before it (Gram and Schmidt, twice): a thousandth of what the chain has, a millionth of base and point,
+//! which nothing but rounding makes equal. What is left out does within the poses what others do together: it
 //! stays at its nominal value, and the others take its part.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Least part of an unknown's effect that no other has. Real poses of arms leave either much less (axes that are parallel
+use super::unknown::{Place, Unknown};
+
+/// Least part of the effect of a motion inside the chain that no other has. Real poses of arms leave either much less (axes that are parallel
 /// by design) or much more; nearly redundant ones would get large values of opposite signs.
 const OWN: f64 = 1e-3;
+/// Likewise of base and point. A body that hardly turns leaves them uncertain, which their uncertainties tell.
+const OWN_OF_FRAMES: f64 = 1e-6;
 /// Parts of a redundant unknown that are named, of its effect.
 const NAMED: f64 = 0.05;
 
@@ -22,7 +27,7 @@ pub struct Redundant {
 }
 
 /// Those that are kept, and those that are not, from any matrix with the columns' lengths and angles.
-pub(super) fn select(j: &DMatrix<f64>) -> (Vec<usize>, Vec<Redundant>) {
+pub(super) fn select(j: &DMatrix<f64>, unknowns: &[Unknown]) -> (Vec<usize>, Vec<Redundant>) {
     let lengths: Vec<f64> = j.column_iter().map(|column| column.norm()).collect();
     let largest = lengths.iter().copied().fold(0.0, f64::max);
     let (mut kept, mut left_out) = (Vec::new(), Vec::new());
@@ -42,7 +47,11 @@ pub(super) fn select(j: &DMatrix<f64>) -> (Vec<usize>, Vec<Redundant>) {
             }
         }
         let part = own.norm();
-        if part >= OWN {
+        let least = match unknowns[unknown].place {
+            Place::After(_) => OWN,
+            Place::Base | Place::Tool => OWN_OF_FRAMES,
+        };
+        if part >= least {
             basis.push(own / part);
             kept.push(unknown);
         } else {
@@ -82,12 +91,21 @@ mod tests {
             DVector::from_vec(vec![1.0, 6.0, 1e-5, 0.0]),
             DVector::from_vec(vec![1.0, 1.0, 0.1, 0.0]),
         ]);
-        let (kept, left_out) = select(&j);
+        let inside = Unknown {
+            place: Place::After(0),
+            component: 0,
+        };
+        let (kept, left_out) = select(&j, &[inside; 5]);
         assert_eq!(kept, [0, 2, 4]);
         let named: Vec<_> = left_out
             .into_iter()
             .map(|one| (one.unknown, one.same_as))
             .collect();
         assert_eq!(named, [(1, vec![]), (3, vec![2, 0])]);
+        let frame = Unknown {
+            place: Place::Base,
+            component: 0,
+        };
+        assert_eq!(select(&j, &[frame; 5]).0, [0, 2, 3]);
     }
 }

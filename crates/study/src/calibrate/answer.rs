@@ -52,6 +52,8 @@ pub struct SetAnswer {
     pub poses: usize,
     /// Whether base and tool were found anew for them.
     pub frames_found_anew: bool,
+    /// Poses with a joint beyond the range of the poses that the geometry was found from.
+    pub beyond_found_range: usize,
     /// By the robot file as it is.
     pub before: ErrorsAnswer,
     /// By the calibrated chain.
@@ -139,7 +141,11 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         .collect();
     let redundant = after.redundant.iter().map(|redundant| RedundantAnswer {
         name: name(&after.unknowns[redundant.unknown]),
-        same_as: redundant.same_as.iter().map(|k| name(&after.unknowns[*k])).collect(),
+        same_as: redundant
+            .same_as
+            .iter()
+            .map(|k| name(&after.unknowns[*k]))
+            .collect(),
     });
     let frame = |place, isometry| frame_answer(&after.estimates, place, isometry);
     let notes = notes(calibration, question);
@@ -179,6 +185,14 @@ fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
         ),
         Some(_) => {}
     }
+    if let Some(set) = calibration.held_out.as_ref().filter(|set| set.beyond > 0) {
+        notes.push(format!(
+            "{} of the {} poses held out have a joint beyond the range of those that the geometry was found from: there \
+             it is a guess",
+            set.beyond,
+            set.lines.len()
+        ));
+    }
     notes
 }
 
@@ -197,6 +211,7 @@ fn set_answer(set: &Set) -> SetAnswer {
         file: set.file.clone(),
         poses: lengths.len(),
         frames_found_anew: set.frames_found_anew,
+        beyond_found_range: set.beyond,
         before: errors_answer(&set.before),
         after: errors_answer(&set.after),
         worst: order.iter().take(WORST).map(pose).collect(),

@@ -24,6 +24,8 @@ pub struct Set {
     pub after: PoseErrors,
     /// Whether base and tool were found anew for these poses.
     pub frames_found_anew: bool,
+    /// Poses with a joint beyond the range of the poses that the geometry was found from.
+    pub beyond: usize,
 }
 
 /// What came of it.
@@ -55,7 +57,10 @@ pub fn calibrate(
 ) -> Result<Calibration, StudyError> {
     let (kept, apart) = parted(shown, measured.poses.len(), hold_out)?;
     let chosen = |places: &[usize]| -> Vec<MeasuredPose> {
-        places.iter().map(|place| measured.poses[*place].clone()).collect()
+        places
+            .iter()
+            .map(|place| measured.poses[*place].clone())
+            .collect()
     };
     let lines = |places: &[usize]| places.iter().map(|place| measured.lines[*place]).collect();
     let poses = chosen(&kept);
@@ -68,7 +73,9 @@ pub fn calibrate(
         before: before.errors.clone(),
         after: after.errors.clone(),
         frames_found_anew: false,
+        beyond: 0,
     };
+    let found_from = poses;
     let judged = |file: &str, poses: &[MeasuredPose], lines| -> Result<Set, StudyError> {
         let errors = |of: &Calibrated| of.errors_of(robot, poses).map_err(|error| refused(file, &error));
         Ok(Set {
@@ -77,6 +84,7 @@ pub fn calibrate(
             before: errors(&before)?,
             after: errors(&after)?,
             frames_found_anew: false,
+            beyond: beyond(&found_from, poses),
         })
     };
     let held_out = match hold_out {
@@ -87,7 +95,10 @@ pub fn calibrate(
             let other = read((&file, path), robot, told, question)?;
             Some(match same_set_up {
                 true => judged(&file, &other.poses, other.lines)?,
-                false => elsewhere(robot, &after, (&file, other), question)?,
+                false => Set {
+                    beyond: beyond(&found_from, &other.poses),
+                    ..elsewhere(robot, &after, (&file, other), question)?
+                },
             })
         }
     };
@@ -113,7 +124,9 @@ fn elsewhere(
         .map_err(|error| StudyError::value(error.to_string(), "do these poses belong to this robot?"))?;
     let errors = |robot: &Robot| {
         let found = fit(robot, &other.poses, &question.for_core(Asked::BaseAndTool));
-        found.map(|found| found.errors).map_err(|error| refused(file, &error))
+        found
+            .map(|found| found.errors)
+            .map_err(|error| refused(file, &error))
     };
     Ok(Set {
         file: file.to_owned(),
@@ -121,7 +134,23 @@ fn elsewhere(
         after: errors(&calibrated)?,
         lines: other.lines,
         frames_found_anew: true,
+        beyond: 0,
     })
+}
+
+/// How many of `poses` have a joint beyond the range of `found_from`.
+fn beyond(found_from: &[MeasuredPose], poses: &[MeasuredPose]) -> usize {
+    let range = |joint: usize| {
+        let all = found_from.iter().map(move |pose| pose.joints[joint]);
+        all.fold([f64::MAX, f64::MIN], |[low, high], q| [low.min(q), high.max(q)])
+    };
+    let joints = found_from.first().map_or(0, |pose| pose.joints.len());
+    let ranges: Vec<[f64; 2]> = (0..joints).map(range).collect();
+    let is_beyond = |pose: &&MeasuredPose| {
+        let mut both = pose.joints.iter().zip(&ranges);
+        both.any(|(q, [low, high])| q < low || q > high)
+    };
+    poses.iter().filter(is_beyond).count()
 }
 
 /// Which of `count` poses calibrate, and which judge.
@@ -131,10 +160,15 @@ fn parted(shown: &str, count: usize, hold_out: &HoldOut) -> Result<(Vec<usize>, 
     };
     // One is set apart wherever the sum of fractions passes a whole number.
     let whole = |places: usize| (places as f64 * fraction).floor();
-    let (apart, kept): (Vec<usize>, Vec<usize>) = (0..count).partition(|place| whole(place + 1) > whole(*place));
+    let (apart, kept): (Vec<usize>, Vec<usize>) =
+        (0..count).partition(|place| whole(place + 1) > whole(*place));
     if apart.len() < FEWEST || kept.len() < FEWEST {
         return Err(StudyError::value(
-            format!("--hold-out: {fraction} of the {count} poses of {shown} leaves {} and {}", kept.len(), apart.len()),
+            format!(
+                "--hold-out: {fraction} of the {count} poses of {shown} leaves {} and {}",
+                kept.len(),
+                apart.len()
+            ),
             format!("at least {FEWEST} on either side"),
         ));
     }

@@ -14,13 +14,22 @@ use crate::StudyError;
 
 /// Measured less predicted position of every pose, as CSV.
 pub fn residuals(calibration: &Calibration) -> String {
-    let mut text = "set,line,before_x_mm,before_y_mm,before_z_mm,before_mm,after_x_mm,after_y_mm,after_z_mm,after_mm\n".to_owned();
+    let mut text =
+        "set,line,before_x_mm,before_y_mm,before_z_mm,before_mm,after_x_mm,after_y_mm,after_z_mm,after_mm\n"
+            .to_owned();
     let mut add = |name: &str, set: &Set| {
         for (place, line) in set.lines.iter().enumerate() {
             let _ = write!(text, "{name},{line}");
             for errors in [&set.before, &set.after] {
                 let error = errors.position[place] * 1e3;
-                let _ = write!(text, ",{:.4},{:.4},{:.4},{:.4}", error.x, error.y, error.z, error.norm());
+                let _ = write!(
+                    text,
+                    ",{:.4},{:.4},{:.4},{:.4}",
+                    error.x,
+                    error.y,
+                    error.z,
+                    error.norm()
+                );
             }
             text.push('\n');
         }
@@ -42,7 +51,12 @@ pub fn robot_file(
     calibration: &Calibration,
 ) -> Result<String, StudyError> {
     let after = (0..robot.joints().len())
-        .map(|joint| (robot.joints()[joint].name.clone(), calibration.after.motions_after(joint)))
+        .map(|joint| {
+            (
+                robot.joints()[joint].name.clone(),
+                calibration.after.motions_after(joint),
+            )
+        })
         .filter(|(_, motions)| !motions.is_empty())
         .collect();
     let rms = |set: &Set| set.after.of_position().map_or(0.0, |spread| spread.rms * 1e3);

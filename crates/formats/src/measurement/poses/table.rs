@@ -31,10 +31,9 @@ const COLUMNS_HINT: &str = "one row a pose: joint positions (`q1_deg` ...), the 
                             turn if it was measured (`rx_deg,ry_deg,rz_deg`); columns of other names can be mapped";
 
 /// How the angles of a measured body follow each other.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnOrder {
     /// About the fixed axes x, then y, then z: `Rz Ry Rx`.
-    #[default]
     FixedXyz,
     /// About the axes that move with it, x, then y, then z: `Rx Ry Rz`.
     MovingXyz,
@@ -45,8 +44,9 @@ pub enum TurnOrder {
 pub struct Told {
     /// Columns of other names.
     pub columns: Vec<Mapping>,
-    /// Of measured angles; commanded ones are always about fixed axes.
-    pub turns: TurnOrder,
+    /// Of measured angles; without it they are about fixed axes, and in the data set of Landgraf et al. about moving ones.
+    /// Commanded ones are always about fixed axes.
+    pub turns: Option<TurnOrder>,
 }
 
 /// What a file held.
@@ -209,7 +209,10 @@ impl<'a> Table<'a> {
         Ok(Table {
             path,
             robot,
-            turns: told.turns,
+            turns: told.turns.unwrap_or(match is_data_set {
+                true => TurnOrder::MovingXyz,
+                false => TurnOrder::FixedXyz,
+            }),
             separator,
             columns,
             unused,
