@@ -173,6 +173,13 @@ pub const BALLBAR: &[&str] = &[
     "<FEATURE NAME='AF_CIRCULARITY' DT='UT_LENGTH_UM'>", "</FEATURE>", "<PLANE TEST_PLANE='XY'/>", "nan", "1e308",
 ];
 
+/// Names of columns of measured poses.
+#[rustfmt::skip]
+pub const POSES: &[&str] = &[
+    "q1_deg", "j2_rad", "S_deg", "x_mm", "y_um", "z_in", "rx_deg", "ry_rad", "commanded_x_m", "commanded_rz_deg", "pose", "direction", "measurement_x",
+    "shoulder_pan_joint", "Goal roll", ";", "\t", "2,02E+13", "nan", "1e308",
+];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

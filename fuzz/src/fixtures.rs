@@ -229,6 +229,16 @@ pub fn ballbar_results() -> Vec<Vec<u8>> {
     ])
 }
 
+/// Measured poses with names of ours and those of a public data set.
+pub fn poses() -> Vec<Vec<u8>> {
+    seeds(&[
+        "pose,direction,q1_deg,S_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm\nP,up,0,1,2,3,4,5,6,7,8\n",
+        "q1_deg;q2_deg;q3_deg;q4_deg;q5_deg;q6_deg;x_mm;y_mm;z_mm;rx_deg;ry_deg;rz_deg\r\n0;1,5;2;3;4;5;6;7;8;9;10;11\0\r\n",
+        "shoulder_pan_joint;shoulder_lift_joint;elbow_joint;wrist_1_joint;wrist_2_joint;wrist_3_joint;measurement_x;\
+         measurement_y;measurement_z;Goal x;Goal y;Goal z\n0;1;2;3;-1;-2;100,5;200;300;1;2;3\n",
+    ])
+}
+
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
+use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::measure::ballbar::{Direction, Run};
@@ -16,7 +17,7 @@ use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, Measured};
-use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
+use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, poses, profile};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
@@ -403,6 +404,29 @@ pub fn ballbar_results(bytes: &[u8]) {
     match ballbar::b5r::read("bar.b5r", &String::from_utf8_lossy(bytes)) {
         Err(problems) => refused(&problems),
         Ok(found) => assert!(found.features.iter().all(|feature| feature.value.is_finite())),
+    }
+}
+
+/// Measured poses; what can be read is calibrated too.
+pub fn poses(bytes: &[u8]) {
+    static ROBOT: OnceLock<Robot> = OnceLock::new();
+    let robot = ROBOT.get_or_init(|| {
+        let found = library::robot("yaskawa/mh12").expect("it is in the library");
+        found.expect("every robot of the library reads").robot
+    });
+    let found = match poses::read("poses.csv", bytes, robot, &poses::Told::default()) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert_eq!(found.poses.len(), found.lines.len());
+    let question = calibrate::Question {
+        asked: calibrate::Asked::Geometry,
+        flange_from_point: Isometry::identity(),
+        turn_length: 0.25,
+    };
+    if let Ok(found) = calibrate::fit(robot, &found.poses, &question) {
+        assert!(found.standard_deviation.is_finite());
+        assert!(found.errors.position.iter().all(|error| error.norm().is_finite()));
     }
 }
 

@@ -48,6 +48,8 @@ mod nist_circles;
 mod plane_split;
 #[path = "../tx200-compliance/case.rs"]
 mod tx200_compliance;
+#[path = "../ur10-pose-accuracy/case.rs"]
+mod ur10_pose_accuracy;
 #[path = "../urdf-forward/case.rs"]
 mod urdf_forward;
 
@@ -81,6 +83,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "nist-circles",
         checks: nist_circles::checks,
+    },
+    Case {
+        folder: "ur10-pose-accuracy",
+        checks: ur10_pose_accuracy::checks,
     },
     Case {
         folder: "fanuc-rows",

@@ -39,9 +39,11 @@ fn main() -> ExitCode {
         Command::Advise(advise) => command::advise::run(advise),
         Command::Compensate(compensate) => command::compensate::run(compensate),
         Command::Identify(identify) => command::identify::run(identify),
+        Command::Calibrate(calibrate) => command::calibrate::run(calibrate),
         Command::Forces(forces) => command::forces::run(forces),
         Command::Roundness(roundness) => command::roundness::run(roundness),
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
+        Command::PoseAccuracy(pose_accuracy) => command::pose_accuracy::run(pose_accuracy),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

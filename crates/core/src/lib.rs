@@ -7,11 +7,12 @@
 //! robot), [`robot`] (chain, postures), [`compliance`],
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
-//! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`measure`] (what
-//! circular tests show).
+//! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`calibrate`] (its
+//! geometry from measured poses), [`measure`] (what circular tests and repeated poses show).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
+pub mod calibrate;
 pub mod compliance;
 pub mod frame;
 pub mod identify;

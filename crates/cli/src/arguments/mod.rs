@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `forces`, `roundness`, `ballbar`, `completions`.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `pose_accuracy`, `completions`; `poses` is for two of them.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -12,6 +12,7 @@
 
 mod advise;
 mod ballbar;
+mod calibrate;
 mod check;
 mod compare;
 mod compensate;
@@ -22,6 +23,8 @@ mod materials;
 mod new;
 mod place;
 mod pose;
+mod pose_accuracy;
+mod poses;
 mod posture;
 mod robots;
 mod roundness;
@@ -29,6 +32,7 @@ mod run;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
+pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
@@ -39,6 +43,8 @@ pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
 pub(crate) use place::{PlaceArguments, PlaceOptions};
 pub(crate) use pose::PoseArguments;
+pub(crate) use pose_accuracy::PoseAccuracyArguments;
+pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
 pub(crate) use roundness::RoundnessArguments;
@@ -90,12 +96,16 @@ pub(crate) enum Command {
     Compensate(CompensateArguments),
     /// Joint compliances from load tests, and which tests to do
     Identify(IdentifyArguments),
+    /// Lengths, angles and zeros of this very arm from measured poses
+    Calibrate(Box<CalibrateArguments>),
     /// What is in a record of a dynamometer, without drift and teeth
     Forces(ForcesArguments),
     /// How round a measured profile is: the four reference circles, filter, harmonics
     Roundness(RoundnessArguments),
     /// How round the tool goes, and why not rounder, from a ball-bar
     Ballbar(Box<BallbarArguments>),
+    /// How near the arm comes to its poses, and how alike, from a laser tracker
+    PoseAccuracy(Box<PoseAccuracyArguments>),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -120,9 +130,11 @@ impl Command {
             Command::Advise(a) => a.run.json,
             Command::Compensate(a) => a.json,
             Command::Identify(a) => a.json,
+            Command::Calibrate(a) => a.json,
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
+            Command::PoseAccuracy(a) => a.json,
             Command::Completions(_) => false,
         }
     }

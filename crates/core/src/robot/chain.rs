@@ -90,7 +90,7 @@ impl Motion {
     }
 
     /// Moves on from the frame with these axes (columns) and this origin by `distance` (m or rad).
-    pub(super) fn advance(&self, distance: f64, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
+    pub(crate) fn advance(&self, distance: f64, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
         match *self {
             Motion::Along(axis, _) => *origin += axes.column(axis.index()) * distance,
             Motion::About(axis, _) => {

@@ -6,6 +6,7 @@
 //! - [`load_tests`]: loads on a standing robot, and how far it gave way.
 //! - [`profile`]: points of a profile that was to be round.
 //! - [`ballbar`]: radii along a circle, and what a ball-bar's own program made of them.
+//! - [`poses`]: joint positions and where a laser tracker saw the arm.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor stands, no file tells: the caller says it.
@@ -18,4 +19,5 @@ pub mod csv;
 pub mod dynoware;
 pub mod format;
 pub mod load_tests;
+pub mod poses;
 pub mod profile;

@@ -92,14 +92,19 @@ pub fn with_springs(path: &str, text: &str, identified: &Identified) -> Result<S
         let turning = springs.iter().filter(|spring| spring.turns());
         document.insert("covariance", covariance_table(turning, covariance));
     }
-    set_sources(&mut document, identified)?;
+    set_sources(&mut document, KEY, [&identified.what, &identified.place])?;
     let text = document.to_string();
     super::read(&format!("{path} (identified)"), "", &text)?;
     Ok(text)
 }
 
-/// Adds the source of the identified numbers, and removes those that no number names any more.
-fn set_sources(document: &mut DocumentMut, identified: &Identified) -> Result<(), Problems> {
+/// Adds the source `key` of numbers that were measured, with what and where, and removes those that no number names any
+/// more.
+pub(super) fn set_sources(
+    document: &mut DocumentMut,
+    key: &str,
+    [what, place]: [&str; 2],
+) -> Result<(), Problems> {
     let now = Document::parse("", &document.to_string())?;
     let named: BTreeSet<&str> = sources::named(&now).into_iter().map(|(_, key)| key).collect();
     if let Some(sources) = document.get_mut("sources").and_then(Item::as_table_like_mut) {
@@ -109,13 +114,13 @@ fn set_sources(document: &mut DocumentMut, identified: &Identified) -> Result<()
         }
         let mut entry = Table::new();
         for (key, content) in [
-            ("what", identified.what.as_str()),
-            ("where", &identified.place),
+            ("what", what),
+            ("where", place),
             ("licence", "your own measurement"),
         ] {
             entry.insert(key, value(content));
         }
-        sources.insert(KEY, Item::Table(entry));
+        sources.insert(key, Item::Table(entry));
     }
     Ok(())
 }

@@ -4,7 +4,8 @@
 //! and weighs beside the drives (springs, masses, compensator, torque curves, covariance) is read by `structure`.
 //!
 //! In reading order: `file` (the file as it stands), `checks` (what no schema can say, and SI), `structure`; `write` (a
-//! robot of another format as such a file), `identified` (such a file with compliances that were identified).
+//! robot of another format as such a file), `identified` (such a file with compliances that were identified),
+//! `calibrated` (with small motions that were).
 //!
 //! ```text
 //! format = 1
@@ -17,6 +18,7 @@
 //!
 //! All keys with their meaning: `docs/guide/robot-file.md`.
 
+mod calibrated;
 mod checks;
 mod file;
 mod identified;
@@ -35,6 +37,7 @@ use super::description::{JointNote, OtherLimits, RobotDescription};
 use crate::document::{Document, Problems};
 use crate::sources;
 
+pub use self::calibrated::{Geometry, with_geometry};
 pub use self::identified::{Identified, IdentifiedSpring, with_springs};
 
 /// The robot of this file; `path` is what errors show, `id` the robot's name in results.

@@ -1,0 +1,31 @@
+//! What can be typed behind `armill pose-accuracy`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::ROBOT_HELP;
+use super::poses::PosesOptions;
+
+#[derive(Debug, Args)]
+#[command(
+    allow_negative_numbers = true,
+    after_help = "\
+FILE has one row a visit: joint positions (q1_deg ...), the measured point in the tracker's axes (x_mm, y_mm, z_mm), and
+pose, direction, rx_deg ... if known. The guide: docs/guide/calibrate.md
+
+Examples:
+  armill pose-accuracy poses.csv --robot universal-robots/ur10
+  armill pose-accuracy tracker.csv --robot arm.toml --columns \"x_mm=Measured X,y_mm=Measured Y,z_mm=Measured Z\" --json"
+)]
+pub(crate) struct PoseAccuracyArguments {
+    /// Measured poses (CSV)
+    pub file: PathBuf,
+    #[arg(long, value_name = "NAME", help = ROBOT_HELP)]
+    pub robot: String,
+    #[command(flatten)]
+    pub poses: PosesOptions,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,70 @@
+//! Options of measured poses in SI, and how frames and errors are told; for `calibrate` and `pose_accuracy`.
+
+use armill_core::calibrate::Asked;
+use armill_core::nalgebra::Vector3;
+use armill_formats::measurement::poses::{Told, TurnOrder};
+use armill_study::StudyError;
+use armill_study::calibrate::answer::FrameAnswer;
+use armill_study::calibrate::{ErrorsAnswer, Question};
+
+use super::numbers::{above_zero, three};
+use crate::arguments::{PosesOptions, TurnArgument};
+
+/// What the options ask, and what they tell of the file.
+///
+/// # Errors
+/// Numbers that cannot be.
+pub(super) fn question(options: &PosesOptions, asked: Asked) -> Result<(Question, Told), StudyError> {
+    let tool_point_mm = match &options.tool_mm {
+        Some(tool_mm) => three("--tool-mm", tool_mm)?,
+        None => Vector3::zeros(),
+    };
+    let turn_length = above_zero("--turn-mm", options.turn_mm)? * 1e-3;
+    let question = Question {
+        asked,
+        tool_point: tool_point_mm * 1e-3,
+        turn_length: options.turns.then_some(turn_length),
+    };
+    let told = Told {
+        columns: options.columns.clone(),
+        turns: options.turn_order.map(|order| match order {
+            TurnArgument::FixedXyz => TurnOrder::FixedXyz,
+            TurnArgument::MovingXyz => TurnOrder::MovingXyz,
+        }),
+    };
+    Ok((question, told))
+}
+
+/// A line of errors.
+pub(super) fn errors_text(name: &str, errors: &ErrorsAnswer) -> String {
+    let turn = match (errors.turn_mean_deg, errors.turn_max_deg) {
+        (Some(mean), Some(max)) => format!("; turn mean {mean:.3}, max {max:.3} deg"),
+        _ => String::new(),
+    };
+    let [x, y, z] = errors.rms_xyz_mm;
+    format!(
+        "{name:<22} {:>8.3} {:>8.3} {:>8.3}   ({x:.3}, {y:.3}, {z:.3}){turn}",
+        errors.mean_mm, errors.rms_mm, errors.max_mm
+    )
+}
+
+/// The heads of such lines.
+pub(super) fn errors_head(name: &str) -> String {
+    format!(
+        "{name:<22} {:>8} {:>8} {:>8}   rms of x, y, z",
+        "mean mm", "rms mm", "max mm"
+    )
+}
+
+/// Where base and measured point were found.
+pub(super) fn frames_text(base: &FrameAnswer, point: &FrameAnswer) -> [String; 2] {
+    let three = |[x, y, z]: [f64; 3]| format!("({x:.3}, {y:.3}, {z:.3})");
+    [
+        format!(
+            "base   at {} mm in the tracker, turned {} deg",
+            three(base.at_mm),
+            three(base.turned_deg)
+        ),
+        format!("point  at {} mm on the flange", three(point.at_mm)),
+    ]
+}

@@ -1,0 +1,326 @@
+//! `armill calibrate` and `armill pose-accuracy` as a user runs them: a lever with known errors, a UR10 that was measured,
+//! and what can be wrong.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+const ROBOT: &str = r#"format = 1
+name = "lever"
+
+[chain]
+source = "drawing"
+motions = [
+  { about = "z", joint = "A" },
+  { along = "x", length_mm = 300 },
+  { about = "z", joint = "B" },
+  { along = "x", length_mm = 200 },
+]
+
+[[joint]]
+name = "A"
+sign = 1
+source = "drawing"
+
+[[joint]]
+name = "B"
+sign = 1
+source = "drawing"
+
+[sources.drawing]
+what = "a lever of two arms"
+where = "this test"
+licence = "ours"
+"#;
+
+fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let (code, out, err) = armill(folder, &[arguments, &["--json"]].concat());
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap()
+}
+
+/// The point of a lever whose first arm is 300.5 mm long and whose second joint counts from 0.1 deg, mm.
+fn point(a_deg: f64, b_deg: f64) -> [f64; 2] {
+    let a = a_deg.to_radians();
+    let both = a + (b_deg + 0.1).to_radians();
+    [
+        1000.0 + 300.5 * a.cos() + 200.0 * both.cos(),
+        -500.0 + 300.5 * a.sin() + 200.0 * both.sin(),
+    ]
+}
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut english, mut german) = (
+        "A_deg,B_deg,x_mm,y_mm,z_mm\n".to_owned(),
+        "Zeit;pose;direction;A_deg;B_deg;X ist;Y ist;Z ist\r\n".to_owned(),
+    );
+    for k in 0..40_u32 {
+        let (a, b) = (f64::from(k * 37 % 180) - 90.0, f64::from(k * 53 % 240) - 120.0);
+        let [x, y] = point(a, b);
+        let _ = writeln!(english, "{a},{b},{x:.9},{y:.9},20");
+        for (cycle, off) in [(1, 0.01), (2, -0.01)] {
+            let row = format!(
+                "2,02E+13;P{k};{};{a};{b};{:.9};{y:.9};20\r\n",
+                if cycle == 1 { "left" } else { "right" },
+                x + off
+            );
+            german.push_str(&row.replace('.', ","));
+        }
+    }
+    for (name, text) in [
+        ("lever.toml", ROBOT),
+        ("poses.csv", &english),
+        ("cycles.csv", &german),
+    ] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+#[test]
+fn a_long_arm_and_a_wrong_zero_are_found_and_the_robot_that_is_written_has_them() {
+    let folder = folder();
+    let asked = [
+        "calibrate",
+        "poses.csv",
+        "--robot",
+        "lever.toml",
+        "--hold-out",
+        "0.25",
+    ];
+    let answer = json(
+        folder.path(),
+        &[&asked[..], &["--out", "mine.toml", "--residuals", "left.csv"]].concat(),
+    );
+    let value = |name: &str| {
+        let all = answer["parameters"].as_array().unwrap();
+        let found = all.iter().find(|one| one["name"] == name).unwrap();
+        number(if found["value_mm"].is_null() {
+            &found["value_deg"]
+        } else {
+            &found["value_mm"]
+        })
+    };
+    assert!((value("A along x") - 0.5).abs() < 1e-5, "{answer}");
+    assert_eq!(answer["training"]["poses"], 30);
+    assert_eq!(answer["held_out"]["poses"], 10);
+    assert!(number(&answer["held_out"]["before"]["max_mm"]) > 0.1, "{answer}");
+    assert!(number(&answer["held_out"]["after"]["max_mm"]) < 1e-5, "{answer}");
+    let names: Vec<&str> = answer["not_identifiable"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|one| one["name"].as_str().unwrap())
+        .collect();
+    assert!(names.contains(&"A about z"), "{names:?}");
+    let residuals = std::fs::read_to_string(folder.path().join("left.csv")).unwrap();
+    assert_eq!(residuals.lines().count(), 41);
+    let again = json(folder.path(), &["calibrate", "poses.csv", "--robot", "mine.toml"]);
+    assert!(number(&again["training"]["before"]["max_mm"]) < 1e-5, "{again}");
+    assert!(again["held_out"].is_null());
+    let (code, out, err) = armill(
+        folder.path(),
+        &["calibrate", "poses.csv", "--robot", "lever.toml"],
+    );
+    assert_eq!(code, 0, "{err}");
+    for part in [
+        "before",
+        "not told apart  A about z: base about z",
+        "no poses were held out",
+    ] {
+        assert!(out.contains(part), "{part}\n{out}");
+    }
+}
+
+#[test]
+fn cycles_from_two_sides_have_accuracy_repeatability_and_variation() {
+    let folder = folder();
+    let columns = "x_mm=X ist,y_mm=Y ist,z_mm=Z ist";
+    let answer = json(
+        folder.path(),
+        &[
+            "pose-accuracy",
+            "cycles.csv",
+            "--robot",
+            "lever.toml",
+            "--columns",
+            columns,
+        ],
+    );
+    assert_eq!((&answer["visits"], &answer["poses"]), (&80.into(), &40.into()));
+    let all = &answer["repeated"];
+    // Both cycles lie 10 um from their middle: no scatter of the distances.
+    assert!((number(&all["rp_mean_mm"]) - 0.01).abs() < 1e-6, "{all}");
+    assert!((number(&all["vap_max_mm"]) - 0.02).abs() < 1e-6, "{all}");
+    assert!(number(&all["ap_max_mm"]) > 0.1, "{all}");
+    assert_eq!(answer["unused"], serde_json::json!(["Zeit"]));
+    let (code, out, _) = armill(
+        folder.path(),
+        &["pose-accuracy", "poses.csv", "--robot", "lever.toml"],
+    );
+    assert_eq!(code, 0);
+    assert!(out.contains("no pose was reached twice"), "{out}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_all_problems_at_once() {
+    let folder = folder();
+    std::fs::write(
+        folder.path().join("bad.csv"),
+        "A_deg,B_deg,x_mm,y_mm,z_mm\n1,2,3,4\na,2,3,4,5\n1,2,nan,4,5\n",
+    )
+    .unwrap();
+    std::fs::write(
+        folder.path().join("few.csv"),
+        "A_deg,B_deg,x_mm,y_mm,z_mm\n1,2,3,4,5\n",
+    )
+    .unwrap();
+    for (arguments, parts) in [
+        (
+            &["calibrate", "bad.csv"][..],
+            &["bad.csv:2:1", "bad.csv:3:1", "bad.csv:4:5"][..],
+        ),
+        (&["calibrate", "none.csv"], &["cannot read none.csv"]),
+        (&["calibrate", "few.csv"], &["few.csv: 1 poses"]),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "2"],
+            &["--hold-out: 2 is not between 0 and 1"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "0.01"],
+            &["leaves 40 and 0"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "none.csv"],
+            &["cannot read none.csv"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--turns"],
+            &["--turns: poses.csv tells no turns"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--turns", "--turn-mm", "0"],
+            &["--turn-mm: 0 is not above 0"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--tool-mm", "1,2"],
+            &["--tool-mm: 2 numbers"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--columns", "x_mm=a"],
+            &["no column is called `a`"],
+        ),
+        (&["pose-accuracy", "bad.csv"], &["bad.csv:2:1", "bad.csv:4:5"]),
+        (
+            &["pose-accuracy", "poses.csv", "--columns", "x_mm"],
+            &["OURS=THEIRS"],
+        ),
+    ] {
+        let asked = [arguments, &["--robot", "lever.toml", "--json"]].concat();
+        let (code, out, err) = armill(folder.path(), &asked);
+        assert_eq!(code, 2, "{arguments:?} {err}");
+        for part in parts {
+            assert!(
+                format!("{out}{err}").contains(part),
+                "{arguments:?}: {part}\n{out}{err}"
+            );
+        }
+    }
+    assert!(!folder.path().join("mine.toml").exists());
+}
+
+/// A file of Landgraf et al. 2021; nothing where the samples are not at hand.
+fn ur10(name: &str) -> Option<PathBuf> {
+    let Some(samples) = std::env::var_os("ARMILL_SAMPLES") else {
+        println!("skipped: ARMILL_SAMPLES is not set");
+        return None;
+    };
+    Some(Path::new(&samples).join("datasets/ur10-lasertracker").join(name))
+}
+
+#[test]
+fn a_measured_ur10_misses_its_poses_by_what_was_computed_elsewhere() {
+    let Some(cubes) = ur10("Series_D/measurements_iso_cubes.csv") else {
+        return;
+    };
+    let answer = json(
+        Path::new("."),
+        &[
+            "pose-accuracy",
+            cubes.to_str().unwrap(),
+            "--robot",
+            "universal-robots/ur10",
+        ],
+    );
+    assert_eq!(answer["visits"], 632);
+    let absolute = &answer["absolute"];
+    // Half of the last digit printed.
+    for (key, printed) in [("mean_mm", 0.72), ("rms_mm", 0.77), ("max_mm", 1.94)] {
+        assert!((number(&absolute[key]) - printed).abs() < 0.0051, "{absolute}");
+    }
+}
+
+#[test]
+fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_elsewhere() {
+    let (Some(random), Some(cubes)) = (
+        ur10("Series_C/measurements_random_poses.csv"),
+        ur10("Series_D/measurements_iso_cubes.csv"),
+    ) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let [random, cubes] = [random.to_str().unwrap(), cubes.to_str().unwrap()];
+    let asked = [
+        "calibrate",
+        random,
+        "--robot",
+        "universal-robots/ur10",
+        "--hold-out",
+    ];
+    let rms = |answer: &Value, set: &str, when: &str| number(&answer[set][when]["rms_mm"]);
+    // Where the arm was measured, half of the error goes, in poses that were held out too.
+    let inside = json(folder.path(), &[&asked[..], &["0.2"]].concat());
+    assert!(
+        rms(&inside, "held_out", "after") < 0.51 * rms(&inside, "held_out", "before"),
+        "{inside}"
+    );
+    // All cubes lie elsewhere: next to nothing is gained, and that is told.
+    let answer = json(
+        folder.path(),
+        &[&asked[..], &[cubes, "--out", "ur10.toml"]].concat(),
+    );
+    assert_eq!(answer["parameters"].as_array().unwrap().len(), 16);
+    assert!((rms(&answer, "held_out", "before") - 0.77).abs() < 0.0051);
+    assert!(
+        rms(&answer, "held_out", "after") < rms(&answer, "held_out", "before"),
+        "{answer}"
+    );
+    assert!(
+        number(&answer["held_out"]["beyond_found_range"]) > 600.0,
+        "{answer}"
+    );
+    // The robot that was written is the one that was judged.
+    let again = json(folder.path(), &["pose-accuracy", cubes, "--robot", "ur10.toml"]);
+    assert!((number(&again["absolute"]["rms_mm"]) - rms(&answer, "held_out", "after")).abs() < 1e-5);
+}

@@ -1,0 +1,320 @@
+//! Measured poses as a table: one row a pose, the unit of each column in its name.
+//!
+//! Columns: see `columns`. Others are passed over and listed, so that a spoiled time stamp spoils nothing else. Cells are
+//! separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#`, empty ones and
+//! zero bytes at line ends are passed over; rows whose measured cells are all empty are counted as not measured.
+//!
+//! ```text
+//! q1_deg,q2_deg,...,q6_deg,x_mm,y_mm,z_mm          pose;direction;A1_deg;...;x_mm;y_mm;z_mm;rx_deg;ry_deg;rz_deg
+//! 0,-90,...,0,2577.615,-1073.976,207.594           P1;from above;0,5;...;2577,615;...
+//! ```
+
+use std::io::BufRead;
+
+use armill_core::calibrate::MeasuredPose;
+use armill_core::frame::from_xyz_and_fixed_angles;
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::robot::Robot;
+
+use super::columns::{Column, Mapping, Quantity, missing, named, of_data_set};
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+
+/// No tracker measures farther, m.
+const FARTHEST: f64 = 1e4;
+/// No joint or body turns farther, rad: beyond it degrees were meant.
+const MOST_TURN: f64 = 4.0 * std::f64::consts::PI;
+/// No table has more poses.
+const MOST_POSES: usize = 1_000_000;
+const COLUMNS_HINT: &str = "one row a pose: joint positions (`q1_deg` ...), the measured point (`x_mm,y_mm,z_mm`), and its \
+                            turn if it was measured (`rx_deg,ry_deg,rz_deg`); columns of other names can be mapped";
+
+/// How the angles of a measured body follow each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TurnOrder {
+    /// About the fixed axes x, then y, then z: `Rz Ry Rx`.
+    FixedXyz,
+    /// About the axes that move with it, x, then y, then z: `Rx Ry Rz`.
+    MovingXyz,
+}
+
+/// What a file does not tell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Told {
+    /// Columns of other names.
+    pub columns: Vec<Mapping>,
+    /// Of measured angles; without it they are about fixed axes, and in the data set of Landgraf et al. about moving ones.
+    /// Commanded ones are always about fixed axes.
+    pub turns: Option<TurnOrder>,
+}
+
+/// What a file held.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// In the order of the file.
+    pub poses: Vec<MeasuredPose>,
+    /// Line of each, from 1.
+    pub lines: Vec<usize>,
+    /// Commanded x, y, z (m) and rx, ry, rz (rad) of each; turns that were not told are 0.
+    pub commanded: Option<Vec<[f64; 6]>>,
+    /// The name of each pose.
+    pub names: Option<Vec<String>>,
+    /// The direction from which each was reached.
+    pub directions: Option<Vec<String>>,
+    /// Columns that were passed over.
+    pub unused: Vec<String>,
+    /// Rows without a measured point.
+    pub not_measured: usize,
+}
+
+impl TurnOrder {
+    fn rotation(self, [x, y, z]: [f64; 3]) -> UnitQuaternion<f64> {
+        match self {
+            TurnOrder::FixedXyz => {
+                from_xyz_and_fixed_angles(Vector3::zeros(), Vector3::new(x, y, z)).rotation
+            }
+            TurnOrder::MovingXyz => {
+                let about = |axis: Vector3<f64>, by: f64| UnitQuaternion::new(axis * by);
+                about(Vector3::x(), x) * about(Vector3::y(), y) * about(Vector3::z(), z)
+            }
+        }
+    }
+}
+
+/// Reads the poses of `robot` in `reader`; `path` is what problems show.
+///
+/// # Errors
+/// Every problem of the file, at most 200: columns that are missing, double or mapped in vain, units that are missing or
+/// unknown, cells that are no numbers, rows of another length, angles and lengths that no arm has.
+pub fn read(path: &str, reader: impl BufRead, robot: &Robot, told: &Told) -> Result<Measured, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(first) = next(&mut lines)? else {
+        return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
+    };
+    let table = Table::of(path, &first, robot, told)?;
+    let mut measured = Measured {
+        poses: Vec::new(),
+        lines: Vec::new(),
+        commanded: table.has(Quantity::Commanded(0)).then(Vec::new),
+        names: table.has(Quantity::Pose).then(Vec::new),
+        directions: table.has(Quantity::Direction).then(Vec::new),
+        unused: table.unused.clone(),
+        not_measured: 0,
+    };
+    let mut problems = Vec::new();
+    while problems.len() < MOST_PROBLEMS {
+        match next(&mut lines) {
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
+            Ok(Some(line)) if measured.poses.len() == MOST_POSES => {
+                let message = format!("more than {MOST_POSES} poses");
+                let whole = 0..line.text.len();
+                problems.push(line.problem(path, whole, message, "some hundred are enough for any arm"));
+                break;
+            }
+            Ok(Some(line)) => {
+                if let Err(wrong) = table.row(&line, &mut measured) {
+                    problems.extend(wrong);
+                }
+            }
+        }
+    }
+    Problems::from(problems).into_result()?;
+    if measured.poses.is_empty() {
+        return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
+    }
+    Ok(measured)
+}
+
+/// The next line that is neither empty nor a remark.
+fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
+    loop {
+        match lines.next()? {
+            Some(line) if is_remark(&line.text) => {}
+            other => return Ok(other),
+        }
+    }
+}
+
+/// What the columns of a file are.
+struct Table<'a> {
+    path: &'a str,
+    robot: &'a Robot,
+    turns: TurnOrder,
+    separator: char,
+    /// `None` is passed over.
+    columns: Vec<Option<Column>>,
+    unused: Vec<String>,
+}
+
+impl<'a> Table<'a> {
+    /// From the line of names.
+    fn of(path: &'a str, line: &Line, robot: &'a Robot, told: &Told) -> Result<Table<'a>, Problems> {
+        let separator = separator_of(&line.text);
+        let whole = 0..line.text.len();
+        let found = cells(&line.text, separator);
+        // Single names of the data set could mean anything; both together do not.
+        let is_data_set = ["shoulder_pan_joint", "measurement_x"]
+            .iter()
+            .all(|name| found.iter().any(|cell| cell.text == *name));
+        let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
+        for cell in &found {
+            let mapped = told.columns.iter().find(|mapping| mapping.theirs == cell.text);
+            let name = match mapped {
+                Some(mapping) => &mapping.ours,
+                None => match of_data_set(&cell.text).filter(|_| is_data_set) {
+                    Some(ours) => ours,
+                    None => cell.text.as_ref(),
+                },
+            };
+            let column: Option<Column> = named(name, robot).unwrap_or_else(|(message, hint)| {
+                problems.push(line.problem(path, cell.span.clone(), message, &hint));
+                None
+            });
+            if mapped.is_some() && column.is_none() {
+                let message = format!("`{name}`, which `{}` is mapped to, means nothing here", cell.text);
+                problems.push(line.problem(path, cell.span.clone(), message, COLUMNS_HINT));
+            }
+            let held = |before: &Option<Column>| {
+                column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
+            };
+            if columns.iter().any(held) {
+                let message = format!("`{}` tells what a column before it tells", cell.text);
+                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+            }
+            if column.is_none() {
+                unused.push(cell.text.to_string());
+            }
+            columns.push(column);
+        }
+        for mapping in &told.columns {
+            if found.iter().all(|cell| cell.text != mapping.theirs) {
+                let message = format!("no column is called `{}`", mapping.theirs);
+                let hint = format!("it was mapped to `{}`", mapping.ours);
+                problems.push(line.problem(path, whole.clone(), message, &hint));
+            }
+        }
+        // What is wrong with a name is missing, too.
+        Problems::from(problems).into_result()?;
+        let missing = missing(&columns, robot);
+        if !missing.is_empty() {
+            let message = format!("columns are missing: {}", missing.join(", "));
+            return Err(line.problem(path, whole, message, COLUMNS_HINT).into());
+        }
+        Ok(Table {
+            path,
+            robot,
+            turns: told.turns.unwrap_or(match is_data_set {
+                true => TurnOrder::MovingXyz,
+                false => TurnOrder::FixedXyz,
+            }),
+            separator,
+            columns,
+            unused,
+        })
+    }
+
+    fn has(&self, quantity: Quantity) -> bool {
+        self.columns
+            .iter()
+            .flatten()
+            .any(|column| column.quantity == quantity)
+    }
+
+    /// Takes a row; nothing of one with a problem.
+    fn row(&self, line: &Line, measured: &mut Measured) -> Result<(), Problems> {
+        let found = cells(&line.text, self.separator);
+        if found.len() != self.columns.len() {
+            let message = format!(
+                "{} cells in a table of {} columns",
+                found.len(),
+                self.columns.len()
+            );
+            let hint = match self.separator {
+                ',' => "decimal commas need `;` or a tab between cells",
+                _ => "every row has a cell for each column",
+            };
+            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
+        }
+        let meant = || {
+            let both = found.iter().zip(&self.columns);
+            both.filter_map(|(cell, column)| Some((cell, (*column)?)))
+        };
+        let of_point = |quantity| matches!(quantity, Quantity::Measured(_));
+        if meant().all(|(cell, column)| !of_point(column.quantity) || cell.text.is_empty()) {
+            measured.not_measured += 1;
+            return Ok(());
+        }
+        let mut joints = vec![0.0; self.robot.joints().len()];
+        let (mut point, mut commanded) = ([0.0; 6], [0.0; 6]);
+        let mut problems = Vec::new();
+        for (cell, column) in meant().filter(|(_, column)| !column.quantity.is_name()) {
+            let value = match self.value(&cell.text, column) {
+                Ok(value) => value,
+                Err((message, hint)) => {
+                    problems.push(line.problem(self.path, cell.span.clone(), message, hint));
+                    continue;
+                }
+            };
+            match column.quantity {
+                Quantity::Joint(joint) => joints[joint] = value,
+                Quantity::Measured(component) => point[component] = value,
+                Quantity::Commanded(component) => commanded[component] = value,
+                Quantity::Pose | Quantity::Direction => {}
+            }
+        }
+        Problems::from(problems).into_result()?;
+        let [x, y, z, angles @ ..] = point;
+        measured.poses.push(MeasuredPose {
+            joints,
+            position: Vector3::new(x, y, z),
+            rotation: self
+                .has(Quantity::Measured(3))
+                .then(|| self.turns.rotation(angles)),
+        });
+        measured.lines.push(line.number);
+        if let Some(all) = &mut measured.commanded {
+            all.push(commanded);
+        }
+        let text = |quantity| {
+            let cell = meant().find(|(_, column)| column.quantity == quantity);
+            cell.map_or(String::new(), |(cell, _)| cell.text.to_string())
+        };
+        if let Some(names) = &mut measured.names {
+            names.push(text(Quantity::Pose));
+        }
+        if let Some(directions) = &mut measured.directions {
+            directions.push(text(Quantity::Direction));
+        }
+        Ok(())
+    }
+
+    /// The value of a cell in SI.
+    fn value(&self, text: &str, column: Column) -> Result<f64, (String, &'static str)> {
+        let Some(number) = number(text, self.separator).filter(|number| number.is_finite()) else {
+            return Err((
+                format!("`{text}` is not a number"),
+                "units stand in the column's name; leave out rows that were not measured",
+            ));
+        };
+        let value = number * column.factor;
+        if column.quantity.turns(self.robot) {
+            if value.abs() > MOST_TURN {
+                let message = format!("an angle of {:.1} deg is beyond two turns", value.to_degrees());
+                return Err((message, "does the column's name say rad where degrees stand?"));
+            }
+        } else if value.abs() > FARTHEST {
+            let message = format!("a length of {value} m is beyond {FARTHEST} m");
+            return Err((message, "is the unit in the column's name the one meant?"));
+        }
+        Ok(value)
+    }
+}
+
+#[cfg(test)]
+mod tests;
