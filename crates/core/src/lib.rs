@@ -8,10 +8,11 @@
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`measure`] (what
-//! circular tests show).
+//! circular tests show), [`budget`] (what the error of a cut circle is made of).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
+pub mod budget;
 pub mod compliance;
 pub mod frame;
 pub mod identify;
