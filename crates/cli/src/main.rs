@@ -42,6 +42,7 @@ fn main() -> ExitCode {
         Command::Forces(forces) => command::forces::run(forces),
         Command::Roundness(roundness) => command::roundness::run(roundness),
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
+        Command::Budget(budget) => command::budget::run(budget),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `forces`, `roundness`, `ballbar`, `completions`.
+//! `identify`, `forces`, `roundness`, `ballbar`, `budget`, `completions`.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -12,6 +12,7 @@
 
 mod advise;
 mod ballbar;
+mod budget;
 mod check;
 mod compare;
 mod compensate;
@@ -29,6 +30,7 @@ mod run;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
+pub(crate) use budget::BudgetArguments;
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
 pub(crate) use compensate::CompensateArguments;
@@ -96,6 +98,8 @@ pub(crate) enum Command {
     Roundness(RoundnessArguments),
     /// How round the tool goes, and why not rounder, from a ball-bar
     Ballbar(Box<BallbarArguments>),
+    /// What the error of a measured circle is made of, and how much of it is predicted
+    Budget(BudgetArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -123,6 +127,7 @@ impl Command {
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
+            Command::Budget(a) => a.json,
             Command::Completions(_) => false,
         }
     }

@@ -216,10 +216,11 @@ mod tests {
             off.push(told.together.explained - told.explainable);
             beyond.push(told.beyond_scatter);
         }
-        // 1 - sigma^2 / <m, m> in the mean; that of one turn of 720 points differs by a twentieth of what is left.
+        // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points misses by a twentieth of what is left, and by twice what
+        // noise and signal have in common by chance: together a fiftieth.
         let mean = off.iter().sum::<f64>() / off.len() as f64;
-        assert!(mean.abs() < 3e-3, "{mean}");
-        assert!(off.iter().all(|off| off.abs() < 0.03), "{off:?}");
+        assert!(mean.abs() < 1e-2, "{mean}");
+        assert!(off.iter().all(|off| off.abs() < 0.06), "{off:?}");
         assert!(beyond.iter().all(|beyond| *beyond < 0.5 * sigma), "{beyond:?}");
     }
 
