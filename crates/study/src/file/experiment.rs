@@ -254,12 +254,22 @@ fn part(
     (radius_mm, removed): (f64, Removed),
 ) -> Option<Part> {
     let key = "measured.part";
-    let wanted = PartWanted {
-        radius_mm: Some(radius_mm),
-        unit: None,
-    };
     let shown = path.display().to_string();
-    let measured = taken(places, key, roundness::read((&shown, &path), &wanted))?;
+    let read = |radius_mm: Option<f64>| {
+        roundness::read(
+            (&shown, &path),
+            &PartWanted {
+                radius_mm,
+                unit: None,
+            },
+        )
+    };
+    // A file of deviations needs a radius, any other refuses one: that of the circle is tried where none is told.
+    let told = match (read(table.radius_mm), table.radius_mm) {
+        (Err(error), None) => read(Some(radius_mm)).map_err(|_| error),
+        (found, _) => found,
+    };
+    let measured = taken(places, key, told)?;
     let count = measured.points.count();
     let points = match measured.points {
         Points::Plane(points) => points,
