@@ -15,10 +15,11 @@ use crate::page::{BODY_PX, BORDER_PX, Heading, SMALL_PX};
 use crate::svg::{Rect, Style, Text};
 use crate::ticks::Ticks;
 
-/// Room left of the axis, height of the chart, width of a wave and of its bars.
+/// Room left of the axis, height of the chart, width of a wave, of all and of a bar.
 const LEFT_PX: f64 = 66.0;
 const AREA_HEIGHT_PX: f64 = 220.0;
 const WAVE_PX: f64 = 48.0;
+const LEAST_WIDTH_PX: f64 = 420.0;
 const BAR_PX: f64 = 15.0;
 /// Waves of less than this part of the largest have no phase to speak of.
 const LITTLE: f64 = 0.05;
@@ -61,7 +62,7 @@ impl WaveBars {
         if most <= 0.0 {
             return heading.notice("There is nothing to draw: there are no waves.");
         }
-        let width = (WAVE_PX * self.waves.len() as f64).max(260.0);
+        let width = (WAVE_PX * self.waves.len() as f64).max(LEAST_WIDTH_PX);
         let mut page = heading.page(LEFT_PX + width + BORDER_PX);
         let area = Rect {
             x: LEFT_PX,

@@ -102,6 +102,7 @@ fn guide_runs() {
         "measured-forces",
         "roundness",
         "ballbar",
+        "budget",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -112,7 +113,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 15, "name the new page in `guide_runs`");
+    assert_eq!(pages, 16, "name the new page in `guide_runs`");
 }
 
 #[test]
