@@ -242,7 +242,7 @@ impl Runner<'_> {
     }
 
     /// The answers along a path, and all that follows from them in the branch that was followed.
-    fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
+    pub(crate) fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
         let Followed {

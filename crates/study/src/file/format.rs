@@ -7,6 +7,7 @@ use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::experiment::ExperimentTable;
 use super::holes::HolesTable;
 use super::path::cut::CutTable;
 use super::path::program::ProgramTable;
@@ -60,6 +61,8 @@ pub struct StudyFile {
     pub ask: Vec<AskTable>,
     /// Where the part may lie, for `armill place`.
     pub place: Option<PlaceTable>,
+    /// What was measured on one circle, beside which the prediction is put.
+    pub measured: Option<ExperimentTable>,
     /// Figures published by others, to stand beside ours.
     #[schemars(length(max = 1000))]
     #[serde(default)]

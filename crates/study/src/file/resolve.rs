@@ -22,6 +22,7 @@ use armill_formats::sources::Source;
 
 use super::ask::Resolver;
 use super::compliance::{self, OwnCompliance};
+use super::experiment::Experiment;
 use super::format::{AskTable, StatementTable, StudyFile};
 use super::holes::HolesAsk;
 use super::memory;
@@ -48,6 +49,8 @@ pub struct Study {
     pub asks: Vec<Ask>,
     /// Where the part may lie.
     pub place: Option<PlaceTable>,
+    /// What was measured on one circle.
+    pub experiment: Option<Experiment>,
     /// What others state.
     pub statements: Vec<StatementTable>,
 }
@@ -245,6 +248,11 @@ pub fn read_changed(
             places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
         }
     }
+    let all_read = asks.len() == tables.len();
+    let experiment = file
+        .measured
+        .as_ref()
+        .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
     problems.append(&mut places.problems);
     problems.extend(unfit_names(&document, &file));
     Problems::from(without_repeats(problems)).into_result()?;
@@ -266,6 +274,7 @@ pub fn read_changed(
         robot,
         asks,
         place: file.place,
+        experiment,
         statements: file.statement,
     })
 }
