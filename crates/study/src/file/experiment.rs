@@ -393,7 +393,7 @@ fn test(
                 key,
                 error.to_string(),
                 "see what `armill ballbar` tells of these files",
-            )
+            );
         })
         .ok()
 }

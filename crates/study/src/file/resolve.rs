@@ -217,7 +217,7 @@ pub fn read_changed(
         let resolver = Resolver {
             file: &file,
             robot: robot.as_ref(),
-            actual: actual.as_ref().map(|(robot, _)| robot),
+            actual: actual.as_ref().map(|actual| &actual.robot),
             table,
             folder,
         };
@@ -264,7 +264,7 @@ pub fn read_changed(
     };
     robot
         .sources
-        .extend(actual.into_iter().flat_map(|(_, sources)| sources));
+        .extend(actual.into_iter().flat_map(|actual| actual.sources));
     Ok(Study {
         title: file
             .title
@@ -298,7 +298,14 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
     kept
 }
 
-/// The robot as it was measured, and the sources of its numbers; `None` where the study names none, or one that does not fit,
+/// The robot as it was measured.
+struct Actual {
+    robot: Arc<Robot>,
+    /// Where its numbers come from.
+    sources: Vec<Source>,
+}
+
+/// The robot as it was measured; `None` where the study names none, or one that does not fit,
 /// told at its place.
 ///
 /// # Errors
@@ -307,7 +314,7 @@ fn find_actual(
     places: &mut Places<'_>,
     file: &StudyFile,
     (believed, folder): (&RobotDescription, &Path),
-) -> Result<Option<(Arc<Robot>, Vec<Source>)>, StudyError> {
+) -> Result<Option<Actual>, StudyError> {
     let Some(name) = &file.actual_robot else {
         return Ok(None);
     };
@@ -338,7 +345,10 @@ fn find_actual(
         key: format!("actual:{}", source.key),
         ..source
     });
-    Ok(Some((Arc::new(found.robot), sources.collect())))
+    Ok(Some(Actual {
+        robot: Arc::new(found.robot),
+        sources: sources.collect(),
+    }))
 }
 
 /// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not

@@ -62,7 +62,7 @@ fn push(force: [f64; 3]) -> PathLoad {
         frame: LoadFrame::Base,
         cases: vec![
             Wrench::from_force(force.into()),
-            Wrench::from_force((-Vector3::from(force)).into()),
+            Wrench::from_force(-Vector3::from(force)),
         ],
     })
 }

@@ -65,7 +65,7 @@ impl UnloadedAnswer {
             max_full_um: unloaded
                 .moved
                 .iter()
-                .map(|moved| moved.norm())
+                .map(armill_core::nalgebra::Vector3::norm)
                 .fold(0.0, f64::max)
                 * 1e6,
             joints: play.collect(),
