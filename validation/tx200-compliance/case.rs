@@ -265,6 +265,7 @@ fn gravity_gap(robot: &Robot) -> f64 {
             reference: vec![0.0; 6],
         }),
         load_dependent: false,
+        actual: None,
     };
     let tool = flange_from_tool();
     let mut standing = Standing::new(held(robot, &model, &tool));

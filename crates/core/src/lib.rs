@@ -8,10 +8,12 @@
 //! [`load`], [`source`] (what moves the tool), [`workpiece`] and [`path`] (which points), [`kernel`] (many
 //! points at once), [`map`] (planes, sections, volumes, the region within a tolerance),
 //! [`optimize`] (the posture along a path), [`identify`] (the springs of an arm from load tests), [`calibrate`] (its
-//! geometry from measured poses), [`measure`] (what circular tests and repeated poses show).
+//! geometry from measured poses), [`measure`] (what circular tests and repeated poses show), [`budget`] (what the error of
+//! a cut circle is made of).
 //!
 //! Symbols and conventions: `docs/notation.md`.
 
+pub mod budget;
 pub mod calibrate;
 pub mod compliance;
 pub mod frame;

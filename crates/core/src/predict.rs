@@ -1,12 +1,12 @@
 //! **The main idea.** Posture and load in, deviation of the tool out, with its parts.
 //!
-//! An arm that holds a tool at a pose stands in some posture (`robot::inverse`). Its joints lie on lines in
-//! space; seen from the tool each is a screw. The load is a wrench on the tool. Each source of error answers
-//! with a small displacement of the tool, and these add:
+//! An arm that holds a tool stands in some posture (`robot::inverse`). Its joints lie on lines in space; seen from
+//! the tool each is a screw. The load is a wrench on the tool. Each source of error answers with a small
+//! displacement of the tool, and these add:
 //!
 //! ```text
 //! pose -> posture -> screws s_i        load -> wrench w
-//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses)     [+ backlash + geometric + ... as they come]
+//! deviation = elastic(s_i, c_i, w) + gravity(s_i, c_i, masses)     + backlash(s_i, u_i) + geometric along a path
 //! ```
 //!
 //! [`predict`] is the simple model, in which only joints yield; [`predict_in_full`] has every part of a
@@ -31,9 +31,7 @@ pub struct Deviation {
     pub covariance: Matrix3<f64>,
 }
 
-/// The deviation of a tool held in `posture` by joints of these compliances under `wrench`.
-///
-/// Not checked: that `joints` are as many as the posture's.
+/// The deviation of a tool held in `posture` by joints of these compliances, as many as it has, under `wrench`.
 ///
 /// ```
 /// use armill_core::predict::predict;
@@ -72,7 +70,11 @@ pub fn predict_in_full(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<D
 
 /// The sources in their row: what they add up to where the arm stands.
 pub(crate) fn deviation_of(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<Twist, Unstable> {
-    let elastic = standing.elastic(wrench)?;
-    let gravity = standing.gravity()?;
+    let (elastic, gravity) = (standing.elastic(wrench)?, standing.gravity()?);
     Ok(gravity.map_or(elastic, |gravity| elastic + gravity))
+}
+
+/// What comes on top along a path, where it is known where links were `dragged` to in their gaps, rad (m).
+pub(crate) fn beside_load(standing: &Standing<'_>, dragged: &[f64], wrench: &Wrench) -> Twist {
+    standing.backlash(dragged, wrench) + standing.geometric()
 }

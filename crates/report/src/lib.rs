@@ -17,6 +17,7 @@
 //! | how may the tool be turned along the path; what lies around a place? | [`CellMap`] |
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell holds the tolerance? | [`Comparison`] |
+//! | what is an error made of; is it what was measured, wave by wave? | [`BudgetBars`], [`WaveBars`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
@@ -45,9 +46,11 @@ mod process_map;
 mod track;
 mod vector_field;
 
+mod budget_bars;
 mod comparison;
 mod ellipse;
 mod shares;
+mod wave_bars;
 
 mod arm;
 
@@ -83,6 +86,7 @@ mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
 pub use ballbar_plot::{BallbarPlot, BallbarTrace, Sense};
+pub use budget_bars::{BudgetBar, BudgetBars, BudgetGroup};
 pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use comparison::{ComparedCell, Comparison};
@@ -102,3 +106,4 @@ pub use region::{CircleMm, RectangleMm, RegionMap};
 pub use shares::{ShareBar, ShareBars};
 pub use track::{Stretch, TrackMap};
 pub use vector_field::{Arrow, ArrowCase, VectorField};
+pub use wave_bars::{WaveBar, WaveBars};

@@ -11,8 +11,8 @@
 //!
 //! A path that a program of a robot told comes back as that program too, with its targets moved ([`crate::in_place`]).
 //!
-//! What is taken off is the elastic deviation (and what gravity adds, where the study has it) under the mean of the load
-//! cases, of a cut under its force as drawn; what the cases leave is told as the rest.
+//! What is taken off is the elastic deviation (and what gravity, backlash and the measured arm add, where they are known)
+//! under the mean of the load cases, of a cut under its force as drawn; what the cases leave is told as the rest.
 
 use armill_core::frame::tool_orientation;
 use armill_core::kernel::Answers;

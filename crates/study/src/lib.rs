@@ -4,6 +4,7 @@
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
 //! [`roundness`] measured profiles, [`ballbar`] circular tests, [`pose_accuracy`] and [`calibrate`] measured poses,
+//! [`budget`] puts what was measured beside what is predicted,
 //! [`place`] finds where a part may lie best, [`advise`] what to do about a path.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
@@ -15,6 +16,7 @@
 pub mod advise;
 pub mod answer;
 pub mod ballbar;
+pub mod budget;
 pub mod calibrate;
 pub mod compare;
 pub mod compensate;

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
-//! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances
+//! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
+//! backlash of L, U along paths; the measured arm along paths
 //! ```
 //!
 //! An answer has those of its own model, in this order.
@@ -38,6 +39,13 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     }
     if structure.covariance.is_some() {
         parts.push("covariance of the compliances".to_owned());
+    }
+    let play: Vec<String> = structure.gaps().map(|(joint, _)| name(joint)).collect();
+    if !play.is_empty() {
+        parts.push(format!("backlash of {} along paths", play.join(", ")));
+    }
+    if model.actual.is_some() {
+        parts.push("the measured arm along paths".to_owned());
     }
     parts
 }

@@ -265,6 +265,7 @@ fn stiffness_model(
         structure: described.robot.structure().clone(),
         gravity: question.reference_joints_deg.as_ref().map(gravity).transpose()?,
         load_dependent: question.load_dependent,
+        actual: None,
     })
 }
 

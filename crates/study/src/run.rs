@@ -11,7 +11,7 @@
 //! so that answers and pictures need nothing else.
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{Answers, Question, evaluate};
+use armill_core::kernel::{Answers, Question, evaluate, evaluate_on_path};
 use armill_core::load::PathLoad;
 use armill_core::map::{
     AlongPath, Jump, PlaneMap, ProgramLimits, RadialDeviation, VolumeMap, along_path, along_postures, jumps,
@@ -242,7 +242,7 @@ impl Runner<'_> {
     }
 
     /// The answers along a path, and all that follows from them in the branch that was followed.
-    fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
+    pub(crate) fn path(&self, ask: &PathAsk) -> Result<PathFound, StudyError> {
         let (load, forces) = self.pushed(ask)?;
         let question = self.question(&ask.setting);
         let Followed {
@@ -350,7 +350,14 @@ impl Runner<'_> {
             home: Some(along.answers.joints_at(index).to_vec()),
             ..ask.setting.clone()
         };
-        let answers = evaluate(&self.question(&setting), 1, |_| stop.base_from_tool, Watch::NONE)?;
+        let question = self.question(&setting);
+        let answers = match &along.unloaded {
+            Some(unloaded) => {
+                let dragged = unloaded.dragged_at(index, along.answers.joint_count);
+                evaluate_on_path(&question, &stop.base_from_tool, dragged)
+            }
+            None => evaluate(&question, 1, |_| stop.base_from_tool, Watch::NONE)?,
+        };
         Ok(InFull {
             index,
             setting,

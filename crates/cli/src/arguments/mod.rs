@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `pose_accuracy`, `completions`; `poses` is for two of them.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` is for two of them.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -12,6 +12,7 @@
 
 mod advise;
 mod ballbar;
+mod budget;
 mod calibrate;
 mod check;
 mod compare;
@@ -32,6 +33,7 @@ mod run;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
+pub(crate) use budget::BudgetArguments;
 pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
 pub(crate) use check::CheckArguments;
 pub(crate) use compare::CompareArguments;
@@ -106,6 +108,8 @@ pub(crate) enum Command {
     Ballbar(Box<BallbarArguments>),
     /// How near the arm comes to its poses, and how alike, from a laser tracker
     PoseAccuracy(Box<PoseAccuracyArguments>),
+    /// What the error of a measured circle is made of, and how much of it is predicted
+    Budget(BudgetArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -135,6 +139,7 @@ impl Command {
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
+            Command::Budget(a) => a.json,
             Command::Completions(_) => false,
         }
     }

@@ -6,7 +6,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-fn repository() -> PathBuf {
+pub fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -103,6 +103,7 @@ fn guide_runs() {
         "roundness",
         "ballbar",
         "calibrate",
+        "budget",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -113,7 +114,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 16, "name the new page in `guide_runs`");
+    assert_eq!(pages, 17, "name the new page in `guide_runs`");
 }
 
 #[test]

@@ -107,6 +107,19 @@ impl Answers {
         joined
     }
 
+    /// Moves the tool at point `index`, where it is held, by as much more under each load case (m, base), seen on a plane
+    /// with this normal. Shares are not told of such answers.
+    pub(crate) fn move_on(&mut self, index: usize, by: &[Vector3<f64>], normal: Unit<Vector3<f64>>) {
+        assert_eq!(self.share_count, 0, "shares would no longer add up");
+        let deviations = &mut self.deviations[index * self.case_count..][..self.case_count];
+        if let Ok(held) = &mut self.points[index] {
+            for (deviation, by) in deviations.iter_mut().zip(by) {
+                *deviation += by;
+            }
+            held.take_envelope(deviations, normal);
+        }
+    }
+
     /// Where the answers go, in blocks of so many points.
     pub(super) fn blocks(&mut self, size: usize) -> Vec<Slots<'_>> {
         let mut rest = Slots {

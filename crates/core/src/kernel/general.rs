@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::answer::{Held, Told};
 use super::question::{BranchChoice, Question};
 use crate::frame::Isometry;
-use crate::predict::deviation_of;
+use crate::predict::{beside_load, deviation_of};
 use crate::robot::forward::{Frames, forward_into};
 use crate::robot::inverse::{Finder, Found, Wanted};
 use crate::robot::{Overrun, PostureName, Seat, Unreachable};
@@ -29,6 +29,8 @@ pub(super) struct General<'q> {
     standing: Standing<'q>,
     /// Whom shares are told for; nobody where they are not asked for.
     sharers: Vec<Seat>,
+    /// Where links were dragged to in their gaps, on a path; elsewhere nobody knows.
+    dragged: Option<&'q [f64]>,
     joints: Vec<f64>,
     deviations: Vec<Vector3<f64>>,
     shares: Vec<f64>,
@@ -55,6 +57,16 @@ impl<'q> General<'q> {
                 vec![0.0; sharers.len()],
             ),
             sharers,
+            dragged: None,
+        }
+    }
+
+    /// The same on a path, where links were dragged to in their gaps, rad (m), one a joint: what moves the tool beside the
+    /// load is told too.
+    pub(super) fn on_path(question: &Question<'q>, told: Told, dragged: &'q [f64]) -> General<'q> {
+        General {
+            dragged: Some(dragged),
+            ..General::new(question, told)
         }
     }
 
@@ -161,6 +173,9 @@ impl<'q> General<'q> {
         for (case, wrench) in question.cases.iter().enumerate() {
             let unstable = |_| Unreachable::Unstable { case };
             self.deviations[case] = deviation_of(&mut self.standing, wrench).map_err(unstable)?.linear;
+            if let Some(dragged) = self.dragged {
+                self.deviations[case] += beside_load(&self.standing, dragged, wrench).linear;
+            }
         }
         held.take_envelope(&self.deviations, question.normal);
         if !self.sharers.is_empty() {
@@ -187,6 +202,12 @@ impl<'q> General<'q> {
         }
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
         let mut variance = self.standing.variance_along(&along).max(0.0);
+        if let Some(dragged) = self.dragged {
+            let lie = (dragged, &question.cases[case]);
+            variance += self
+                .standing
+                .share_backlash(&along, lie, &self.sharers, &mut self.shares);
+        }
         if !question.doubt.is_none() {
             let standing = AsItStands {
                 joints: &self.joints,

@@ -3,7 +3,8 @@
 //! [`evaluate`] is the door. It finds a posture for each tool pose, the deviation of each load case there, the
 //! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
-//! other. [`evaluate_loaded`] takes a load of its own at every point, [`at_joints`] any chain at joint positions that are
+//! other. [`evaluate_loaded`] takes a load of its own at every point, [`evaluate_on_path`] one point of a path with all that
+//! moves the tool beside its load, [`at_joints`] any chain at joint positions that are
 //! known. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
 //! gives the same bits.
 //!
@@ -33,8 +34,33 @@ use rayon::prelude::*;
 
 use crate::frame::Isometry;
 use crate::watch::{Cancelled, Watch};
-use answer::Told;
+use answer::{Slot, Told};
+use general::General;
 use solver::{BLOCK, Order, Solver};
+
+/// Answers `question` at one pose of a path, where links were `dragged` to in their gaps, rad (m), one a joint: what moves
+/// the tool beside the load is told too, backlash in the shares of its joints, geometry in nobody's.
+///
+/// # Panics
+/// If the question has no load case, or a link is missing.
+pub fn evaluate_on_path(question: &Question<'_>, base_from_tool: &Isometry, dragged: &[f64]) -> Answers {
+    assert!(!question.cases.is_empty(), "a question has a load case at least");
+    assert_eq!(dragged.len(), question.arm.robot.joints().len(), "a link a joint");
+    let mut answers = Answers::new(question, 1, Told::Shares);
+    let mut general = General::on_path(question, Told::Shares, dragged);
+    for mut slots in answers.blocks(1) {
+        let Slot {
+            point,
+            joints,
+            deviations,
+            shares,
+        } = slots.at(0);
+        *point = general
+            .answer(question, base_from_tool, None)
+            .inspect(|_| general.write(joints, deviations, shares));
+    }
+    answers
+}
 
 /// Answers `question` at `count` tool poses; `base_from_tool(i)` gives the pose of point `i`.
 ///

@@ -5,10 +5,13 @@
 //! with shares and uncertainties at every point; any other load point by point without them. Where a tool cuts, force and
 //! deviation come to rest at every point ([`crate::load::straying`]); the branch is chosen under the forces of the path as
 //! drawn.
+//!
+//! Backlash and geometry come on top of what the load does (`unloaded`); force and depth of a cut do not answer to them.
 
 use std::ops::Range;
 
 use super::turns;
+use super::unloaded::{Unloaded, move_unloaded};
 use crate::kernel::{Answers, BranchChoice, Question, evaluate_in_order, evaluate_loaded};
 use crate::load::{CutsAlong, PathLoad, Rest, Straying, TipYield};
 use crate::path::Track;
@@ -25,12 +28,15 @@ pub struct AlongPath {
     /// The branch it was followed in, each from the point with that index on; the first from point 0.
     pub choices: Vec<(usize, BranchChoice)>,
     /// What came out at each point; in-plane is across the tool, normal along it. Shares and uncertainties where the load
-    /// is the same at all points and the tool does not lean ([`Answers::share_count`] is zero otherwise).
+    /// is the same at all points, the tool does not lean, and nothing but load and gravity moves it
+    /// ([`Answers::share_count`] is zero otherwise).
     pub answers: Answers,
     /// What pushed: of cuts the forces at rest, with the cuts as drawn.
     pub load: PathLoad,
     /// How force and deviation came to rest; `None` where no tool cuts, or the load changes the arm.
     pub rested: Option<Rested>,
+    /// What moved the tool beside the load, which `answers` have too; `None` where nothing does.
+    pub unloaded: Option<Unloaded>,
 }
 
 /// How force and deviation came to rest along a path.
@@ -91,7 +97,8 @@ pub fn along_postures(
         "a choice from the first point on"
     );
     let mut cases = vec![Wrench::ZERO; load.case_count()];
-    let steady = track.steady_normal().filter(|_| load.is_steady());
+    let unloaded = question.arm.model.moves_unloaded();
+    let steady = track.steady_normal().filter(|_| load.is_steady() && !unloaded);
     if steady.is_some() {
         track.wrenches(&load, 0, &mut cases);
     }
@@ -120,7 +127,9 @@ pub fn along_postures(
         }
     };
     turns::count_on(question.arm.robot, &mut answers, |i| !track.path.begins(i));
+    let unloaded = move_unloaded(&question.arm, (track, &load), &mut answers);
     Ok(AlongPath {
+        unloaded,
         choices,
         answers,
         load,

@@ -1,7 +1,7 @@
 //! Where does the tolerance hold?
 //!
 //! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle;
-//! `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
+//! [`unloaded`]: what moves the tool there beside its load; `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
 //! (`varied`: one cut, varied), [`depth_by_feed`]: over both; [`region`]: the part within a limit, its area, boundary and
 //! what fits; [`certainty`]: how sure that is.
 //!
@@ -18,6 +18,7 @@ pub mod plane;
 pub mod radial;
 pub mod region;
 mod turns;
+pub mod unloaded;
 mod varied;
 pub mod volume;
 mod worst;
@@ -30,5 +31,6 @@ pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimi
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use radial::{RadialDeviation, radial_deviations};
 pub use region::{Region, region_within};
+pub use unloaded::Unloaded;
 pub use volume::{BoxGrid, VolumeMap, volume_map};
 pub use worst::worst_points;

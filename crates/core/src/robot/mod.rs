@@ -1,12 +1,13 @@
 //! Which arm is it, and where does it stand?
 //!
 //! In reading order: [`chain`] (elementary motions and their inner form), [`joint`] (limits, signs, zeros,
-//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`structure`] (what else yields and weighs), [`model`]
+//! compliance), [`spring`], [`compensator`], [`torque_curve`], [`backlash`], [`structure`] (what else yields, weighs and has play), [`model`]
 //! (the robot as one value), [`forward`] (joint positions to frames), [`jacobian`] (screws at the tool), [`yielding`]
 //! (frames and screws once springs have given way), [`branch`] and [`posture`] (the ways to hold a pose), [`unreachable`](mod@unreachable) (why there may be none),
 //! [`inverse`] (tool pose to every posture), [`mod@reach`] (how far the wrist gets), [`convention`] (which sign or zero
 //! disagrees with the pendant).
 
+pub mod backlash;
 pub mod branch;
 pub mod chain;
 pub mod compensator;
@@ -24,6 +25,7 @@ pub mod torque_curve;
 pub mod unreachable;
 pub mod yielding;
 
+pub use backlash::{Backlash, Flank};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};

@@ -1,15 +1,16 @@
-//! What yields and weighs in an arm beside its drives: springs, masses, compensator, torque curves.
+//! What yields, weighs and has play in an arm beside its drives: springs, masses, compensator, torque curves, backlash.
 //!
 //! Empty for the simple model, in which only joints yield, each about its own axis.
 
 use nalgebra::DMatrix;
 
+use super::backlash::Backlash;
 use super::compensator::{Compensator, Mass};
 use super::model::{Robot, SOFTEST};
 use super::spring::{Seat, Spring};
 use super::torque_curve::JointCurve;
 
-/// What yields and weighs beside the drives.
+/// What yields, weighs and has play beside the drives.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {
     /// Springs, in any order; those of one seat act in the order of this list.
@@ -22,6 +23,8 @@ pub struct Structure {
     pub curves: Vec<Option<JointCurve>>,
     /// Covariance of the compliances of the drives, then the springs; what it does not reach is independent.
     pub covariance: Option<DMatrix<f64>>,
+    /// Backlash, by joint; a list may end early. It yields to nothing, and moves the tool along paths alone.
+    pub backlash: Vec<Option<Backlash>>,
 }
 
 /// Why a structure fits no arm.
@@ -70,6 +73,14 @@ pub enum StructureError {
         /// Index given.
         joint: usize,
     },
+    /// Backlash that is none.
+    #[error("backlash of joint number {}: {value} is not a number from 0 to {WIDEST} rad (m)", joint + 1)]
+    Backlash {
+        /// Index of the joint.
+        joint: usize,
+        /// As given.
+        value: f64,
+    },
     /// A curve of fewer than two pairs.
     #[error("a torque curve of {0} pairs: two make a line")]
     ShortCurve(usize),
@@ -87,6 +98,9 @@ pub enum StructureError {
 /// Radii of a compensator that differ by less let its spring shrink to nothing, m.
 const LEAST_SPRING: f64 = 1e-3;
 
+/// No gap is wider, rad (m).
+pub const WIDEST: f64 = 0.1;
+
 impl Structure {
     /// Nothing yields or weighs but the drives.
     pub const EMPTY: Structure = Structure {
@@ -95,11 +109,18 @@ impl Structure {
         compensator: None,
         curves: Vec::new(),
         covariance: None,
+        backlash: Vec::new(),
     };
 
     /// The torque curve of joint `index`, if it has one.
     pub fn curve(&self, index: usize) -> Option<&JointCurve> {
         self.curves.get(index).and_then(Option::as_ref)
+    }
+
+    /// Joints that have play, each with its backlash.
+    pub fn gaps(&self) -> impl Iterator<Item = (usize, &Backlash)> {
+        let gaps = self.backlash.iter().enumerate();
+        gaps.filter_map(|(joint, backlash)| Some((joint, backlash.as_ref().filter(|b| b.gap > 0.0)?)))
     }
 
     /// Whether this structure fits `robot`.
@@ -145,6 +166,15 @@ impl Structure {
             .filter(|(_, curve)| curve.is_some())
         {
             turns("a torque curve", joint)?;
+        }
+        for (joint, backlash) in self.backlash.iter().enumerate() {
+            let Some(backlash) = backlash else { continue };
+            seated("backlash", Seat::Joint(joint))?;
+            for value in [backlash.gap, backlash.standard_uncertainty] {
+                if !(0.0..=WIDEST).contains(&value) {
+                    return Err(StructureError::Backlash { joint, value });
+                }
+            }
         }
         if let Some(c) = &self.compensator {
             turns("the compensator", c.joint)?;

@@ -66,6 +66,19 @@ impl Polar {
         }
     }
 
+    /// Deviations (m) that are told over the angle (rad) themselves, about a centre and a radius of no matter.
+    pub fn of_deviations(angles: &[f64], deviations: &[f64]) -> Polar {
+        let order = in_order(angles);
+        Polar {
+            centre: Point2::origin(),
+            radius: 0.0,
+            gap: widest_gap_in(angles, &order),
+            angles: angles.to_vec(),
+            deviations: deviations.to_vec(),
+            order,
+        }
+    }
+
     /// RONp, m.
     pub fn highest_peak(&self) -> f64 {
         self.deviations.iter().copied().fold(f64::MIN, f64::max)

@@ -2,12 +2,16 @@
 //!
 //! [`elastic`]: joints give way to the load, the simple model by itself. [`stiffness_model`]: which parts beyond it are on.
 //! [`gravity`]: what masses do to drives and springs. [`equilibrium`]: where an arm comes to rest that the load changes.
+//! [`backlash`]: where links lie in the gaps of their joints. [`geometric`]: an arm that is not the one that its controller
+//! reckons with.
 //! [`standing`]: one arm in one posture, and what each of these moves there; `predict.rs` adds them in a visible row.
 //!
 //! `linear_system`: small systems of equations, in room that is reused.
 
+pub mod backlash;
 pub mod elastic;
 pub mod equilibrium;
+pub mod geometric;
 pub mod gravity;
 mod linear_system;
 pub mod standing;

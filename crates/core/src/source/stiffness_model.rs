@@ -3,6 +3,8 @@
 //! The simple model: every joint yields about its own axis, and nothing else does. Everything beyond is a part that is
 //! there or not; without it the same numbers come out, to the last bit.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use crate::frame::Isometry;
@@ -21,7 +23,7 @@ pub struct Gravity {
 }
 
 /// The parts of the stiffness model beside the drive springs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct StiffnessModel {
     /// What yields and weighs, tool and payload included.
     pub structure: Structure,
@@ -29,6 +31,8 @@ pub struct StiffnessModel {
     pub gravity: Option<Gravity>,
     /// Whether the load acts on the arm as it has yielded, instead of as it stood.
     pub load_dependent: bool,
+    /// The arm as it was measured, where its controller reckons with another; it moves the tool along paths alone.
+    pub actual: Option<Arc<Robot>>,
 }
 
 impl StiffnessModel {
@@ -37,6 +41,7 @@ impl StiffnessModel {
         structure: Structure::EMPTY,
         gravity: None,
         load_dependent: false,
+        actual: None,
     };
 
     /// Whether drive springs alone make the deviation, each with an uncertainty of its own.
@@ -51,6 +56,11 @@ impl StiffnessModel {
     /// load does not change the arm that it acts on.
     pub fn is_affine(&self) -> bool {
         !self.load_dependent && self.structure.curves.iter().all(Option::is_none)
+    }
+
+    /// Whether something moves the tool along a path that no load makes: backlash, or geometry.
+    pub fn moves_unloaded(&self) -> bool {
+        self.structure.gaps().next().is_some() || self.actual.is_some()
     }
 
     /// What the deviation is shared out to: every joint, then base, flange and tool where springs sit.

@@ -102,6 +102,7 @@ fn springs_and_gravity_add_what_they_add_to_one_point() {
         structure: heavy(&robot),
         gravity: Some(gravity),
         load_dependent: false,
+        actual: None,
     };
     agrees(&robot, &model, LoadFrame::Feed, 1e-10);
 }
@@ -113,6 +114,7 @@ fn a_load_that_changes_the_arm_is_asked_as_it_is() {
         structure: heavy(&robot),
         gravity: None,
         load_dependent: true,
+        actual: None,
     };
     // Both find the rest of the arm by iteration.
     agrees(&robot, &model, LoadFrame::Feed, 1e-8);

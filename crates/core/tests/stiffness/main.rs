@@ -77,6 +77,7 @@ fn weighing(structure: Structure) -> StiffnessModel {
             reference: vec![0.0; 6],
         }),
         load_dependent: false,
+        actual: None,
     }
 }
 

@@ -51,7 +51,7 @@ proptest! {
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
-        let model = StiffnessModel { structure, load_dependent: true, gravity: None };
+        let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
         let simple = StiffnessModel { load_dependent: false, ..model.clone() };
         let arm = held(robot, &model, &tool);
         let theta: Vec<f64> = (0..6).map(|i| robot.theta(i, &q)).collect();
@@ -80,7 +80,7 @@ proptest! {
         let robot = &arms::ALL[which];
         let (q, tool) = (arms::positions(robot, &unit), arms::bent_tool());
         let structure = Structure { springs: springs(), ..Structure::EMPTY };
-        let model = StiffnessModel { structure, load_dependent: true, gravity: None };
+        let model = StiffnessModel { structure, load_dependent: true, ..StiffnessModel::DRIVES.clone() };
         let mut standing = Standing::new(held(robot, &model, &tool));
         standing.stand(&q);
         let w = Wrench { force: w.force * 0.2, moment: w.moment * 0.2 };

@@ -3,6 +3,7 @@
 //! `cargo run -p armill-report --example gallery -- FOLDER` writes into FOLDER (`gallery` where none is given).
 
 mod arms;
+mod budget;
 mod fields;
 mod paths;
 
@@ -20,6 +21,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let pictures: Vec<(&str, String)> = fields::pictures()
         .into_iter()
         .chain(paths::pictures())
+        .chain(budget::pictures())
         .chain(arms::pictures())
         .collect();
     for (name, svg) in &pictures {

@@ -12,6 +12,7 @@
 //! paths[]       setting, worst_points, features, cut or measured, limits, program, joint ranges
 //! volumes[]     setting, counts, worst and best point
 //! holes[]       setting, counts, worst_holes, each hole
+//! measured      what was measured on a circle: contributions, sums, part, waves
 //! statements[]  what others state, with a reading for each map or path it may speak of
 //! warnings[]    what to know before trusting it; sources[]: where its numbers come from
 //! ```
@@ -44,6 +45,7 @@ use armill_formats::sources::Source;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::budget::{self, BudgetAnswer};
 use crate::file::path::{Cut, PathAsk};
 use crate::file::resolve::{Study, Subject};
 use crate::joint_unit::JointUnit;
@@ -75,6 +77,8 @@ pub struct StudyAnswer {
     pub holes: Vec<HolesAnswer>,
     /// What others state, beside what was found here.
     pub statements: Vec<StatementAnswer>,
+    /// What was measured on a circle, beside its prediction; none where nothing was.
+    pub measured: Option<BudgetAnswer>,
     /// What a user should know before trusting it.
     pub warnings: Vec<String>,
     /// Where the numbers come from.
@@ -152,6 +156,18 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
             Told::Holes(told) => holes.push(*told),
         }
     }
+    let (measured, unmeasured) = match budget::beside(study, done) {
+        Some(Ok((_, told))) => (Some(told), None),
+        Some(Err(reason)) => (
+            None,
+            Some(format!("What was measured is not compared: {reason}.")),
+        ),
+        None => (None, None),
+    };
+    let mut warnings = warnings(study, (&maps, &paths), (&volumes, &holes));
+    let of_measured = measured.iter().flat_map(|told| &told.warnings);
+    warnings.extend(of_measured.map(|warning| format!("Measured: {warning}.")));
+    warnings.extend(unmeasured);
     StudyAnswer {
         format: 1,
         armill: env!("CARGO_PKG_VERSION"),
@@ -160,7 +176,8 @@ pub fn answer(study: &Study, done: &[Done<'_>]) -> StudyAnswer {
         answer: sentence::answer(study, (&maps, &paths), (&volumes, &holes)),
         robot: robot_answer(study),
         statements: statement::answers(study, &maps, &paths),
-        warnings: warnings(study, (&maps, &paths), (&volumes, &holes)),
+        measured,
+        warnings,
         maps,
         paths,
         volumes,
@@ -319,6 +336,16 @@ fn warnings(
         }
     }
     warnings.extend(study.settings().find_map(|setting| left_out(&setting.model)));
+    let beside_paths = study
+        .asks
+        .iter()
+        .any(|ask| !matches!(ask.subject, Subject::Path(_)));
+    if beside_paths && study.settings().any(|setting| setting.model.moves_unloaded()) {
+        warnings.push(
+            "Backlash and the measured arm move the tool along paths alone: maps, sections, volumes and holes leave them out."
+                .to_owned(),
+        );
+    }
     warnings.extend(study.robot.note.clone());
     warnings
 }

@@ -2,7 +2,6 @@
 
 use armill_core::calibrate::{Estimate, Place, PoseErrors, Spread, Unknown};
 use armill_core::frame::{Isometry, fixed_angles};
-use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use serde::Serialize;
 
@@ -199,7 +198,12 @@ fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
 
 /// The errors of a set.
 fn set_answer(set: &Set) -> SetAnswer {
-    let lengths: Vec<f64> = set.after.position.iter().map(Vector3::norm).collect();
+    let lengths: Vec<f64> = set
+        .after
+        .position
+        .iter()
+        .map(armill_core::nalgebra::Vector3::norm)
+        .collect();
     let mut order: Vec<usize> = (0..lengths.len()).collect();
     order.sort_by(|a, b| lengths[*b].total_cmp(&lengths[*a]));
     let rms = set.after.of_position().map_or(0.0, |spread| spread.rms);

@@ -9,6 +9,7 @@
 //! path the study's cut comes before its load.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
@@ -16,7 +17,7 @@ use armill_core::load::{Doubt, LoadCases, LoadFrame};
 use armill_core::map::BoxGrid;
 use armill_core::nalgebra::{Translation3, Vector3};
 use armill_core::optimize::PostureSearch;
-use armill_core::robot::BranchPattern;
+use armill_core::robot::{BranchPattern, Robot};
 use armill_core::workpiece::Grid;
 use armill_formats::robot::RobotDescription;
 
@@ -54,6 +55,8 @@ pub(super) fn kind_noun(kind: AskKind) -> &'static str {
 pub(super) struct Resolver<'a> {
     pub file: &'a StudyFile,
     pub robot: Option<&'a RobotDescription>,
+    /// The robot as it was measured, where its controller reckons with `robot`.
+    pub actual: Option<&'a Arc<Robot>>,
     pub table: &'a AskTable,
     /// Where files of the study are looked for.
     pub folder: &'a Path,
@@ -209,7 +212,7 @@ impl Resolver<'_> {
         let tool = self.table.tool.as_ref().or(self.file.tool.as_ref());
         let model = self
             .robot
-            .and_then(|found| stiffness::model(places, self.file, tool, &found.robot));
+            .and_then(|found| stiffness::model(places, self.file, tool, (&found.robot, self.actual)));
         let (base_from_counted, choice, (plane, tilt)) = (base_from_counted?, choice?, plane?);
         let (model, load) = (model?, load?);
         let doubt = Doubt {

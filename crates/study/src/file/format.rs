@@ -7,6 +7,7 @@ use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::experiment::ExperimentTable;
 use super::holes::HolesTable;
 use super::path::cut::CutTable;
 use super::path::program::ProgramTable;
@@ -27,6 +28,9 @@ pub struct StudyFile {
     pub question: Option<String>,
     /// Name of a library robot (`armill robots`), or a robot file of any format relative to the study.
     pub robot: String,
+    /// The robot as it was measured (calibrated), where its controller reckons with `robot`: found likewise. It moves the
+    /// tool along paths.
+    pub actual_robot: Option<String>,
     /// Where heights count from: `base_link` (default) or a frame of the robot such as `controller`.
     pub base: Option<String>,
     /// Joint compliances in place of the robot file's, or where it has none.
@@ -57,6 +61,8 @@ pub struct StudyFile {
     pub ask: Vec<AskTable>,
     /// Where the part may lie, for `armill place`.
     pub place: Option<PlaceTable>,
+    /// What was measured on one circle, beside which the prediction is put.
+    pub measured: Option<ExperimentTable>,
     /// Figures published by others, to stand beside ours.
     #[schemars(length(max = 1000))]
     #[serde(default)]

@@ -4,6 +4,7 @@
 //! those of the next, and a value of the study that several asks take is told once.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
@@ -17,9 +18,11 @@ use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::robot::RobotDescription;
+use armill_formats::sources::Source;
 
 use super::ask::Resolver;
 use super::compliance::{self, OwnCompliance};
+use super::experiment::Experiment;
 use super::format::{AskTable, StatementTable, StudyFile};
 use super::holes::HolesAsk;
 use super::memory;
@@ -46,6 +49,8 @@ pub struct Study {
     pub asks: Vec<Ask>,
     /// Where the part may lie.
     pub place: Option<PlaceTable>,
+    /// What was measured on one circle.
+    pub experiment: Option<Experiment>,
     /// What others state.
     pub statements: Vec<StatementTable>,
 }
@@ -194,6 +199,10 @@ pub fn read_changed(
     change(&mut file);
     let mut places = Places::new(&document, None);
     let robot = find_robot(&mut places, &file, folder)?;
+    let actual = match &robot {
+        Some(robot) => find_actual(&mut places, &file, (robot, folder))?,
+        None => None,
+    };
     let mut problems = std::mem::take(&mut places.problems);
     let mut asks = Vec::new();
     let default_ask = [whole_plane()];
@@ -208,6 +217,7 @@ pub fn read_changed(
         let resolver = Resolver {
             file: &file,
             robot: robot.as_ref(),
+            actual: actual.as_ref().map(|actual| &actual.robot),
             table,
             folder,
         };
@@ -238,15 +248,23 @@ pub fn read_changed(
             places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
         }
     }
+    let all_read = asks.len() == tables.len();
+    let experiment = file
+        .measured
+        .as_ref()
+        .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
     problems.append(&mut places.problems);
     problems.extend(unfit_names(&document, &file));
     Problems::from(without_repeats(problems)).into_result()?;
-    let Some(robot) = robot else {
+    let Some(mut robot) = robot else {
         return Err(StudyError::value(
             format!("{shown}: no robot"),
             "name one with `robot = ...`",
         ));
     };
+    robot
+        .sources
+        .extend(actual.into_iter().flat_map(|actual| actual.sources));
     Ok(Study {
         title: file
             .title
@@ -256,6 +274,7 @@ pub fn read_changed(
         robot,
         asks,
         place: file.place,
+        experiment,
         statements: file.statement,
     })
 }
@@ -277,6 +296,59 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
         }
     }
     kept
+}
+
+/// The robot as it was measured.
+struct Actual {
+    robot: Arc<Robot>,
+    /// Where its numbers come from.
+    sources: Vec<Source>,
+}
+
+/// The robot as it was measured; `None` where the study names none, or one that does not fit,
+/// told at its place.
+///
+/// # Errors
+/// The problems of its file.
+fn find_actual(
+    places: &mut Places<'_>,
+    file: &StudyFile,
+    (believed, folder): (&RobotDescription, &Path),
+) -> Result<Option<Actual>, StudyError> {
+    let Some(name) = &file.actual_robot else {
+        return Ok(None);
+    };
+    let found = match robots::find(name, folder) {
+        Ok(found) => found,
+        Err(StudyError::Value { message, hint }) => {
+            places.problem("actual_robot", message, &hint);
+            return Ok(None);
+        }
+        Err(problems) => return Err(problems),
+    };
+    let [joints, of_controller] = [&found, believed].map(|robot| robot.robot.joints().len());
+    let slides = |robot: &Robot| {
+        (0..robot.joints().len())
+            .map(|joint| robot.slides(joint))
+            .collect::<Vec<_>>()
+    };
+    if joints != of_controller || slides(&found.robot) != slides(&believed.robot) {
+        let message = format!(
+            "`{name}` has other joints than `{}`: {joints} and {of_controller}",
+            file.robot
+        );
+        let hint = "the same arm as `robot`, with the lengths and angles that were measured";
+        places.problem("actual_robot", message, hint);
+        return Ok(None);
+    }
+    let sources = found.sources.into_iter().map(|source| Source {
+        key: format!("actual:{}", source.key),
+        ..source
+    });
+    Ok(Some(Actual {
+        robot: Arc::new(found.robot),
+        sources: sources.collect(),
+    }))
 }
 
 /// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not

@@ -2,11 +2,14 @@
 //!
 //! | from | what |
 //! |---|---|
-//! | robot file | springs, masses, compensator, torque curves, covariance |
+//! | robot file | springs, masses, compensator, torque curves, covariance, backlash |
 //! | `[[tool.spring]]`, `[[tool.mass]]` | what yields and weighs in holder, spindle and tool |
 //! | `tool.stick_out_mm` and what goes with it | a cutter that bends like a clamped bar, two springs |
 //! | `[gravity]` | where the tool was set, and where down is |
 //! | `load_dependent` | whether the load acts on the arm as it has yielded |
+//! | `actual_robot` | the arm as it was measured, where its controller reckons with another |
+
+use std::sync::Arc;
 
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::spring::cutter_springs;
@@ -18,12 +21,12 @@ use armill_formats::robot::spring_tables::Fault;
 use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
 use super::places::Places;
 
-/// The model of `robot` with this tool; `None` where something is wrong with it.
+/// The model of `robot`, which is in truth the `actual` one, with this tool; `None` where something is wrong with it.
 pub(super) fn model(
     places: &mut Places<'_>,
     file: &StudyFile,
     tool: Option<&ToolTable>,
-    robot: &Robot,
+    (robot, actual): (&Robot, Option<&Arc<Robot>>),
 ) -> Option<StiffnessModel> {
     // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
@@ -39,6 +42,7 @@ pub(super) fn model(
         structure,
         gravity,
         load_dependent: file.load_dependent,
+        actual: actual.cloned(),
     })
 }
 

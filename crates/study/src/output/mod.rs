@@ -88,9 +88,9 @@ pub enum Pictures {
 const PNG_SCALE: f64 = 2.0;
 
 /// What pictures of an ask add to its name.
-const PICTURES: [&str; 13] = [
-    "holes", "cells", "turns", "region", "shares", "ellipse", "arm", "vectors", "along", "polar", "track",
-    "process", "forces",
+const PICTURES: [&str; 16] = [
+    "budget", "measured", "waves", "holes", "cells", "turns", "region", "shares", "ellipse", "arm",
+    "vectors", "along", "polar", "track", "process", "forces",
 ];
 
 /// Whether files called `slug` could be pictures of the ask called `ask`.

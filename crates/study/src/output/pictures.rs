@@ -56,10 +56,15 @@ pub(super) fn draw(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Ve
         (done, of_ask, (path, of_holes))
     });
     let told: Vec<_> = told.collect();
-    told.into_par_iter()
+    let mut pictures: Vec<Picture> = told
+        .into_par_iter()
         .with_max_len(1)
         .flat_map_iter(|(done, maps, others)| pictures_of(study, done, maps, others))
-        .collect()
+        .collect();
+    if let Some(Ok((combined, told))) = crate::budget::beside(study, done) {
+        pictures.extend(crate::budget::output::pictures(&told, &combined));
+    }
+    pictures
 }
 
 /// The pictures of one ask; `maps`, `path` and `holes` are what the answer says of it.

@@ -4,8 +4,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::*;
 use crate::arms;
-use crate::robot::JointCompliance;
 use crate::robot::torque_curve::TorqueCurve;
+use crate::robot::{Flank, JointCompliance};
 
 fn spring(value: f64) -> Spring {
     let compliance = JointCompliance {
@@ -50,7 +50,32 @@ fn sound() -> Structure {
         compensator: Some(compensator()),
         curves: vec![None, None, curve()],
         covariance: Some(DMatrix::identity(8, 8) * 1e-14),
+        backlash: vec![None, backlash(2e-4)],
     }
+}
+
+fn backlash(gap: f64) -> Option<Backlash> {
+    Some(Backlash {
+        gap,
+        standard_uncertainty: 1e-5,
+        flank: Flank::Motion,
+    })
+}
+
+#[test]
+fn backlash_is_a_gap_that_a_joint_can_have() {
+    assert_eq!(
+        refused(|s| s.backlash[1] = backlash(-1e-9)),
+        "backlash of joint number 2: -0.000000001 is not a number from 0 to 0.1 rad (m)"
+    );
+    assert!(refused(|s| s.backlash[1] = backlash(f64::NAN)).contains("NaN"));
+    assert_eq!(
+        refused(|s| s.backlash = vec![backlash(1e-4); 7]),
+        "backlash names joint number 7, which does not exist or slides"
+    );
+    let mut none = sound();
+    none.backlash = vec![backlash(0.0), None, backlash(1e-4)];
+    assert_eq!(none.gaps().map(|(joint, _)| joint).collect::<Vec<_>>(), [2]);
 }
 
 /// Why an arm of six turning joints does not take the sound structure after a change.

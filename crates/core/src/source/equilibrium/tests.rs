@@ -188,6 +188,7 @@ fn with_everything() -> StiffnessModel {
             reference: vec![0.0; 6],
         }),
         load_dependent: true,
+        actual: None,
     }
 }
 

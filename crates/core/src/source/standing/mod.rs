@@ -16,10 +16,11 @@
 //! | `tau_g` | torque of gravity on it, compensator included | N m (N) |
 //!
 //! Made once, used at any number of postures and loads without allocation. `shares`: who moves the tool by how much;
-//! `doubt`: how sure that is, of load and tool.
+//! `doubt`: how sure that is, of load and tool; `unloaded`: what moves the tool beside the load.
 
 mod doubt;
 mod shares;
+mod unloaded;
 
 pub use doubt::AsItStands;
 
@@ -44,6 +45,8 @@ pub struct Standing<'a> {
     seats: Vec<Seat>,
     /// Room for [`Standing::stand`]; taken while it is in use.
     frames: Option<Frames>,
+    /// Joint positions where it stands, the controller's counting and the chain's.
+    joints: Vec<f64>,
     theta: Vec<f64>,
     screws: Vec<Twist>,
     weight: Option<Weight<'a>>,
@@ -85,6 +88,7 @@ impl<'a> Standing<'a> {
             compliances,
             seats,
             frames: None,
+            joints: vec![0.0; joints],
             theta: vec![0.0; joints],
             screws: vec![Twist::ZERO; size],
             weight: arm.model.gravity.as_ref().map(weight),
@@ -148,6 +152,7 @@ impl<'a> Standing<'a> {
         for (screw, spring) in self.screws[joints..].iter_mut().zip(&structure.springs) {
             *screw = spring_screw(&spring.direction, &frame(spring.seat), tcp.coords);
         }
+        self.joints.copy_from_slice(q);
         for (joint, theta) in self.theta.iter_mut().enumerate() {
             *theta = robot.theta(joint, q);
         }

@@ -71,12 +71,14 @@ fn everything() -> StiffnessModel {
             compensator: Some(compensator()),
             curves: vec![None, None, Some(curve())],
             covariance: None,
+            backlash: Vec::new(),
         },
         gravity: Some(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,
             reference: vec![0.1, -0.2, 0.3, 0.1, 0.4, 0.0],
         }),
         load_dependent: false,
+        actual: None,
     }
 }
 

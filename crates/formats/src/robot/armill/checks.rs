@@ -203,6 +203,14 @@ impl Checks<'_> {
                 ),
                 ("compliance_u_um_per_n", entry.compliance_u_um_per_n.is_some()),
             ],
+            [
+                ("backlash_deg", entry.backlash_deg.is_some()),
+                ("backlash_mm", entry.backlash_mm.is_some()),
+            ],
+            [
+                ("backlash_u_deg", entry.backlash_u_deg.is_some()),
+                ("backlash_u_mm", entry.backlash_u_mm.is_some()),
+            ],
         ];
         let does = if slides { "slides" } else { "turns" };
         let mut refuse = |key: &str, hint: &str| {

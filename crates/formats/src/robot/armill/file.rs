@@ -127,9 +127,35 @@ pub(super) struct JointEntry {
     pub compliance_source: Option<String>,
     /// Key of the source of its standard uncertainty; that of the compliance if left out.
     pub compliance_u_source: Option<String>,
+    /// Backlash: the whole gap between motor and link.
+    #[schemars(range(min = 0.0, max = 5.0))]
+    pub backlash_deg: Option<f64>,
+    /// Standard uncertainty of the backlash.
+    #[schemars(range(min = 0.0, max = 5.0))]
+    pub backlash_u_deg: Option<f64>,
+    /// Backlash, sliding joints.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub backlash_mm: Option<f64>,
+    /// Standard uncertainty of the backlash, sliding joints.
+    #[schemars(range(min = 0.0, max = 100.0))]
+    pub backlash_u_mm: Option<f64>,
+    /// What decides on which flank the link lies; `motion` if left out.
+    pub backlash_flank: Option<FlankName>,
+    /// Key of the source of the backlash.
+    pub backlash_source: Option<String>,
     /// Limits by other sources; told to the user, never enforced.
     #[serde(default)]
     pub other_limits: Vec<OtherLimitsEntry>,
+}
+
+/// What decides on which flank of its gap a link lies.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub(super) enum FlankName {
+    /// Friction: the link lags behind the motor.
+    Motion,
+    /// The torque of load and gravity on the link.
+    Torque,
 }
 
 impl JointEntry {
@@ -143,6 +169,15 @@ impl JointEntry {
     pub(super) fn compliance_uncertainty(&self) -> f64 {
         let sliding = self.compliance_u_um_per_n.map(|um| um * 1e-6);
         self.compliance_u_rad_per_n_m.or(sliding).unwrap_or(0.0)
+    }
+
+    /// Backlash and its standard uncertainty, rad or m.
+    pub(super) fn backlash(&self) -> Option<[f64; 2]> {
+        let rad = |deg: Option<f64>| deg.map(f64::to_radians);
+        let m = |mm: Option<f64>| mm.map(|mm| mm * 1e-3);
+        let gap = rad(self.backlash_deg).or(m(self.backlash_mm))?;
+        let u = rad(self.backlash_u_deg).or(m(self.backlash_u_mm));
+        Some([gap, u.unwrap_or(0.0)])
     }
 }
 

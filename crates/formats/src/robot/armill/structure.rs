@@ -1,14 +1,14 @@
-//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance.
+//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance, backlash.
 //!
 //! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
 //! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
 //! others stay independent, with their own standard uncertainty.
 
 use armill_core::nalgebra::DMatrix;
-use armill_core::robot::{Compensator, JointCurve, Structure, TorqueCurve};
+use armill_core::robot::{Backlash, Compensator, Flank, JointCurve, Structure, TorqueCurve};
 
 use super::checks::Checks;
-use super::file::{CovarianceTable, JointEntry, RobotFile};
+use super::file::{CovarianceTable, FlankName, JointEntry, RobotFile};
 use crate::robot::spring_tables::Fault;
 
 impl Checks<'_> {
@@ -39,6 +39,9 @@ impl Checks<'_> {
         }
         structure.curves = (0..file.joint.len())
             .map(|joint| self.curve(file, joint))
+            .collect();
+        structure.backlash = (0..file.joint.len())
+            .map(|joint| self.backlash(file, joint))
             .collect();
         structure.compensator = self.compensator(file, &joints);
         if let Some(table) = &file.covariance {
@@ -79,6 +82,35 @@ impl Checks<'_> {
         Some(JointCurve {
             rising: rising?,
             falling,
+        })
+    }
+
+    /// Backlash of a joint, rad or m, if the file tells it.
+    fn backlash(&mut self, file: &RobotFile, joint: usize) -> Option<Backlash> {
+        let entry = &file.joint[joint];
+        let path = format!("joint[{joint}]");
+        let uncertainty = entry.backlash_u_deg.or(entry.backlash_u_mm);
+        let Some([gap, standard_uncertainty]) = entry.backlash() else {
+            if uncertainty.is_some() || entry.backlash_flank.is_some() || entry.backlash_source.is_some() {
+                let message = format!(
+                    "joint {}: something is said of a backlash that is not there",
+                    entry.name
+                );
+                self.problem(&path, message, "add backlash_deg = 0.01, the whole gap");
+            }
+            return None;
+        };
+        if entry.backlash_source.is_none() {
+            let message = format!("joint {}: its backlash names no source", entry.name);
+            self.problem(&path, message, "add backlash_source = \"...\"");
+        }
+        Some(Backlash {
+            gap,
+            standard_uncertainty,
+            flank: match entry.backlash_flank {
+                Some(FlankName::Torque) => Flank::Torque,
+                Some(FlankName::Motion) | None => Flank::Motion,
+            },
         })
     }
 

@@ -255,6 +255,73 @@ fn a_torque_curve_stands_in_place_of_a_compliance() {
 }
 
 #[test]
+fn backlash_is_read_in_the_unit_of_its_joint_and_needs_a_source() {
+    let with = |of_a: &str, of_b: &str| {
+        let text = SMALL
+            .replace(
+                "compliance_rad_per_n_m = 2e-6",
+                &format!("compliance_rad_per_n_m = 2e-6\n{of_a}"),
+            )
+            .replace(
+                "compliance_um_per_n = 0.02",
+                &format!("compliance_um_per_n = 0.02\n{of_b}"),
+            );
+        read("lever.toml", "lever", &text)
+    };
+    let sourced = |backlash: &str| format!("{backlash}\nbacklash_source = \"made-up\"");
+    let of_a = sourced("backlash_deg = 0.018\nbacklash_u_deg = 0.0018\nbacklash_flank = \"torque\"");
+    let robot = with(&of_a, &sourced("backlash_mm = 0.05")).unwrap().robot;
+    let gaps: Vec<_> = robot.structure().gaps().map(|(_, backlash)| *backlash).collect();
+    assert_eq!(gaps[0].flank, armill_core::robot::Flank::Torque);
+    assert_eq!(gaps[1].flank, armill_core::robot::Flank::Motion);
+    let told = [
+        gaps[0].gap,
+        gaps[0].standard_uncertainty,
+        gaps[1].gap,
+        gaps[1].standard_uncertainty,
+    ];
+    for (told, meant) in told
+        .into_iter()
+        .zip([0.018_f64.to_radians(), 0.0018_f64.to_radians(), 5e-5, 0.0])
+    {
+        assert!((told - meant).abs() < 1e-18, "{told} {meant}");
+    }
+    assert!(
+        read("lever.toml", "lever", SMALL)
+            .unwrap()
+            .robot
+            .structure()
+            .gaps()
+            .next()
+            .is_none()
+    );
+    for (of_a, of_b, said) in [
+        ("backlash_deg = 0.01", "", "joint A: its backlash names no source"),
+        (
+            &sourced("backlash_mm = 0.01")[..],
+            "",
+            "joint A turns: `backlash_mm` does not fit it",
+        ),
+        (
+            "",
+            &sourced("backlash_deg = 0.01")[..],
+            "joint B slides: `backlash_deg` does not fit it",
+        ),
+        ("backlash_u_deg = 0.01", "", "a backlash that is not there"),
+        (&sourced("backlash_deg = -0.01")[..], "", "-0.01"),
+        (
+            &sourced("backlash_deg = 0.01\nbacklash_flank = \"gravity\"")[..],
+            "",
+            "gravity",
+        ),
+        ("backlash_deg = 0.01\nbacklash_source = \"nobody\"", "", "nobody"),
+    ] {
+        let problems = with(of_a, of_b).unwrap_err().to_string();
+        assert!(problems.contains(said), "no `{said}` in:\n{problems}");
+    }
+}
+
+#[test]
 fn a_wrong_structure_is_refused_with_place_and_hint() {
     for (from, to, said) in [
         (

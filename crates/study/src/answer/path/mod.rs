@@ -7,7 +7,8 @@
 //! | axial | along the tool, from the part towards the spindle: what floors get |
 //!
 //! `worst`: where it is worst; `feature`: circles, lines, planes, holes; `cut`, `measured`: what pushes; `limits`: what
-//! keeps the tolerance; `program`: what a program tells of it; `search`: what a search for turns of the tool and branches brought.
+//! keeps the tolerance; `program`: what a program tells of it; `search`: what a search for turns of the tool and branches brought;
+//! `unloaded`: what backlash and geometry make of it.
 
 mod cut;
 mod feature;
@@ -15,6 +16,7 @@ pub(crate) mod limits;
 mod measured;
 mod program;
 pub(crate) mod search;
+mod unloaded;
 mod worst;
 
 pub use cut::{CutAnswer, RestAnswer, StockAnswer};
@@ -23,6 +25,7 @@ pub use limits::{LimitAnswer, LimitsAnswer};
 pub use measured::MeasuredAnswer;
 pub use program::{OperationAnswer, ProgramAnswer};
 pub use search::{SearchAnswer, StatisticsAnswer};
+pub use unloaded::UnloadedAnswer;
 pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;
@@ -93,6 +96,8 @@ pub struct PathAnswer {
     pub program: Option<ProgramAnswer>,
     /// Turns of the tool and branches that were searched for; none where nothing was.
     pub search: Option<SearchAnswer>,
+    /// What backlash and geometry make of the deviations; none where load and gravity alone move the tool.
+    pub unloaded: Option<UnloadedAnswer>,
     /// What was passed over, or taken for granted.
     pub notes: Vec<String>,
 }
@@ -152,6 +157,7 @@ pub(super) fn answer(study: &Study, name: &str, ask: &PathAsk, found: &PathFound
         limits: LimitsAnswer::of(ask, found),
         program: ProgramAnswer::of(ask, found),
         search: SearchAnswer::of(ask, found),
+        unloaded: UnloadedAnswer::of(study, ask, found),
         notes: notes(ask, found),
         worst_points,
         features,
@@ -243,6 +249,12 @@ fn joint_ranges(study: &Study, answers: &Answers) -> Vec<[f64; 2]> {
 fn notes(ask: &PathAsk, found: &PathFound) -> Vec<String> {
     let mut notes = program::notes(ask);
     notes.extend(cut::notes(ask, found));
+    if found.along.unloaded.is_some() && found.limits.is_some() {
+        notes.push(
+            "what keeps the tolerance (limits) is told of the load alone: backlash and geometry come on top"
+                .to_owned(),
+        );
+    }
     notes.extend(ask.measured.as_deref().into_iter().flat_map(measured::notes));
     notes
 }

@@ -18,6 +18,7 @@ use armill_report::html::Report;
 
 use super::pictures::Picture;
 use crate::answer::StudyAnswer;
+use crate::budget;
 use crate::file::resolve::Study;
 
 /// The whole page: a chapter only where the study asked for it, pictures in the order given.
@@ -51,6 +52,13 @@ pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) ->
     }
     if !answer.volumes.is_empty() {
         report = report.section("Volumes").table(&volumes::table(answer));
+    }
+    if let Some(told) = &answer.measured {
+        report = report.section("What was measured, beside what is predicted");
+        report = report.paragraph(&budget::output::in_words(told));
+        for table in budget::output::tables(told) {
+            report = report.table(&table);
+        }
     }
     if !pictures.is_empty() {
         report = report.section("Pictures");

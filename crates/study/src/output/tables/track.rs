@@ -7,6 +7,7 @@
 //! | `feed_mm_per_s` | mm/s | speed of the tip; empty where the program tells none |
 //! | `turn_deg` | deg | turn of the tool that a search found |
 //! | `along_um`, `cross_um`, `axial_um` | um | parts of the deviation of the deciding case, seen from the track |
+//! | `unloaded_along_um`, `unloaded_cross_um`, `unloaded_axial_um` | um | what of them backlash and geometry make |
 
 use armill_core::path::{Pace, Parts, Track};
 
@@ -78,5 +79,36 @@ pub(super) fn columns<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers
         ),
     ];
     columns.extend(turned);
+    columns.extend(unloaded(track, found));
     columns
+}
+
+/// What of the deviation no load makes; none where all of it is the load's.
+fn unloaded<'a>(track: &'a Track, found: &'a PathFound) -> Vec<Numbers<'a>> {
+    let Some(unloaded) = &found.along.unloaded else {
+        return Vec::new();
+    };
+    let part = |name: &str, description: &'static str, of: fn(Parts) -> f64| {
+        Numbers::um(name.to_owned(), description, move |rows, index, held| {
+            let moved = unloaded.moved[index * rows.answers.case_count + held.deciding_case];
+            of(track.parts(index, &moved)) * 1e6
+        })
+    };
+    vec![
+        part(
+            "unloaded_along_um",
+            "what of along_um backlash and geometry make",
+            |parts| parts.along,
+        ),
+        part(
+            "unloaded_cross_um",
+            "what of cross_um backlash and geometry make",
+            |parts| parts.cross,
+        ),
+        part(
+            "unloaded_axial_um",
+            "what of axial_um backlash and geometry make",
+            |parts| parts.axial,
+        ),
+    ]
 }

@@ -1,0 +1,141 @@
+//! `armill budget`: what the error of a measured circle is made of, and how much of it is predicted.
+//!
+//! Stdout holds a [`BudgetAnswer`], in words or as JSON; `--out` takes table and pictures.
+//!
+//! ```text
+//! circle: radius 100 mm, 72 angles over 360 deg; centre least-squares, radius least-squares     circle, datum
+//! contribution   largest um   at deg   rms um   scatter um   alone %   without %                each part of the error
+//! sums                                                                                          what they make together
+//! part, residual                                                                                how much is explained
+//! waves   part um   predicted um   phase deg   explained %                                      wave by wave
+//! ```
+
+use armill_study::StudyError;
+use armill_study::budget::answer::PartAnswer;
+use armill_study::budget::{BudgetAnswer, budget, output, point_count};
+use armill_study::studies;
+
+use crate::Outcome;
+use crate::arguments::BudgetArguments;
+use crate::progress::Progress;
+use crate::terminal::{print, say};
+
+/// Runs the circle, writes what was asked for and prints.
+///
+/// # Errors
+/// No study there, or its problems; nothing measured; a folder or stdout that takes no more.
+pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
+    let study = studies::find(&arguments.study)?.read()?;
+    let progress = Progress::new(point_count(&study)?);
+    let (combined, told) = progress.watch(|watch| budget(&study, watch))?;
+    if let Some(out) = &arguments.out {
+        output::write(&told, &combined, out)?;
+        say(&format!("table and pictures in {}", out.display()));
+    }
+    print(&match arguments.json {
+        true => serde_json::to_string_pretty(&told)?,
+        false => as_text(&told),
+    })?;
+    Ok(Outcome::Fine)
+}
+
+/// The answer as a person reads it, see the head of this file.
+fn as_text(told: &BudgetAnswer) -> String {
+    let mut lines = vec![format!(
+        "{}: radius {} mm, {} angles over {:.0} deg; centre {}, radius {}",
+        told.ask, told.radius_mm, told.angles, told.arc_deg, told.datum.centre, told.datum.radius
+    )];
+    lines.extend(
+        told.files
+            .iter()
+            .map(|file| format!("{:<18} {}", file.of, file.file)),
+    );
+    lines.push(String::new());
+    lines.push(format!(
+        "{:<30} {:>10} {:>8} {:>8} {:>10} {:>8} {:>9}",
+        "contribution", "largest um", "at deg", "rms um", "scatter um", "alone %", "without %"
+    ));
+    let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+    lines.extend(told.contributions.iter().map(|one| {
+        format!(
+            "{:<30} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>8} {:>9}",
+            one.name,
+            one.largest_um,
+            one.largest_at_deg,
+            one.rms_um,
+            one.scatter_um,
+            percent(one.explained_alone_percent),
+            percent(one.explained_without_percent)
+        )
+    }));
+    let sums = &told.sums;
+    lines.push(String::new());
+    lines.push(format!("{:<30} {:>10}", "largest together", "um"));
+    lines.extend(
+        [
+            ("added with their signs", sums.as_functions_um),
+            ("and twice the scatter", sums.with_scatter_um),
+            ("root of the squares", sums.root_sum_square_um),
+        ]
+        .map(|(name, um)| format!("{name:<30} {um:>10.2}")),
+    );
+    lines.push(format!(
+        "{:<30} {:>10.2}   load {:.2} and path without load {:.2}",
+        "plain sum", sums.plain_um, sums.load_um, sums.unloaded_um
+    ));
+    if let Some(part) = &told.part {
+        lines.extend(of_part(part));
+    }
+    lines.push(String::new());
+    lines.extend(told.warnings.iter().map(|warning| format!("warning: {warning}")));
+    lines.extend(told.sources.iter().map(|source| format!("source: {source}")));
+    lines.join("\n")
+}
+
+/// The part and its waves.
+fn of_part(part: &PartAnswer) -> Vec<String> {
+    let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
+    let mut lines = vec![
+        format!(
+            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {} points",
+            "part", part.largest_um, part.largest_at_deg, part.rms_um, part.points
+        ),
+        format!(
+            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {:.2} um beyond known scatter",
+            "residual",
+            part.residual.largest_um,
+            part.residual.largest_at_deg,
+            part.residual.rms_um,
+            part.residual.beyond_scatter_um
+        ),
+        String::new(),
+        format!(
+            "explained {:.1} % of the part, explainable {:.1} %",
+            part.explained_percent, part.explainable_percent
+        ),
+        format!(
+            "shapes alike by {} %, best size {} % of the predicted, turned as good at {} % of all angles",
+            percent(part.likeness_percent),
+            percent(part.best_size_percent),
+            percent(part.turns_as_good_percent)
+        ),
+    ];
+    if !part.waves.is_empty() {
+        lines.push(String::new());
+        lines.push(format!(
+            "{:>5} {:>9} {:>13} {:>21} {:>12}",
+            "waves", "part um", "predicted um", "phase difference deg", "explained %"
+        ));
+    }
+    lines.extend(part.waves.iter().map(|wave| {
+        format!(
+            "{:>5} {:>9.2} {:>13.2} {:>21.1} {:>12}",
+            wave.waves,
+            wave.measured_um,
+            wave.predicted_um,
+            wave.phase_difference_deg,
+            percent(wave.explained_percent)
+        )
+    }));
+    lines
+}

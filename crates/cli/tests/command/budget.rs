@@ -1,0 +1,285 @@
+//! `armill budget` as a user runs it: an experiment whose causes are known is taken apart; and everything that can be
+//! wrong with its files.
+//!
+//! The part is made of what the study itself predicts under load, read from its own table without rounding, of a path
+//! without load, of its reversals, and of noise.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::path::Path;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    (
+        output.status.code().unwrap(),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+const STUDY: &str = r#"
+format = 1
+robot = "yaskawa/mh12"
+limit_um = 200
+tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
+plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
+load = { cases_n = [[6, 10, 10]] }
+
+[[ask]]
+kind = "path"
+name = "groove"
+circle = { radius_mm = 100 }
+
+[measured]
+"#;
+
+/// Path without load: an ellipse and three lobes.
+fn path_um(a: f64) -> f64 {
+    45.0 * (2.0 * a - 0.7).cos() + 18.0 * (3.0 * a + 0.4).cos()
+}
+
+/// What reverses, of a circle walked the way its angle grows.
+fn reversal_um(a: f64) -> f64 {
+    30.0 * (a - 0.3).sin().signum()
+}
+
+/// Noise of standard deviation 1 without pattern: twelve even numbers less six.
+fn noise(seed: u64, k: usize) -> f64 {
+    let draw = |n: u64| {
+        let mut x = (seed << 40) ^ ((k as u64) << 8) ^ n;
+        for _ in 0..3 {
+            x = (x ^ (x >> 30))
+                .wrapping_mul(0xbf58_476d_1ce4_e5b9)
+                .wrapping_add(0x9e37_79b9_7f4a_7c15);
+            x ^= x >> 27;
+        }
+        (x >> 11) as f64 / (1u64 << 53) as f64
+    };
+    (0..12).map(draw).sum::<f64>() - 6.0
+}
+
+/// Files of the ball-bar; `turn` and `sign` bring angles of the circle to those of the files.
+fn ballbar(folder: &Path, noise_um: f64, (turn, sign): (f64, f64)) {
+    for run in 1..=2_u64 {
+        let mut text = "# radius_mm: 100\nangle_deg,radius_dev_um,direction,run\n".to_owned();
+        for (way, grows) in [("CCW", 1.0), ("CW", -1.0)] {
+            for k in 0..720_usize {
+                let f = TAU * k as f64 / 720.0;
+                let a = turn + sign * f;
+                let um = path_um(a)
+                    + sign * grows * reversal_um(a)
+                    + noise_um * noise(run * 2 + (grows > 0.0) as u64, k);
+                let _ = writeln!(text, "{:.6},{um:.5},{way},{run}", f.to_degrees());
+            }
+        }
+        std::fs::write(folder.join(format!("run{run}.csv")), text).unwrap();
+    }
+}
+
+/// Outward deviation under load as the study predicts it at every degree, um: its table has base axes, y is cos, z sin.
+fn load_um(folder: &Path) -> Vec<f64> {
+    let (code, _, err) = armill(folder, &["run", ".", "--out", "bare"]);
+    assert_eq!(code, 0, "{err}");
+    let table = std::fs::read_to_string(folder.join("bare/groove.csv")).unwrap();
+    let mut lines = table.lines().filter(|line| !line.starts_with('#'));
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| {
+        names
+            .iter()
+            .position(|own| *own == name)
+            .unwrap_or_else(|| panic!("{name} of {names:?}"))
+    };
+    let [y, z] = [column("deviation_y_case_1_um"), column("deviation_z_case_1_um")];
+    let um = |(k, line): (usize, &str)| {
+        let cells: Vec<&str> = line.split(',').collect();
+        let [dy, dz] = [y, z].map(|at| cells[at].parse::<f64>().unwrap());
+        let a = (k as f64).to_radians();
+        a.cos() * dy + a.sin() * dz
+    };
+    lines.enumerate().map(um).collect()
+}
+
+/// A study with its experiment: `keys` beside the files, noise of both measurements in um.
+fn experiment(noise_um: [f64; 2], keys: &str, (turn, sign): (f64, f64)) -> (tempfile::TempDir, Vec<f64>) {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let bare = STUDY.replace("[measured]\n", "");
+    std::fs::write(at.join("study.toml"), bare).unwrap();
+    let load = load_um(at);
+    assert_eq!(load.len(), 360);
+    ballbar(at, noise_um[0], (turn, sign));
+    let mut part = "x_mm,y_mm\n".to_owned();
+    for (k, load) in load.iter().enumerate() {
+        let a = (k as f64).to_radians();
+        let um = load + path_um(a) + reversal_um(a) + noise_um[1] * noise(9, k);
+        let (r, f) = (100.0 + um * 1e-3, sign * (a - turn));
+        // The part lies anywhere on the table of the measuring machine.
+        let _ = writeln!(part, "{:.7},{:.7}", 312.5 + r * f.cos(), -40.25 + r * f.sin());
+    }
+    std::fs::write(at.join("cmm.csv"), part).unwrap();
+    let study = format!("{STUDY}part = \"cmm.csv\"\nballbar = [\"run1.csv\", \"run2.csv\"]\n{keys}");
+    std::fs::write(at.join("study.toml"), study).unwrap();
+    (folder, load)
+}
+
+fn told(folder: &Path) -> Value {
+    let (code, out, err) = armill(folder, &["budget", ".", "--json"]);
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap()
+}
+
+fn number(value: &Value, path: &str) -> f64 {
+    value
+        .pointer(path)
+        .and_then(Value::as_f64)
+        .unwrap_or_else(|| panic!("{path} of {value}"))
+}
+
+#[test]
+fn an_experiment_without_noise_is_explained_whole_whichever_way_its_files_look() {
+    let quarter = TAU / 4.0;
+    for (keys, seen) in [
+        ("", (0.0, 1.0)),
+        ("zero_deg = 90\n", (quarter, 1.0)),
+        ("zero_deg = 90\nmirrored = true\n", (quarter, -1.0)),
+    ] {
+        let (folder, load) = experiment([0.0, 0.0], keys, seen);
+        let told = told(folder.path());
+        // The load moves the centre by a third of a millimetre, and angles about it by 0.2 degrees: near a reversal a
+        // sample or two differ.
+        assert!(number(&told, "/part/explained_percent") > 99.5, "{keys}: {told}");
+        assert!(number(&told, "/part/turns_as_good_percent") < 0.5, "{keys}");
+        let waves = told["part"]["waves"].as_array().unwrap();
+        assert!(number(&waves[1], "/phase_difference_deg").abs() < 0.5);
+        // The centre and the radius that came off are those of the load: the path without load has neither.
+        let mean = load.iter().sum::<f64>() / 360.0;
+        assert!((number(&told, "/contributions/0/radius_um") - mean).abs() < 0.1);
+        let name = |k: usize| told["contributions"][k]["name"].as_str().unwrap().to_owned();
+        assert_eq!([name(1), name(2)], ["path without load, both ways", "reversal"]);
+        // What is left of 45 cos 2a and 18 cos 3a: root of half of the squares.
+        let rms = number(&told, "/contributions/1/rms_um");
+        assert!(
+            (rms - (45.0_f64.hypot(18.0)) / 2.0_f64.sqrt()).abs() < 0.1,
+            "{rms}"
+        );
+        // A square wave less its first harmonic, 4/pi of it, which a shifted centre is.
+        let left = 30.0 * (1.0 - 8.0 / (std::f64::consts::PI * std::f64::consts::PI)).sqrt();
+        assert!(
+            (number(&told, "/contributions/2/rms_um") - left).abs() < 0.3,
+            "{told}"
+        );
+    }
+}
+
+#[test]
+fn noise_is_told_as_scatter_and_no_more_is_missing_than_it_brings() {
+    let (folder, _) = experiment([2.0, 3.0], "part_u_um = 3\n", (0.0, 1.0));
+    let told = told(folder.path());
+    assert!((number(&told, "/repeatability_um") - 2.0).abs() < 0.2, "{told}");
+    let [explained, explainable] =
+        ["/part/explained_percent", "/part/explainable_percent"].map(|path| number(&told, path));
+    assert!(
+        explained > 98.0 && (explained - explainable).abs() < 0.6,
+        "{explained} {explainable}"
+    );
+    assert!((number(&told, "/part/residual/rms_um") - 3.2).abs() < 0.6);
+    let plain = number(&told, "/sums/load_um") + number(&told, "/sums/unloaded_um");
+    assert!((number(&told, "/sums/plain_um") - plain).abs() < 1e-9);
+}
+
+#[test]
+fn a_wrong_zero_is_seen_though_all_sizes_are_right() {
+    let (folder, _) = experiment([0.0, 0.0], "zero_deg = 45\nballbar_zero_deg = 0\n", (0.0, 1.0));
+    let told = told(folder.path());
+    assert!(number(&told, "/part/explained_percent") < 20.0);
+    let warned = told["warnings"].to_string();
+    assert!(warned.contains("zero_deg wrong"), "{warned}");
+}
+
+#[test]
+fn a_run_compares_by_itself_and_its_report_shows_it() {
+    let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let at = folder.path();
+    let (code, _, err) = armill(at, &["run", ".", "--out", "out"]);
+    assert_eq!(code, 0, "{err}");
+    let result: Value =
+        serde_json::from_str(&std::fs::read_to_string(at.join("out/result.json")).unwrap()).unwrap();
+    assert_eq!(result["measured"], told(at));
+    let report = std::fs::read_to_string(at.join("out/report.html")).unwrap();
+    assert!(report.contains("What was measured, beside what is predicted"));
+    for picture in ["groove-budget.svg", "groove-measured.svg", "groove-waves.svg"] {
+        assert!(at.join("out").join(picture).exists(), "{picture}");
+    }
+    let (code, out, err) = armill(at, &["budget", ".", "--out", "budget"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("plain sum") && out.contains("explained "), "{out}");
+    let table = std::fs::read_to_string(at.join("budget/budget.csv")).unwrap();
+    assert_eq!(table.lines().filter(|line| !line.starts_with('#')).count(), 361);
+    // Nothing measured: nothing told.
+    std::fs::write(at.join("study.toml"), STUDY.replace("[measured]\n", "")).unwrap();
+    armill(at, &["run", ".", "--out", "bare"]);
+    let bare: Value =
+        serde_json::from_str(&std::fs::read_to_string(at.join("bare/result.json")).unwrap()).unwrap();
+    assert!(bare["measured"].is_null());
+    let (code, _, err) = armill(at, &["budget", "."]);
+    assert!(
+        code == 2 && err.contains("names nothing that was measured"),
+        "{err}"
+    );
+}
+
+#[test]
+fn all_problems_are_told_at_once_each_where_it_stands() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("bad.csv"), "angle_deg,radius_mm\n0,100\nx,100\n").unwrap();
+    let refused = |keys: &str| {
+        std::fs::write(at.join("study.toml"), format!("{STUDY}{keys}")).unwrap();
+        let (code, out, err) = armill(at, &["budget", "."]);
+        assert!(code == 2 && out.is_empty(), "{keys}: {code} {out}");
+        err
+    };
+    let err = refused("ask = \"grove\"\npart = \"bad.csv\"\nballbar = [\"none.csv\", \"nor.csv\"]\n");
+    for said in [
+        "nothing called `grove`",
+        "there is no file none.csv",
+        "there is no file nor.csv",
+        "bad.csv:3",
+        "study.toml:15",
+    ] {
+        assert!(err.contains(said), "{said}: {err}");
+    }
+    assert!(refused("ask = \"groove\"\n").contains("nothing measured is named"));
+    assert!(refused("part = \"none.csv\"\n").contains("cannot read"));
+    assert!(refused("part = \"bad.csv\"\nradius_mm = -1\n").contains("radius_mm"));
+    assert!(refused("part = \"bad.csv\"\ncentre = \"middle\"\n").contains("least-squares"));
+    // An arc, and a few points.
+    let arc = |count: usize| {
+        (0..count).fold("angle_deg,radius_mm\n".to_owned(), |text, k| {
+            format!("{text}{k},100\n")
+        })
+    };
+    std::fs::write(at.join("arc.csv"), arc(80)).unwrap();
+    assert!(refused("part = \"arc.csv\"\n").contains("less than a third of a turn"));
+    std::fs::write(at.join("few.csv"), arc(5)).unwrap();
+    assert!(refused("part = \"few.csv\"\n").contains("a run of 5 samples"));
+    let line = STUDY.replace(
+        "circle = { radius_mm = 100 }",
+        "line = { from_mm = [0, 0], to_mm = [50, 0] }",
+    );
+    std::fs::write(
+        at.join("study.toml"),
+        format!("{line}ask = \"groove\"\npart = \"arc.csv\"\n"),
+    )
+    .unwrap();
+    let (code, _, err) = armill(at, &["check", "."]);
+    assert!(code == 2 && err.contains("`groove` is no circle"), "{err}");
+}

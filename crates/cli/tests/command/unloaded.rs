@@ -1,0 +1,159 @@
+//! What moves the tool along a path beside its load: a robot file with backlash, and the arm as it was measured.
+
+use crate::cell::{Cell, number};
+use crate::documents::repository;
+
+const CELL: &str = r#"format = 1
+robot = "arm.toml"
+limit_um = 200
+plane = { centre_mm = [900, 150, 500], tilt_deg = 90, half_size_mm = 100, step_mm = 50 }
+tool = { flange_from_tool_mm_deg = [0, 0, 250, 0, 0, 0] }
+load = { cases_n = [[3, -5, -5]] }
+[[ask]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 2
+"#;
+
+fn mh12() -> String {
+    std::fs::read_to_string(repository().join("robots/yaskawa/mh12.toml")).unwrap()
+}
+
+/// The MH12 with play in all joints.
+fn with_play() -> String {
+    let play = "\nbacklash_deg = 0.01\nbacklash_u_deg = 0.001\nbacklash_source = \"paper\"\ncompliance_source = \"paper\"";
+    mh12().replace("\ncompliance_source = \"paper\"", play)
+}
+
+fn ring(cell: &Cell, out: &str) -> serde_json::Value {
+    let said = cell.armill(&["run", "study.toml", "--no-pictures", "--json", "--out", out]);
+    said.fine().json()["paths"][0].clone()
+}
+
+#[test]
+fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
+    let cell = Cell::with_study(CELL);
+    cell.file("arm.toml", mh12());
+    let without = ring(&cell, "without");
+    assert!(without["unloaded"].is_null());
+    cell.file("arm.toml", with_play());
+    let with = ring(&cell, "with");
+    let unloaded = &with["unloaded"];
+    let joints = unloaded["joints"].as_array().unwrap();
+    assert_eq!(joints.len(), 6);
+    assert!((number(&joints[0]["backlash_deg"]) - 0.01).abs() < 1e-12);
+    // On a ring every joint of the arm turns back at least once.
+    assert!(
+        joints[..3].iter().all(|joint| number(&joint["reversals"]) >= 1.0),
+        "{unloaded}"
+    );
+    let most = number(&unloaded["max_in_plane_um"]);
+    assert!(
+        most > 50.0,
+        "0.01 deg at a metre are 170 um a joint, half of it either way: {most}"
+    );
+    assert!(number(&with["max_in_plane_um"]) > number(&without["max_in_plane_um"]) + 0.2 * most);
+    // The worst point, asked by itself, is the same, and its shares add up to it.
+    let worst = &with["worst_points"][0]["point"];
+    assert!((number(&worst["in_plane_um"]) - number(&with["max_in_plane_um"])).abs() < 1e-3);
+    let table = std::fs::read_to_string(cell.at("with/ring.csv")).unwrap();
+    assert!(table.contains("unloaded_cross_um"));
+    let model = with["setting"]["model"].to_string();
+    assert!(
+        model.contains("backlash of S, L, U, R, B, T along paths"),
+        "{model}"
+    );
+}
+
+#[test]
+fn what_is_known_of_backlash_and_geometry_is_compensated() {
+    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"arm.toml\""));
+    // Longer links, and play.
+    cell.file(
+        "arm.toml",
+        mh12()
+            .replace("length_mm = 640", "length_mm = 640.4")
+            .replace("length_mm = 614", "length_mm = 613.7"),
+    );
+    let told = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
+    let path = &told["paths"][0];
+    let [before, after] = ["before", "after"].map(|when| number(&path[when]["rms_um"]));
+    assert!(before > 200.0 && after < 1.0, "{before} {after}");
+    cell.file("arm.toml", with_play());
+    cell.file("study.toml", CELL);
+    let told = cell.armill(&["compensate", "study.toml", "--json"]).fine().json();
+    let path = &told["paths"][0];
+    let [before, after] = ["before", "after"].map(|when| number(&path[when]["rms_um"]));
+    assert!(before > 50.0 && after < 0.3 * before, "{before} {after}");
+}
+
+#[test]
+fn maps_leave_backlash_out_and_say_so() {
+    let cell = Cell::with_study(
+        &CELL
+            .replace("kind = \"path\"", "kind = \"map\"")
+            .replace("circle.radius_mm = 60\nstep_mm = 2\n", ""),
+    );
+    cell.file("arm.toml", with_play());
+    let said = cell
+        .armill(&["run", "study.toml", "--no-pictures", "--json"])
+        .fine();
+    assert!(
+        said.json()["warnings"].to_string().contains("along paths alone"),
+        "{}",
+        said.err
+    );
+}
+
+#[test]
+fn an_arm_that_does_not_fit_is_refused_at_its_place() {
+    let cell =
+        Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"nowhere.toml\""));
+    cell.armill(&["check", "study.toml"])
+        .refused(&["study.toml:3:", "nowhere.toml"]);
+    cell.file("lever.toml", LEVER);
+    cell.file(
+        "study.toml",
+        CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"lever.toml\""),
+    );
+    cell.armill(&["check", "study.toml"])
+        .refused(&["study.toml:3:", "has other joints than `yaskawa/mh12`: 1 and 6"]);
+}
+
+const LEVER: &str = r#"format = 1
+name = "lever"
+[chain]
+source = "made-up"
+motions = [{ about = "z", joint = "A" }, { along = "x", length_mm = 500 }]
+[[joint]]
+name = "A"
+sign = 1
+source = "made-up"
+[sources.made-up]
+what = "made up"
+where = "here"
+licence = "none"
+"#;
+
+#[test]
+fn the_table_has_what_no_load_makes() {
+    let cell = Cell::with_study(&CELL.replace("[[3, -5, -5]]", "[[0, 0, 0]]"));
+    cell.file("arm.toml", with_play());
+    ring(&cell, "out");
+    let table = std::fs::read_to_string(cell.at("out/ring.csv")).unwrap();
+    let mut lines = table.lines().filter(|line| !line.starts_with('#'));
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let at = |name: &str| names.iter().position(|other| *other == name).unwrap();
+    let (all, part) = (at("cross_um"), at("unloaded_cross_um"));
+    let mut told = 0;
+    for line in lines {
+        let cells: Vec<f64> = line
+            .split(',')
+            .map(|cell| cell.parse().unwrap_or(f64::NAN))
+            .collect();
+        assert!((cells[all] - cells[part]).abs() < 1e-3, "{line}");
+        told += 1;
+    }
+    assert!(told > 100);
+}

@@ -1,0 +1,252 @@
+//! The whole budget: contributions and their sums, and beside them what was measured on the part.
+//!
+//! All curves are brought to one datum first, each by its own centre and radius, as far as those are removed. What the
+//! known scatter leaves unexplained is the best that any prediction could do:
+//!
+//! ```text
+//! explainable   = 1 - (<s, s> + u_m^2) / <m, m>
+//! beyond        = root of (<e, e> - <s, s> - u_m^2), 0 where that is negative         e = m - sum of b_i
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `s` | scatter of all contributions together | m |
+//! | `u_m` | standard uncertainty of a measured point | m |
+//! | `e` | residual | m |
+
+use super::agreement::{Agreement, agreement};
+use super::contribution::{Contribution, Sums, bias_of};
+use super::datum::{Datum, Removed};
+use super::turn::Turn;
+use super::waves::{WavePair, pairs, turns_as_good};
+
+/// Contributions, their sums, and the measured part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Balance {
+    /// From their datum.
+    pub contributions: Vec<Contribution>,
+    /// What was taken off each.
+    pub datums: Vec<Datum>,
+    /// What they make together.
+    pub sums: Sums,
+    /// The measured part; none where none was measured, or nothing of it is left without its datum.
+    pub comparison: Option<Comparison>,
+}
+
+/// The measured part beside the prediction.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Measured, from its datum, m.
+    pub measured: Vec<f64>,
+    /// What was taken off it.
+    pub datum: Datum,
+    /// Its root mean square, m.
+    pub measured_rms: f64,
+    /// How all contributions together explain it.
+    pub together: Agreement,
+    /// What each does for it.
+    pub shares: Vec<Share>,
+    /// What could be explained if all biases were known: the rest is scatter.
+    pub explainable: f64,
+    /// Root mean square of the residual beyond all known scatter, m.
+    pub beyond_scatter: f64,
+    /// Wave by wave.
+    pub waves: Vec<WavePair>,
+    /// Share of all turns of the prediction at which it agrees as well; none without waves.
+    pub turns_as_good: Option<f64>,
+}
+
+/// What one contribution explains.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Share {
+    /// If it were alone.
+    pub alone: f64,
+    /// Of all others without it.
+    pub without: f64,
+}
+
+/// The budget of `contributions`, and what it explains of `measured` (its curve, and the standard uncertainty of a
+/// point; m), waves up to `most`.
+pub fn balance(
+    turn: &Turn,
+    contributions: Vec<Contribution>,
+    measured: Option<(&[f64], f64)>,
+    (removed, most): (Removed, usize),
+) -> Balance {
+    let taken_off = |one: Contribution| {
+        let (datum, bias) = Datum::taken_off(turn, &one.bias, removed);
+        (Contribution { bias, ..one }, datum)
+    };
+    let (contributions, datums): (Vec<_>, Vec<_>) = contributions.into_iter().map(taken_off).unzip();
+    let sums = Sums::of(&contributions, turn.angle().len());
+    let comparison = measured.and_then(|(curve, u)| {
+        let (datum, curve) = Datum::taken_off(turn, curve, removed);
+        compare(turn, (&contributions, &sums), (curve, datum, u), most)
+    });
+    Balance {
+        contributions,
+        datums,
+        sums,
+        comparison,
+    }
+}
+
+fn compare(
+    turn: &Turn,
+    (contributions, sums): (&[Contribution], &Sums),
+    (measured, datum, u): (Vec<f64>, Datum, f64),
+    most: usize,
+) -> Option<Comparison> {
+    let together = agreement(turn, &sums.bias, &measured)?;
+    let measured_rms = turn.rms(&measured);
+    let share = |index: usize| {
+        let others = contributions
+            .iter()
+            .enumerate()
+            .filter(|(other, _)| *other != index);
+        let without = bias_of(others.map(|(_, one)| one), measured.len());
+        Some(Share {
+            alone: agreement(turn, &contributions[index].bias, &measured)?.explained,
+            without: agreement(turn, &without, &measured)?.explained,
+        })
+    };
+    let scatter = turn.rms(&sums.scatter).powi(2) + u * u;
+    let waves = pairs(turn, (&sums.bias, &measured), most);
+    Some(Comparison {
+        shares: (0..contributions.len()).map(share).collect::<Option<_>>()?,
+        explainable: 1.0 - scatter / measured_rms.powi(2),
+        beyond_scatter: (together.residual_rms.powi(2) - scatter).max(0.0).sqrt(),
+        turns_as_good: turns_as_good(&waves),
+        waves,
+        measured_rms,
+        together,
+        measured,
+        datum,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contribution::Origin;
+    use super::*;
+
+    const BOTH: Removed = Removed {
+        centre: true,
+        radius: true,
+    };
+
+    fn turn() -> Turn {
+        Turn::new((0..720).map(|k| (f64::from(k) / 2.0).to_radians()).collect()).unwrap()
+    }
+
+    fn curve(of: impl Fn(f64) -> f64) -> Vec<f64> {
+        turn().angle().iter().map(|a| of(*a)).collect()
+    }
+
+    fn one(origin: Origin, of: impl Fn(f64) -> f64, scatter: f64) -> Contribution {
+        Contribution {
+            name: "one".to_owned(),
+            origin,
+            bias: curve(of),
+            scatter: vec![scatter; 720],
+            u: None,
+        }
+    }
+
+    fn load(a: f64) -> f64 {
+        6e-5 * (2.0 * a).cos() + 1e-5 * a.cos()
+    }
+
+    fn path(a: f64) -> f64 {
+        9e-5 * (2.0 * a - 1.0).sin() + 4e-5 * a.sin().signum() + 2e-5
+    }
+
+    fn parts(scatter: f64) -> Vec<Contribution> {
+        vec![one(Origin::Load, load, 0.0), one(Origin::Unloaded, path, scatter)]
+    }
+
+    /// Noise of no pattern, of standard deviation 1: sums of twelve numbers from 0 to 1, less 6.
+    fn noise(seed: u64) -> Vec<f64> {
+        let mut state = seed << 32;
+        let mut next = || {
+            // SplitMix64: neighbouring seeds have nothing in common.
+            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mixed = (state ^ (state >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        };
+        (0..720)
+            .map(|_| (0..12).map(|_| next()).sum::<f64>() - 6.0)
+            .collect()
+    }
+
+    #[test]
+    fn parts_that_sum_up_to_the_measurement_explain_all_of_it_wherever_the_part_lay() {
+        let measured = curve(|a| load(a) + path(a) + 3e-4 * a.cos() - 2e-4 * a.sin() + 5e-5);
+        let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (BOTH, 10));
+        let told = found.comparison.unwrap();
+        assert!((told.together.explained - 1.0).abs() < 1e-12 && told.together.residual_rms < 1e-12);
+        assert!(told.explainable == 1.0 && told.beyond_scatter < 1e-12);
+        for share in &told.shares {
+            assert!(share.alone < 0.9 && share.without < 0.9);
+        }
+        // What one explains alone is what all others lack without the rest.
+        assert_eq!(told.shares[0].alone, told.shares[1].without);
+        let wave = told.waves[1];
+        assert!(wave.phase_difference().abs() < 1e-9 && (wave.explained().unwrap() - 1.0).abs() < 1e-9);
+        // Kept, the centre of the part is an error like any other.
+        let none = Removed {
+            centre: false,
+            radius: false,
+        };
+        let kept = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (none, 10));
+        assert!(kept.comparison.unwrap().together.explained < 0.2);
+    }
+
+    #[test]
+    fn independent_noise_leaves_as_much_as_it_brings() {
+        let sigma = 3e-5;
+        let (mut off, mut beyond) = (Vec::new(), Vec::new());
+        for seed in 1..40 {
+            let noise = noise(seed);
+            let clean = curve(|a| load(a) + path(a));
+            let measured: Vec<f64> = clean.iter().zip(&noise).map(|(c, n)| c + sigma * n).collect();
+            let found = balance(&turn(), parts(sigma), Some((&measured, 0.0)), (BOTH, 10));
+            let told = found.comparison.unwrap();
+            off.push(told.together.explained - told.explainable);
+            beyond.push(told.beyond_scatter);
+        }
+        // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points misses by a twentieth of what is left, and by twice what
+        // noise and signal have in common by chance: together a fiftieth.
+        let mean = off.iter().sum::<f64>() / off.len() as f64;
+        assert!(mean.abs() < 1e-2, "{mean}");
+        assert!(off.iter().all(|off| off.abs() < 0.06), "{off:?}");
+        assert!(beyond.iter().all(|beyond| *beyond < 0.5 * sigma), "{beyond:?}");
+    }
+
+    #[test]
+    fn the_uncertainty_of_measured_points_is_scatter_too() {
+        let measured = curve(|a| load(a) + path(a) + 1e-5 * (9.0 * a).cos());
+        let [sharp, blurred] = [0.0, 1e-5].map(|u| {
+            let found = balance(&turn(), parts(0.0), Some((&measured, u)), (BOTH, 10));
+            found.comparison.unwrap()
+        });
+        assert_eq!(sharp.together.explained, blurred.together.explained);
+        assert!(blurred.explainable < sharp.explainable && blurred.beyond_scatter == 0.0);
+        assert!((sharp.beyond_scatter - 1e-5 / 2.0_f64.sqrt()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn nothing_measured_and_nothing_left_compare_with_nothing() {
+        let found = balance(&turn(), parts(0.0), None, (BOTH, 10));
+        assert_eq!(found.comparison, None);
+        // A shifted circle has no form.
+        let shifted = curve(|a| 1e-4 * a.cos());
+        assert_eq!(
+            balance(&turn(), parts(0.0), Some((&shifted, 0.0)), (BOTH, 10)).comparison,
+            None
+        );
+        let alone = balance(&turn(), Vec::new(), Some((&curve(load), 0.0)), (BOTH, 10));
+        assert_eq!(alone.comparison.unwrap().together.explained, 0.0);
+    }
+}

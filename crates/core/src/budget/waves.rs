@@ -1,0 +1,124 @@
+//! Predicted and measured waves beside each other: amplitude and phase, and how likely they are alike by chance.
+//!
+//! ```text
+//! m(a) = sum of A_n cos(n a - phi_n)     p(a) = sum of B_n cos(n a - psi_n)
+//! explained of wave n  = 1 - |A_n e^(i phi_n) - B_n e^(i psi_n)|^2 / A_n^2
+//! <m, p turned by t>   = 1/2 sum of A_n B_n cos(phi_n - psi_n - n t)
+//! ```
+//!
+//! A prediction that has nothing to do with the measurement may lie right by chance. Turned round the circle it keeps
+//! its size and its shape, and would agree no worse: [`turns_as_good`] is the share of all turns at which it does.
+
+use std::f64::consts::TAU;
+
+use crate::roundness::{Harmonic, Polar};
+
+use super::turn::Turn;
+
+/// One wave, measured and predicted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WavePair {
+    /// Of the measurement.
+    pub measured: Harmonic,
+    /// Of the prediction.
+    pub predicted: Harmonic,
+}
+
+impl WavePair {
+    /// Phase of the prediction beyond that of the measurement, -pi to pi, rad.
+    pub fn phase_difference(&self) -> f64 {
+        let by = self.predicted.phase - self.measured.phase;
+        (by + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU
+    }
+
+    /// Share of the measured wave that the predicted one explains; none where none was measured.
+    pub fn explained(&self) -> Option<f64> {
+        let [m, p] = [self.measured.amplitude, self.predicted.amplitude];
+        let left = m * m + p * p - 2.0 * m * p * self.phase_difference().cos();
+        (m > 0.0).then(|| 1.0 - left / (m * m))
+    }
+}
+
+/// Waves 1 to `most` of both curves, or as many as the angles tell.
+pub fn pairs(turn: &Turn, (predicted, measured): (&[f64], &[f64]), most: usize) -> Vec<WavePair> {
+    let waves = |curve: &[f64]| Polar::of_deviations(turn.angle(), curve).harmonics(most);
+    let both = waves(measured).into_iter().zip(waves(predicted));
+    both.map(|(measured, predicted)| WavePair { measured, predicted })
+        .collect()
+}
+
+/// Turns that are tried: every half degree.
+const TURNS: usize = 720;
+
+/// The share of all turns of the prediction about the centre at which it is as like the measurement as it is unturned, or
+/// more; none where either has no waves.
+pub fn turns_as_good(pairs: &[WavePair]) -> Option<f64> {
+    let like = |turned: usize| -> f64 {
+        let by = TAU * turned as f64 / TURNS as f64;
+        let of = |pair: &WavePair| {
+            let [m, p] = [pair.measured.amplitude, pair.predicted.amplitude];
+            m * p * (pair.phase_difference() + pair.measured.waves as f64 * by).cos()
+        };
+        pairs.iter().map(of).sum()
+    };
+    let size: f64 = pairs
+        .iter()
+        .map(|pair| pair.measured.amplitude * pair.predicted.amplitude)
+        .sum();
+    let least = like(0) - 1e-9 * size;
+    let as_good = (0..TURNS).filter(|turned| like(*turned) >= least).count();
+    (size > 0.0).then_some(as_good as f64 / TURNS as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn turn() -> Turn {
+        Turn::new((0..360).map(|deg| f64::from(deg).to_radians()).collect()).unwrap()
+    }
+
+    fn curve(of: impl Fn(f64) -> f64) -> Vec<f64> {
+        (0..360).map(|deg| of(f64::from(deg).to_radians())).collect()
+    }
+
+    #[test]
+    fn waves_stand_beside_each_other_with_their_phases() {
+        let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
+        let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 4e-6 * (3.0 * a).cos());
+        let told = pairs(&turn(), (&p, &m), 6);
+        assert_eq!(told.len(), 6);
+        let two = told[1];
+        assert!(
+            (two.measured.amplitude - 2e-5).abs() < 1e-15 && (two.predicted.amplitude - 1e-5).abs() < 1e-15
+        );
+        assert!((two.phase_difference() - 0.4).abs() < 1e-9);
+        let left = (1.0 + 0.25 - 0.4_f64.cos()) * 4e-10;
+        assert!((two.explained().unwrap() - (1.0 - left / 4e-10)).abs() < 1e-9);
+        assert!((told[2].explained().unwrap() - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn shares_of_waves_weighed_by_their_squares_are_the_share_of_all() {
+        let m = curve(|a| 2e-5 * (2.0 * a - 0.5).cos() + 4e-6 * (3.0 * a).cos());
+        let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 7e-6 * (3.0 * a + 1.0).cos());
+        let told = pairs(&turn(), (&p, &m), 10);
+        let squares = |pair: &WavePair| pair.measured.amplitude.powi(2);
+        let all: f64 = told.iter().map(squares).sum();
+        let seen = told.iter().filter(|pair| pair.measured.amplitude > 1e-9);
+        let weighed: f64 = seen.map(|pair| pair.explained().unwrap() * squares(pair)).sum();
+        let whole = super::super::agreement(&turn(), &p, &m).unwrap().explained;
+        assert!((weighed / all - whole).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_turned_prediction_is_seldom_as_good_as_a_true_one_and_often_as_good_as_a_wrong_one() {
+        let of = |a: f64| (2.0 * a - 0.5).cos() + 0.5 * (3.0 * a).cos() + 0.4 * (5.0 * a + 1.0).cos();
+        let m = curve(|a| 1e-5 * of(a));
+        let right = turns_as_good(&pairs(&turn(), (&m, &m), 8)).unwrap();
+        assert!((right - 1.0 / 720.0).abs() < 1e-12);
+        let opposite = curve(|a| -1e-5 * of(a));
+        assert!(turns_as_good(&pairs(&turn(), (&opposite, &m), 8)).unwrap() > 0.99);
+        assert_eq!(turns_as_good(&pairs(&turn(), (&[0.0; 360], &m), 8)), None);
+    }
+}

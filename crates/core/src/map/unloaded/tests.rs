@@ -1,0 +1,252 @@
+use std::sync::Arc;
+
+use nalgebra::{Point2, Point3};
+
+use super::*;
+use crate::arms;
+use crate::frame::Isometry;
+use crate::kernel::{BranchChoice, Question, evaluate_on_path};
+use crate::load::{LoadCases, LoadFrame};
+use crate::map::{AlongPath, along_path};
+use crate::path::{Placing, Shape, Spin};
+use crate::robot::forward::forward;
+use crate::robot::inverse::tool_on;
+use crate::robot::{Amount, Backlash, Flank, Motion, Robot};
+use crate::source::StiffnessModel;
+use crate::watch::Watch;
+use crate::workpiece::Plane;
+
+const GAP: f64 = 2e-4;
+
+/// A circle of 0.1 m off the middle of a tilted plate, so that all joints move.
+fn track(backwards: bool) -> Track {
+    let plane = Plane::tilted(Point3::new(0.9, 0.15, 0.5), 0.6);
+    let mut path = Shape::Circle {
+        centre: Point2::origin(),
+        radius: 0.1,
+    }
+    .sampled(1e-3);
+    if backwards {
+        let at: Vec<_> = path.points.iter().rev().map(|point| point.at).collect();
+        for (point, at) in path.points.iter_mut().zip(at) {
+            point.at = at;
+            point.direction = -point.direction;
+        }
+    }
+    Track {
+        path,
+        placing: Placing {
+            spin: Spin::Fixed(0.3),
+            ..Placing::on_plane(&plane)
+        },
+        base_from_part: plane.base_from_part,
+        spins: None,
+    }
+}
+
+fn model(flank: Flank, gap: f64) -> StiffnessModel {
+    let mut model = StiffnessModel::DRIVES.clone();
+    model.structure.backlash = vec![
+        Some(Backlash {
+            gap,
+            standard_uncertainty: 0.1 * gap,
+            flank,
+        });
+        6
+    ];
+    model
+}
+
+fn push(force: [f64; 3]) -> PathLoad {
+    PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: vec![
+            Wrench::from_force(force.into()),
+            Wrench::from_force(-Vector3::from(force)),
+        ],
+    })
+}
+
+fn along(robot: &Robot, model: &StiffnessModel, backwards: bool, load: PathLoad) -> AlongPath {
+    let tool = arms::bent_tool();
+    let question = question(robot, model, &tool);
+    along_path(&question, &track(backwards), load, Watch::NONE).unwrap()
+}
+
+fn question<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Question<'a> {
+    let arm = Arm {
+        robot,
+        compliance: robot.compliance().unwrap(),
+        model,
+        flange_from_tool: tool,
+    };
+    Question {
+        choice: BranchChoice::Of(robot.nominal_branch()),
+        ..Question::unloaded(arm, None)
+    }
+}
+
+/// Where the tool stands at these joint positions of the chain, m.
+fn tip(robot: &Robot, q: &[f64]) -> Vector3<f64> {
+    tool_on(&forward(robot, q), &arms::bent_tool()).translation.vector
+}
+
+#[test]
+fn links_that_lag_by_half_a_gap_put_the_tool_where_forward_kinematics_has_it() {
+    let robot = arms::mh12();
+    let along = along(&robot, &model(Flank::Motion, GAP), false, push([0.0; 3]));
+    let moved = &along.unloaded.as_ref().unwrap().moved;
+    let last = along.answers.points.len() - 2;
+    let mut told = 0;
+    for index in 1..last {
+        let q = along.answers.joints_at(index);
+        let motor = |joint, at: usize| robot.theta(joint, along.answers.joints_at(at));
+        let (mut lags, mut clear) = (q.to_vec(), true);
+        for joint in 0..6 {
+            // Far enough from where it turns back: it has crossed its gap long ago.
+            let before = index.saturating_sub(30);
+            let ways = (before..index).map(|at| motor(joint, at + 1) - motor(joint, at));
+            let up = ways.clone().all(|by| by > 0.0) && index > 30;
+            let down = ways.clone().all(|by| by < 0.0) && index > 30;
+            clear &= (up || down) && (motor(joint, index) - motor(joint, before)).abs() > GAP;
+            let lag = if up { -0.5 * GAP } else { 0.5 * GAP };
+            lags[joint] = robot.joint_position(joint, motor(joint, index) + lag, &lags);
+        }
+        if clear {
+            told += 1;
+            let by = tip(&robot, &lags) - tip(&robot, q);
+            // To the first order: gap squared, times a reach of 1 m and six joints.
+            assert!(
+                (moved[2 * index] - by).norm() < 10.0 * GAP * GAP,
+                "{index}: {} {by}",
+                moved[2 * index]
+            );
+            assert!(by.norm() > 2e-5, "{by}");
+        }
+    }
+    assert!(told > 100, "{told}");
+    // Nothing pushes: all of the deviation is backlash.
+    assert_eq!(along.answers.deviations, *moved);
+}
+
+#[test]
+fn the_other_way_round_links_lag_the_other_way() {
+    let robot = arms::mh12();
+    let [one, other] = [false, true].map(|backwards| {
+        along(&robot, &model(Flank::Motion, GAP), backwards, push([0.0; 3]))
+            .unloaded
+            .unwrap()
+            .moved
+    });
+    let count = one.len() / 2;
+    let opposite = (0..count)
+        .filter(|i| (one[2 * i] + other[2 * (count - 1 - i)]).norm() < 1e-9)
+        .count();
+    // All but where links cross their gaps: those are behind the reversal, on either side of it.
+    assert!(opposite * 10 > count * 7, "{opposite} of {count}");
+}
+
+#[test]
+fn a_torque_holds_its_flank_all_around_and_turns_with_the_load() {
+    let robot = arms::mh12();
+    let along = along(
+        &robot,
+        &model(Flank::Torque, GAP),
+        false,
+        push([30.0, -20.0, -80.0]),
+    );
+    for pair in along.unloaded.unwrap().moved.chunks(2) {
+        // The second case pushes the other way.
+        assert!((pair[0] + pair[1]).norm() < 1e-18 && pair[0].norm() > 2e-5);
+    }
+}
+
+#[test]
+fn an_arm_that_is_not_as_believed_is_where_its_own_chain_has_it() {
+    let robot = arms::mh12();
+    let mut motions = robot.chain().motions().to_vec();
+    for motion in &mut motions {
+        if let Motion::Along(_, Amount::Constant(length)) = motion {
+            *length += 2e-4;
+        }
+    }
+    let actual = Robot::new("actual", motions, robot.joints().to_vec()).unwrap();
+    let mut model = StiffnessModel::DRIVES.clone();
+    model.actual = Some(Arc::new(actual.clone()));
+    let along = along(&robot, &model, false, push([40.0, 10.0, -60.0]));
+    let without = self::along(&robot, StiffnessModel::DRIVES, false, push([40.0, 10.0, -60.0]));
+    for index in 0..along.answers.points.len() {
+        let q = along.answers.joints_at(index);
+        let by = tip(&actual, q) - tip(&robot, q);
+        let told = along.answers.deviations_at(index)[0] - without.answers.deviations_at(index)[0];
+        assert!((told - by).norm() < 1e-12 && by.norm() > 1e-4, "{told} {by}");
+    }
+}
+
+#[test]
+fn a_point_asked_by_itself_deviates_as_on_the_path_and_its_shares_add_up() {
+    let robot = arms::mh12();
+    let model = model(Flank::Motion, GAP);
+    let load = push([40.0, 10.0, -60.0]);
+    let along = along(&robot, &model, false, load.clone());
+    let tool = arms::bent_tool();
+    for index in [0, 17, 230] {
+        let track = track(false);
+        let stop = track.stop(index);
+        let mut cases = vec![Wrench::ZERO; 2];
+        track.wrenches(&load, index, &mut cases);
+        let asked = Question {
+            cases: &cases,
+            normal: stop.normal,
+            ..question(&robot, &model, &tool)
+        };
+        let dragged = along.unloaded.as_ref().unwrap().dragged_at(index, 6);
+        let alone = evaluate_on_path(&asked, &stop.base_from_tool, dragged);
+        let (held, there) = (alone.points[0].unwrap(), along.answers.points[index].unwrap());
+        assert!((held.in_plane - there.in_plane).abs() < 1e-12);
+        assert!((alone.shares_at(0).iter().sum::<f64>() - held.in_plane).abs() < 1e-15);
+        // Gaps that are known to a tenth.
+        let exact = StiffnessModel {
+            structure: crate::robot::Structure {
+                backlash: model
+                    .structure
+                    .backlash
+                    .iter()
+                    .map(|gap| {
+                        gap.map(|gap| Backlash {
+                            standard_uncertainty: 0.0,
+                            ..gap
+                        })
+                    })
+                    .collect(),
+                ..model.structure.clone()
+            },
+            ..model.clone()
+        };
+        let sure = Question {
+            arm: Arm {
+                model: &exact,
+                ..asked.arm
+            },
+            ..asked
+        };
+        let sure = evaluate_on_path(&sure, &stop.base_from_tool, dragged).points[0].unwrap();
+        assert!(held.in_plane_uncertainty > sure.in_plane_uncertainty);
+    }
+}
+
+#[test]
+fn an_arm_without_play_that_is_as_believed_is_moved_by_its_load_alone() {
+    let robot = arms::mh12();
+    assert!(
+        along(&robot, StiffnessModel::DRIVES, false, push([1.0, 2.0, 3.0]))
+            .unloaded
+            .is_none()
+    );
+    // A gap of nothing is none.
+    assert!(
+        along(&robot, &model(Flank::Motion, 0.0), false, push([1.0, 2.0, 3.0]))
+            .unloaded
+            .is_none()
+    );
+}

@@ -1,0 +1,22 @@
+//! How much play a joint has between its motor and its link.
+
+/// Backlash of a joint: the link lies anywhere within a gap, seen from the motor that the controller moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Backlash {
+    /// The whole gap, from one flank to the other, rad (m).
+    pub gap: f64,
+    /// Its standard uncertainty, same unit.
+    pub standard_uncertainty: f64,
+    /// What decides on which flank the link lies.
+    pub flank: Flank,
+}
+
+/// What decides on which flank of its gap a link lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flank {
+    /// Friction: the link lags behind the motor, and changes its flank where the joint turns back.
+    Motion,
+    /// The torque on the link, of load and gravity: the flank changes where the torque does; without any torque as friction
+    /// has it.
+    Torque,
+}

@@ -1,0 +1,97 @@
+//! Backlash: where the links lie in the gaps of their joints.
+//!
+//! ```text
+//! u_i(k) = clamp(u_i(k-1) - (theta_i(k) - theta_i(k-1)), -b_i/2, b_i/2)        friction: the link stays until its flank comes
+//! u_i    = (b_i/2) sign(tau_i)                                                the torque on it holds a flank
+//! delta  = sum u_i s_i
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `u` | link minus motor | rad (m) |
+//! | `b` | the whole gap | rad (m) |
+//! | `theta` | position of the motor, the chain's counting | rad (m) |
+//! | `tau` | torque of load and gravity on the link | N m (N) |
+//! | `s` | screw of the joint at the TCP | |
+//!
+//! Once a joint has moved on by its gap, `u = -(b/2) sigma` with `sigma` the sign of its speed: the link lags behind the
+//! motor.
+//!
+//! Source: the play operator of backlash, as in Nordin and Gutman, Controlling mechanical systems with backlash: a survey,
+//! Automatica 38, 2002 \[recalled\]; `docs/theory/unloaded.md`.
+
+use crate::robot::{Backlash, Flank};
+use crate::spatial::{Twist, Wrench};
+
+/// Where a link lies (rad, m) that lay at `before`, after its motor has moved by this.
+pub fn dragged(before: f64, moved: f64, gap: f64) -> f64 {
+    (before - moved).clamp(-0.5 * gap, 0.5 * gap)
+}
+
+/// Where a link lies that the motor pushes in this sense: what a run-in leaves.
+pub fn pushed(moved: f64, gap: f64) -> f64 {
+    if moved == 0.0 {
+        0.0
+    } else {
+        -0.5 * gap * moved.signum()
+    }
+}
+
+/// How far the link of a joint with this screw lies from its motor, rad (m): `dragged` as friction has it, or on the flank
+/// where `torque` (N m, N) of what weighs on it and `wrench` hold it.
+pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
+    let torque = torque + screw.dot(wrench);
+    match backlash.flank {
+        Flank::Torque if torque != 0.0 => 0.5 * backlash.gap * torque.signum(),
+        Flank::Torque | Flank::Motion => dragged,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector3;
+
+    #[test]
+    fn a_link_lags_by_half_its_gap_and_stays_while_the_gap_is_crossed() {
+        let gap = 2e-4;
+        let moves = [
+            1e-3, 1e-3, -5e-5, -5e-5, -5e-5, -5e-5, -1e-3, 3e-5, 0.0, -3e-5, 1e-3,
+        ];
+        let (mut lag, mut motor, mut links) = (pushed(1.0, gap), 0.0, Vec::new());
+        for by in moves {
+            lag = dragged(lag, by, gap);
+            motor += by;
+            links.push(motor + lag);
+        }
+        // Forwards half a gap behind; then the link waits for the whole gap; then half a gap behind the other way.
+        let told = [
+            0.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 1.9e-3, 0.9e-3, 0.9e-3, 0.9e-3, 0.9e-3, 1.7e-3,
+        ];
+        for (link, told) in links.iter().zip(told) {
+            assert!((link - told).abs() < 1e-15, "{links:?}");
+        }
+        assert_eq!((pushed(0.0, gap), pushed(-3.0, gap)), (0.0, 1e-4));
+    }
+
+    #[test]
+    fn a_torque_holds_the_flank_that_it_pushes_to_and_without_one_friction_decides() {
+        let screw = Twist {
+            linear: Vector3::x(),
+            angular: Vector3::z(),
+        };
+        let push = |x: f64| Wrench::from_force(Vector3::new(x, 0.0, 0.0));
+        let held = |flank, wrench: &Wrench, torque| {
+            let backlash = Backlash {
+                gap: 2e-4,
+                standard_uncertainty: 0.0,
+                flank,
+            };
+            lies(&backlash, -3e-5, (&screw, wrench), torque)
+        };
+        assert_eq!(held(Flank::Torque, &push(5.0), 0.0), 1e-4);
+        assert_eq!(held(Flank::Torque, &push(5.0), -6.0), -1e-4);
+        assert_eq!(held(Flank::Torque, &Wrench::ZERO, 0.0), -3e-5);
+        assert_eq!(held(Flank::Motion, &push(5.0), 7.0), -3e-5);
+    }
+}

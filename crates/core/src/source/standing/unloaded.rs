@@ -1,0 +1,58 @@
+//! What moves the tool of an arm beside its load: links in the gaps of their joints, and an arm that is not the one its
+//! controller reckons with.
+
+use nalgebra::Vector3;
+
+use super::Standing;
+use crate::robot::Seat;
+use crate::source::{backlash, geometric};
+use crate::spatial::{Twist, Wrench};
+
+impl Standing<'_> {
+    /// Displacement of the tool because links lie in their gaps: `dragged` there by friction, one a joint, rad (m), or held
+    /// on a flank by gravity and `wrench`.
+    pub fn backlash(&self, dragged: &[f64], wrench: &Wrench) -> Twist {
+        let gaps = self.arm.model.structure.gaps();
+        gaps.map(|(joint, _)| self.backlash_of(joint, dragged, wrench))
+            .sum()
+    }
+
+    /// Displacement of the tool because the arm is not as its controller has it.
+    pub fn geometric(&self) -> Twist {
+        let (arm, model) = (&self.arm, self.arm.model);
+        model.actual.as_ref().map_or(Twist::ZERO, |actual| {
+            geometric::displacement(arm.robot, actual, arm.flange_from_tool, &self.joints)
+        })
+    }
+
+    /// Part of joint `joint`, which has play.
+    fn backlash_of(&self, joint: usize, dragged: &[f64], wrench: &Wrench) -> Twist {
+        let screw = self.screws[joint];
+        let gap = self.arm.model.structure.backlash[joint];
+        let lies = gap.map_or(0.0, |gap| {
+            backlash::lies(&gap, dragged[joint], (&screw, wrench), self.before[joint])
+        });
+        screw * lies
+    }
+
+    /// Adds the part of each link in its gap along the unit vector `along` (m) to the share of its joint, and gives the
+    /// variance (m^2) of all of them along it.
+    pub fn share_backlash(
+        &self,
+        along: &Vector3<f64>,
+        (dragged, wrench): (&[f64], &Wrench),
+        sharers: &[Seat],
+        shares: &mut [f64],
+    ) -> f64 {
+        let mut variance = 0.0;
+        for (joint, gap) in self.arm.model.structure.gaps() {
+            let part = self.backlash_of(joint, dragged, wrench).linear.dot(along);
+            if let Some(share) = sharers.iter().position(|sharer| *sharer == Seat::Joint(joint)) {
+                shares[share] += part;
+            }
+            // In proportion to the gap.
+            variance += (part * gap.standard_uncertainty / gap.gap).powi(2);
+        }
+        variance
+    }
+}

@@ -1,0 +1,169 @@
+//! Predicted and measured curves of one circle, at the angles that all of them have.
+//!
+//! | contribution | origin | bias | scatter of one cut |
+//! |---|---|---|---|
+//! | deviation under load | load | its mean force, or the mean of the cases given | between these cases |
+//! | both ways | unloaded | mean of clockwise and anticlockwise runs | - |
+//! | reversal | unloaded | half of what the way that was cut has more than the other | - |
+//! | repeatability | unloaded | - | of runs the same way |
+//!
+//! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is told as the end of
+//! the envelope. Given cases may each act: all are as likely.
+
+use armill_core::budget::turn::Turn;
+use armill_core::budget::unloaded::known_angles;
+use armill_core::budget::{Balance, Contribution, Origin, balance, unloaded};
+use armill_core::load::PathLoad;
+use armill_core::measure::ballbar::profile::{STATIONS, station};
+use armill_core::measure::ballbar::{CircularTest, Direction, Profile};
+
+use crate::error::StudyError;
+use crate::file::experiment::Experiment;
+use crate::file::path::PathAsk;
+use crate::run::PathFound;
+
+/// Curves at common angles. SI.
+#[derive(Clone, Debug)]
+pub struct Combined {
+    /// The angles.
+    pub turn: Turn,
+    /// The budget.
+    pub balance: Balance,
+    /// Least and greatest deviation under load of all cases at each angle, from the nominal circle.
+    pub envelope: [Vec<f64>; 2],
+    /// Load cases.
+    pub cases: usize,
+    /// Whether these are given, each as likely as the others; else the first is the mean and the second the greatest force.
+    pub cases_are_given: bool,
+    /// Whether the way that was cut was measured without load; `None` where nothing was.
+    pub has_cut_way: Option<bool>,
+    /// Standard deviation of runs the same way; none where no way has two.
+    pub repeatability: Option<f64>,
+}
+
+/// Waves a turn that are told.
+pub const MOST_WAVES: usize = 12;
+
+/// What was measured beside what was found of the path.
+///
+/// # Errors
+/// A path that is not reached everywhere; curves that have too few angles in common.
+pub fn combine(experiment: &Experiment, path: &PathAsk, found: &PathFound) -> Result<Combined, StudyError> {
+    if found.radial.is_empty() {
+        return Err(StudyError::value(
+            format!(
+                "{}: a circle that is not reached everywhere has no budget",
+                experiment.ask
+            ),
+            "another posture, or another place of the plane",
+        ));
+    }
+    let part = experiment.part.as_ref().map(|part| Profile::of(&part.run));
+    let own: Vec<f64> = match &part {
+        Some(part) => part.samples().map(|(angle, _)| angle).collect(),
+        None => (0..STATIONS).map(station).collect(),
+    };
+    let test = experiment.test.as_ref();
+    let common = test.map_or_else(|| own.clone(), |test| known_angles(test, &own));
+    let turn = Turn::new(common).map_err(|error| {
+        StudyError::value(
+            format!("{}: of what was measured {error}", experiment.ask),
+            "full turns, a sample every 15 degrees or more",
+        )
+    })?;
+    let cases: Vec<Vec<f64>> = found
+        .radial
+        .iter()
+        .map(|case| turn.of_even(&case.outward))
+        .collect();
+    let cases_are_given = matches!(path.load, PathLoad::Cases(_));
+    let mut contributions = vec![under_load(&cases, cases_are_given)];
+    let mut has_cut_way = None;
+    let mut repeatability = None;
+    if let Some(test) = test {
+        let seen = of_test(test, &turn, experiment)?;
+        has_cut_way = Some(seen.has_cut_way);
+        repeatability = seen.scatter;
+        contributions.extend(contributions_of(seen, turn.angle().len()));
+    }
+    // Every angle is one of the part's own.
+    let measured: Option<Vec<f64>> =
+        part.and_then(|part| turn.angle().iter().map(|angle| part.at(*angle)).collect());
+    let u = experiment.part.as_ref().map_or(0.0, |part| part.u);
+    let at = |k: usize| cases.iter().map(move |case| case[k]);
+    let extreme = |of: fn(f64, f64) -> f64, begin: f64| -> Vec<f64> {
+        (0..turn.angle().len()).map(|k| at(k).fold(begin, of)).collect()
+    };
+    Ok(Combined {
+        envelope: [extreme(f64::min, f64::MAX), extreme(f64::max, f64::MIN)],
+        cases: cases.len(),
+        cases_are_given,
+        has_cut_way,
+        repeatability,
+        balance: balance(
+            &turn,
+            contributions,
+            measured.as_deref().map(|curve| (curve, u)),
+            (experiment.removed, MOST_WAVES),
+        ),
+        turn,
+    })
+}
+
+/// What the load does: of given cases their mean and how they scatter about it, else the mean force.
+fn under_load(cases: &[Vec<f64>], are_given: bool) -> Contribution {
+    let taken = if are_given { cases } else { &cases[..1] };
+    let count = taken.len() as f64;
+    let mean = |k: usize| taken.iter().map(|case| case[k]).sum::<f64>() / count;
+    let angles = taken[0].len();
+    let bias: Vec<f64> = (0..angles).map(mean).collect();
+    let scatter = |k: usize| {
+        let squares = taken.iter().map(|case| (case[k] - bias[k]).powi(2));
+        (squares.sum::<f64>() / count).sqrt()
+    };
+    Contribution {
+        name: "deviation under load".to_owned(),
+        origin: Origin::Load,
+        scatter: (0..angles).map(scatter).collect(),
+        bias,
+        u: None,
+    }
+}
+
+/// The path without load, in parts.
+fn of_test(
+    test: &CircularTest,
+    turn: &Turn,
+    experiment: &Experiment,
+) -> Result<armill_core::budget::Unloaded, StudyError> {
+    // A circle of a study is cut the way its angle grows.
+    let seen = unloaded(test, turn, Direction::Anticlockwise, experiment.removed);
+    seen.ok_or_else(|| {
+        StudyError::value(
+            "the runs of the ball-bar have no angle in common",
+            "measure full turns",
+        )
+    })
+}
+
+/// Those parts as contributions at `count` angles.
+fn contributions_of(seen: armill_core::budget::Unloaded, count: usize) -> Vec<Contribution> {
+    let one = |name: &str, bias: Vec<f64>, (scatter, u): (f64, Option<f64>)| Contribution {
+        name: name.to_owned(),
+        origin: Origin::Unloaded,
+        scatter: vec![scatter; bias.len()],
+        bias,
+        u,
+    };
+    let mean = match seen.reversal {
+        Some(_) => "path without load, both ways",
+        None => "path without load",
+    };
+    let mut parts = vec![one(mean, seen.mean, (0.0, seen.u))];
+    parts.extend(seen.reversal.map(|bias| one("reversal", bias, (0.0, seen.u))));
+    parts.extend(
+        seen.scatter
+            .map(|s| one("repeatability", vec![0.0; count], (s, None))),
+    );
+    parts
+}

@@ -1,0 +1,317 @@
+//! Table and pictures of a budget.
+//!
+//! ```text
+//! budget.csv         a row an angle: each contribution, their sum, the part and what is not explained
+//! ASK-budget.svg     how large each contribution is, the sums and the part; each picture as .png too
+//! ASK-measured.svg   part and prediction round the circle, magnified
+//! ASK-waves.svg      amplitude and phase, wave by wave
+//! ```
+//!
+//! `armill run` puts the pictures and [`tables`] into its report.
+
+use std::path::{Path, PathBuf};
+
+use armill_formats::file::write_atomically;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::html;
+use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
+
+use super::answer::{BudgetAnswer, PartAnswer};
+use super::combine::Combined;
+use crate::StudyError;
+use crate::output::report::cells::columns;
+use crate::output::{Picture, prepare, slug, write_pictures};
+
+/// Neighbours farther apart are not joined, rad.
+const OPEN: f64 = armill_core::measure::ballbar::profile::GAP * (1.0 + 1e-6);
+
+/// Writes table and pictures into the folder `out` and gives their paths.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(told: &BudgetAnswer, combined: &Combined, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
+    prepare(out)?;
+    let table = out.join("budget.csv");
+    write_atomically(&table, &csv::write(&table_of(told, combined)?))?;
+    let pictures = pictures(told, combined);
+    write_pictures(&format!("{}-", slug(&told.ask)), &pictures, out)?;
+    let named = pictures
+        .iter()
+        .map(|picture| out.join(format!("{}.svg", picture.name)));
+    Ok(std::iter::once(table).chain(named).collect())
+}
+
+/// The pictures: bars; with a part the circle and its waves.
+pub(crate) fn pictures(told: &BudgetAnswer, combined: &Combined) -> Vec<Picture> {
+    let picture = |what: &str, caption: &str, svg: String| Picture {
+        name: format!("{}-{what}", slug(&told.ask)),
+        caption: format!("{}: {caption}", told.ask),
+        svg,
+    };
+    let mut pictures = vec![
+        picture("budget", "what its radial deviation is made of.", bars(told)),
+        picture(
+            "measured",
+            "radial deviation, predicted and measured, magnified.",
+            circle(told, combined),
+        ),
+    ];
+    pictures.extend(
+        told.part
+            .as_ref()
+            .filter(|part| !part.waves.is_empty())
+            .map(|part| {
+                picture(
+                    "waves",
+                    "amplitudes of the part and of its prediction.",
+                    waves(told, part),
+                )
+            }),
+    );
+    pictures
+}
+
+/// What all curves count from, in a line.
+fn subtitle(told: &BudgetAnswer) -> String {
+    let mut parts = vec![format!(
+        "circle of {} mm",
+        crate::number::decimals(told.radius_mm, 3)
+    )];
+    for (what, from) in [("centre", told.datum.centre), ("radius", told.datum.radius)] {
+        parts.push(format!("{what} {from}"));
+    }
+    parts.join("; ")
+}
+
+fn bars(told: &BudgetAnswer) -> String {
+    let bar = |label: &str, group: BudgetGroup, largest_um: f64, scatter_um: f64| BudgetBar {
+        label: label.to_owned(),
+        group,
+        largest_um,
+        scatter_um,
+    };
+    let mut bars: Vec<BudgetBar> = told
+        .contributions
+        .iter()
+        .map(|one| {
+            bar(
+                &one.name,
+                BudgetGroup::Contribution,
+                one.largest_um,
+                one.scatter_um,
+            )
+        })
+        .collect();
+    let sums = &told.sums;
+    let half = (sums.with_scatter_um - sums.as_functions_um).max(0.0) / 2.0;
+    bars.push(bar(
+        "added with their signs",
+        BudgetGroup::Sum,
+        sums.as_functions_um,
+        half,
+    ));
+    bars.push(bar(
+        "root of the squares",
+        BudgetGroup::Sum,
+        sums.root_sum_square_um,
+        0.0,
+    ));
+    bars.push(bar("plain sum", BudgetGroup::Sum, sums.plain_um, 0.0));
+    if let Some(part) = &told.part {
+        bars.push(bar("part", BudgetGroup::Measured, part.largest_um, 0.0));
+        bars.push(bar(
+            "not explained",
+            BudgetGroup::Measured,
+            part.residual.largest_um,
+            0.0,
+        ));
+    }
+    let picture = BudgetBars {
+        title: format!("{}: what its error is made of", told.ask),
+        subtitle: subtitle(told),
+        quantity: "largest radial deviation (µm)".to_owned(),
+        bars,
+    };
+    picture.to_svg()
+}
+
+fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
+    let balance = &combined.balance;
+    let closed = |name: &str, curve: &[f64]| {
+        let angle = combined.turn.angle();
+        let (mut angle_deg, mut radial_um) = (Vec::new(), Vec::new());
+        for k in 0..angle.len() {
+            let next = angle
+                .get(k + 1)
+                .copied()
+                .or_else(|| Some(angle.first()? + std::f64::consts::TAU));
+            angle_deg.push(angle[k].to_degrees());
+            radial_um.push(curve[k] * 1e6);
+            if next.is_some_and(|next| next - angle[k] > OPEN) {
+                angle_deg.push(angle[k].to_degrees());
+                radial_um.push(f64::NAN);
+            }
+        }
+        angle_deg.extend(angle.first().map(|first| first.to_degrees()));
+        radial_um.extend(curve.first().map(|first| first * 1e6));
+        RadialSeries {
+            name: name.to_owned(),
+            angle_deg,
+            radial_um,
+        }
+    };
+    let part = balance.comparison.as_ref();
+    let mut series: Vec<RadialSeries> = part
+        .map(|part| closed("part", &part.measured))
+        .into_iter()
+        .collect();
+    series.push(closed("predicted together", &balance.sums.bias));
+    let parts = balance
+        .contributions
+        .iter()
+        .filter(|one| one.bias.iter().any(|b| *b != 0.0));
+    series.extend(parts.map(|one| closed(&one.name, &one.bias)));
+    let picture = PolarPlot {
+        title: format!("{}: predicted and measured", told.ask),
+        subtitle: subtitle(told),
+        horizontal: "base y".to_owned(),
+        vertical: "z′".to_owned(),
+        growth: Growth::Left,
+        zero: "reference circle".to_owned(),
+        series,
+        references: Vec::new(),
+    };
+    picture.to_svg()
+}
+
+fn waves(told: &BudgetAnswer, part: &PartAnswer) -> String {
+    let wave = |wave: &super::answer::WaveAnswer| WaveBar {
+        waves: wave.waves,
+        measured_um: wave.measured_um,
+        predicted_um: wave.predicted_um,
+        phase_difference_deg: wave.phase_difference_deg,
+    };
+    let picture = WaveBars {
+        title: format!("{}: wave by wave", told.ask),
+        subtitle: format!("{:.1} % of the part explained", part.explained_percent),
+        names: ["part".to_owned(), "predicted".to_owned()],
+        waves: part.waves.iter().map(wave).collect(),
+    };
+    picture.to_svg()
+}
+
+/// What the budget comes to, in a paragraph.
+pub(crate) fn in_words(told: &BudgetAnswer) -> String {
+    let sums = &told.sums;
+    let mut text = format!(
+        "{}: the load makes {:.1} µm at most, the path without load {:.1} µm. Added with their signs at every angle they \
+         make {:.1} µm, plainly {:.1} µm.",
+        told.ask, sums.load_um, sums.unloaded_um, sums.as_functions_um, sums.plain_um
+    );
+    if let Some(part) = &told.part {
+        text.push_str(&format!(
+            " The part is off by {:.1} µm; {:.1} % of its mean square are explained, {:.1} % could be. What is left has {:.1} \
+             µm rms, {:.1} µm of it beyond known scatter.",
+            part.largest_um,
+            part.explained_percent,
+            part.explainable_percent,
+            part.residual.rms_um,
+            part.residual.beyond_scatter_um
+        ));
+    }
+    text
+}
+
+/// Contributions; waves of the part.
+pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
+    let um = |value: f64| format!("{value:.2}");
+    let percent = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"));
+    let contributions = html::Table {
+        caption: "Contributions, and what they explain of the part: alone, and the others without them."
+            .to_owned(),
+        columns: columns(&[
+            ("contribution", ""),
+            ("largest", "µm"),
+            ("at", "deg"),
+            ("rms", "µm"),
+            ("scatter", "µm"),
+            ("alone", "%"),
+            ("without", "%"),
+        ]),
+        rows: (told.contributions.iter())
+            .map(|one| {
+                vec![
+                    one.name.clone(),
+                    um(one.largest_um),
+                    format!("{:.1}", one.largest_at_deg),
+                    um(one.rms_um),
+                    um(one.scatter_um),
+                    percent(one.explained_alone_percent),
+                    percent(one.explained_without_percent),
+                ]
+            })
+            .collect(),
+    };
+    let of_part = |part: &PartAnswer| html::Table {
+        caption: "Part and prediction, wave by wave.".to_owned(),
+        columns: columns(&[
+            ("waves a turn", ""),
+            ("part", "µm"),
+            ("predicted", "µm"),
+            ("phase difference", "deg"),
+            ("explained", "%"),
+        ]),
+        rows: (part.waves.iter())
+            .map(|wave| {
+                vec![
+                    wave.waves.to_string(),
+                    um(wave.measured_um),
+                    um(wave.predicted_um),
+                    format!("{:.1}", wave.phase_difference_deg),
+                    percent(wave.explained_percent),
+                ]
+            })
+            .collect(),
+    };
+    let waves = told
+        .part
+        .as_ref()
+        .filter(|part| !part.waves.is_empty())
+        .map(of_part);
+    std::iter::once(contributions).chain(waves).collect()
+}
+
+/// A row an angle.
+fn table_of(told: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyError> {
+    let column = |name: String, unit: &str, (decimals, data): (u8, Vec<f64>)| Column {
+        name,
+        unit: Some(unit.to_owned()),
+        description: String::new(),
+        decimals: Some(decimals),
+        data: ColumnData::Float(data),
+    };
+    let um = |curve: &[f64]| (4, curve.iter().map(|value| value * 1e6).collect());
+    let angle = combined
+        .turn
+        .angle()
+        .iter()
+        .map(|angle| angle.to_degrees())
+        .collect();
+    let mut columns = vec![column("angle_deg".to_owned(), "deg", (4, angle))];
+    let balance = &combined.balance;
+    for (one, said) in balance.contributions.iter().zip(&told.contributions) {
+        let name = slug(&said.name).replace('-', "_");
+        columns.push(column(format!("{name}_um"), "um", um(&one.bias)));
+    }
+    columns.push(column("sum_um".to_owned(), "um", um(&balance.sums.bias)));
+    columns.push(column("scatter_um".to_owned(), "um", um(&balance.sums.scatter)));
+    if let Some(part) = &balance.comparison {
+        columns.push(column("part_um".to_owned(), "um", um(&part.measured)));
+        columns.push(column(
+            "residual_um".to_owned(),
+            "um",
+            um(&part.together.residual),
+        ));
+    }
+    Ok(Table::new("budget", columns)?)
+}
