@@ -7,7 +7,7 @@
 //! ```
 //!
 //! In reading order: [`turn`] (the angles at which all is told), [`datum`] (centre and radius, which are no form),
-//! [`contribution`] (one part, and their sums: plain and as functions), [`unloaded`] (what a ball-bar saw, in parts),
+//! [`contribution`] (one part, and their sums: plain and as functions), [`unloaded`](mod@unloaded) (what a ball-bar saw, in parts),
 //! [`agreement`](mod@agreement) (how much of the measured error a curve explains), [`waves`] (amplitude and phase, wave by wave),
 //! [`balance`](mod@balance) (all of it together).
 //!

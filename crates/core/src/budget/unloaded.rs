@@ -55,10 +55,8 @@ pub fn unloaded(test: &CircularTest, turn: &Turn, cut: Direction, removed: Remov
     let measured: Vec<usize> = (0..2).filter(|way| !ways[*way].is_empty()).collect();
     let runs: usize = ways.iter().map(Vec::len).sum();
     let freedom = runs - measured.len();
-    let squares: f64 = (ways.iter().zip(&means))
-        .flat_map(|(runs, mean)| runs.iter().map(move |run| minus(run, mean)))
-        .map(|off| turn.rms(&Datum::taken_off(turn, &off, removed).1).powi(2))
-        .sum();
+    let squares = |way| squares_of(&test.of(way).map(Profile::of).collect::<Vec<_>>(), turn, removed);
+    let squares = squares(cut)? + squares(other)?;
     let scatter = (freedom > 0).then(|| (squares / freedom as f64).sqrt());
     let [c, o] = [&means[0], &means[1]];
     let share: f64 = measured.iter().map(|way| 1.0 / ways[*way].len() as f64).sum();
@@ -74,6 +72,21 @@ pub fn unloaded(test: &CircularTest, turn: &Turn, cut: Direction, removed: Remov
         u: scatter.map(|s| s * share.sqrt() / measured.len() as f64),
         has_cut_way: measured.contains(&0),
     })
+}
+
+/// Mean squares (m^2) of what each of these runs misses their mean by, summed: at the angles of the first, since between
+/// samples a curve is a mean of two that scatters less; where those make no turn, at the angles of `turn`. `None` where a
+/// run is unknown there.
+fn squares_of(runs: &[Profile], turn: &Turn, removed: Removed) -> Option<f64> {
+    let known = |angle: &f64| runs.iter().all(|run| run.at(*angle).is_some());
+    let samples = runs.first().into_iter().flat_map(Profile::samples);
+    let own = Turn::new(samples.map(|(angle, _)| angle).filter(known).collect());
+    let turn = own.as_ref().unwrap_or(turn);
+    let seen = |run: &Profile| turn.angle().iter().map(|angle| run.at(*angle)).collect();
+    let curves: Vec<Vec<f64>> = runs.iter().map(seen).collect::<Option<_>>()?;
+    let mean = mean(&curves, turn.angle().len());
+    let form = |curve: &Vec<f64>| Datum::taken_off(turn, &minus(curve, &mean), removed).1;
+    Some(curves.iter().map(|curve| turn.rms(&form(curve)).powi(2)).sum())
 }
 
 /// The mean of curves of `count` angles; zeros of none.

@@ -7,7 +7,7 @@
 //! ASK-waves.svg      amplitude and phase, wave by wave
 //! ```
 //!
-//! `armill run` puts the pictures and [`tables`] into its report.
+//! `armill run` puts the pictures and `tables` into its report.
 
 use std::path::{Path, PathBuf};
 

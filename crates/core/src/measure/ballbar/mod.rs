@@ -1,9 +1,9 @@
 //! How round does the tool go, and why not rounder? Circular tests with a ball-bar.
 //!
 //! In reading order: [`run`] (what was measured), [`profile`] (a run as radii over the angle), [`centre`] (where the circle
-//! lies), [`quantities`] (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`lobes`](mod@lobes)
+//! lies), [`quantities`](mod@quantities) (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`lobes`](mod@lobes)
 //! (how much goes round n times a turn), [`outlier`] (dirt), [`parts`] (scale, squareness, steps at reversals: each with its uncertainty),
-//! [`taught`] (the circle to teach instead).
+//! [`taught`](mod@taught) (the circle to teach instead).
 //!
 //! Theory, signs and what the numbers leave out: `docs/theory/ballbar.md`.
 

@@ -3,7 +3,7 @@
 //! A sample is compared with what its neighbours foretell: the middle between the medians of the five before it and the
 //! five behind, and the line through the medians of two fives on either side alone. `d` is the least of the three
 //! differences: noise where a run goes on smoothly, and noise on either side of a step at a reversal. A sample is an outlier where `d` is
-//! more than [`FACTOR`] times the scatter of all `d` of its run (1.4826 of their median size), and more than [`LEAST`]. The same
+//! more than `FACTOR` times the scatter of all `d` of its run (1.4826 of their median size), and more than `LEAST`. The same
 //! is done once more with the profile of what is left, so that dirt of some samples is seen in a dense run as well.
 //!
 //! A spike where an axis reverses is real: friction holds the axis for a moment. Such samples are told as what they are.

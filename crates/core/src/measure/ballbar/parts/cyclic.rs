@@ -2,7 +2,7 @@
 //!
 //! Periods are tried from that of four samples to the radius, evenly in turns along an axis; for each, what its four waves (see
 //! [`super::term`]) explain of what the other parts leave. The best is taken where that is more than noise gives: as
-//! `F` of four unknowns, beyond [`LEAST_F`].
+//! `F` of four unknowns, beyond `LEAST_F`.
 
 use std::f64::consts::TAU;
 
