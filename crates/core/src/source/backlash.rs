@@ -37,6 +37,16 @@ pub fn pushed(moved: f64, gap: f64) -> f64 {
     }
 }
 
+/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in the way of the first.
+pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterator<Item = f64> {
+    let first = moves.clone().find(|by| *by != 0.0).unwrap_or(0.0);
+    let mut lies = pushed(first, gap);
+    moves.map(move |by| {
+        lies = dragged(lies, by, gap);
+        lies
+    })
+}
+
 /// How far the link of a joint with this screw lies from its motor, rad (m): `dragged` as friction has it, or on the flank
 /// where `torque` (N m, N) of what weighs on it and `wrench` hold it.
 pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
