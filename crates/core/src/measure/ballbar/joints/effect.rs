@@ -8,19 +8,22 @@
 //! A joint crosses its gap while it turns back, some degrees at a time: so the effect is not quite in proportion
 //! to the gap. A gap below zero is the opposite of one above: an estimate may come out there by noise.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use nalgebra::Vector3;
 
 use super::super::profile::wrapped;
 use super::super::run::Direction;
 use super::circle::{Followed, between, between_numbers};
-use crate::robot::Backlash;
+use super::reversal::JointReversal;
+use crate::robot::{Backlash, Flank};
 use crate::source::backlash::{along, lies};
 use crate::spatial::{Twist, Wrench};
 
 /// Difference of gaps by which a derivative is taken, of the gap, and at least, rad (m).
 const STEP: [f64; 2] = [1e-4, 1e-9];
+/// So far beside a reversal its joint is looked at, rad.
+const ASIDE: f64 = 1e-3;
 
 impl Followed {
     /// How many joints the arm has.
@@ -62,6 +65,40 @@ impl Followed {
     pub fn beside(&self, angle: f64) -> f64 {
         let moved = between(&self.beside, angle);
         (outwards(angle) * self.radius + moved).norm() - self.radius
+    }
+
+    /// How far the radius steps outwards where a joint turns back, m, in whichever way it is gone; of a torque that holds the
+    /// flank there is no step.
+    pub fn step(&self, reversal: &JointReversal, gap: f64) -> f64 {
+        let along = &self.joints[reversal.joint];
+        let before = along.theta_at(reversal.angle) - along.theta_at(wrapped(reversal.angle - ASIDE));
+        let lever = between(&along.lever, reversal.angle).dot(&outwards(reversal.angle));
+        match along.flank {
+            Flank::Motion => gap * before.signum() * lever,
+            Flank::Torque => 0.0,
+        }
+    }
+
+    /// Where the link of a joint that turns back has crossed its gap, gone this way, rad; `None` where it turns back again
+    /// before, or not within a quarter turn.
+    pub fn crossed(&self, reversal: &JointReversal, gap: f64, direction: Direction) -> Option<f64> {
+        let along = &self.joints[reversal.joint];
+        let turned = along.theta_at(reversal.angle);
+        let on = |k: u32| reversal.angle + direction.sign() * f64::from(k) * ASIDE;
+        let moved = |k: &u32| {
+            let by = along.theta_at(wrapped(on(*k))) - turned;
+            let whole = along.winding.abs().max(TAU);
+            (by - whole * (by / whole).round()).abs()
+        };
+        let steps = 1..(FRAC_PI_2 / ASIDE) as u32;
+        let mut farthest = 0.0;
+        let rising = steps.take_while(|k| {
+            let goes_on = moved(k) >= farthest;
+            farthest = moved(k);
+            goes_on
+        });
+        let mut passed = rising.skip_while(|k| moved(k) < gap.abs());
+        passed.next().map(|k| wrapped(on(k)))
     }
 
     /// Link minus motor at these angles, rad (m).
