@@ -8,7 +8,7 @@ use clap::Args;
 
 const AFTER: &str = "\
 STUDY has circles (asks of kind = \"path\") and, for the gaps, what a ball-bar measured on them: [[ballbar]] with ask and files.
-Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/joint-backlash.md
+Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/ballbar.md
 
 Examples:
   armill backlash cell
@@ -31,7 +31,12 @@ pub(crate) struct BacklashArguments {
     #[arg(long, value_name = "N", conflicts_with = "simulate")]
     pub circles: Option<usize>,
     /// Half of the box of their centres about the first circle of the study (with --circles)
-    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', default_value = "200,200,200")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        default_value = "200,200,200"
+    )]
     pub within_mm: Vec<f64>,
     /// Their radii (with --circles) [that of the first circle, and one and a half of it]
     #[arg(long, value_name = "R,...", value_delimiter = ',')]
