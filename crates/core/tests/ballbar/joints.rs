@@ -475,3 +475,25 @@ fn where_the_arm_does_not_get_is_told() {
         "{error}"
     );
 }
+
+#[test]
+fn a_joint_that_stands_still_to_rounding_drags_its_link_nowhere() {
+    // The tool straight down: R stays where it is.
+    let (robot, tool) = (arms::mh12(), tool());
+    let flat = circle([0.85, 0.25, 0.45], 90.0);
+    let asked = question(&robot, StiffnessModel::DRIVES, &tool);
+    let of = follow(&asked, (&flat, 720), Watch::NONE).unwrap();
+    assert!(
+        of.reversals.iter().all(|reversal| reversal.joint != 3),
+        "{:?}",
+        of.reversals
+    );
+    let angles: Vec<f64> = (0..360).map(|k| (f64::from(k) + 0.3).to_radians()).collect();
+    for direction in Direction::BOTH {
+        assert!(
+            of.effect((3, 1e-4), direction, &angles)
+                .iter()
+                .all(|dr| *dr == 0.0)
+        );
+    }
+}
