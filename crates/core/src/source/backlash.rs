@@ -37,9 +37,13 @@ pub fn pushed(moved: f64, gap: f64) -> f64 {
     }
 }
 
-/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in the way of the first.
+/// Moves that are smaller are rounding of inverse kinematics, and push no link, rad (m).
+const ROUNDING: f64 = 1e-11;
+
+/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in the way of the first; in the middle
+/// where the motor stands still but for rounding.
 pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterator<Item = f64> {
-    let first = moves.clone().find(|by| *by != 0.0).unwrap_or(0.0);
+    let first = moves.clone().find(|by| by.abs() > ROUNDING).unwrap_or(0.0);
     let mut lies = pushed(first, gap);
     moves.map(move |by| {
         lies = dragged(lies, by, gap);
