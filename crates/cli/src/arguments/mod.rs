@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` is for two of them.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `completions`; `poses` is for two of them.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod advise;
+mod backlash;
 mod ballbar;
 mod budget;
 mod calibrate;
@@ -32,6 +33,7 @@ mod roundness;
 mod run;
 
 pub(crate) use advise::AdviseArguments;
+pub(crate) use backlash::BacklashArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
 pub(crate) use budget::BudgetArguments;
 pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
@@ -106,6 +108,8 @@ pub(crate) enum Command {
     Roundness(RoundnessArguments),
     /// How round the tool goes, and why not rounder, from a ball-bar
     Ballbar(Box<BallbarArguments>),
+    /// How much play each joint has, from a ball-bar; which circles tell; made-up tests
+    Backlash(Box<BacklashArguments>),
     /// How near the arm comes to its poses, and how alike, from a laser tracker
     PoseAccuracy(Box<PoseAccuracyArguments>),
     /// What the error of a measured circle is made of, and how much of it is predicted
@@ -138,6 +142,7 @@ impl Command {
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
+            Command::Backlash(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Completions(_) => false,
