@@ -42,7 +42,7 @@ fn waves() -> WaveBars {
         waves,
         measured_um,
         predicted_um,
-        phase_difference_deg,
+        phase_difference_deg: Some(phase_difference_deg),
     };
     WaveBars {
         title: "Groove: wave by wave".to_owned(),

@@ -70,7 +70,9 @@ fn told(
     let track = track();
     let along = along_path(&question, &track, load.clone(), Watch::NONE).unwrap();
     let centre = Point2::origin();
-    let outward = radial_deviations(&track, &along.answers, centre)[0].outward.clone();
+    let outward = radial_deviations(&track, &along.answers, centre)[0]
+        .outward
+        .clone();
     let without = radial_without_load(&question, (&track, &along), centre, Watch::NONE).unwrap();
     let doubts = radial_doubts(&question, (&track, &along), centre, load.case_count());
     (outward, without, doubts)
@@ -132,9 +134,8 @@ fn a_curve_is_the_change_when_its_compliance_is_off_by_its_uncertainty() {
     let robot = arms::mh12();
     let springs = compliance(&robot);
     let load = push(&[FORCE]);
-    let of = |springs: &[JointCompliance]| {
-        told(&robot, (springs, StiffnessModel::DRIVES, Doubt::NONE), &load).0
-    };
+    let of =
+        |springs: &[JointCompliance]| told(&robot, (springs, StiffnessModel::DRIVES, Doubt::NONE), &load).0;
     let as_is = of(&springs);
     let curves = told(&robot, (&springs, StiffnessModel::DRIVES, Doubt::NONE), &load).2;
     assert_eq!(curves.len(), 6);
