@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` is for two of them.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -27,6 +27,7 @@ mod pose;
 mod pose_accuracy;
 mod poses;
 mod posture;
+mod program;
 mod robots;
 mod roundness;
 mod run;
@@ -48,6 +49,7 @@ pub(crate) use pose::PoseArguments;
 pub(crate) use pose_accuracy::PoseAccuracyArguments;
 pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
+pub(crate) use program::ProgramOptions;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
