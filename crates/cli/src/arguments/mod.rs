@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` and `program` are for two of them each.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `path_accuracy`, `completions`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -22,6 +22,7 @@ mod forces;
 mod identify;
 mod materials;
 mod new;
+mod path_accuracy;
 mod place;
 mod pose;
 mod pose_accuracy;
@@ -44,6 +45,7 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
+pub(crate) use path_accuracy::PathAccuracyArguments;
 pub(crate) use place::{PlaceArguments, PlaceOptions};
 pub(crate) use pose::PoseArguments;
 pub(crate) use pose_accuracy::PoseAccuracyArguments;
@@ -110,6 +112,8 @@ pub(crate) enum Command {
     Ballbar(Box<BallbarArguments>),
     /// How near the arm comes to its poses, and how alike, from a laser tracker
     PoseAccuracy(Box<PoseAccuracyArguments>),
+    /// How near the tip keeps to a path, and how alike, from a laser tracker
+    PathAccuracy(PathAccuracyArguments),
     /// What the error of a measured circle is made of, and how much of it is predicted
     Budget(BudgetArguments),
     /// Print shell completions
@@ -141,6 +145,7 @@ impl Command {
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
+            Command::PathAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Completions(_) => false,
         }
