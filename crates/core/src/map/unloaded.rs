@@ -10,7 +10,7 @@ use crate::kernel::Answers;
 use crate::load::PathLoad;
 use crate::path::Track;
 use crate::predict::beside_load;
-use crate::source::backlash::{dragged, pushed};
+use crate::source::backlash::{dragged, run_in};
 use crate::source::{Arm, Standing};
 use crate::spatial::Wrench;
 
@@ -65,8 +65,7 @@ fn drag(arm: &Arm<'_>, track: &Track, answers: &Answers) -> Vec<f64> {
                 held.windows(2)
                     .map(|pair| theta(pair[1], joint) - theta(pair[0], joint))
             };
-            let first = moves().find(|by| *by != 0.0).unwrap_or(0.0);
-            let mut link = pushed(first, backlash.gap);
+            let mut link = run_in(held.iter().map(|index| theta(*index, joint)), backlash.gap);
             for (index, by) in held.iter().zip([0.0].into_iter().chain(moves())) {
                 link = dragged(link, by, backlash.gap);
                 lies[index * joints + joint] = link;

@@ -20,7 +20,7 @@
 //! Source: the play operator of backlash, as in Nordin and Gutman, Controlling mechanical systems with backlash: a survey,
 //! Automatica 38, 2002 \[recalled\]; `docs/theory/unloaded.md`.
 
-use crate::robot::{Backlash, Flank};
+use crate::robot::{Backlash, Flank, STANDS_STILL};
 use crate::spatial::{Twist, Wrench};
 
 /// Where a link lies (rad, m) that lay at `before`, after its motor has moved by this.
@@ -28,13 +28,19 @@ pub fn dragged(before: f64, moved: f64, gap: f64) -> f64 {
     (before - moved).clamp(-0.5 * gap, 0.5 * gap)
 }
 
-/// Where a link lies that the motor pushes in this sense: what a run-in leaves.
-pub fn pushed(moved: f64, gap: f64) -> f64 {
-    if moved == 0.0 {
-        0.0
-    } else {
-        -0.5 * gap * moved.signum()
-    }
+/// Torques below this hold no flank, N m (N): rounding, far below the friction of any joint.
+const NO_TORQUE: f64 = 1e-6;
+
+/// Where the link of a joint lies that goes through `positions` (rad, m) after a run-in: on the flank that its first move
+/// pushes, or in the middle if it stands still all along.
+pub fn run_in(positions: impl Iterator<Item = f64>, gap: f64) -> f64 {
+    let mut positions = positions.peekable();
+    let Some(start) = positions.peek().copied() else {
+        return 0.0;
+    };
+    let mut moves = positions.map(|position| position - start);
+    let first = moves.find(|by| by.abs() > STANDS_STILL);
+    first.map_or(0.0, |by| -0.5 * gap * by.signum())
 }
 
 /// How far the link of a joint with this screw lies from its motor, rad (m): `dragged` as friction has it, or on the flank
@@ -42,7 +48,7 @@ pub fn pushed(moved: f64, gap: f64) -> f64 {
 pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
     let torque = torque + screw.dot(wrench);
     match backlash.flank {
-        Flank::Torque if torque != 0.0 => 0.5 * backlash.gap * torque.signum(),
+        Flank::Torque if torque.abs() > NO_TORQUE => 0.5 * backlash.gap * torque.signum(),
         Flank::Torque | Flank::Motion => dragged,
     }
 }
@@ -58,7 +64,7 @@ mod tests {
         let moves = [
             1e-3, 1e-3, -5e-5, -5e-5, -5e-5, -5e-5, -1e-3, 3e-5, 0.0, -3e-5, 1e-3,
         ];
-        let (mut lag, mut motor, mut links) = (pushed(1.0, gap), 0.0, Vec::new());
+        let (mut lag, mut motor, mut links) = (run_in([0.0, 1.0].into_iter(), gap), 0.0, Vec::new());
         for by in moves {
             lag = dragged(lag, by, gap);
             motor += by;
@@ -71,7 +77,16 @@ mod tests {
         for (link, told) in links.iter().zip(told) {
             assert!((link - told).abs() < 1e-15, "{links:?}");
         }
-        assert_eq!((pushed(0.0, gap), pushed(-3.0, gap)), (0.0, 1e-4));
+    }
+
+    #[test]
+    fn a_run_in_pushes_to_the_first_real_move() {
+        let after = |positions: &[f64]| run_in(positions.iter().copied(), 2e-4);
+        assert_eq!(after(&[0.3, 0.2, 0.5]), 1e-4);
+        // What rounding moves stands still; a slow joint moves in the end.
+        assert_eq!(after(&[0.3, 0.3 + 1e-16, 0.3 - 1e-16]), 0.0);
+        assert_eq!(after(&[0.3, 0.3 + 4e-7, 0.3 + 8e-7, 0.3 + 1.2e-6]), -1e-4);
+        assert_eq!((after(&[]), after(&[0.3])), (0.0, 0.0));
     }
 
     #[test]
@@ -92,6 +107,7 @@ mod tests {
         assert_eq!(held(Flank::Torque, &push(5.0), 0.0), 1e-4);
         assert_eq!(held(Flank::Torque, &push(5.0), -6.0), -1e-4);
         assert_eq!(held(Flank::Torque, &Wrench::ZERO, 0.0), -3e-5);
+        assert_eq!(held(Flank::Torque, &Wrench::ZERO, 1e-12), -3e-5);
         assert_eq!(held(Flank::Motion, &push(5.0), 7.0), -3e-5);
     }
 }

@@ -21,6 +21,7 @@ pub mod quantities;
 pub mod resolve;
 pub mod stiffness;
 
+mod actual;
 mod ask;
 mod memory;
 mod names;

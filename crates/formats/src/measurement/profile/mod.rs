@@ -49,6 +49,8 @@ impl Format {
 pub struct Wanted {
     /// The radius that deviations are told from, mm.
     pub radius_mm: Option<f64>,
+    /// The same where deviations are told and nothing else is known, mm.
+    pub else_radius_mm: Option<f64>,
     /// The unit of rows without names.
     pub unit: Option<LengthUnit>,
 }

@@ -164,6 +164,7 @@ mod tests {
     fn read_in(unit: Option<LengthUnit>, text: &str) -> Result<Measured, String> {
         let wanted = Wanted {
             radius_mm: None,
+            else_radius_mm: None,
             unit,
         };
         super::super::read("cir.ds", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())

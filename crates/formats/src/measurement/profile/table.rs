@@ -122,7 +122,7 @@ impl<'a> Table<'a> {
         // What is wrong with a name is wrong with what its columns make, too.
         Problems::from(problems).into_result()?;
         let quantities: Vec<Quantity> = columns.iter().flatten().map(|c: &Column| c.quantity).collect();
-        let layout = Layout::of(&quantities, wanted.radius_mm)
+        let layout = Layout::of(&quantities, wanted)
             .map_err(|(message, hint)| line.problem(path, whole, message, hint))?;
         Ok(Table {
             path,
@@ -192,6 +192,7 @@ mod tests {
     fn read_with(text: &str, radius_mm: Option<f64>) -> Result<Measured, String> {
         let wanted = Wanted {
             radius_mm,
+            else_radius_mm: None,
             unit: None,
         };
         super::super::read("bore.csv", text.as_bytes(), &wanted).map_err(|problems| problems.to_string())
@@ -305,6 +306,7 @@ mod tests {
         }
         let unit = Wanted {
             radius_mm: None,
+            else_radius_mm: None,
             unit: Some(super::super::LengthUnit::Inch),
         };
         let told = read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
