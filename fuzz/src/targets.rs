@@ -81,5 +81,6 @@ pub const TARGETS: &[Target] = &[
     target("ballbar-csv", verdicts::ballbar_csv, fixtures::ballbar_csv, &[], words::BALLBAR),
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
     target("poses", verdicts::poses, fixtures::poses, &[], words::POSES),
+    target("trace", verdicts::trace, fixtures::traces, &[], words::TRACE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

@@ -7,6 +7,7 @@ use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::measure::ballbar::{Direction, Run};
+use armill_core::measure::path_accuracy::path_accuracy;
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Course, Pace, Step, ToldSpin};
 use armill_core::robot::Robot;
@@ -17,7 +18,7 @@ use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, Measured};
-use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, poses, profile};
+use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, poses, profile, trace};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
@@ -423,10 +424,25 @@ pub fn poses(bytes: &[u8]) {
         asked: calibrate::Asked::Geometry,
         flange_from_point: Isometry::identity(),
         turn_length: 0.25,
+        prior: None,
     };
     if let Ok(found) = calibrate::fit(robot, &found.poses, &question) {
         assert!(found.standard_deviation.is_finite());
         assert!(found.errors.position.iter().all(|error| error.norm().is_finite()));
+    }
+}
+
+/// Points along a path; the first run of what can be read is commanded to all of them.
+pub fn trace(bytes: &[u8]) {
+    let found = match trace::read("trace.csv", bytes) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert!(found.runs.iter().all(|run| run.points.len() == run.lines.len() && !run.points.is_empty()));
+    let runs: Vec<_> = found.runs.into_iter().map(|run| run.points).collect();
+    if let Ok(found) = path_accuracy(&runs[0], &runs) {
+        assert!(found.points.iter().all(|point| point.offset.norm().is_finite()));
+        assert!(found.points.iter().all(|point| point.repeatability.is_none_or(f64::is_finite)));
     }
 }
 

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use armill_core::measure::ballbar::{Extreme, taught};
+use armill_core::measure::ballbar::{Extreme, Taught, taught};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use serde::Serialize;
 
@@ -37,6 +37,31 @@ pub struct TaughtAnswer {
     pub stays_um: Option<f64>,
 }
 
+/// The circle itself.
+#[derive(Clone, Debug)]
+pub struct TaughtCircle {
+    /// Nominal radius, m.
+    pub radius: f64,
+    /// What is added to it at even angles from 0 on, m.
+    pub corrections: Vec<f64>,
+    found: Taught,
+}
+
+impl TaughtCircle {
+    /// Radius to teach at an angle of the files (rad), m.
+    pub fn radius_at(&self, angle: f64) -> f64 {
+        self.radius + self.found.correction(angle)
+    }
+
+    /// A row a point, as CSV.
+    ///
+    /// # Errors
+    /// A table that cannot be.
+    pub fn csv(&self) -> Result<Vec<u8>, StudyError> {
+        Ok(csv::write(&table(self.radius, &self.corrections)?))
+    }
+}
+
 /// A test before the one that is told.
 #[derive(Clone, Debug, Serialize)]
 pub struct BeforeAnswer {
@@ -59,14 +84,14 @@ pub struct ComparedQuantity {
     pub left_percent: Option<f64>,
 }
 
-/// The circle to teach at `points` even angles with lobes up to `most_lobes`: in numbers, and as a table.
+/// The circle to teach at `points` even angles with lobes up to `most_lobes`: in numbers, and itself.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
     measured: &Measured,
     (points, most_lobes): (usize, usize),
-) -> Result<(TaughtAnswer, Vec<u8>), StudyError> {
+) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
     let found = taught(&measured.test, most_lobes).ok_or_else(|| {
         StudyError::value(
             "no circle can be taught from runs that leave a part of the turn open",
@@ -87,7 +112,12 @@ pub fn teach(
         radial_expected_um: um(found.expected.radial),
         stays_um: found.stays.map(|stays| stays * 1e6),
     };
-    Ok((told, csv::write(&table(measured.test.radius(), &corrections)?)))
+    let circle = TaughtCircle {
+        radius: measured.test.radius(),
+        corrections,
+        found,
+    };
+    Ok((told, circle))
 }
 
 /// A row a point.
