@@ -136,8 +136,8 @@ impl BallbarPlot {
         }
         under.write_scale(&mut page.svg, centre, &rings);
         for (deg, name) in &marks {
-            let [inner, outer] =
-                [rings.radius_px(rings.first_um()), RADIUS_PX + TICK_PX].map(|px| under.on_circle(centre, *deg, px));
+            let [inner, outer] = [rings.radius_px(rings.first_um()), RADIUS_PX + TICK_PX]
+                .map(|px| under.on_circle(centre, *deg, px));
             page.svg.line(inner, outer, &mark_style());
             let at = under.on_circle(centre, *deg, RADIUS_PX + NAME_PX);
             let text = Text::new(SMALL_PX).bold().colour(category(MARK_COLOUR)).middle();
@@ -149,12 +149,19 @@ impl BallbarPlot {
         if starts.count() > 0 {
             entries.push(Entry::new(Key::Dot(Style::fill(crate::colour::INK)), "start"));
         }
-        page.finish_with_legend(&entries, [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX + beside])
+        page.finish_with_legend(
+            &entries,
+            [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX + beside],
+        )
     }
 
     /// The marks by their angles, those that lie close put together: `L, U`.
     fn marks_apart(&self) -> Vec<(f64, String)> {
-        let mut marks: Vec<&RayMark> = self.marks.iter().filter(|mark| mark.angle_deg.is_finite()).collect();
+        let mut marks: Vec<&RayMark> = self
+            .marks
+            .iter()
+            .filter(|mark| mark.angle_deg.is_finite())
+            .collect();
         marks.sort_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
         let mut apart: Vec<(f64, String)> = Vec::new();
         for mark in marks {

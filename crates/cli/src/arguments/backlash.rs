@@ -31,7 +31,12 @@ pub(crate) struct BacklashArguments {
     #[arg(long, value_name = "N", conflicts_with = "simulate")]
     pub circles: Option<usize>,
     /// Half of the box of their centres about the first circle of the study (with --circles)
-    #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', default_value = "200,200,200")]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_delimiter = ',',
+        default_value = "200,200,200"
+    )]
     pub within_mm: Vec<f64>,
     /// Their radii (with --circles) [that of the first circle, and one and a half of it]
     #[arg(long, value_name = "R,...", value_delimiter = ',')]

@@ -12,7 +12,8 @@ use armill_study::StudyError;
 use armill_study::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
 use armill_study::backlash::plan::{ExpectedAnswer, KnownAnswer, ProposedAnswer, candidate_count};
 use armill_study::backlash::{
-    BacklashAnswer, PlanAnswer, PlanWanted, Simulated, SimulationWanted, Wanted, estimate, output, plan, simulate,
+    BacklashAnswer, PlanAnswer, PlanWanted, Simulated, SimulationWanted, Wanted, estimate, output, plan,
+    simulate,
 };
 use armill_study::{Study, studies};
 
@@ -42,7 +43,10 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
             return Err(StudyError::value(message, "see `armill backlash --help`"));
         }
     }
-    let noise = arguments.noise_um.map(|um| above_zero("--noise-um", um)).transpose()?;
+    let noise = arguments
+        .noise_um
+        .map(|um| above_zero("--noise-um", um))
+        .transpose()?;
     let noise = noise.map(|um| um * 1e-6);
     let study = studies::find(&arguments.study)?.read()?;
     print(&match (&arguments.simulate, arguments.circles) {
@@ -54,11 +58,7 @@ pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> 
 }
 
 /// The gaps.
-fn estimated(
-    arguments: &BacklashArguments,
-    study: &Study,
-    noise: Option<f64>,
-) -> Result<String, StudyError> {
+fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
     let wanted = Wanted {
         most_lobes: arguments.lobes,
         noise,
@@ -88,7 +88,10 @@ fn planned(
         [x, y, z] => [x, y, z],
         _ => {
             let message = format!("--within-mm: {} numbers are no box", arguments.within_mm.len());
-            return Err(StudyError::value(message, "half of its sides, such as 200,200,200"));
+            return Err(StudyError::value(
+                message,
+                "half of its sides, such as 200,200,200",
+            ));
         }
     };
     finite("--within-mm", &half)?;
@@ -105,7 +108,9 @@ fn planned(
         asks: arguments.ask.clone(),
         count,
         half: half.map(|mm| mm * 1e-3),
-        radii: radii.map(|mm| Ok(mm? * 1e-3)).collect::<Result<_, StudyError>>()?,
+        radii: radii
+            .map(|mm| Ok(mm? * 1e-3))
+            .collect::<Result<_, StudyError>>()?,
         most_lobes: arguments.lobes,
         noise: noise.unwrap_or(PLAN_NOISE_UM * 1e-6),
     };
@@ -118,11 +123,7 @@ fn planned(
 }
 
 /// Files of a bar.
-fn simulated(
-    arguments: &BacklashArguments,
-    study: &Study,
-    noise: Option<f64>,
-) -> Result<String, StudyError> {
+fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
     let wanted = SimulationWanted {
         asks: arguments.ask.clone(),
         runs: arguments.runs,
@@ -170,7 +171,13 @@ fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
         circle.radius_mm,
         circle.files.join(", ")
     )];
-    let head = ["joint", "turns back at deg", "step um", "crossed CW deg", "CCW deg"];
+    let head = [
+        "joint",
+        "turns back at deg",
+        "step um",
+        "crossed CW deg",
+        "CCW deg",
+    ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
     let deg = |value: Option<f64>| value.map_or("-".to_owned(), |deg| format!("{deg:.1}"));
     rows.extend(circle.reversals.iter().map(|at: &ReversalAnswer| {
@@ -187,7 +194,10 @@ fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
 }
 
 fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
-    let told = match (joint.backlash_deg.zip(joint.backlash_u_deg), joint.backlash_mm.zip(joint.backlash_u_mm)) {
+    let told = match (
+        joint.backlash_deg.zip(joint.backlash_u_deg),
+        joint.backlash_mm.zip(joint.backlash_u_mm),
+    ) {
         (Some((gap, u)), _) => [format!("{gap:.5}"), format!("+- {:.5} deg", 2.0 * u)],
         (None, Some((gap, u))) => [format!("{gap:.5}"), format!("+- {:.5} mm", 2.0 * u)],
         (None, None) => ["-".to_owned(), joint.state.to_owned()],
@@ -198,7 +208,9 @@ fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
         (None, None) => "-".to_owned(),
     };
     let [gap, u] = told;
-    let inflation = joint.inflation_ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.1}"));
+    let inflation = joint
+        .inflation_ratio
+        .map_or("-".to_owned(), |ratio| format!("{ratio:.1}"));
     vec![joint.joint.clone(), gap, u, inflation, file]
 }
 
@@ -239,7 +251,10 @@ fn plan_as_text(told: &PlanAnswer) -> String {
             };
             vec![format!("  {}", joint.joint), u]
         };
-        lines.extend(columns(&last.joints.iter().map(row).collect::<Vec<_>>(), &[Align::Left]));
+        lines.extend(columns(
+            &last.joints.iter().map(row).collect::<Vec<_>>(),
+            &[Align::Left],
+        ));
     }
     lines.join("\n")
 }
@@ -266,7 +281,12 @@ fn known_as_text(known: &KnownAnswer) -> String {
         [] => "tells no joint apart".to_owned(),
         names => format!("tells {}", names.join(", ")),
     }];
-    parts.extend(known.not_told_apart.iter().map(|set| format!("not apart {}", set.join(", "))));
+    parts.extend(
+        known
+            .not_told_apart
+            .iter()
+            .map(|set| format!("not apart {}", set.join(", "))),
+    );
     if !known.unseen.is_empty() {
         parts.push(format!("does not show {}", known.unseen.join(", ")));
     }

@@ -208,7 +208,11 @@ fn links_half_a_gap_behind_stand_where_forward_kinematics_says() {
         for deg in (3..360).step_by(10) {
             let a = f64::from(deg).to_radians();
             let near = |b: f64| (a - b + TAU / 2.0).rem_euclid(TAU) - TAU / 2.0;
-            if of.reversals.iter().any(|r| r.joint == joint && near(r.angle).abs() < 0.1) {
+            if of
+                .reversals
+                .iter()
+                .any(|r| r.joint == joint && near(r.angle).abs() < 0.1)
+            {
                 continue;
             }
             let joints = |a: f64| joints_at(&question, &circle, a);
@@ -233,7 +237,10 @@ fn gaps_come_back_from_three_circles() {
     let tests = [0, 1, 2].map(|k| measured(&circles[k], &GAPS, (0.0, 1, 1)));
     let all = found(&circles, &tests, &Asked::of_all(6));
     assert!(all.together.is_empty() && all.unseen.is_empty(), "{all:?}");
-    assert!(all.inflation.iter().all(|(_, inflation)| *inflation < 5.0), "{all:?}");
+    assert!(
+        all.inflation.iter().all(|(_, inflation)| *inflation < 5.0),
+        "{all:?}"
+    );
     for (joint, gap) in GAPS.iter().enumerate() {
         // Second order of the radius, 1e-4 of 100 um, through singular values of a tenth.
         let told = all.of(joint).unwrap();
@@ -326,13 +333,22 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let last = &plan.circles[2].known;
     assert_eq!(four.unseen, last.unseen);
     assert_eq!(four.together, last.together);
-    println!("{:?}", plan.circles.iter().map(|c| (c.candidate.centre, c.candidate.normal, &c.known)).collect::<Vec<_>>());
+    println!(
+        "{:?}",
+        plan.circles
+            .iter()
+            .map(|c| (c.candidate.centre, c.candidate.normal, &c.known))
+            .collect::<Vec<_>>()
+    );
     assert!(four.told.len() >= 5, "{four:?} {plan:?}");
     for gap in &four.told {
         assert!((gap.gap - GAPS[gap.joint]).abs() < 4.0 * gap.u, "{gap:?}");
         // What the plan expected of one run each way at this noise; two runs and a circle more are surer.
         let expected = last.told.iter().find(|one| one.joint == gap.joint).unwrap();
-        assert!(gap.u < 1.5 * expected.u && gap.u > 0.3 * expected.u, "{gap:?} {expected:?}");
+        assert!(
+            gap.u < 1.5 * expected.u && gap.u > 0.3 * expected.u,
+            "{gap:?} {expected:?}"
+        );
     }
 }
 
@@ -356,7 +372,10 @@ fn an_arm_turned_about_its_base_has_the_same_gaps() {
         for one in &of.reversals {
             let mut others = there.reversals.iter().filter(|other| other.joint == one.joint);
             // Rounding of the joints, 1e-14, over the pitch of the stations and how much the joint bends.
-            assert!(others.any(|other| (one.angle - other.angle).sin().abs() < 1e-8), "{one:?}");
+            assert!(
+                others.any(|other| (one.angle - other.angle).sin().abs() < 1e-8),
+                "{one:?}"
+            );
         }
         let angles: Vec<f64> = (0..360).map(f64::from).map(f64::to_radians).collect();
         for direction in Direction::BOTH {
@@ -427,19 +446,18 @@ fn a_torque_that_holds_a_flank_leaves_no_step() {
         acceleration: Vector3::new(0.0, 0.0, -9.8),
         reference: vec![0.0; 6],
     });
-    let of = follow(
-        &question(&robot, &model, &tool),
-        (&three()[0], 720),
-        Watch::NONE,
-    )
-    .unwrap();
+    let of = follow(&question(&robot, &model, &tool), (&three()[0], 720), Watch::NONE).unwrap();
     let angles: Vec<f64> = (0..720).map(|k| f64::from(k).to_radians() / 2.0).collect();
     let [one, other] = Direction::BOTH.map(|direction| of.effect((1, 1e-4), direction, &angles));
     assert_eq!(one, other);
     let jump = one.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     assert!(jump.fold(0.0, f64::max) < 2e-6);
     let [one, other] = Direction::BOTH.map(|direction| of.effect((2, 1e-4), direction, &angles));
-    assert!(one.iter().zip(&other).any(|(one, other)| (one - other).abs() > 2e-5));
+    assert!(
+        one.iter()
+            .zip(&other)
+            .any(|(one, other)| (one - other).abs() > 2e-5)
+    );
 }
 
 #[test]
@@ -452,5 +470,8 @@ fn where_the_arm_does_not_get_is_told() {
         Watch::NONE,
     )
     .unwrap_err();
-    assert!(error.to_string().starts_with("at 0 deg of the circle: "), "{error}");
+    assert!(
+        error.to_string().starts_with("at 0 deg of the circle: "),
+        "{error}"
+    );
 }

@@ -117,7 +117,10 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
         ));
     }
     for joint in &gaps.unseen {
-        warnings.push(format!("{} does not move the radius on these circles", name(*joint)));
+        warnings.push(format!(
+            "{} does not move the radius on these circles",
+            name(*joint)
+        ));
     }
     for gap in gaps.told.iter().filter(|gap| gap.gap < -BELOW_ZERO * gap.u) {
         warnings.push(format!(
@@ -188,7 +191,10 @@ fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
     // All circles are of one robot, so the structure of any tells its file.
     let of_file = found.circles.first().and_then(|(_, circle, _)| {
         let structure = &circle.path.setting.model.structure;
-        structure.gaps().find(|(of, _)| *of == joint).map(|(_, gap)| gap.gap)
+        structure
+            .gaps()
+            .find(|(of, _)| *of == joint)
+            .map(|(_, gap)| gap.gap)
     });
     let inflation = gaps.inflation.iter().find(|(of, _)| *of == joint);
     JointAnswer {
@@ -202,7 +208,9 @@ fn of_joint(study: &Study, found: &Estimated<'_>, joint: usize) -> JointAnswer {
         backlash_u_deg: told.and_then(|gap| deg(gap.u)),
         backlash_mm: told.and_then(|gap| mm(gap.gap)),
         backlash_u_mm: told.and_then(|gap| mm(gap.u)),
-        inflation_ratio: inflation.map(|(_, ratio)| *ratio).filter(|ratio| ratio.is_finite()),
+        inflation_ratio: inflation
+            .map(|(_, ratio)| *ratio)
+            .filter(|ratio| ratio.is_finite()),
         robot_file_deg: of_file.and_then(deg),
         robot_file_mm: of_file.and_then(mm),
     }

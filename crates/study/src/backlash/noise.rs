@@ -42,7 +42,10 @@ mod tests {
         let mean = many.iter().sum::<f64>() / 1e4;
         let square = many.iter().map(|x| x * x).sum::<f64>() / 1e4;
         // Four standard deviations of either.
-        assert!(mean.abs() < 0.04 && (square - 1.0).abs() < 0.06, "{mean} {square}");
+        assert!(
+            mean.abs() < 0.04 && (square - 1.0).abs() < 0.06,
+            "{mean} {square}"
+        );
         assert_eq!(Noise::seeded(5).normal(), many[0]);
         assert_ne!(Noise::seeded(6).normal(), many[0]);
     }

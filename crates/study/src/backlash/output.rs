@@ -32,7 +32,10 @@ pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &Path) -> Result
         .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
         .collect();
     write_pictures("", &pictures, out)?;
-    write_atomically(&out.join("result.json"), serde_json::to_string_pretty(told)?.as_bytes())?;
+    write_atomically(
+        &out.join("result.json"),
+        serde_json::to_string_pretty(told)?.as_bytes(),
+    )?;
     Ok(())
 }
 
@@ -41,13 +44,14 @@ fn table(told: &BacklashAnswer) -> Result<Table, StudyError> {
     let rows: Vec<(&CircleAnswer, &ReversalAnswer)> = (told.circles.iter())
         .flat_map(|circle| circle.reversals.iter().map(move |reversal| (circle, reversal)))
         .collect();
-    let text = |name: &str, description: &str, of: &dyn Fn(&(&CircleAnswer, &ReversalAnswer)) -> String| Column {
-        name: name.to_owned(),
-        unit: None,
-        description: description.to_owned(),
-        decimals: None,
-        data: ColumnData::Text(rows.iter().map(of).collect()),
-    };
+    let text =
+        |name: &str, description: &str, of: &dyn Fn(&(&CircleAnswer, &ReversalAnswer)) -> String| Column {
+            name: name.to_owned(),
+            unit: None,
+            description: description.to_owned(),
+            decimals: None,
+            data: ColumnData::Text(rows.iter().map(of).collect()),
+        };
     let number = |name: &str, description: &str, of: &dyn Fn(&ReversalAnswer) -> Option<f64>| Column {
         name: name.to_owned(),
         unit: name.rsplit('_').next().map(str::to_owned),
@@ -60,7 +64,9 @@ fn table(told: &BacklashAnswer) -> Result<Table, StudyError> {
         text("joint", "which joint turns back", &|(_, at)| at.joint.clone()),
         number("at_deg", "where, from +y' towards z'", &|at| Some(at.at_deg)),
         number("step_um", "step of the radius outwards", &|at| at.step_um),
-        number("crossed_cw_deg", "where the gap is crossed clockwise", &|at| at.crossed_cw_deg),
+        number("crossed_cw_deg", "where the gap is crossed clockwise", &|at| {
+            at.crossed_cw_deg
+        }),
         number(
             "crossed_ccw_deg",
             "where the gap is crossed anticlockwise",

@@ -174,7 +174,11 @@ pub fn plan(study: &Study, wanted: &PlanWanted, watch: Watch<'_>) -> Result<Plan
 /// See [`circles`].
 pub fn candidate_count(study: &Study, wanted: &PlanWanted) -> Result<usize, StudyError> {
     circles(study, &wanted.asks)?;
-    let radii = if wanted.radii.is_empty() { 2 } else { wanted.radii.len() };
+    let radii = if wanted.radii.is_empty() {
+        2
+    } else {
+        wanted.radii.len()
+    };
     Ok(ALONG.pow(3) * Normal::ALL.len() * radii)
 }
 

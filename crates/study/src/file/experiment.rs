@@ -199,21 +199,13 @@ pub(super) fn circle(
         (None, [one]) => Some(one.clone()),
         (None, _) if !all_read => None,
         (None, []) => {
-            places.problem(
-                key,
-                "the study has no circle that could have been measured",
-                hint,
-            );
+            places.problem(key, "the study has no circle that could have been measured", hint);
             None
         }
         (None, several) => {
             let names: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
             let message = format!("the study has {} circles: {}", several.len(), names.join(", "));
-            places.problem(
-                key,
-                message,
-                "name the one that was measured: ask = \"...\"",
-            );
+            places.problem(key, message, "name the one that was measured: ask = \"...\"");
             None
         }
     }

@@ -9,8 +9,8 @@
 //! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
 //! along paths, [`placement`] where a part may lie, [`experiment`] what was measured on a circle, [`circles`] circular tests for the backlash of joints; `places` tells problems where they stand.
 
-pub mod compliance;
 pub mod circles;
+pub mod compliance;
 pub mod experiment;
 pub mod format;
 pub mod holes;

@@ -20,8 +20,8 @@ use armill_formats::robot::RobotDescription;
 
 use super::actual::find_actual;
 use super::ask::Resolver;
-use super::compliance::{self, OwnCompliance};
 use super::circles::MeasuredCircle;
+use super::compliance::{self, OwnCompliance};
 use super::experiment::Experiment;
 use super::format::{AskTable, StatementTable, StudyFile};
 use super::holes::HolesAsk;

@@ -169,9 +169,7 @@ pub fn follow(
     for index in 0..track.len() {
         standing.stand(answers.joints_at(index));
         for (joint, along) in joints.iter_mut().enumerate() {
-            along
-                .lever
-                .push(axes.tr_mul(&standing.screws()[joint].linear));
+            along.lever.push(axes.tr_mul(&standing.screws()[joint].linear));
             along.torque.push(standing.gravity_torques()[joint]);
         }
     }

@@ -111,7 +111,8 @@ impl Followed {
         };
         // Stops in the order in which they are passed: stations, reversals, and the angles that are asked for.
         let count = along_joint.theta.len();
-        let stations = (0..count).map(|index| (TAU * index as f64 / count as f64, along_joint.theta[index], None));
+        let stations =
+            (0..count).map(|index| (TAU * index as f64 / count as f64, along_joint.theta[index], None));
         let turns = self.reversals.iter().filter(|reversal| reversal.joint == joint);
         let turns = turns.map(|reversal| (reversal.angle, along_joint.theta_at(reversal.angle), None));
         let asked = angles.iter().enumerate().map(|(place, angle)| {

@@ -164,7 +164,10 @@ fn samples_of(observed: &Observed<'_>) -> Result<Samples, RunError> {
         Run::new(run.direction(), angle, deviation)
     };
     let runs = observed.test.runs().iter().map(run).collect::<Result<_, _>>()?;
-    Ok(Samples::of(&CircularTest::new(observed.test.radius(), runs)?, &[]))
+    Ok(Samples::of(
+        &CircularTest::new(observed.test.radius(), runs)?,
+        &[],
+    ))
 }
 
 /// All samples, and what is taken off them.
@@ -183,9 +186,8 @@ impl Sight<'_> {
         let count = self.samples.at.len() as f64;
         let shows = |column: usize| first.column(column).norm() / count.sqrt() > LEAST_EFFECT;
         let (seen, unseen): (Vec<usize>, Vec<usize>) = (0..asked.joints.len()).partition(|k| shows(*k));
-        let [seen, unseen] = [seen, unseen].map(|places| -> Vec<usize> {
-            places.into_iter().map(|place| asked.joints[place]).collect()
-        });
+        let [seen, unseen] = [seen, unseen]
+            .map(|places| -> Vec<usize> { places.into_iter().map(|place| asked.joints[place]).collect() });
         let before = self.left(&vec![0.0; joints]);
         let from = |start: Vec<f64>| self.settle(&seen, start, asked.inflation);
         let first = from(vec![0.0; joints]);
@@ -235,12 +237,7 @@ impl Sight<'_> {
     }
 
     /// Gauss-Newton steps from these gaps: where they end, what they leave, and the columns there.
-    fn settle(
-        &self,
-        seen: &[usize],
-        mut gaps: Vec<f64>,
-        inflation: f64,
-    ) -> (Vec<f64>, DVector<f64>, Parted) {
+    fn settle(&self, seen: &[usize], mut gaps: Vec<f64>, inflation: f64) -> (Vec<f64>, DVector<f64>, Parted) {
         let mut rest = self.left(&gaps);
         let mut parted = Parted::of(self.columns(seen, &gaps), inflation);
         for _ in 0..MOST_ROUNDS {
@@ -264,7 +261,9 @@ impl Sight<'_> {
         for (joint, gap) in gaps.iter().enumerate().filter(|(_, gap)| **gap != 0.0) {
             left -= self.column(|followed, way, angles| followed.effect((joint, *gap), way, angles));
         }
-        self.without_nuisance(&DMatrix::from_columns(&[left])).column(0).into_owned()
+        self.without_nuisance(&DMatrix::from_columns(&[left]))
+            .column(0)
+            .into_owned()
     }
 
     /// How the samples grow with the gaps of these joints, without the nuisance.

@@ -251,11 +251,15 @@ fn information(followed: &Followed, asked: &PlanAsked) -> DMatrix<f64> {
     let angles: Vec<f64> = (0..STATIONS).map(|k| (k as f64 + 0.5) * pitch).collect();
     let both: Vec<f64> = angles.iter().chain(&angles).copied().collect();
     let columns = DMatrix::from_fn(both.len(), asked.joints.len(), |_, _| 0.0);
-    let columns = asked.joints.iter().enumerate().fold(columns, |mut columns, (k, joint)| {
-        let ways = Direction::BOTH.map(|way| followed.slope((*joint, ASSUMED), way, &angles));
-        columns.set_column(k, &nalgebra::DVector::from_vec(ways.concat()));
-        columns
-    });
+    let columns = asked
+        .joints
+        .iter()
+        .enumerate()
+        .fold(columns, |mut columns, (k, joint)| {
+            let ways = Direction::BOTH.map(|way| followed.slope((*joint, ASSUMED), way, &angles));
+            columns.set_column(k, &nalgebra::DVector::from_vec(ways.concat()));
+            columns
+        });
     let left = without(&basis(&both, asked.most_lobes), &columns);
     left.tr_mul(&left) * (SAMPLES / STATIONS as f64)
 }

@@ -37,7 +37,9 @@ pub(in super::super) fn covariance(
         true => (known[k] * wider).max(of_runs[k]).sqrt() / known[k].sqrt(),
         false => 1.0,
     };
-    DMatrix::from_fn(known.len(), known.len(), |i, k| of_rest[(i, k)] * grown(i) * grown(k))
+    DMatrix::from_fn(known.len(), known.len(), |i, k| {
+        of_rest[(i, k)] * grown(i) * grown(k)
+    })
 }
 
 /// `tau`: the variance of a sum of residuals over what it would be if they did not hang together.
