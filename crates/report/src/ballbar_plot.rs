@@ -21,7 +21,7 @@ const BELOW_PX: f64 = 32.0;
 /// More room all around where rays are marked.
 const MARKED_PX: f64 = 26.0;
 /// How far a marked ray and its name stand out of the rim.
-const TICK_PX: f64 = 24.0;
+const TICK_PX: f64 = 3.0;
 const NAME_PX: f64 = 36.0;
 /// Rays that are closer have one name.
 const CLOSE_DEG: f64 = 6.0;

@@ -8,7 +8,7 @@ use clap::Args;
 
 const AFTER: &str = "\
 STUDY has circles (asks of kind = \"path\") and, for the gaps, what a ball-bar measured on them: [[ballbar]] with ask and files.
-Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/joint-backlash.md
+Angles of the files are turned onto the circle by zero_deg and mirrored. The guide: docs/guide/ballbar.md
 
 Examples:
   armill backlash cell

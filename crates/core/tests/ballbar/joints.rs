@@ -321,7 +321,14 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     .unwrap();
     let [all, reached] = plan.candidates;
     assert!(all == 108 && reached > 20, "{reached}");
-    assert_eq!(plan.begun.together, one.together);
+    // The plan assumes gaps alike, so sets may part otherwise: the same joints are lost.
+    let lost = |sets: &[Vec<usize>]| {
+        let mut lost = sets.concat();
+        lost.sort_unstable();
+        lost
+    };
+    assert_eq!(lost(&plan.begun.together), lost(&one.together));
+    assert!(lost(&one.together).len() >= 2, "{one:?}");
     let mut circles = vec![of];
     let mut tests = vec![test];
     for chosen in &plan.circles {
@@ -332,15 +339,8 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     let four = found(&circles, &tests, &Asked::of_all(6));
     let last = &plan.circles[2].known;
     assert_eq!(four.unseen, last.unseen);
-    assert_eq!(four.together, last.together);
-    println!(
-        "{:?}",
-        plan.circles
-            .iter()
-            .map(|c| (c.candidate.centre, c.candidate.normal, &c.known))
-            .collect::<Vec<_>>()
-    );
-    assert!(four.told.len() >= 5, "{four:?} {plan:?}");
+    assert!(four.together.is_empty() && last.together.is_empty(), "{four:?}");
+    assert!(four.told.len() >= 5, "{four:?}");
     for gap in &four.told {
         assert!((gap.gap - GAPS[gap.joint]).abs() < 4.0 * gap.u, "{gap:?}");
         // What the plan expected of one run each way at this noise; two runs and a circle more are surer.
@@ -474,4 +474,26 @@ fn where_the_arm_does_not_get_is_told() {
         error.to_string().starts_with("at 0 deg of the circle: "),
         "{error}"
     );
+}
+
+#[test]
+fn a_joint_that_stands_still_to_rounding_drags_its_link_nowhere() {
+    // The tool straight down: R stays where it is.
+    let (robot, tool) = (arms::mh12(), tool());
+    let flat = circle([0.85, 0.25, 0.45], 90.0);
+    let asked = question(&robot, StiffnessModel::DRIVES, &tool);
+    let of = follow(&asked, (&flat, 720), Watch::NONE).unwrap();
+    assert!(
+        of.reversals.iter().all(|reversal| reversal.joint != 3),
+        "{:?}",
+        of.reversals
+    );
+    let angles: Vec<f64> = (0..360).map(|k| (f64::from(k) + 0.3).to_radians()).collect();
+    for direction in Direction::BOTH {
+        assert!(
+            of.effect((3, 1e-4), direction, &angles)
+                .iter()
+                .all(|dr| *dr == 0.0)
+        );
+    }
 }

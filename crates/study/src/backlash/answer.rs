@@ -111,8 +111,9 @@ pub(super) fn answer(study: &Study, found: &Estimated<'_>) -> BacklashAnswer {
     }
     for set in &gaps.together {
         let names: Vec<String> = set.iter().map(|joint| name(*joint)).collect();
+        let alone = if names.len() == 1 { " from the others" } else { "" };
         warnings.push(format!(
-            "not told apart by these circles: {}; see `--circles` for circles that do",
+            "not told apart by these circles: {}{alone}; `--circles` looks for circles that do",
             names.join(", ")
         ));
     }

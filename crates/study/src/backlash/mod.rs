@@ -7,7 +7,7 @@
 //!
 //! [`circles`](mod@circles): the circles of a study, and the arm that follows them. [`estimate`](mod@estimate): gaps from what was measured.
 //! [`answer`](mod@answer): that, in numbers with their units. [`plan`](mod@plan): circles to drive. [`simulate`](mod@simulate): files of a
-//! ball-bar, made up from the robot file. [`output`]: tables and pictures.
+//! ball-bar, made up from the robot file, with `noise`. [`output`]: tables and pictures.
 
 pub mod answer;
 pub mod circles;

@@ -11,6 +11,7 @@ use serde::Serialize;
 use super::circles::{circles, followed, question};
 use crate::error::StudyError;
 use crate::file::resolve::Study;
+use crate::number::decimals;
 use crate::run::runner;
 
 /// How it is asked.
@@ -192,7 +193,7 @@ fn proposed(robot: &Robot, one: &Proposed) -> ProposedAnswer {
     ProposedAnswer {
         plane: candidate.normal.plane(),
         centre_mm: [candidate.centre.x, candidate.centre.y, candidate.centre.z].map(|m| m * 1e3),
-        rotation_deg: [roll, pitch, yaw].map(f64::to_degrees),
+        rotation_deg: [roll, pitch, yaw].map(|turn| decimals(turn.to_degrees(), 9)),
         radius_mm: candidate.circle.radius * 1e3,
         reversals: (0..robot.joints().len())
             .map(|joint| TurnsAnswer {

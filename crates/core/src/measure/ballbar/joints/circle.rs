@@ -63,8 +63,10 @@ pub struct Followed {
 /// One joint along the circle.
 #[derive(Clone, Debug)]
 pub(super) struct JointAlong {
-    /// `theta` at each station; the same everywhere of a joint that stands still.
+    /// `theta` at each station.
     pub theta: Vec<f64>,
+    /// Whether it moves by rounding alone: then it drags its link nowhere.
+    pub stands_still: bool,
     /// How far it has gone on after a whole turn.
     pub winding: f64,
     /// `l` at each station.
@@ -149,6 +151,7 @@ pub fn follow(
             theta: (0..track.len())
                 .map(|index| arm.robot.theta(joint, answers.joints_at(index)))
                 .collect(),
+            stands_still: false,
             winding: 0.0,
             lever: Vec::with_capacity(track.len()),
             torque: Vec::with_capacity(track.len()),
@@ -207,7 +210,8 @@ impl JointAlong {
         }
         let least = self.theta.iter().copied().fold(f64::INFINITY, f64::min);
         let most = self.theta.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        if most - least < STILL {
+        self.stands_still = most - least < STILL;
+        if self.stands_still {
             self.theta.fill(least);
         }
         Ok(())
@@ -221,6 +225,9 @@ impl JointAlong {
 
     /// `theta` at an angle of the first turn.
     pub fn theta_at(&self, angle: f64) -> f64 {
+        if self.stands_still {
+            return self.theta[0];
+        }
         let count = self.theta.len();
         let (four, weights) = cubic(angle, count);
         // Stations are counted from one turn before.

@@ -108,8 +108,8 @@ impl Gaps {
 const LEAST_EFFECT: f64 = 1e-3;
 /// A singular value of unit columns below this is a sum that is not seen: noise would make it larger than any gap.
 const UNSEEN: f64 = 1e-3;
-/// Gaps whose estimates hang together by more are told as a sum.
-const TOGETHER: f64 = 0.5;
+/// Gaps whose estimates hang together by more are named together.
+const TOGETHER: f64 = 0.3;
 /// Steps that change the radius by less have come to rest, m.
 const SETTLED: f64 = 1e-12;
 const MOST_ROUNDS: usize = 30;
