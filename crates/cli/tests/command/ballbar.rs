@@ -286,7 +286,7 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             ],
         ),
         (&["unit.csv", "cells.csv"], &["unit.csv:1", "cells.csv:3"]),
-        (&["cw.csv"], &["nothing tells the nominal radius", "--radius-mm"]),
+        (&["cw.csv"], &["nothing tells the nominal radius", "radius_mm"]),
         (
             &["mixed.csv"],
             &["the radius is off by", "more than half the nominal"],

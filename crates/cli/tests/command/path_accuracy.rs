@@ -93,7 +93,7 @@ fn runs_of_several_files_have_accuracy_and_repeatability() {
     let rows: Vec<&str> = table.lines().filter(|line| !line.starts_with('#')).collect();
     assert_eq!(rows.len(), 52);
     assert!(
-        rows[0].contains("offset_y_mm") && rows[1].starts_with("2,0.000000,100.000000"),
+        rows[0].contains("offset_y_mm") && rows[1] == "2,0,100,50,0,0.03,0,0.03,0.05",
         "{}",
         rows[1]
     );

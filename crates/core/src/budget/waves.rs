@@ -179,7 +179,7 @@ mod tests {
     fn noise_makes_waves_of_the_amplitude_that_counts_as_none() {
         // Hashed, so that neighbours have nothing to do with each other: evenly spread, standard deviation 1 / root of 12.
         let noise = |seed: u64, k: usize| {
-            let hashed = (seed << 32 | k as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let hashed = ((seed << 32) | (k as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
             let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
             ((hashed ^ (hashed >> 32)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
         };

@@ -205,12 +205,21 @@ fn passes(
 /// Times the way of the path that a run may be from where it passed the point before: overshoot and corners.
 const AHEAD: f64 = 3.0;
 
-/// The largest, and its place, of those that are told.
+/// Distances that differ by less than this, relative, differ by rounding alone.
+const SAME: f64 = 1e-9;
+
+/// The largest, and its place, of those that are told; of equal ones the first, on every machine.
 fn largest(values: impl Iterator<Item = Option<f64>>) -> Option<(usize, f64)> {
     let told = values
         .enumerate()
         .filter_map(|(place, value)| Some((place, value?)));
-    told.max_by(|(_, a), (_, b)| a.total_cmp(b))
+    told.reduce(|most, here| {
+        if here.1 > most.1 * (1.0 + SAME) {
+            here
+        } else {
+            most
+        }
+    })
 }
 
 #[cfg(test)]

@@ -34,6 +34,7 @@ pub struct CalibrateAnswer {
     /// What was known before; none where nothing was.
     pub prior: Option<PriorAnswer>,
     /// How many of all estimates, base and point included, the poses tell; all without a prior.
+    // unit: a count
     pub told_by_poses: f64,
     /// Standard deviation of a single reading about what was found.
     pub standard_deviation_mm: f64,
