@@ -295,7 +295,8 @@ fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_drawing() {
     assert!((wide.told - free.told).abs() < 1e-6);
     for (a, b) in free.estimates.iter().zip(&wide.estimates) {
         assert!((a.value - b.value).abs() < 1e-9, "{:?}", a.unknown);
-        assert!((a.standard_uncertainty / b.standard_uncertainty - 1.0).abs() < 1e-6);
+        let ratio = a.standard_uncertainty / b.standard_uncertainty;
+        assert!((ratio - 1.0).abs() < 1e-6, "{:?} {ratio}", a.unknown);
     }
     let narrow = fit(&robot, &poses, &held(1e-9, 1e-9)).unwrap();
     let plain = fit(&robot, &poses, &question(Asked::BaseAndTool)).unwrap();
@@ -340,8 +341,8 @@ fn few_poses_with_a_prior_meet_others_better_than_without() {
     let mut sums = [0.0; 3];
     for _ in 0..10 {
         let real = bent(&robot, &mut stream);
-        let few = rough(&real, 12, [1e-4, 1e-3], &mut stream);
-        let others = rough(&real, 100, [1e-4, 1e-3], &mut stream);
+        let few = rough(&real, 12, [3e-4, 0.0], &mut stream);
+        let others = rough(&real, 100, [0.0, 0.0], &mut stream);
         let of = |question: &Question| {
             let found = fit(&robot, &few, question).unwrap();
             let errors = found.errors_of(&robot, &others).unwrap();
@@ -358,7 +359,7 @@ fn few_poses_with_a_prior_meet_others_better_than_without() {
         }
     }
     let [plain, free, held] = sums;
-    assert!(held < 0.8 * free && held < 0.8 * plain, "{plain} {free} {held}");
+    assert!(held < 0.9 * free && held < 0.5 * plain, "{plain} {free} {held}");
 }
 
 #[test]

@@ -210,22 +210,24 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         }),
     };
     let frames = unknowns(robot, Asked::BaseAndTool, with > 0);
-    let (placed, in_frames, _) = settle(start, &frames, &free)?;
+    let (in_frames, _) = told_apart(&start, &frames, &free);
+    let mut arm = settle(start, &in_frames, &free)?;
     enough(in_frames.len())?;
     let unknowns = unknowns(robot, question.asked, with > 0);
-    let mut variance = cost(&placed, &in_frames, &free) / (rows - in_frames.len()) as f64;
-    let mut placed = placed;
+    let mut variance = cost(&arm, &in_frames, &free) / (rows - in_frames.len()) as f64;
+    // Once for all rounds: what is kept in one and not in the next would keep a value that nobody tells.
+    let (kept, redundant) = told_apart(&arm, &unknowns, &free);
+    enough(kept.len())?;
     let (mut rounds, mut is_settled) = (0, false);
     // Without a prior nothing depends on the scatter, and one round is enough.
-    let (arm, kept, redundant, inverse, told) = loop {
+    let (inverse, told) = loop {
         let data = Data {
             hold: question
                 .prior
                 .map_or(Hold::NOTHING, |prior| Hold::of(&prior, variance.sqrt())),
             ..free
         };
-        let (arm, kept, redundant) = settle(placed, &unknowns, &data)?;
-        enough(kept.len())?;
+        arm = settle(arm, &kept, &data)?;
         let (r, z) = triangle(&arm, &kept, &data).whole();
         let (_, inverse) = solve(&r, &z, 0.0).ok_or(Refusal::NotFound)?;
         let told = data.hold.told(&kept, &inverse);
@@ -235,9 +237,8 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         rounds += 1;
         // What is left of perfect poses is rounding, and holds nothing.
         if is_settled || rounds == MOST_ROUNDS || variance == 0.0 {
-            break (arm, kept, redundant, inverse, told);
+            break (inverse, told);
         }
-        placed = arm;
     };
     let covariance = inverse * variance;
     if !covariance.iter().all(|entry| entry.is_finite()) {
@@ -351,29 +352,24 @@ fn cost(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> f64 {
     data.poses.iter().map(of).sum::<f64>() + data.hold.cost(arm, unknowns)
 }
 
-/// The arm at the least sum of squares over those of `unknowns` that can be told apart, these, and the others.
-fn settle<'a>(
-    mut arm: Arm<'a>,
-    unknowns: &[Unknown],
-    data: &Data<'_>,
-) -> Result<(Arm<'a>, Vec<Unknown>, Vec<Redundant>), Refusal> {
-    // What poses can tell apart does not depend on what is held.
-    let free = Data {
-        hold: Hold::NOTHING,
-        ..*data
-    };
-    let (r, _) = triangle(&arm, unknowns, &free).whole();
+/// Those of `unknowns` that the poses can tell apart where `arm` stands, and the others. What is held does not matter.
+fn told_apart(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Unknown>, Vec<Redundant>) {
+    let (r, _) = triangle(arm, unknowns, free).whole();
     let (kept, redundant) = select(&r, unknowns);
-    let kept: Vec<Unknown> = kept.into_iter().map(|k| unknowns[k]).collect();
-    let mut least = cost(&arm, &kept, data);
+    (kept.into_iter().map(|k| unknowns[k]).collect(), redundant)
+}
+
+/// The arm at the least sum of squares over the unknowns `kept`.
+fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
+    let mut least = cost(&arm, kept, data);
     let mut damping = DAMPING[0];
     for _ in 0..MOST_STEPS {
-        let (r, z) = triangle(&arm, &kept, data).whole();
+        let (r, z) = triangle(&arm, kept, data).whole();
         let mut settled = true;
         while damping < DAMPING[1] {
             let (step, _) = solve(&r, &z, damping).ok_or(Refusal::NotFound)?;
-            let next = arm.changed(&kept, step.as_slice());
-            let there = cost(&next, &kept, data);
+            let next = arm.changed(kept, step.as_slice());
+            let there = cost(&next, kept, data);
             if there <= least {
                 settled = least - there <= SETTLED * least;
                 (arm, least) = (next, there);
@@ -387,7 +383,7 @@ fn settle<'a>(
         }
     }
     match least.is_finite() {
-        true => Ok((arm, kept, redundant)),
+        true => Ok(arm),
         false => Err(Refusal::NotFound),
     }
 }
