@@ -13,10 +13,9 @@
 //! ```
 
 use armill_formats::file::write_atomically;
-use armill_formats::measurement::ballbar::Told;
+use armill_formats::measurement::ballbar::{Told, direction_of};
 use armill_study::StudyError;
 use armill_study::ballbar::answer::{FeatureAnswer, LobeAnswer, PartAnswer, ShownAnswer};
-use armill_study::ballbar::read::direction_of;
 use armill_study::ballbar::teach::ComparedQuantity;
 use armill_study::ballbar::{
     BallbarAnswer, Centring, Cyclic, Question, Wanted, analyse, answer, before, output, read, teach,
@@ -44,24 +43,32 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let mut answer = answer(&measured, &question, &found);
     if !arguments.before.is_empty() {
         let first = read(&arguments.before, &wanted)?;
-        answer.before = Some(before(&first.files, (&analyse(&first, &question)?, &found)));
+        let shown = analyse(&first, &question)?;
+        answer.before = Some(before((&first, &shown), (&measured, &found))?);
     }
     let taught = match &arguments.teach {
         None => None,
         Some(file) => {
-            let (told, table) = teach(&measured, (arguments.points, arguments.teach_lobes))?;
+            let (told, table) = teach(&found, (arguments.points, arguments.teach_lobes))?;
+            if told.most_lobes < arguments.teach_lobes {
+                answer.warnings.push(format!(
+                    "the taught circle takes off {} lobes, not {}: the samples are too far apart for more",
+                    told.most_lobes, arguments.teach_lobes
+                ));
+            }
             answer.taught = Some(told);
             Some((file, table))
         }
     };
-    if let Some((file, table)) = &taught {
-        write_atomically(file, table)?;
-        say(&format!("points to teach in {}", file.display()));
-    }
     if let Some(out) = &arguments.out {
         let table = taught.as_ref().map(|(_, table)| table.as_slice());
         output::write(&answer, (&measured, &found), (out, table))?;
         say(&format!("tables, pictures and report in {}", out.display()));
+    }
+    // Last, so that points stand nowhere if the folder cannot be written.
+    if let Some((file, table)) = &taught {
+        write_atomically(file, table)?;
+        say(&format!("points to teach in {}", file.display()));
     }
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
@@ -104,6 +111,13 @@ fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
             let message = format!("{flag}: {value} is outside {least} to {MOST}");
             return Err(StudyError::value(message, "see `armill ballbar --help`"));
         }
+    }
+    if arguments.teach.is_some() && arguments.points <= 2 * arguments.teach_lobes {
+        let message = format!(
+            "--points: {} points cannot hold the {} lobes of --teach-lobes",
+            arguments.points, arguments.teach_lobes
+        );
+        return Err(StudyError::value(message, "more than two points a lobe"));
     }
     finite("--reversal-deg", &arguments.reversal_deg)?;
     let cyclic = match arguments.cyclic.as_deref() {
@@ -260,13 +274,14 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
         ]
     };
     // Lobes have a line of their own below.
-    let shown = parts.radial.iter().filter(|part| !part.what.contains(" lobes, "));
+    let shown = parts.radial.iter().filter(|part| part.kind != "lobes");
     lines.extend(table(shown.map(row)));
     let [a, b] = &answer.axes;
-    if let (Some([sa, sb]), Some([u, _])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
+    if let (Some([sa, sb]), Some([ua, ub])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
         lines.push(format!(
-            "scale        {a} {sa:+.1} um/m, {b} {sb:+.1} um/m, +- {:.1} um/m",
-            2.0 * u
+            "scale        {a} {sa:+.1} +- {:.1} um/m, {b} {sb:+.1} +- {:.1} um/m",
+            2.0 * ua,
+            2.0 * ub
         ));
     }
     if let (Some(s), Some(u)) = (parts.squareness_urad, parts.squareness_u_urad) {

@@ -4,8 +4,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
 use serde_json::Value;
+
+use crate::cell::armill;
 
 const ROBOT: &str = r#"format = 1
 name = "lever"
@@ -34,20 +35,6 @@ what = "a lever of two arms"
 where = "this test"
 licence = "ours"
 "#;
-
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let (code, out, err) = armill(folder, &[arguments, &["--json"]].concat());

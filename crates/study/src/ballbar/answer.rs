@@ -167,6 +167,9 @@ pub struct PartsAnswer {
 pub struct PartAnswer {
     /// Its name.
     pub what: String,
+    /// What kind of part: `radius`, `offset`, `scale mismatch`, `squareness`, `reversal`, `direction radius`,
+    /// `servo mismatch`, `lobes`, `cyclic`.
+    pub kind: &'static str,
     /// How large it is along the radius.
     pub value_um: f64,
     /// Standard uncertainty.
@@ -323,7 +326,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
         unused: measured.unused.clone(),
         warnings: Vec::new(),
     };
-    beside(&mut told);
+    beside(&mut told, found);
     told.warnings = warnings(measured, question, (found, &told));
     told
 }
@@ -396,20 +399,42 @@ pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> Stri
     }
 }
 
+/// What kind of part a term makes.
+fn kind_of(term: Term) -> &'static str {
+    match term {
+        Term::Radius => "radius",
+        Term::Offset(_) => "offset",
+        Term::ScaleMismatch => "scale mismatch",
+        Term::Squareness => "squareness",
+        Term::DirectionRadius => "direction radius",
+        Term::ServoMismatch => "servo mismatch",
+        Term::Reversal(_) => "reversal",
+        Term::Lobes(..) => "lobes",
+        Term::Cyclic(..) => "cyclic",
+    }
+}
+
 fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswer {
     let axes = measured.axes();
     let radius = measured.test.radius();
     let name = |term: Term| name_of(term, (&axes, found));
-    let of = |term: Term| parts.of(term);
-    // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R; of a good test the two hang together little.
+    // A sum of several errors is none of them.
+    let of = |term: Term| parts.alone(term);
+    // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R.
     let scale = of(Term::Radius).zip(of(Term::ScaleMismatch));
     let per_m = 1e6 / radius;
-    let both = |part: &Part, other: &Part| part.u.hypot(other.u) * per_m;
+    let both = |(mean, half): (&Part, &Part)| {
+        [1.0, -1.0].map(|side| {
+            let variance = mean.u.powi(2) + half.u.powi(2) + 2.0 * side * parts.scale_covariance;
+            variance.max(0.0).sqrt() * per_m
+        })
+    };
     let servo = of(Term::ServoMismatch).zip(measured.feed);
     PartsAnswer {
         radial: (parts.parts.iter())
             .map(|part| PartAnswer {
                 what: name(part.term),
+                kind: kind_of(part.term),
                 value_um: part.value * 1e6,
                 u_um: part.u * 1e6,
             })
@@ -420,7 +445,7 @@ fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswe
                 (mean.value - half.value) * per_m,
             ]
         }),
-        scale_u_um_per_m: scale.map(|(mean, half)| [both(mean, half); 2]),
+        scale_u_um_per_m: scale.map(both),
         squareness_urad: of(Term::Squareness).map(|part| 2.0 * part.value * per_m),
         squareness_u_urad: of(Term::Squareness).map(|part| 2.0 * part.u * per_m),
         servo_mismatch_s: servo.map(|(part, feed)| 2.0 * part.value / feed),
@@ -449,16 +474,15 @@ fn outliers(names: &[&str], found: &Found) -> Vec<OutlierAnswer> {
 }
 
 /// Puts our numbers beside those of the bar's own program.
-fn beside(told: &mut BallbarAnswer) {
-    let part = |what: &str| {
-        let parts = told.parts.iter().flat_map(|parts| &parts.radial);
-        parts
-            .clone()
-            .find(|part| part.what == what)
-            .map(|part| part.value_um)
-    };
+fn beside(told: &mut BallbarAnswer, found: &Found) {
     let [a, b] = &told.axes;
-    let step = |axis: &str, side: &str| part(&format!("step {axis}{side}"));
+    // The reversal of that name: told ones may come with it, or in place of those of the axes.
+    let step = |axis: &str, side: &str| {
+        let name = format!("{axis}{side}");
+        let index = found.asked.reversals.iter().position(|of| of.name == name)?;
+        let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
+        Some(part.value * 1e6)
+    };
     let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
     let ours = [
         ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
