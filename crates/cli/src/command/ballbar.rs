@@ -356,6 +356,9 @@ fn results(answer: &BallbarAnswer) -> Vec<String> {
             ]
         };
         lines.extend(table(of.features.iter().map(row)));
+        if !of.without_number.is_empty() {
+            lines.push(format!("  without a number: {}", of.without_number.join(", ")));
+        }
     }
     lines
 }

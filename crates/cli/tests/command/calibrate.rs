@@ -210,6 +210,15 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
             &["calibrate", "poses.csv", "--turns", "--turn-mm", "0"],
             &["--turn-mm: 0 is not above 0"],
         ),
+        (&["calibrate", "poses.csv", "--turn-mm", "100"], &["--turns"]),
+        (
+            &["calibrate", "poses.csv", "--turn-order", "fixed-xyz"],
+            &["--turns"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "0.2", "--same-set-up"],
+            &["--same-set-up: the part 0.2 is of the same file"],
+        ),
         (
             &["calibrate", "poses.csv", "--tool-mm", "1,2"],
             &["--tool-mm: 2 numbers"],

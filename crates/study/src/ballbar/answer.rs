@@ -156,7 +156,7 @@ pub struct PartsAnswer {
     pub cyclic_period_mm: Option<f64>,
     /// Sets of parts of which only a sum is known, or a single one that nothing is known of.
     pub not_told_apart: Vec<Vec<String>>,
-    /// Root mean square about the least-squares circle.
+    /// Root mean square without radius and offset, those of the parts.
     pub rms_before_um: f64,
     /// And of what no part explains.
     pub rms_after_um: f64,
@@ -215,6 +215,8 @@ pub struct ResultsAnswer {
     pub plane: Option<String>,
     /// Each result as the file has it.
     pub features: Vec<FeatureAnswer>,
+    /// Results whose text is no number, as they are called.
+    pub without_number: Vec<String>,
 }
 
 /// One result of the bar's own program, and ours of the same kind.
@@ -317,6 +319,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
                         ours: None,
                     })
                     .collect(),
+                without_number: results.without_number.clone(),
             })
             .collect(),
         axes,

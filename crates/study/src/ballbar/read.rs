@@ -105,7 +105,7 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
     let Some(radius) = radius else {
         return Err(StudyError::value(
             "nothing tells the nominal radius",
-            "a line `# radius_mm: 100` in the file, or tell it (option `radius_mm`)",
+            "a line `# radius_mm: 100` in the file, or --radius-mm 100",
         ));
     };
     let mut notes = Vec::new();

@@ -53,7 +53,7 @@ pub struct Parts {
     pub together: Vec<Vec<Term>>,
     /// Covariance of radius and scale mismatch, m^2: over an arc they hang together. 0 where one is not among the parts.
     pub scale_covariance: f64,
-    /// Root mean square of the radial deviation about the least-squares circle, m.
+    /// Root mean square of the radial deviation without the radius and the offset of the fit, m.
     pub rms_before: f64,
     /// And of what no part explains, m.
     pub rms_after: f64,
