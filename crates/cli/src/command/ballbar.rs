@@ -15,7 +15,8 @@
 use armill_formats::file::write_atomically;
 use armill_formats::measurement::ballbar::{Told, direction_of};
 use armill_study::StudyError;
-use armill_study::ballbar::answer::{FeatureAnswer, LobeAnswer, PartAnswer, ShownAnswer};
+use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
+use armill_study::ballbar::results::FeatureAnswer;
 use armill_study::ballbar::teach::ComparedQuantity;
 use armill_study::ballbar::{
     BallbarAnswer, Centring, Cyclic, Question, Wanted, analyse, answer, before, output, read, teach,

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::analyse::{Found, Question};
 use super::read::Measured;
+use super::results::{ResultsAnswer, beside, results};
 use super::teach::{BeforeAnswer, TaughtAnswer};
 use super::warnings::warnings;
 
@@ -200,40 +201,6 @@ pub struct OutlierAnswer {
     pub at_reversal: bool,
 }
 
-/// What the bar's own program made of it.
-#[derive(Clone, Debug, Serialize)]
-pub struct ResultsAnswer {
-    /// Its file.
-    pub file: String,
-    /// What was planned.
-    pub test: Option<String>,
-    /// On which machine.
-    pub machine: Option<String>,
-    /// When.
-    pub date: Option<String>,
-    /// In which plane.
-    pub plane: Option<String>,
-    /// Each result as the file has it.
-    pub features: Vec<FeatureAnswer>,
-    /// Results whose text is no number, as they are called.
-    pub without_number: Vec<String>,
-}
-
-/// One result of the bar's own program, and ours of the same kind.
-#[derive(Clone, Debug, Serialize)]
-pub struct FeatureAnswer {
-    /// As the file calls it.
-    pub name: String,
-    /// As the file has it.
-    // unit: the field `unit` tells it
-    pub value: f64,
-    /// The unit of both.
-    pub unit: String,
-    /// Ours in that unit, where both tell the same kind of thing; definitions and signs may differ.
-    // unit: the field `unit` tells it
-    pub ours: Option<f64>,
-}
-
 /// What `found` says of `measured`.
 pub fn answer(measured: &Measured, question: &Question, found: &Found) -> BallbarAnswer {
     let axes = measured.axes();
@@ -302,26 +269,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
             .collect(),
         outliers: outliers(&names, found),
         outliers_left_out: question.without_outliers,
-        results: measured
-            .results
-            .iter()
-            .map(|(file, results)| ResultsAnswer {
-                file: file.clone(),
-                test: results.test.clone(),
-                machine: results.machine.clone(),
-                date: results.date.clone(),
-                plane: results.plane.clone(),
-                features: (results.features.iter())
-                    .map(|feature| FeatureAnswer {
-                        name: feature.name.clone(),
-                        value: feature.value,
-                        unit: feature.unit.clone(),
-                        ours: None,
-                    })
-                    .collect(),
-                without_number: results.without_number.clone(),
-            })
-            .collect(),
+        results: results(measured),
         axes,
         parts,
         taught: None,
@@ -474,31 +422,4 @@ fn outliers(names: &[&str], found: &Found) -> Vec<OutlierAnswer> {
             })
         })
         .collect()
-}
-
-/// Puts our numbers beside those of the bar's own program.
-fn beside(told: &mut BallbarAnswer, found: &Found) {
-    let [a, b] = &told.axes;
-    // The reversal of that name: told ones may come with it, or in place of those of the axes.
-    let step = |axis: &str, side: &str| {
-        let name = format!("{axis}{side}");
-        let index = found.asked.reversals.iter().position(|of| of.name == name)?;
-        let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
-        Some(part.value * 1e6)
-    };
-    let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
-    let ours = [
-        ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
-        ("AF_SQUARENESS", "um/m", squareness),
-        ("AF_BACKLASH_A_POS", "um", step(a, "+")),
-        ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
-        ("AF_BACKLASH_B_POS", "um", step(b, "+")),
-        ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
-    ];
-    for feature in told.results.iter_mut().flat_map(|results| &mut results.features) {
-        let of = ours
-            .iter()
-            .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);
-        feature.ours = of.and_then(|(.., value)| *value);
-    }
 }

@@ -68,7 +68,7 @@ pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, P
                 Ok(()) => {}
                 Err(Refused::Row(wrong)) => problems.extend(wrong),
                 Err(Refused::File(wrong)) => {
-                    problems.push(wrong);
+                    problems.extend(wrong);
                     return Err(problems.into());
                 }
             },
@@ -97,7 +97,7 @@ enum Refused {
     /// What is wrong with it.
     Row(Vec<Problem>),
     /// Too much for one file: nothing behind it is read.
-    File(Problem),
+    File(Vec<Problem>),
 }
 
 /// A run as far as it was read.
@@ -215,11 +215,11 @@ impl Table {
         self.samples += 1;
         if self.samples > MOST_SAMPLES {
             let message = format!("more than {MOST_SAMPLES} samples");
-            return Err(Refused::File(self.at(
+            return Err(Refused::File(vec![self.at(
                 line,
                 message,
                 "cut the file into its runs",
-            )));
+            )]));
         }
         let name = run.or(remarks.run.as_deref());
         self.push((name, direction), (line, remarks), [angle, radius])
@@ -267,7 +267,7 @@ impl Table {
             if known.is_none() && self.groups.len() == CircularTest::MOST_RUNS {
                 let message = format!("more than {} runs", CircularTest::MOST_RUNS);
                 let hint = "`run` tells which run of its direction a row is of, not which row";
-                return Err(Refused::File(self.at(line, message, hint)));
+                return Err(Refused::File(vec![self.at(line, message, hint)]));
             }
             self.current = known.unwrap_or_else(|| {
                 self.groups.push(Group {
