@@ -378,7 +378,7 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             ],
         ),
         (&["unit.csv", "cells.csv"], &["unit.csv:1", "cells.csv:3"]),
-        (&["cw.csv"], &["nothing tells the nominal radius", "--radius-mm"]),
+        (&["cw.csv"], &["nothing tells the nominal radius", "radius_mm"]),
         (
             &["mixed.csv"],
             &["mixed.csv:363:5: the radius is off by 90000 mm, more than half the nominal 100 mm"],
@@ -462,4 +462,205 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             assert!(err.contains(word), "{arguments:?}: no `{word}` in\n{err}");
         }
     }
+}
+
+const CIRCLE: &str = r#"
+format = 1
+robot = "yaskawa/mh12"
+limit_um = 200
+tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
+plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
+load = { cases_n = [[1, 0, 0]] }
+
+[[ask]]
+kind = "path"
+name = "ring"
+circle = { radius_mm = 100 }
+"#;
+
+#[test]
+fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
+    use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
+    let folder = folder();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
+    // Angle 0 of the bar lies at 90 degrees of the circle, and its angles grow the other way.
+    for (zero_deg, way, keys) in [
+        (0.0, 1.0, &[][..]),
+        (90.0, -1.0, &["--zero-deg", "90", "--mirrored"][..]),
+    ] {
+        for ending in ["src", "mod", "ls", "script"] {
+            let file = format!("prog/ring.{ending}");
+            let asked = [
+                "test.csv",
+                "--teach",
+                "p.csv",
+                "--points",
+                "48",
+                "--program",
+                &file,
+                "--study",
+                "study.toml",
+            ];
+            let (code, _, err) = armill(at, &[&["ballbar"], &asked[..], keys].concat());
+            assert_eq!(code, 0, "{err}");
+            // Straight moves between 48 points leave the circle by R (1 - cos(pi / 48)) = 214 um.
+            assert!(
+                err.contains("leave the circle by 214.1 um; 324 points keep within 5 um"),
+                "{err}"
+            );
+            let table = std::fs::read_to_string(at.join("p.csv")).unwrap();
+            let rows: Vec<Vec<f64>> = table
+                .lines()
+                .filter(|line| !line.starts_with('#'))
+                .skip(1)
+                .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+                .collect();
+            let name = std::fs::read_dir(at.join("prog"))
+                .unwrap()
+                .map(|entry| entry.unwrap().path())
+                .find(|path| {
+                    path.extension()
+                        .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+                })
+                .unwrap();
+            let text = ProgramText::new(&name.display().to_string(), &std::fs::read(&name).unwrap());
+            let program = read(vec![text]).unwrap();
+            let moves: Vec<_> = program
+                .moves
+                .iter()
+                .filter(|next| next.motion == Motion::Linear)
+                .collect();
+            // 48 points, the first again to close, and up.
+            assert_eq!(moves.len(), 48 + 2, "{ending}");
+            assert!(
+                moves
+                    .iter()
+                    .all(|next| matches!(next.speed, Speed::Tip(v) if (v - 1.0 / 60.0).abs() < 2e-4)),
+                "{ending}"
+            );
+            let tip = |target: &Target| target.pose().unwrap().translation.vector * 1e3;
+            // The circle lies on the plane about the origin of its frame, -x is y' and y is z'.
+            let wanted: Vec<[f64; 2]> = rows
+                .iter()
+                .map(|row| {
+                    let a = (zero_deg + way * row[0]).to_radians();
+                    [-row[1] * a.cos(), row[1] * a.sin()]
+                })
+                .collect();
+            for next in &moves[..49] {
+                let tip = tip(&next.target);
+                let off = |[x, y]: &[f64; 2]| (tip.x - x).hypot(tip.y - y);
+                let nearest = wanted.iter().map(off).fold(f64::MAX, f64::min);
+                // FANUC and KUKA write micrometres, two of them on a diagonal.
+                assert!(
+                    nearest < 2e-3 && tip.z.abs() < 1e-3,
+                    "{ending} {keys:?}: {nearest} {tip}"
+                );
+            }
+            // Every point once, in one way round.
+            let close = (tip(&moves[0].target) - tip(&moves[48].target)).norm();
+            assert!(close < 1e-9, "{ending}: {close}");
+            let angles: Vec<f64> = moves[..48]
+                .iter()
+                .map(|next| tip(&next.target))
+                .map(|t| t.y.atan2(-t.x))
+                .collect();
+            assert!(
+                angles
+                    .windows(2)
+                    .all(|pair| (pair[1] - pair[0]).rem_euclid(TAU) < 0.14),
+                "{ending}"
+            );
+        }
+    }
+    // Without a count as many points as the straight moves need.
+    let asked = [
+        "ballbar",
+        "test.csv",
+        "--teach",
+        "p.csv",
+        "--program",
+        "prog/many.src",
+        "--study",
+        "study.toml",
+    ];
+    let (code, _, err) = armill(at, &asked);
+    assert!(code == 0 && !err.contains("leave the circle"), "{err}");
+    assert_eq!(
+        std::fs::read_to_string(at.join("p.csv")).unwrap().lines().count(),
+        325
+    );
+}
+
+#[test]
+fn a_program_of_another_circle_or_of_none_is_refused() {
+    let folder = folder();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
+    std::fs::write(
+        at.join("small.toml"),
+        CIRCLE.replace("radius_mm = 100", "radius_mm = 60"),
+    )
+    .unwrap();
+    let two = format!("{CIRCLE}[[ask]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
+    std::fs::write(at.join("two.toml"), two).unwrap();
+    std::fs::write(
+        at.join("line.toml"),
+        CIRCLE.replace(
+            "circle = { radius_mm = 100 }",
+            "line = { from_mm = [0, 0], to_mm = [50, 0] }",
+        ),
+    )
+    .unwrap();
+    for (arguments, said) in [
+        (&["--program", "a.src"][..], "--study STUDY"),
+        (
+            &["--program", "a.txt", "--study", "study.toml"],
+            "that of no language",
+        ),
+        (
+            &["--program", "a.src", "--study", "small.toml"],
+            "the circle of the study has 60 mm, that of the ball-bar 100 mm",
+        ),
+        (
+            &["--program", "a.src", "--study", "two.toml"],
+            "2 circles: ring, other",
+        ),
+        (
+            &["--program", "a.src", "--study", "two.toml", "--ask", "third"],
+            "no circle called `third`",
+        ),
+        (
+            &["--program", "a.src", "--study", "line.toml"],
+            "asks for no circle",
+        ),
+        (
+            &["--program", "a.src", "--study", "study.toml", "--zero-deg", "nan"],
+            "not a finite number",
+        ),
+        (
+            &["--program", "a.src", "--study", "study.toml", "--points", "4000"],
+            "--points: 4000 is outside 3 to 3600",
+        ),
+    ] {
+        let (code, _, err) = armill(at, &[&["ballbar", "test.csv"], arguments].concat());
+        assert!(code == 2 && err.contains(said), "{arguments:?} {code}: {err}");
+    }
+    assert!(!at.join("a.src").exists());
+    // A name among several will do.
+    let (code, _, err) = armill(
+        at,
+        &[
+            "ballbar",
+            "test.csv",
+            "--program",
+            "a.src",
+            "--study",
+            "two.toml",
+            "--ask",
+            "ring",
+        ],
+    );
+    assert!(code == 0 && at.join("a.src").exists(), "{err}");
 }

@@ -213,6 +213,7 @@ fn circle(told: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Pictu
         vertical: told.axes[1].clone(),
         growth: Growth::Right,
         traces: (0..found.test.runs().len()).map(trace).collect(),
+        marks: Vec::new(),
     };
     Picture {
         name: "ballbar".to_owned(),

@@ -8,7 +8,7 @@
 
 use std::f64::consts::TAU;
 
-use armill_core::measure::ballbar::{Extreme, taught};
+use armill_core::measure::ballbar::{Extreme, Taught, taught};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use serde::Serialize;
 
@@ -38,6 +38,31 @@ pub struct TaughtAnswer {
     pub stays_um: Option<f64>,
 }
 
+/// The circle itself.
+#[derive(Clone, Debug)]
+pub struct TaughtCircle {
+    /// Nominal radius, m.
+    pub radius: f64,
+    /// What is added to it at even angles from 0 on, m.
+    pub corrections: Vec<f64>,
+    found: Taught,
+}
+
+impl TaughtCircle {
+    /// Radius to teach at an angle of the files (rad), m.
+    pub fn radius_at(&self, angle: f64) -> f64 {
+        self.radius + self.found.correction(angle)
+    }
+
+    /// A row a point, as CSV.
+    ///
+    /// # Errors
+    /// A table that cannot be.
+    pub fn csv(&self) -> Result<Vec<u8>, StudyError> {
+        Ok(csv::write(&table(self.radius, &self.corrections)?))
+    }
+}
+
 /// A test before the one that is told.
 #[derive(Clone, Debug, Serialize)]
 pub struct BeforeAnswer {
@@ -61,14 +86,14 @@ pub struct ComparedQuantity {
 }
 
 /// The circle to teach at `points` even angles with lobes up to `most_lobes`, or as many as the samples tell: in numbers,
-/// and as a table. Of the test as it is shown: without outliers where these were left out.
+/// and itself. Of the test as it is shown: without outliers where these were left out.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
     shown: &Found,
     (points, most_lobes): (usize, usize),
-) -> Result<(TaughtAnswer, Vec<u8>), StudyError> {
+) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
     let found = taught(&shown.test, most_lobes).ok_or_else(|| {
         StudyError::value(
             "no circle can be taught from runs that leave a part of the turn open",
@@ -89,7 +114,12 @@ pub fn teach(
         radial_expected_um: um(found.expected.radial),
         stays_um: found.stays.map(|stays| stays * 1e6),
     };
-    Ok((told, csv::write(&table(shown.test.radius(), &corrections)?)))
+    let circle = TaughtCircle {
+        radius: shown.test.radius(),
+        corrections,
+        found,
+    };
+    Ok((told, circle))
 }
 
 /// A row a point.

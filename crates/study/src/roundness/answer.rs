@@ -229,7 +229,7 @@ fn notes(measured: &Measured, question: &Question, judged: &Judged) -> Vec<Strin
     }
     if !judged.outliers.is_empty() {
         notes.push(format!(
-            "{} of the points stand out of their neighbours by ten times what others do, perhaps dirt; none was left out",
+            "{} of the points stand out of their neighbours by twelve times what others do, perhaps dirt; none was left out",
             judged.outliers.len()
         ));
     }

@@ -3,12 +3,13 @@
 //! In reading order: [`run`] (what was measured), [`profile`] (a run as radii over the angle), [`centre`] (where the circle
 //! lies), [`quantities`](mod@quantities) (G, F, D and H of ISO 230-4), [`difference`] (between runs, between directions), [`lobes`](mod@lobes)
 //! (how much goes round n times a turn), [`outlier`] (dirt), [`parts`] (scale, squareness, steps at reversals: each with its uncertainty),
-//! [`taught`](mod@taught) (the circle to teach instead).
+//! [`taught`](mod@taught) (the circle to teach instead), [`joints`] (which joints of an arm turn back where, and with how much play).
 //!
 //! Theory, signs and what the numbers leave out: `docs/theory/ballbar.md`.
 
 pub mod centre;
 pub mod difference;
+pub mod joints;
 pub mod lobes;
 pub mod outlier;
 pub mod parts;

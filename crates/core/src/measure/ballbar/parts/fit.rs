@@ -18,7 +18,7 @@ use super::super::centre::least_squares_centre;
 use super::super::profile::Profile;
 use super::super::run::{CircularTest, Direction};
 use super::term::{Axis, ON_STEP, Reversal, Term, Wave};
-use super::trust::standard_uncertainties;
+use super::trust::covariance;
 use crate::identify::Spread;
 
 /// Which parts are looked for.
@@ -75,13 +75,15 @@ impl Parts {
 }
 
 /// The samples of all profiles that are used, run by run.
-pub(super) struct Samples {
+pub(in super::super) struct Samples {
     /// Angle (rad) and direction.
     pub at: Vec<(f64, Direction)>,
     /// Radial deviation without what is of second order in the offset, m.
     pub deviation: DVector<f64>,
     /// Where each run begins, and where the last one ends.
     pub begins: Vec<usize>,
+    /// How many runs each circle has; one circle, of one test.
+    pub runs: Vec<usize>,
 }
 
 /// What `asked` makes of the test; `None` where there are fewer samples than terms, or of a period of no length.
@@ -91,20 +93,12 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
     let (rows, spread, together) = told_apart(&samples, &mut terms, asked, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
-    let u = standard_uncertainties(&samples, (&rows, &rest), &spread.covariance);
+    let freedom = rows.nrows() - rows.ncols();
+    let covariance = covariance(&samples, (&rows, &rest), (&spread.covariance, freedom));
+    let u: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
     let place = |term: Term| terms.iter().position(|of| *of == term);
-    // As much wider as the uncertainties of both are.
-    let scale_covariance = place(Term::Radius)
-        .zip(place(Term::ScaleMismatch))
-        .map_or(0.0, |(i, k)| {
-            let inverse = &spread.covariance;
-            let both = (inverse[(i, i)] * inverse[(k, k)]).sqrt();
-            if both > 0.0 {
-                inverse[(i, k)] / both * u[i] * u[k]
-            } else {
-                0.0
-            }
-        });
+    let scales = place(Term::Radius).zip(place(Term::ScaleMismatch));
+    let scale_covariance = scales.map_or(0.0, |both| covariance[both]);
     // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
     let unseen = unseen(test, &asked.reversals);
     let found = terms
@@ -147,7 +141,7 @@ pub(super) fn rest_without_cyclic(
 }
 
 impl Samples {
-    fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
+    pub(in super::super) fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
         let offset = least_squares_centre(test).map_or_else(Vector2::zeros, |centre| centre.offset);
         let radius = test.radius();
         // What is left of |R n + e| without R and e . n.
@@ -170,7 +164,24 @@ impl Samples {
         Samples {
             at,
             deviation: deviation.into(),
+            runs: vec![begins.len() - 1],
             begins,
+        }
+    }
+
+    /// Those of several circles, one behind the other.
+    pub(in super::super) fn joined(circles: &[Samples]) -> Samples {
+        let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
+        for circle in circles {
+            begins.extend(circle.begins[1..].iter().map(|begin| at.len() + begin));
+            at.extend_from_slice(&circle.at);
+            deviation.extend_from_slice(circle.deviation.as_slice());
+        }
+        Samples {
+            at,
+            deviation: deviation.into(),
+            begins,
+            runs: circles.iter().flat_map(|circle| circle.runs.clone()).collect(),
         }
     }
 }

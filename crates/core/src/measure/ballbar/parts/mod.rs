@@ -6,7 +6,7 @@
 pub mod cyclic;
 pub mod fit;
 pub mod term;
-mod trust;
+pub(super) mod trust;
 
 pub use cyclic::{periods, strongest_period};
 pub use fit::{Asked, Part, Parts, parts};
