@@ -5,8 +5,9 @@
 //! | [`STEADY`] | one tool axis, one turn of the tool | four cases in the axes of the part |
 //! | [`LEANING`] | the tool leans another way at each point | four cases in the feed frame |
 //!
-//! Each also with a bar: given up where it is known to be no better than the best so far. One thread. Rates count
-//! place x point x case; one branch, its flip, limits and singularities judged.
+//! The first also as a search: a place is given up where it is known to be no better than the best so far, at the first point
+//! that shows it ([`SEARCH_WORST`]) or, where the mean counts, late ([`SEARCH_MEAN`]). One thread. Rates count place x point x
+//! case of all places, given up or not; one branch, its flip, limits and singularities judged.
 
 use std::f64::consts::TAU;
 use std::hint::black_box;
@@ -32,17 +33,21 @@ use crate::workload::FORCES;
 pub const STEADY: &str = "placement x point x case, one tool axis";
 /// Places judged, leaning tool.
 pub const LEANING: &str = "placement x point x case, five axes";
-/// The first with a bar.
-pub const STEADY_BAR: &str = "placement x point x case, one tool axis, pruned";
+/// A search for the least largest deviation.
+pub const SEARCH_WORST: &str = "placement x point x case, search for the least largest";
+/// A search for the least mean deviation.
+pub const SEARCH_MEAN: &str = "placement x point x case, search for the least mean";
 
 /// Points of the path.
 const POINTS: usize = 20_000;
-/// Places judged in a run.
+/// Places judged in a run, and those of a search: the best of a grid of 10^6 is found among ever fewer that beat it.
 const PLACES: usize = 24;
+const SEARCHED: usize = 480;
 
 /// A path on a part, and places of it.
 pub struct Places {
     path: PlacedPath,
+    /// The first [`PLACES`] and all others of a search.
     lies: Vec<Lie>,
 }
 
@@ -67,7 +72,7 @@ impl Places {
         let turn = ToolTurn::of(&track);
         let part = |k: usize| (k as f64 * 0.618).fract() - 0.5;
         // All six degrees, near enough that every point is held.
-        let lies = (0..PLACES).map(|k| {
+        let lies = (0..SEARCHED).map(|k| {
             let at = Vector3::new(part(k), part(3 * k), part(7 * k)) * 0.1;
             let turned = Vector3::new(part(5 * k), part(11 * k), part(13 * k)) * 0.2;
             turn.lie(track.base_from_part * from_xyz_and_fixed_angles(at, turned), 0.0)
@@ -121,14 +126,14 @@ pub fn candidates<'a>(
     one_thread: &'a ThreadPool,
 ) -> Vec<Candidate<'a>> {
     const WHO: &str = "armill placement";
-    let judged = move |places: &Places, prune: bool| {
+    let judged = move |lies: &[Lie], path: &PlacedPath, search: Option<Goal>| {
         let question: Question<'_> = arm.question(ONE_POSTURE);
         let placeable = Placeable {
             question: &question,
-            path: &places.path,
+            path,
             goal: PlacementGoal {
                 counts: Counts::InPlane,
-                goal: Goal::Worst,
+                goal: search.unwrap_or(Goal::Worst),
                 branches: BranchPattern::FRONT_ELBOW_UP,
                 margin: 0.0,
                 wrist: 0.0,
@@ -137,11 +142,11 @@ pub fn candidates<'a>(
             },
         };
         let mut best = Merit::NONE;
-        for chunk in places.lies.chunks(4) {
-            let bar = prune.then_some(&best);
+        for chunk in lies.chunks(4) {
+            let bar = search.is_some().then_some(&best);
             let merits = one_thread.install(|| placeable.merits(chunk, bar, Watch::NONE));
             for merit in merits.expect("nobody cancels").into_iter().flatten() {
-                assert!(prune || merit.lost == 0, "{} points lost", merit.lost);
+                assert!(search.is_some() || merit.lost == 0, "{} points lost", merit.lost);
                 if merit.beats(&best) {
                     best = merit;
                 }
@@ -149,13 +154,23 @@ pub fn candidates<'a>(
         }
         black_box(best);
     };
-    let count = |places: &Places| PLACES * POINTS * places.path.case_count();
+    let count = |places: usize| places * POINTS * steady.path.case_count();
     vec![
-        Candidate::new(WHO, STEADY, count(steady), move || judged(steady, false))
-            .note("MH12, 20 000 points, four cases; six free degrees"),
-        Candidate::new(WHO, LEANING, count(leaning), move || judged(leaning, false))
-            .note("the same, with a rotation, directions and wrenches of its own at each point"),
-        Candidate::new(WHO, STEADY_BAR, count(steady), move || judged(steady, true))
-            .note("places no better than the best so far are given up"),
+        Candidate::new(WHO, STEADY, count(PLACES), move || {
+            judged(&steady.lies[..PLACES], &steady.path, None);
+        })
+        .note("MH12, 20 000 points, four cases; six free degrees"),
+        Candidate::new(WHO, LEANING, count(PLACES), move || {
+            judged(&leaning.lies[..PLACES], &leaning.path, None);
+        })
+        .note("the same, with a rotation, directions and wrenches of its own at each point"),
+        Candidate::new(WHO, SEARCH_WORST, count(SEARCHED), move || {
+            judged(&steady.lies, &steady.path, Some(Goal::Worst));
+        })
+        .note("480 places; one no better than the best so far is given up, seen in single precision first"),
+        Candidate::new(WHO, SEARCH_MEAN, count(SEARCHED), move || {
+            judged(&steady.lies, &steady.path, Some(Goal::Mean));
+        })
+        .note("the same, where the mean counts"),
     ]
 }

@@ -22,6 +22,8 @@ mod studies;
 
 #[path = "../ballbar-closed-forms/case.rs"]
 mod ballbar_closed_forms;
+#[path = "../budget-circles/case.rs"]
+mod budget_circles;
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
 #[path = "../fanuc-identification/case.rs"]
@@ -46,6 +48,8 @@ mod mh12_regression;
 mod milling_mean_force;
 #[path = "../nist-circles/case.rs"]
 mod nist_circles;
+#[path = "../path-accuracy/case.rs"]
+mod path_accuracy;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
 #[path = "../tx200-compliance/case.rs"]
@@ -111,6 +115,10 @@ pub const CASES: &[Case] = &[
         checks: mh12_fractions::checks,
     },
     Case {
+        folder: "path-accuracy",
+        checks: path_accuracy::checks,
+    },
+    Case {
         folder: "inverse-vs-opw",
         checks: inverse_vs_opw::checks,
     },
@@ -125,6 +133,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "ballbar-closed-forms",
         checks: ballbar_closed_forms::checks,
+    },
+    Case {
+        folder: "budget-circles",
+        checks: budget_circles::checks,
     },
     Case {
         folder: "joint-backlash-closed-forms",

@@ -145,6 +145,13 @@ const WAITS: &[Wait] = &[
         "along a path",
         2.0,
     ),
+    // 0.7 G a second.
+    path(
+        "places of a path searched, points x cases of all places",
+        "armill placement",
+        "placement x point x case, search for the least largest",
+        1.0 / 700.0,
+    ),
 ];
 
 /// What a million points took, as a Markdown table; empty if none was measured.

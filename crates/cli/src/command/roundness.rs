@@ -41,6 +41,7 @@ pub(crate) fn run(arguments: &RoundnessArguments) -> Result<Outcome, StudyError>
     let question = question(arguments)?;
     let wanted = Wanted {
         radius_mm: arguments.radius_mm,
+        else_radius_mm: None,
         unit: arguments.unit,
     };
     let mut answers = Vec::new();

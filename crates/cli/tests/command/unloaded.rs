@@ -56,7 +56,15 @@ fn backlash_of_the_robot_file_is_part_of_the_deviation_along_a_path() {
     assert!(number(&with["max_in_plane_um"]) > number(&without["max_in_plane_um"]) + 0.2 * most);
     // The worst point, asked by itself, is the same, and its shares add up to it.
     let worst = &with["worst_points"][0]["point"];
-    assert!((number(&worst["in_plane_um"]) - number(&with["max_in_plane_um"])).abs() < 1e-3);
+    let in_plane = number(&worst["in_plane_um"]);
+    assert!((in_plane - number(&with["max_in_plane_um"])).abs() < 1e-3);
+    let shares: f64 = worst["joint_share_um"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(number)
+        .sum();
+    assert!((shares - in_plane).abs() < 1e-3, "{worst}");
     let table = std::fs::read_to_string(cell.at("with/ring.csv")).unwrap();
     assert!(table.contains("unloaded_cross_um"));
     let model = with["setting"]["model"].to_string();
@@ -117,8 +125,21 @@ fn an_arm_that_does_not_fit_is_refused_at_its_place() {
         "study.toml",
         CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"lever.toml\""),
     );
-    cell.armill(&["check", "study.toml"])
-        .refused(&["study.toml:3:", "has other joints than `yaskawa/mh12`: 1 and 6"]);
+    cell.armill(&["check", "study.toml"]).refused(&[
+        "study.toml:3:",
+        "`lever.toml` has another number of joints (1, not 6) than `yaskawa/mh12`",
+    ]);
+}
+
+#[test]
+fn an_arm_whose_zero_is_another_is_no_measured_one() {
+    let cell = Cell::with_study(&CELL.replace("arm.toml\"", "yaskawa/mh12\"\nactual_robot = \"other.toml\""));
+    cell.file("other.toml", mh12().replacen("sign = -1", "sign = 1", 1));
+    cell.armill(&["check", "study.toml"]).refused(&[
+        "study.toml:3:",
+        "mm (allowed: 20 mm) from that of `yaskawa/mh12`",
+        "senses, zeros and base frame",
+    ]);
 }
 
 const LEVER: &str = r#"format = 1

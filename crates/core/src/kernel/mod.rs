@@ -27,7 +27,7 @@ pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, at_joints};
 pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
-pub use placed::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};
+pub use placed::{Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};
 pub use question::{BranchChoice, Question};
 
 use rayon::prelude::*;

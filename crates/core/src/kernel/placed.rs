@@ -9,7 +9,7 @@
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::column::{Column, Columns, Push, SLOTS, Stand};
-use super::lanes::{Laid, Placer, Tallied};
+use super::lanes::{Laid, Placer, Precision, Tallied};
 use super::question::Question;
 use crate::frame::Isometry;
 use crate::robot::{Branch, BranchPattern};
@@ -90,7 +90,9 @@ pub struct Judged {
 pub struct PlacedPath {
     points: Vec<Sighted>,
     pushes: Pushes,
-    laid: Laid,
+    laid: Laid<f64>,
+    /// The same in single precision.
+    single: Laid<f32>,
 }
 
 impl PlacedPath {
@@ -106,6 +108,7 @@ impl PlacedPath {
         );
         PlacedPath {
             laid: Laid::new(&points, &pushes),
+            single: Laid::new(&points, &pushes),
             points,
             pushes,
         }
@@ -165,7 +168,7 @@ pub struct Judge<'q> {
 
 /// By lanes or one after the other.
 enum Way<'q> {
-    Lanes(Box<Placer>),
+    Lanes(Box<Placer<f64>>),
     General(Box<Columns<'q>>),
 }
 
@@ -207,30 +210,11 @@ impl<'q> Judge<'q> {
         path: &PlacedPath,
         lie: &Lie,
         open: BranchPattern,
-        mut worth: impl FnMut(&Judged) -> bool,
+        worth: impl FnMut(&Judged) -> bool,
     ) -> [Option<Judged>; SLOTS] {
-        let is_open: [bool; SLOTS] = std::array::from_fn(|slot| open.matches(Branch::ALL[slot]));
+        let is_open = slots_of(open);
         match &mut self.way {
-            Way::Lanes(placer) => {
-                let judged = |tallied: &Tallied, flip: usize| Judged {
-                    lost: tallied.lost[flip],
-                    worst: tallied.worst,
-                    sum: tallied.sum,
-                    above: tallied.above,
-                };
-                let mut given_up = [false; SLOTS];
-                let tallied = placer.judge(&path.laid, lie, |four, tallied| {
-                    let mut any = false;
-                    for flip in 0..2 {
-                        let slot = 2 * four + flip;
-                        let open = is_open[slot] && !given_up[slot] && worth(&judged(tallied, flip));
-                        given_up[slot] = !open;
-                        any |= open;
-                    }
-                    any
-                });
-                std::array::from_fn(|slot| (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2)))
-            }
+            Way::Lanes(placer) => by_lanes(placer, (&path.laid, lie), is_open, worth),
             Way::General(columns) => one_by_one((columns, self.keeping.limit), (path, lie), is_open, worth),
         }
     }
@@ -240,7 +224,7 @@ impl Judge<'_> {
     /// What the points of `path` come to where the part lies so and each is held for itself, in the best of these turns of the
     /// tool (rad, beside the place's) and of the branches that are open.
     pub fn judge_each(&mut self, path: &PlacedPath, lie: &Lie, open: BranchPattern, spins: &[f64]) -> Judged {
-        let is_open: [bool; SLOTS] = std::array::from_fn(|slot| open.matches(Branch::ALL[slot]));
+        let is_open = slots_of(open);
         let mut least = Vec::with_capacity(path.len());
         match &mut self.way {
             Way::Lanes(placer) => placer.least_of_each(&path.laid, (lie, spins), is_open, &mut least),
@@ -297,6 +281,73 @@ impl PlacedPath {
         };
         columns.fill(&poses, &push, out);
     }
+}
+
+/// Proves in half the time that a place is not worth judging; one a thread.
+///
+/// In single precision: points count as held that nearly are, and deviations stray by [`Glance::strays`].
+pub struct Glance(Box<Placer<f32>>);
+
+impl Glance {
+    /// For this arm; `None` where lanes do not answer for it.
+    pub fn new(arm: Arm<'_>, keeping: Keeping) -> Option<Glance> {
+        let form = arm
+            .robot
+            .ortho_parallel()
+            .filter(|_| arm.model.is_drives_alone())?;
+        let question = Question::unloaded(arm, None);
+        Some(Glance(Box::new(Placer::generous(&question, form, &keeping))))
+    }
+
+    /// The deviations it tells along `path` are off by this at most, m.
+    pub fn strays(&self, path: &PlacedPath) -> f64 {
+        self.0.strays(&path.single)
+    }
+
+    /// Whether a branch that is open may be worth it: whatever its postures truly make of the points, no more of them are held
+    /// and no deviation is more than [`Glance::strays`] below what `worth` is asked.
+    pub fn may_be_worth(
+        &mut self,
+        path: &PlacedPath,
+        lie: &Lie,
+        open: BranchPattern,
+        worth: impl FnMut(&Judged) -> bool,
+    ) -> bool {
+        let judged = by_lanes(&mut self.0, (&path.single, lie), slots_of(open), worth);
+        judged.iter().any(Option::is_some)
+    }
+}
+
+/// Which of the eight are branches that are open.
+fn slots_of(open: BranchPattern) -> [bool; SLOTS] {
+    std::array::from_fn(|slot| open.matches(Branch::ALL[slot]))
+}
+
+/// [`Judge::judge`] by lanes.
+fn by_lanes<T: Precision>(
+    placer: &mut Placer<T>,
+    (laid, lie): (&Laid<T>, &Lie),
+    open: [bool; SLOTS],
+    mut worth: impl FnMut(&Judged) -> bool,
+) -> [Option<Judged>; SLOTS] {
+    let judged = |tallied: &Tallied, flip: usize| Judged {
+        lost: tallied.lost[flip],
+        worst: tallied.worst,
+        sum: tallied.sum,
+        above: tallied.above,
+    };
+    let mut given_up = [false; SLOTS];
+    let tallied = placer.judge(laid, lie, |four, tallied| {
+        let mut any = false;
+        for flip in 0..2 {
+            let slot = 2 * four + flip;
+            let open = open[slot] && !given_up[slot] && worth(&judged(tallied, flip));
+            given_up[slot] = !open;
+            any |= open;
+        }
+        any
+    });
+    std::array::from_fn(|slot| (!given_up[slot]).then(|| judged(&tallied[slot / 2], slot % 2)))
 }
 
 /// Points after which it is asked whether to go on.

@@ -18,7 +18,9 @@ use rayon::prelude::*;
 use super::posture::{Counts, Goal, Spins, WITHIN};
 use super::sureness::{Sure, one_off};
 use crate::frame::{Isometry, tool_orientation};
-use crate::kernel::{Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn};
+use crate::kernel::{
+    Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Question, SLOTS, Sighted, ToldIn,
+};
 use crate::load::{LoadFrame, PathLoad};
 use crate::path::{Spin, ToldSpin, Track};
 use crate::robot::{Branch, BranchPattern, JointCompliance};
@@ -274,6 +276,7 @@ impl Placeable<'_> {
         let home = self.question.home;
         let judge = |compliance| Judge::new(Arm { compliance, ..arm }, home, keeping);
         Judges {
+            glance: Glance::new(arm, keeping).filter(|_| self.goal.holding == Holding::InOneBranch),
             nominal: judge(arm.compliance),
             off: off
                 .iter()
@@ -291,6 +294,16 @@ impl Placeable<'_> {
                 ..*bar
             },
         });
+        if let (Some(glance), Some(bar)) = (&mut judges.glance, bar.filter(|bar| bar.lost < usize::MAX)) {
+            let strays = (1.0 + WITHIN) * glance.strays(self.path);
+            // Where points are lost it does not tell the cost: it counts points that are lost twice, by limits and otherwise.
+            let worth = |judged: &Judged| {
+                (judged.lost == bar.lost && judged.lost > 0) || self.worth(&bar, strays, judged)
+            };
+            if !glance.may_be_worth(self.path, lie, self.goal.branches, worth) {
+                return None;
+            }
+        }
         let merit = self.nominal(&mut judges.nominal, (lie, self.goal.branches), bar.as_ref())?;
         let uncertainty = match self.goal.sure {
             Sure::Nominal => 0.0,
@@ -333,11 +346,7 @@ impl Placeable<'_> {
             });
         }
         let named = judge.tells_branches();
-        let worth = |judged: &Judged| {
-            bar.is_none_or(|bar| {
-                judged.lost < bar.lost || (judged.lost == bar.lost && self.cost(judged) < bar.cost)
-            })
-        };
+        let worth = |judged: &Judged| bar.is_none_or(|bar| self.worth(bar, 0.0, judged));
         let judged = judge.judge(self.path, lie, branches, worth);
         let mut best: Option<Merit> = None;
         for slot in 0..SLOTS {
@@ -354,6 +363,11 @@ impl Placeable<'_> {
         best
     }
 
+    /// Whether a posture may still beat `bar` if its cost so far is `strays` (m) above the true one.
+    fn worth(&self, bar: &Merit, strays: f64, judged: &Judged) -> bool {
+        judged.lost < bar.lost || (judged.lost == bar.lost && self.cost(judged) - strays < bar.cost)
+    }
+
     /// Cost of the points so far, as a part of all.
     fn cost(&self, judged: &Judged) -> f64 {
         let count = self.path.len() as f64;
@@ -367,6 +381,8 @@ impl Placeable<'_> {
 
 /// One a thread: of the arm as it is, and of arms one standard uncertainty off.
 struct Judges<'a> {
+    /// Looks first where there is a bar and lanes answer for the path.
+    glance: Option<Glance>,
     nominal: Judge<'a>,
     off: Vec<Judge<'a>>,
 }

@@ -13,8 +13,8 @@
 //! | turn of the tool | so many radians for a metre of the path, in steps; then without them, half a step away at the most |
 //!
 //! Where a joint turns back its backlash prints on the part. With a price on that ([`PostureSearch::back_price`]) a second
-//! chain is looked for that turns back less, and of both, answered without the steps of the lattice, the one is taken whose
-//! mean deviation and price together are less.
+//! chain is looked for that turns back less, and of both the one is taken whose cost in the lattice and price together are
+//! less; how often joints turn back is counted where the path is answered without the steps of the lattice.
 //!
 //! Branches change between cuts alone. The chain is the best of the lattice, not of all turns between its steps; forces are
 //! those of the path as drawn. Both are looked at again when the path is answered with what was found

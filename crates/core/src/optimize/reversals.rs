@@ -2,9 +2,7 @@
 
 use crate::kernel::Answers;
 use crate::path::SampledPath;
-
-/// A joint that has turned by less than this since it last turned back has not turned yet, rad (m).
-const NOTHING: f64 = 1e-6;
+use crate::robot::STANDS_STILL;
 
 /// Times that each joint turns back on the cuts of `path`; what it does in a rapid does not count, nor over points without
 /// posture.
@@ -25,9 +23,9 @@ pub fn reversals(path: &SampledPath, answers: &Answers) -> Vec<usize> {
             };
             for ((count, (end, way)), q) in counts.iter_mut().zip(ends).zip(joints) {
                 let by = q - *end;
-                if by * *way >= 0.0 && (*way != 0.0 || by.abs() > NOTHING) {
+                if by * *way >= 0.0 && (*way != 0.0 || by.abs() > STANDS_STILL) {
                     (*end, *way) = (*q, if by == 0.0 { *way } else { by.signum() });
-                } else if by.abs() > NOTHING {
+                } else if by.abs() > STANDS_STILL {
                     *count += usize::from(*way != 0.0);
                     (*end, *way) = (*q, by.signum());
                 }

@@ -1,5 +1,9 @@
 //! How much play a joint has between its motor and its link.
 
+/// A joint that has moved by less than this since it last turned back has not moved, rad (m): far above rounding and what a
+/// controller tells apart, far below any gap that matters.
+pub const STANDS_STILL: f64 = 1e-6;
+
 /// Backlash of a joint: the link lies anywhere within a gap, seen from the motor that the controller moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Backlash {

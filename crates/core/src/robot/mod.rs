@@ -25,7 +25,7 @@ pub mod torque_curve;
 pub mod unreachable;
 pub mod yielding;
 
-pub use backlash::{Backlash, Flank};
+pub use backlash::{Backlash, Flank, STANDS_STILL};
 pub use branch::{Branch, BranchPattern, Elbow, Shoulder, Wrist};
 pub use chain::{Amount, Axis, Chain, Motion};
 pub use compensator::{Compensator, Mass};

@@ -20,7 +20,7 @@
 //! Source: the play operator of backlash, as in Nordin and Gutman, Controlling mechanical systems with backlash: a survey,
 //! Automatica 38, 2002 \[recalled\]; `docs/theory/unloaded.md`.
 
-use crate::robot::{Backlash, Flank};
+use crate::robot::{Backlash, Flank, STANDS_STILL};
 use crate::spatial::{Twist, Wrench};
 
 /// Where a link lies (rad, m) that lay at `before`, after its motor has moved by this.
@@ -28,23 +28,18 @@ pub fn dragged(before: f64, moved: f64, gap: f64) -> f64 {
     (before - moved).clamp(-0.5 * gap, 0.5 * gap)
 }
 
-/// Where a link lies that the motor pushes in this sense: what a run-in leaves.
-pub fn pushed(moved: f64, gap: f64) -> f64 {
-    if moved == 0.0 {
-        0.0
-    } else {
-        -0.5 * gap * moved.signum()
-    }
-}
+/// Torques below this hold no flank, N m (N): rounding, far below the friction of any joint.
+const NO_TORQUE: f64 = 1e-6;
 
-/// Moves that are smaller are rounding of inverse kinematics, and push no link, rad (m).
-const ROUNDING: f64 = 1e-11;
-
-/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in the way of the first; in the middle
-/// where the motor stands still but for rounding.
+/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in: at first on the flank that its first
+/// real move pushes, or in the middle of its gap if it stands still all along.
 pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterator<Item = f64> {
-    let first = moves.clone().find(|by| by.abs() > ROUNDING).unwrap_or(0.0);
-    let mut lies = pushed(first, gap);
+    let mut gone = moves.clone().scan(0.0, |gone, by| {
+        *gone += by;
+        Some(*gone)
+    });
+    let first = gone.find(|gone| gone.abs() > STANDS_STILL);
+    let mut lies = first.map_or(0.0, |gone| -0.5 * gap * gone.signum());
     moves.map(move |by| {
         lies = dragged(lies, by, gap);
         lies
@@ -56,7 +51,7 @@ pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterat
 pub fn lies(backlash: &Backlash, dragged: f64, (screw, wrench): (&Twist, &Wrench), torque: f64) -> f64 {
     let torque = torque + screw.dot(wrench);
     match backlash.flank {
-        Flank::Torque if torque != 0.0 => 0.5 * backlash.gap * torque.signum(),
+        Flank::Torque if torque.abs() > NO_TORQUE => 0.5 * backlash.gap * torque.signum(),
         Flank::Torque | Flank::Motion => dragged,
     }
 }
@@ -72,7 +67,7 @@ mod tests {
         let moves = [
             1e-3, 1e-3, -5e-5, -5e-5, -5e-5, -5e-5, -1e-3, 3e-5, 0.0, -3e-5, 1e-3,
         ];
-        let (mut lag, mut motor, mut links) = (pushed(1.0, gap), 0.0, Vec::new());
+        let (mut lag, mut motor, mut links) = (-0.5 * gap, 0.0, Vec::new());
         for by in moves {
             lag = dragged(lag, by, gap);
             motor += by;
@@ -85,7 +80,16 @@ mod tests {
         for (link, told) in links.iter().zip(told) {
             assert!((link - told).abs() < 1e-15, "{links:?}");
         }
-        assert_eq!((pushed(0.0, gap), pushed(-3.0, gap)), (0.0, 1e-4));
+    }
+
+    #[test]
+    fn a_run_in_pushes_to_the_first_real_move() {
+        let after = |moves: &[f64]| along(moves.iter().copied(), 2e-4).collect::<Vec<f64>>();
+        assert_eq!(after(&[0.0, -0.1, 0.3]), [1e-4, 1e-4, -1e-4]);
+        // What rounding moves stands still; a slow joint moves in the end.
+        assert!(after(&[1e-16, -2e-16]).iter().all(|lies| lies.abs() < 1e-15));
+        assert_eq!(after(&[0.0, 4e-7, 4e-7, 4e-7]), [-1e-4; 4]);
+        assert_eq!(after(&[]), [0.0; 0]);
     }
 
     #[test]
@@ -106,6 +110,7 @@ mod tests {
         assert_eq!(held(Flank::Torque, &push(5.0), 0.0), 1e-4);
         assert_eq!(held(Flank::Torque, &push(5.0), -6.0), -1e-4);
         assert_eq!(held(Flank::Torque, &Wrench::ZERO, 0.0), -3e-5);
+        assert_eq!(held(Flank::Torque, &Wrench::ZERO, 1e-12), -3e-5);
         assert_eq!(held(Flank::Motion, &push(5.0), 7.0), -3e-5);
     }
 }

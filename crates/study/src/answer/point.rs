@@ -110,7 +110,8 @@ pub struct PointAnswer {
     pub normal_um: f64,
     /// Largest length of the deviation of all cases.
     pub full_um: f64,
-    /// Share of each of `shares_of` in the in-plane deviation; they add up to it (load-dependent: nearly).
+    /// Share of each of `shares_of` in the in-plane deviation; they add up to it (load-dependent: nearly; the
+    /// geometry of an `actual_robot` is in none).
     pub joint_share_um: Vec<f64>,
     /// Force that keeps the limit in the direction of the deciding case; none where that case has no force or
     /// moves nothing in the plane.

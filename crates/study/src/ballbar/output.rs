@@ -318,7 +318,7 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
         });
     }
     for results in &told.results {
-        let row = |feature: &super::answer::FeatureAnswer| {
+        let row = |feature: &super::results::FeatureAnswer| {
             let ours = feature.ours.map_or_else(String::new, |ours| format!("{ours:.1}"));
             vec![
                 feature.name.clone(),

@@ -106,7 +106,7 @@ pub struct Part {
     pub u: f64,
 }
 
-/// A shift of the centre of more than this part of the radius is no centre of that circle.
+/// A point that is off by more than this part of the radius is none of that circle.
 const FARTHEST: f64 = 0.1;
 
 impl Experiment {
@@ -134,7 +134,7 @@ impl Experiment {
         let mut notes = Vec::new();
         let part = table.part.as_ref().map(|file| {
             let of = (file.as_str(), folder.join(file));
-            part(places, table, of, (radius_mm.unwrap_or(100.0), removed))
+            part(places, table, of, (radius_mm, removed))
         });
         let test = (!table.ballbar.is_empty()).then(|| test(places, table, folder, (removed, &mut notes)));
         let (ask, radius) = circle?;
@@ -243,24 +243,16 @@ fn part(
     places: &mut Places<'_>,
     table: &ExperimentTable,
     (file, path): (&str, std::path::PathBuf),
-    (radius_mm, removed): (f64, Removed),
+    (radius_mm, removed): (Option<f64>, Removed),
 ) -> Option<Part> {
     let key = "measured.part";
     let shown = path.display().to_string();
-    let read = |radius_mm: Option<f64>| {
-        roundness::read(
-            (&shown, &path),
-            &PartWanted {
-                radius_mm,
-                unit: None,
-            },
-        )
+    let wanted = PartWanted {
+        radius_mm: table.radius_mm,
+        else_radius_mm: radius_mm,
+        unit: None,
     };
-    // A file of deviations needs a radius, any other refuses one: that of the circle is tried where none is told.
-    let told = match (read(table.radius_mm), table.radius_mm) {
-        (Err(error), None) => read(Some(radius_mm)).map_err(|_| error),
-        (found, _) => found,
-    };
+    let told = roundness::read((&shown, &path), &wanted);
     let measured = taken(places, key, told)?;
     let count = measured.points.count();
     let points = match measured.points {
@@ -282,7 +274,6 @@ fn part(
             points.iter().map(|point| plane.seen(point)).collect()
         }
     };
-    let nominal = radius_mm * 1e-3;
     let (centre, points) = match removed.centre {
         false => (None, points),
         true => match Profile::new(points) {
@@ -297,6 +288,9 @@ fn part(
             }
         },
     };
+    // Where the circle is unknown that is a problem already, and nothing more can be said of the part.
+    let radius_mm = radius_mm?;
+    let nominal = radius_mm * 1e-3;
     let turned = Turned::new(table.zero_deg, table.mirrored);
     let angle = points.iter().map(|p| turned.angle(p.y.atan2(p.x))).collect();
     let deviation: Vec<f64> = points.iter().map(|p| p.coords.norm() - nominal).collect();
@@ -421,11 +415,7 @@ fn taken<T>(places: &mut Places<'_>, key: &str, read: Result<T, StudyError>) -> 
             None
         }
         Err(StudyError::Value { message, hint }) => {
-            places.problem(
-                key,
-                message,
-                &hint.replace("--radius-mm 100", "radius_mm = 100 beside the files"),
-            );
+            places.problem(key, message, &hint);
             None
         }
         Err(error) => {

@@ -4,7 +4,6 @@
 //! those of the next, and a value of the study that several asks take is told once.
 
 use std::path::Path;
-use std::sync::Arc;
 
 use armill_core::frame::Isometry;
 use armill_core::kernel::BranchChoice;
@@ -18,8 +17,8 @@ use armill_core::spatial::Wrench;
 use armill_core::workpiece::{Grid, Plane};
 use armill_formats::document::{Document, Problem, Problems};
 use armill_formats::robot::RobotDescription;
-use armill_formats::sources::Source;
 
+use super::actual::find_actual;
 use super::ask::Resolver;
 use super::circles::MeasuredCircle;
 use super::compliance::{self, OwnCompliance};
@@ -303,59 +302,6 @@ fn without_repeats(problems: Vec<Problem>) -> Vec<Problem> {
         }
     }
     kept
-}
-
-/// The robot as it was measured.
-struct Actual {
-    robot: Arc<Robot>,
-    /// Where its numbers come from.
-    sources: Vec<Source>,
-}
-
-/// The robot as it was measured; `None` where the study names none, or one that does not fit,
-/// told at its place.
-///
-/// # Errors
-/// The problems of its file.
-fn find_actual(
-    places: &mut Places<'_>,
-    file: &StudyFile,
-    (believed, folder): (&RobotDescription, &Path),
-) -> Result<Option<Actual>, StudyError> {
-    let Some(name) = &file.actual_robot else {
-        return Ok(None);
-    };
-    let found = match robots::find(name, folder) {
-        Ok(found) => found,
-        Err(StudyError::Value { message, hint }) => {
-            places.problem("actual_robot", message, &hint);
-            return Ok(None);
-        }
-        Err(problems) => return Err(problems),
-    };
-    let [joints, of_controller] = [&found, believed].map(|robot| robot.robot.joints().len());
-    let slides = |robot: &Robot| {
-        (0..robot.joints().len())
-            .map(|joint| robot.slides(joint))
-            .collect::<Vec<_>>()
-    };
-    if joints != of_controller || slides(&found.robot) != slides(&believed.robot) {
-        let message = format!(
-            "`{name}` has other joints than `{}`: {joints} and {of_controller}",
-            file.robot
-        );
-        let hint = "the same arm as `robot`, with the lengths and angles that were measured";
-        places.problem("actual_robot", message, hint);
-        return Ok(None);
-    }
-    let sources = found.sources.into_iter().map(|source| Source {
-        key: format!("actual:{}", source.key),
-        ..source
-    });
-    Ok(Some(Actual {
-        robot: Arc::new(found.robot),
-        sources: sources.collect(),
-    }))
 }
 
 /// The robot of the study, with its compliances and its positioner where the study brings them; `None` where it is not

@@ -38,6 +38,8 @@ pub(super) struct Arm {
     pub lever: Vector3<f64>,
     /// Sine of the elbow's bend below which the arm counts as near its stretched or folded pose.
     pub near_elbow: f64,
+    /// Distance of the wrist centre from axis 1, as a share of the stretched arm, below which it counts as near it.
+    pub near_shoulder: f64,
 }
 
 /// How a joint counts and how far it goes: `q = gain phi + start - coupling`.
@@ -96,6 +98,7 @@ impl Arm {
             tool_from_axis_5: tool_from_flange * arm.flange_from_axis_5,
             lever: -(tool_from_flange * arm.flange_from_wrist).coords,
             near_elbow: NEAR_SINGULAR,
+            near_shoulder: NEAR_SINGULAR,
         }
     }
 
@@ -105,6 +108,20 @@ impl Arm {
             joint.half = (joint.half - margin).max(0.0);
         }
         self.near_elbow = NEAR_SINGULAR.max(margin.sin());
+    }
+
+    /// Lets postures stand that are by `slack` (rad, and as a share) closer than they may to where they may not.
+    pub fn allow(&mut self, slack: f64) {
+        for joint in &mut self.joints {
+            joint.half += slack;
+        }
+        self.near_elbow *= 1.0 - slack;
+        self.near_shoulder *= 1.0 - slack;
+    }
+
+    /// No TCP is farther than this from an axis that moves it, m.
+    pub fn longest_lever(&self) -> f64 {
+        self.a1.abs() + self.b.abs() + self.l2 + self.l3 + self.lever.norm()
     }
 
     /// Rotation of base vectors into the arm's axes.

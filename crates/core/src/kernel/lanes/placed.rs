@@ -8,12 +8,16 @@
 //! | orientation of the tool | solved once a place | a rotation a point |
 //! | directions that count | turned once a place | turned into the arm's axes a point |
 //! | wrenches | turned once a place | the rows of the compliance are turned to them |
+//!
+//! In `f32` a place costs half as much and is told less well: [`Placer::generous`] counts points as held that are by
+//! [`GENEROUS`] nearer than allowed to where the arm may not stand, and deviations stray by [`Placer::strays`] at most. So it can
+//! prove that a place is not worth a second look, and nothing else.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
 use super::aims;
 use super::arm::Arm;
-use super::backend::Backend;
+use super::backend::{Backend, Precision};
 use super::batch::{Batch, Scratch};
 use super::block::{BLOCK, Planes, planes};
 use super::laid::{Laid, filled, six};
@@ -26,76 +30,41 @@ use crate::kernel::question::Question;
 use crate::robot::inverse::OrthoParallel;
 use crate::spatial::Wrench;
 
+/// How much nearer (rad, and as a share) to limits and singular postures than they may come points still count as held
+/// in single precision. There, two degrees off a singular posture, angles stray by `1e-7 / sin 1 deg`, cosines by 1e-7; ends of
+/// ranges are told by cosines, which this turns by 5e-5 at the least.
+const GENEROUS: f64 = 0.01;
+
+/// What deviations stray by in single precision, as a share of [`Placer::longest`]: rounding of 6e-8 in some ten sums, over the
+/// least sine of a bend, `sin 1 deg`.
+const STRAYS: f64 = 3.5e-5;
+
 /// Judges places of a path; one a thread.
 #[derive(Clone, Debug)]
-pub(in crate::kernel) struct Placer {
-    batch: Batch<f64>,
+pub(in crate::kernel) struct Placer<T> {
+    batch: Batch<T>,
     /// The arm as the robot's base sees it.
     standing: Arm,
     /// Where the limits told by cosines want axis 5, tool axes.
     middle: Option<Vector3<f64>>,
-    rows: Box<Planes<f64, 12>>,
+    rows: Box<Planes<T, 12>>,
     /// Least squared sine of the wrist's bend.
     bend2: f64,
     /// Deviations above it are summed, m.
     limit: f64,
 }
 
-impl Placer {
+impl Placer<f64> {
     /// For an arm of this form, which keeps away from its limits as `keeping` says.
-    pub fn new(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping) -> Placer {
-        let mut batch = Batch::new(question, form, Backend::fastest());
-        let prepared = &mut batch.prepared;
-        prepared.arm.keep_away(keeping.margin);
-        prepared.cosines = CosineLimits::new(&prepared.arm);
-        // The part is seldom turned as the arm is.
-        prepared.turned = true;
-        Placer {
-            standing: prepared.arm.clone(),
-            middle: prepared.cosines.as_ref().map(|cosines| cosines.tool_middle),
-            batch,
-            rows: Box::new(planes()),
-            bend2: keeping.wrist.max(keeping.margin).sin().powi(2),
-            limit: keeping.limit,
-        }
-    }
-
-    /// What each of front elbow-up, front elbow-down, back elbow-up and back elbow-down makes of the points where the part
-    /// lies so; goes on after a block with those that `worth` says yes to.
-    pub fn judge(
-        &mut self,
-        laid: &Laid,
-        lie: &Lie,
-        mut worth: impl FnMut(usize, &Tallied) -> bool,
-    ) -> [Tallied; 4] {
-        self.stand(laid, lie);
-        let mut tallied = [Tallied::default(); 4];
-        let mut open = std::array::from_fn(|four| worth(four, &tallied[four]));
-        for block in 0..laid.at.len() {
-            if open == [false; 4] {
-                break;
-            }
-            let (bend2, limit) = (self.bend2, self.limit);
-            self.each_posture(laid, block, open, |four, batch| {
-                batch.backend.run(Tally {
-                    postures: &batch.scratch.postures,
-                    deviation: &batch.scratch.in_plane,
-                    used: BLOCK.min(laid.count - block * BLOCK),
-                    bend2,
-                    limit,
-                    out: &mut tallied[four],
-                });
-            });
-            open = std::array::from_fn(|four| open[four] && worth(four, &tallied[four]));
-        }
-        tallied
+    pub fn new(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping) -> Placer<f64> {
+        Placer::with_slack(question, form, keeping, 0.0)
     }
 
     /// The least deviation at each point, of all turns of the tool and all branches that are open, into `least`; infinite where
     /// none stands.
     pub fn least_of_each(
         &mut self,
-        laid: &Laid,
+        laid: &Laid<f64>,
         (lie, spins): (&Lie, &[f64]),
         open: [bool; 8],
         least: &mut Vec<f64>,
@@ -127,14 +96,80 @@ impl Placer {
             least.extend_from_slice(&best[..used]);
         }
     }
+}
+
+impl Placer<f32> {
+    /// The same, which holds a little more than the arm may: see [`GENEROUS`].
+    pub fn generous(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping) -> Placer<f32> {
+        Placer::with_slack(question, form, keeping, GENEROUS)
+    }
+
+    /// Deviations that it tells stray from the true ones by this at most, m.
+    pub fn strays(&self, laid: &Laid<f32>) -> f64 {
+        let prepared = &self.batch.prepared;
+        let lever = prepared.arm.longest_lever();
+        let sum: f64 = prepared.compliance.iter().sum();
+        STRAYS * sum * lever * (lever * laid.strongest[0] + laid.strongest[1])
+    }
+}
+
+impl<T: Precision> Placer<T> {
+    fn with_slack(question: &Question<'_>, form: &OrthoParallel, keeping: &Keeping, slack: f64) -> Placer<T> {
+        let mut batch = Batch::new(question, form, Backend::fastest());
+        let prepared = &mut batch.prepared;
+        prepared.arm.keep_away(keeping.margin);
+        prepared.arm.allow(slack);
+        prepared.cosines = CosineLimits::new(&prepared.arm);
+        // The part is seldom turned as the arm is.
+        prepared.turned = true;
+        Placer {
+            standing: prepared.arm.clone(),
+            middle: prepared.cosines.as_ref().map(|cosines| cosines.tool_middle),
+            batch,
+            rows: Box::new(planes()),
+            bend2: (keeping.wrist.max(keeping.margin).sin() * (1.0 - slack)).powi(2),
+            limit: keeping.limit,
+        }
+    }
+
+    /// What each of front elbow-up, front elbow-down, back elbow-up and back elbow-down makes of the points where the part
+    /// lies so; goes on after a block with those that `worth` says yes to.
+    pub fn judge(
+        &mut self,
+        laid: &Laid<T>,
+        lie: &Lie,
+        mut worth: impl FnMut(usize, &Tallied) -> bool,
+    ) -> [Tallied; 4] {
+        self.stand(laid, lie);
+        let mut tallied = [Tallied::default(); 4];
+        let mut open = std::array::from_fn(|four| worth(four, &tallied[four]));
+        for block in 0..laid.at.len() {
+            if open == [false; 4] {
+                break;
+            }
+            let (bend2, limit) = (self.bend2, self.limit);
+            self.each_posture(laid, block, open, |four, batch| {
+                batch.backend.run(Tally {
+                    postures: &batch.scratch.postures,
+                    deviation: &batch.scratch.in_plane,
+                    used: BLOCK.min(laid.count - block * BLOCK),
+                    bend2,
+                    limit,
+                    out: &mut tallied[four],
+                });
+            });
+            open = std::array::from_fn(|four| open[four] && worth(four, &tallied[four]));
+        }
+        tallied
+    }
 
     /// Gives `told` each posture of the block that is open, solved, with its limits flagged and its deviations weighed.
     fn each_posture(
         &mut self,
-        laid: &Laid,
+        laid: &Laid<T>,
         block: usize,
         open: [bool; 4],
-        mut told: impl FnMut(usize, &Batch<f64>),
+        mut told: impl FnMut(usize, &Batch<T>),
     ) {
         let still = laid.rotations.is_empty();
         self.batch.place(laid.at[block].each_ref());
@@ -154,7 +189,7 @@ impl Placer {
     }
 
     /// Lets the arm stand as a part that lies so sees it.
-    fn stand(&mut self, laid: &Laid, lie: &Lie) {
+    fn stand(&mut self, laid: &Laid<T>, lie: &Lie) {
         let prepared = &mut self.batch.prepared;
         let spin = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), lie.spin);
         prepared.arm.arm_from_base = self.standing.arm_from_base * lie.base_from_part;
@@ -182,7 +217,7 @@ impl Placer {
     }
 
     /// Deviation that counts at the points of the solved block, into the scratch.
-    fn weigh(&mut self, laid: &Laid, block: usize) {
+    fn weigh(&mut self, laid: &Laid<T>, block: usize) {
         let still = laid.rotations.is_empty();
         let batch = &mut self.batch;
         if laid.along.is_empty() && laid.wrenches.is_empty() {
@@ -208,7 +243,7 @@ impl Placer {
         let rows = &mut *self.rows;
         macro_rules! rows_of_each {
             ($still:literal, $moments:literal) => {
-                batch.backend.run(RowsOfEach::<$still, $moments> {
+                batch.backend.run(RowsOfEach::<T, $still, $moments> {
                     prepared,
                     arm_from_part: &arm_from_part,
                     along,
@@ -224,7 +259,7 @@ impl Placer {
             (false, false) => rows_of_each!(false, false),
             (false, true) => rows_of_each!(false, true),
         }
-        let shared: Vec<Planes<f64, 6>>;
+        let shared: Vec<Planes<T, 6>>;
         let wrenches = match laid.wrenches.is_empty() {
             false => &laid.wrenches[block * laid.cases..][..laid.cases],
             true => {

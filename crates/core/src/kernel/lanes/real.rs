@@ -36,6 +36,8 @@ pub trait Float: Copy + Debug + Default + PartialOrd + Send + Sync + 'static {
     fn from_f64(value: f64) -> Self;
     /// The same value.
     fn to_f64(self) -> f64;
+    /// Without what is behind the point.
+    fn to_i32(self) -> i32;
 }
 
 impl Float for f64 {
@@ -52,6 +54,10 @@ impl Float for f64 {
     fn to_f64(self) -> f64 {
         self
     }
+    #[inline(always)]
+    fn to_i32(self) -> i32 {
+        self as i32
+    }
 }
 
 impl Float for f32 {
@@ -67,6 +73,10 @@ impl Float for f32 {
     }
     fn to_f64(self) -> f64 {
         f64::from(self)
+    }
+    #[inline(always)]
+    fn to_i32(self) -> i32 {
+        self as i32
     }
 }
 

@@ -190,7 +190,7 @@ impl<R: Real> Links<R> {
             l2_less_l3: R::of(arm.l2 * arm.l2 - arm.l3 * arm.l3),
             half_per_l2: R::of(0.5 / arm.l2),
             near_elbow: R::of(arm.near_elbow * arm.l3),
-            near_shoulder: R::of(NEAR_SINGULAR * (arm.l2 + arm.l3)),
+            near_shoulder: R::of(arm.near_shoulder * (arm.l2 + arm.l3)),
             forearm: [
                 Vector::of(&arm.forearm[0]),
                 Vector::of(&arm.forearm[1]),

@@ -2,7 +2,7 @@
 
 use super::backend::Work;
 use super::block::{BLOCK, Plane};
-use super::real::Real;
+use super::real::{Float, Real};
 use super::solve::{Postures, flag};
 
 /// What a posture that differs in more than the wrist's flip makes of the points.
@@ -48,9 +48,9 @@ impl Work<f64> for Lesser<'_> {
 const NEVER: u32 = flag::UNREACHABLE | flag::WRIST_UNDECIDED | flag::NEAR_ELBOW | flag::NEAR_SHOULDER;
 
 /// Adds a block to what is told of a posture.
-pub(super) struct Tally<'a> {
-    pub postures: &'a Postures<f64>,
-    pub deviation: &'a Plane<f64>,
+pub(super) struct Tally<'a, T> {
+    pub postures: &'a Postures<T>,
+    pub deviation: &'a Plane<T>,
     pub used: usize,
     pub bend2: f64,
     pub limit: f64,
@@ -60,37 +60,38 @@ pub(super) struct Tally<'a> {
 /// Sums are taken this many at a time, always the same ones together.
 const SIDE: usize = 16;
 
-impl Work<f64> for Tally<'_> {
+impl<T: Float> Work<T> for Tally<'_, T> {
     #[inline(always)]
-    fn run<R: Real<Float = f64>>(self) {
+    fn run<R: Real<Float = T>>(self) {
         let never = NEVER as i32;
         let (plain, flipped) = (flag::OUTSIDE_LIMITS as i32, flag::OUTSIDE_LIMITS_FLIPPED as i32);
+        let zero = R::of(0.0);
+        let (least_bend2, limit) = (R::of(self.bend2), R::of(self.limit));
         let mut lost = [[0_i32; SIDE]; 2];
-        let (mut worst, mut sum, mut above) = ([0.0; SIDE], [0.0; SIDE], [0.0; SIDE]);
+        let (mut worst, mut sum, mut above) = ([zero; SIDE], [zero; SIDE], [zero; SIDE]);
         let (flags, bend2) = (&self.postures.flags, self.postures.bend2());
         for first in (0..BLOCK).step_by(SIDE) {
             for k in 0..SIDE {
                 R::step();
                 let i = first + k;
                 let here = i < self.used;
-                let bits = flags[i] as i32;
-                let bent = bend2[i] >= self.bend2;
+                let bits = flags[i].to_i32();
+                let bent = R::load(bend2[i]) >= least_bend2;
                 let stands = ((bits & never) == 0) & bent;
                 lost[0][k] += i32::from(here & !(stands & ((bits & plain) == 0)));
                 lost[1][k] += i32::from(here & !(stands & ((bits & flipped) == 0)));
-                let counts = here & stands;
-                let deviation = if counts { self.deviation[i] } else { 0.0 };
-                worst[k] = if deviation > worst[k] { deviation } else { worst[k] };
-                sum[k] += deviation;
-                let more = deviation - self.limit;
-                above[k] += if more > 0.0 { more } else { 0.0 };
+                let deviation = R::either(here & stands, R::load(self.deviation[i]), zero);
+                worst[k] = deviation.max(worst[k]);
+                sum[k] = sum[k] + deviation;
+                above[k] = above[k] + (deviation - limit).max(zero);
             }
         }
         for flip in 0..2 {
             self.out.lost[flip] += lost[flip].iter().sum::<i32>() as usize;
         }
-        self.out.worst = worst.iter().copied().fold(self.out.worst, f64::max);
-        self.out.sum += sum.iter().sum::<f64>();
-        self.out.above += above.iter().sum::<f64>();
+        let told = |lanes: [R; SIDE]| lanes.into_iter().map(|lane| lane.store().to_f64());
+        self.out.worst = told(worst).fold(self.out.worst, f64::max);
+        self.out.sum += told(sum).sum::<f64>();
+        self.out.above += told(above).sum::<f64>();
     }
 }

@@ -10,25 +10,25 @@ use super::block::{Aims, BLOCK, Plane, Planes, aim, put, vector};
 use super::envelope::lanes_of;
 use super::flexibility::Flexibility;
 use super::prepared::Prepared;
-use super::real::Real;
+use super::real::{Float, Real};
 use super::screws::Screws;
 use super::solve::{Links, Postures, Solved};
 use super::vector::Vector;
 
 /// Rows of the compliance along the directions of each point, arm axes.
-pub(super) struct RowsOfEach<'a, const STILL: bool, const MOMENTS: bool> {
+pub(super) struct RowsOfEach<'a, T, const STILL: bool, const MOMENTS: bool> {
     pub prepared: &'a Prepared,
     pub arm_from_part: &'a Matrix3<f64>,
     /// Two directions, part axes.
-    pub along: &'a Planes<f64, 6>,
-    pub aims: &'a Aims<f64>,
-    pub postures: &'a Postures<f64>,
-    pub rows: &'a mut Planes<f64, 12>,
+    pub along: &'a Planes<T, 6>,
+    pub aims: &'a Aims<T>,
+    pub postures: &'a Postures<T>,
+    pub rows: &'a mut Planes<T, 12>,
 }
 
-impl<const STILL: bool, const MOMENTS: bool> Work<f64> for RowsOfEach<'_, STILL, MOMENTS> {
+impl<T: Float, const STILL: bool, const MOMENTS: bool> Work<T> for RowsOfEach<'_, T, STILL, MOMENTS> {
     #[inline(always)]
-    fn run<R: Real<Float = f64>>(self) {
+    fn run<R: Real<Float = T>>(self) {
         let links = Links::<R>::new(&self.prepared.arm);
         let compliance = lanes_of::<R>(&self.prepared.compliance);
         let turn = Turn::<R>::new(self.arm_from_part);
@@ -51,19 +51,19 @@ impl<const STILL: bool, const MOMENTS: bool> Work<f64> for RowsOfEach<'_, STILL,
 }
 
 /// The largest deviation of the wrenches of each point.
-pub(super) struct LargestOfEach<'a> {
+pub(super) struct LargestOfEach<'a, T> {
     pub told_from_arm: &'a Matrix3<f64>,
     pub moments: bool,
     /// Case after case.
-    pub wrenches: &'a [Planes<f64, 6>],
+    pub wrenches: &'a [Planes<T, 6>],
     /// Turned to the axes of the wrenches on the way.
-    pub rows: &'a mut Planes<f64, 12>,
-    pub deviation: &'a mut Plane<f64>,
+    pub rows: &'a mut Planes<T, 12>,
+    pub deviation: &'a mut Plane<T>,
 }
 
-impl Work<f64> for LargestOfEach<'_> {
+impl<T: Float> Work<T> for LargestOfEach<'_, T> {
     #[inline(always)]
-    fn run<R: Real<Float = f64>>(self) {
+    fn run<R: Real<Float = T>>(self) {
         let turn = Turn::<R>::new(self.told_from_arm);
         let used = if self.moments { 4 } else { 2 };
         let mut row = 0;
@@ -75,7 +75,7 @@ impl Work<f64> for LargestOfEach<'_> {
             }
             row += 1;
         }
-        self.deviation.fill(0.0);
+        self.deviation.fill(T::default());
         for wrench in self.wrenches {
             for i in 0..BLOCK {
                 R::step();

@@ -45,6 +45,21 @@ fn path(random: &mut Stream, [turned, each]: [bool; 2], told_in: ToldIn) -> Plac
     PlacedPath::new(points, pushes)
 }
 
+/// A place whose first point is held by joints within their limits.
+fn within_reach(random: &mut Stream, robot: &crate::robot::Robot, tool: &Isometry, path: &PlacedPath) -> Lie {
+    let joints = random.joints(robot);
+    let stands = crate::robot::forward::forward(robot, &joints).base_from_flange;
+    let base_from_flange = Isometry::from_parts(
+        stands.translation,
+        UnitQuaternion::from_rotation_matrix(&stands.rotation),
+    );
+    Lie {
+        base_from_part: base_from_flange * tool * path.points[0].part_from_tool.inverse(),
+        spin: 0.0,
+        rail: None,
+    }
+}
+
 #[test]
 fn lanes_judge_as_one_pose_after_the_other_does() {
     let mut random = Stream(4);
@@ -73,17 +88,9 @@ fn lanes_judge_as_one_pose_after_the_other_does() {
                     [round % 2 == 1, round % 4 > 1],
                     [ToldIn::Base, ToldIn::Part][round / 6],
                 );
-                let joints = random.joints(&robot);
-                let stands = crate::robot::forward::forward(&robot, &joints).base_from_flange;
-                let base_from_flange = Isometry::from_parts(
-                    stands.translation,
-                    UnitQuaternion::from_rotation_matrix(&stands.rotation),
-                );
                 let lie = Lie {
-                    // The first point is where these joints hold it.
-                    base_from_part: base_from_flange * tool * path.points[0].part_from_tool.inverse(),
                     spin: 0.3 * round as f64,
-                    rail: None,
+                    ..within_reach(&mut random, &robot, &tool, &path)
                 };
                 let open = match round {
                     3 => BranchPattern::from(Branch::ALL[1]),
@@ -152,4 +159,55 @@ fn branches_that_are_not_worth_it_are_given_up() {
     assert_eq!(none, [None; SLOTS]);
     // A judge keeps nothing from one place to the next.
     assert_eq!(judge.judge(&path, &lie, BranchPattern::default(), |_| true), all);
+}
+
+#[test]
+fn a_glance_loses_no_place_that_is_worth_it() {
+    let mut random = Stream(11);
+    let tool = Isometry::from_parts(
+        Translation3::new(0.03, -0.02, 0.15),
+        UnitQuaternion::from_scaled_axis(Vector3::new(0.2, 0.4, -0.1)),
+    );
+    let (mut alike, mut farthest) = (0, 0.0_f64);
+    for robot in arms::all() {
+        let arm = arm(&robot, &tool);
+        for (margin, wrist) in [(0.0, 0.0), (0.1, 0.05)] {
+            let keeping = Keeping {
+                margin,
+                wrist,
+                limit: 2e-4,
+            };
+            let mut judge = Judge::new(arm, None, keeping);
+            let mut glance = Glance::new(arm, keeping).unwrap();
+            for round in 0..200 {
+                let path = path(
+                    &mut random,
+                    [round % 2 == 1, round % 4 > 1],
+                    [ToldIn::Base, ToldIn::Part][round / 100],
+                );
+                let lie = within_reach(&mut random, &robot, &tool, &path);
+                let strays = glance.strays(&path);
+                let truly = judge.judge(&path, &lie, BranchPattern::default(), |_| true);
+                let seen = by_lanes(&mut glance.0, (&path.single, &lie), [true; SLOTS], |_| true);
+                for (truly, seen) in truly.into_iter().flatten().zip(seen.into_iter().flatten()) {
+                    assert!(seen.lost <= truly.lost, "{}: {seen:?} {truly:?}", robot.name());
+                    if truly.lost > 0 {
+                        continue;
+                    }
+                    let held = path.len() as f64;
+                    let off = [
+                        seen.worst - truly.worst,
+                        (seen.sum - truly.sum) / held,
+                        (seen.above - truly.above) / held,
+                    ];
+                    let off = off.map(f64::abs).into_iter().fold(0.0, f64::max);
+                    assert!(off <= strays, "{}: {off} {strays}", robot.name());
+                    alike += usize::from(truly.worst > 0.0);
+                    farthest = farthest.max(off / strays);
+                }
+            }
+        }
+    }
+    // Neither never asked nor a bound that could not be broken.
+    assert!(alike > 2000 && farthest > 3e-4, "{alike} {farthest}");
 }

@@ -19,8 +19,8 @@ pub mod run;
 pub mod taught;
 
 pub use centre::{Centre, least_squares_centre};
-pub use difference::{Difference, Span, between_directions, between_runs};
-pub use lobes::{Lobes, lobes};
+pub use difference::{Difference, Span, between_directions, repeats};
+pub use lobes::{Lobes, lobes, most_lobes};
 pub use outlier::{Outlier, outliers};
 pub use profile::Profile;
 pub use quantities::{Extreme, Quantities, hysteresis, mean_bidirectional, quantities};

@@ -12,6 +12,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use super::Wanted;
+
 /// No coordinate is larger, m: what [`armill_core::roundness::Profile`] takes.
 const FARTHEST: f64 = 1e6;
 /// No angle is larger: a thousand turns of an instrument, rad.
@@ -176,19 +178,19 @@ const IN_ORDER: [Quantity; 6] = [
 ];
 
 impl Layout {
-    /// How rows with these columns become points; `radius_mm` is the radius that deviations are told from.
+    /// How rows with these columns become points; `wanted` tells the radius that deviations count from.
     ///
     /// # Errors
     /// Columns that make no point, or more than one; a radius that is missing, idle or not above 0: what is wrong, and
     /// what to do.
-    pub fn of(columns: &[Quantity], radius_mm: Option<f64>) -> Result<Layout, (String, &'static str)> {
+    pub fn of(columns: &[Quantity], wanted: &Wanted) -> Result<Layout, (String, &'static str)> {
         let has = IN_ORDER.map(|quantity| columns.contains(&quantity));
         let layout = match has {
             [true, true, false, false, false, false] => Layout::Plane,
             [true, true, true, false, false, false] => Layout::Space,
             [false, false, false, true, true, false] => Layout::Polar,
             [false, false, false, true, false, true] => {
-                let Some(radius_mm) = radius_mm else {
+                let Some(radius_mm) = wanted.radius_mm.or(wanted.else_radius_mm) else {
                     let message = "deviations need the radius that they are told from".to_owned();
                     return Err((message, "tell it (option `radius_mm`)"));
                 };
@@ -203,7 +205,7 @@ impl Layout {
                 return Err((message, COLUMNS_HINT));
             }
         };
-        match radius_mm {
+        match wanted.radius_mm {
             Some(radius_mm) => {
                 let message =
                     format!("a radius of {radius_mm} mm was told, but no column holds deviations from it");
