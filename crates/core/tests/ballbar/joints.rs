@@ -296,7 +296,11 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
         );
     }
     let test = measured(&of, &GAPS, (1e-6, 2, 5));
-    let one = found(&[of.clone()], &[test.clone()], &Asked::of_all(6));
+    let one = found(
+        std::slice::from_ref(&of),
+        std::slice::from_ref(&test),
+        &Asked::of_all(6),
+    );
     assert!(!one.together.is_empty(), "{one:?}");
     // With circles of a plan beside it all of them are.
     let domain = Domain {
@@ -308,7 +312,7 @@ fn on_the_circle_of_the_paper_three_joints_turn_back_together_and_are_not_told_a
     };
     let plan = propose(
         &asked,
-        (&domain.candidates(), &[of.clone()]),
+        (&domain.candidates(), std::slice::from_ref(&of)),
         &PlanAsked {
             count: 3,
             joints: (0..6).collect(),
@@ -425,7 +429,11 @@ fn an_arm_twice_as_large_shows_the_same_gaps_twice_as_large() {
             ..Asked::of_all(6)
         };
         let gaps = [GAPS[0], 0.0, 0.0, GAPS[3], 0.0, 0.0];
-        found(&[of.clone()], &[measured(of, &gaps, (0.0, 1, 1))], &asked)
+        found(
+            std::slice::from_ref(of),
+            &[measured(of, &gaps, (0.0, 1, 1))],
+            &asked,
+        )
     });
     for (small, large) in small.told.iter().zip(&large.told) {
         assert!((small.gap - large.gap).abs() < 1e-9, "{small:?} {large:?}");

@@ -27,13 +27,13 @@ use crate::output::{Picture, prepare, slug, write_pictures};
 /// The folder or a file cannot be written.
 pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &Path) -> Result<(), StudyError> {
     prepare(out)?;
-    write_atomically(&out.join("reversals.csv"), &csv::write(&table(told)?))?;
+    write_atomically(out.join("reversals.csv"), &csv::write(&table(told)?))?;
     let pictures: Vec<Picture> = (found.circles.iter().zip(&told.circles))
         .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
         .collect();
     write_pictures("", &pictures, out)?;
     write_atomically(
-        &out.join("result.json"),
+        out.join("result.json"),
         serde_json::to_string_pretty(told)?.as_bytes(),
     )?;
     Ok(())
