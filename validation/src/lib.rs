@@ -36,6 +36,8 @@ mod force_to_deflection;
 mod inverse_vs_opw;
 #[path = "../jacobian-differences/case.rs"]
 mod jacobian_differences;
+#[path = "../joint-backlash-closed-forms/case.rs"]
+mod joint_backlash_closed_forms;
 #[path = "../mh12-fractions/case.rs"]
 mod mh12_fractions;
 #[path = "../mh12-readings/case.rs"]
@@ -135,6 +137,10 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "budget-circles",
         checks: budget_circles::checks,
+    },
+    Case {
+        folder: "joint-backlash-closed-forms",
+        checks: joint_backlash_closed_forms::checks,
     },
     Case {
         folder: "plane-split",

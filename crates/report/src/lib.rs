@@ -87,7 +87,7 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
-pub use ballbar_plot::{BallbarPlot, BallbarTrace, Sense};
+pub use ballbar_plot::{BallbarPlot, BallbarTrace, RayMark, Sense};
 pub use budget_bars::{BudgetBar, BudgetBars, BudgetGroup};
 pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;

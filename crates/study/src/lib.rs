@@ -3,7 +3,7 @@
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
-//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
+//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
 //! measured paths,
 //! [`budget`] puts what was measured beside what is predicted,
 //! [`place`] finds where a part may lie best, [`advise`] what to do about a path.
@@ -16,6 +16,7 @@
 
 pub mod advise;
 pub mod answer;
+pub mod backlash;
 pub mod ballbar;
 pub mod budget;
 pub mod calibrate;

@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `path_accuracy`, `completions`; `poses` and `program` are for two of them each.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `completions`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod advise;
+mod backlash;
 mod ballbar;
 mod budget;
 mod calibrate;
@@ -34,6 +35,7 @@ mod roundness;
 mod run;
 
 pub(crate) use advise::AdviseArguments;
+pub(crate) use backlash::BacklashArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
 pub(crate) use budget::BudgetArguments;
 pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
@@ -110,6 +112,8 @@ pub(crate) enum Command {
     Roundness(RoundnessArguments),
     /// How round the tool goes, and why not rounder, from a ball-bar
     Ballbar(Box<BallbarArguments>),
+    /// How much play each joint has, from a ball-bar; which circles tell; made-up tests
+    Backlash(Box<BacklashArguments>),
     /// How near the arm comes to its poses, and how alike, from a laser tracker
     PoseAccuracy(Box<PoseAccuracyArguments>),
     /// How near the tip keeps to a path, and how alike, from a laser tracker
@@ -144,6 +148,7 @@ impl Command {
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
+            Command::Backlash(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Budget(a) => a.json,

@@ -15,15 +15,15 @@
 use std::path::PathBuf;
 
 use armill_formats::file::write_atomically;
-use armill_formats::measurement::ballbar::Told;
+use armill_formats::measurement::ballbar::{Told, direction_of};
 use armill_formats::robot_program::Written;
 use armill_study::StudyError;
-use armill_study::ballbar::answer::{FeatureAnswer, LobeAnswer, PartAnswer, ShownAnswer};
-use armill_study::ballbar::read::direction_of;
+use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
+use armill_study::ballbar::results::FeatureAnswer;
 use armill_study::ballbar::teach::ComparedQuantity;
 use armill_study::ballbar::{
-    BallbarAnswer, Centring, CircleWanted, Cyclic, Measured, Question, TaughtAnswer, TaughtCircle, Wanted,
-    analyse, answer, before, output, points_within, read, sagitta, taught_program, teach,
+    BallbarAnswer, Centring, CircleWanted, Cyclic, Found, Measured, Question, TaughtAnswer, TaughtCircle,
+    Wanted, analyse, answer, before, output, points_within, read, sagitta, taught_program, teach,
 };
 use armill_study::number::decimals;
 use armill_study::studies;
@@ -53,27 +53,34 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let mut answer = answer(&measured, &question, &found);
     if !arguments.before.is_empty() {
         let first = read(&arguments.before, &wanted)?;
-        answer.before = Some(before(&first.files, (&analyse(&first, &question)?, &found)));
+        let shown = analyse(&first, &question)?;
+        answer.before = Some(before((&first, &shown), (&measured, &found))?);
     }
-    let taught = taught(arguments, &measured)?;
+    let taught = taught(arguments, (&measured, &found))?;
     let table = match &taught {
         None => None,
-        Some((told, circle, program)) => {
+        Some((told, circle, _)) => {
+            if told.most_lobes < arguments.teach_lobes {
+                answer.warnings.push(format!(
+                    "the taught circle takes off {} lobes, not {}: the samples are too far apart for more",
+                    told.most_lobes, arguments.teach_lobes
+                ));
+            }
             answer.taught = Some(told.clone());
-            let table = circle.csv()?;
-            if let Some(file) = &arguments.teach {
-                write_atomically(file, &table)?;
-                say(&format!("points to teach in {}", file.display()));
-            }
-            if let Some((folder, written)) = program {
-                save(folder, written)?;
-            }
-            Some(table)
+            Some(circle.csv()?)
         }
     };
     if let Some(out) = &arguments.out {
         output::write(&answer, (&measured, &found), (out, table.as_deref()))?;
         say(&format!("tables, pictures and report in {}", out.display()));
+    }
+    // Last, so that points stand nowhere if the folder cannot be written.
+    if let (Some(file), Some(table)) = (&arguments.teach, &table) {
+        write_atomically(file, table)?;
+        say(&format!("points to teach in {}", file.display()));
+    }
+    if let Some((_, _, Some((folder, written)))) = &taught {
+        save(folder, written)?;
     }
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
@@ -92,7 +99,7 @@ type Program = (PathBuf, Written);
 /// The circle to teach, where it is asked for, and its program.
 fn taught(
     arguments: &BallbarArguments,
-    measured: &Measured,
+    (measured, found): (&Measured, &Found),
 ) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
     let told_feed = measured.feed.map(|feed| feed * 60e3);
     let program = program::wanted(&arguments.program, arguments.feed_mm_per_min.or(told_feed))?;
@@ -106,7 +113,14 @@ fn taught(
     let points = arguments
         .points
         .unwrap_or(needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS));
-    let (told, circle) = teach(measured, (points, arguments.teach_lobes))?;
+    if points <= 2 * arguments.teach_lobes {
+        let message = format!(
+            "--points: {points} points cannot hold the {} lobes of --teach-lobes",
+            arguments.teach_lobes
+        );
+        return Err(StudyError::value(message, "more than two points a lobe"));
+    }
+    let (told, circle) = teach(found, (points, arguments.teach_lobes))?;
     let Some((folder, wanted)) = program else {
         return Ok(Some((told, circle, None)));
     };
@@ -326,13 +340,14 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
         ]
     };
     // Lobes have a line of their own below.
-    let shown = parts.radial.iter().filter(|part| !part.what.contains(" lobes, "));
+    let shown = parts.radial.iter().filter(|part| part.kind != "lobes");
     lines.extend(table(shown.map(row)));
     let [a, b] = &answer.axes;
-    if let (Some([sa, sb]), Some([u, _])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
+    if let (Some([sa, sb]), Some([ua, ub])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
         lines.push(format!(
-            "scale        {a} {sa:+.1} um/m, {b} {sb:+.1} um/m, +- {:.1} um/m",
-            2.0 * u
+            "scale        {a} {sa:+.1} +- {:.1} um/m, {b} {sb:+.1} +- {:.1} um/m",
+            2.0 * ua,
+            2.0 * ub
         ));
     }
     if let (Some(s), Some(u)) = (parts.squareness_urad, parts.squareness_u_urad) {
@@ -407,6 +422,9 @@ fn results(answer: &BallbarAnswer) -> Vec<String> {
             ]
         };
         lines.extend(table(of.features.iter().map(row)));
+        if !of.without_number.is_empty() {
+            lines.push(format!("  without a number: {}", of.without_number.join(", ")));
+        }
     }
     lines
 }

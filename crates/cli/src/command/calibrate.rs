@@ -84,6 +84,10 @@ fn hold_out(arguments: &CalibrateArguments) -> Result<HoldOut, StudyError> {
             path: text.into(),
             same_set_up: arguments.same_set_up,
         }),
+        Ok(part) if arguments.same_set_up => Err(StudyError::value(
+            format!("--same-set-up: the part {part} is of the same file, and so of the same set-up"),
+            "it goes with a file of other poses",
+        )),
         Ok(part) if part > 0.0 && part < 1.0 => Ok(HoldOut::Fraction(part)),
         Ok(part) => Err(StudyError::value(
             format!("--hold-out: {part} is not between 0 and 1"),

@@ -8,22 +8,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
+use crate::cell::armill;
 
 const STUDY: &str = r#"
 format = 1

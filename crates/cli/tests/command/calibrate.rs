@@ -4,8 +4,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
 use serde_json::Value;
+
+use crate::cell::armill;
 
 const ROBOT: &str = r#"format = 1
 name = "lever"
@@ -34,20 +35,6 @@ what = "a lever of two arms"
 where = "this test"
 licence = "ours"
 "#;
-
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let (code, out, err) = armill(folder, &[arguments, &["--json"]].concat());
@@ -222,6 +209,15 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
         (
             &["calibrate", "poses.csv", "--turns", "--turn-mm", "0"],
             &["--turn-mm: 0 is not above 0"],
+        ),
+        (&["calibrate", "poses.csv", "--turn-mm", "100"], &["--turns"]),
+        (
+            &["calibrate", "poses.csv", "--turn-order", "fixed-xyz"],
+            &["--turns"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "0.2", "--same-set-up"],
+            &["--same-set-up: the part 0.2 is of the same file"],
         ),
         (
             &["calibrate", "poses.csv", "--tool-mm", "1,2"],

@@ -9,6 +9,7 @@
 
 mod advise;
 mod assumed;
+mod backlash;
 mod ballbar;
 mod budget;
 mod calibrate;

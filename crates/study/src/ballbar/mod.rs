@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`read`](mod@read): files into one circle. [`analyse`](mod@analyse): what it shows. [`answer`](mod@answer): that, in numbers with their units.
-//! `warnings`: what to know before use.
+//! [`results`]: what the bar's own program made of it. `warnings`: what to know before use.
 //! [`teach`](mod@teach): the circle to teach instead, and the test before beside the one after. [`program`]: that circle as
 //! a program of the robot. [`output`]: tables, pictures, report.
 
@@ -14,6 +14,7 @@ pub mod answer;
 pub mod output;
 pub mod program;
 pub mod read;
+pub mod results;
 pub mod teach;
 mod warnings;
 

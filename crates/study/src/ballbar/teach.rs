@@ -15,13 +15,14 @@ use serde::Serialize;
 use super::analyse::Found;
 use super::read::Measured;
 use crate::StudyError;
+use crate::number::decimals;
 
 /// A circle to teach.
 #[derive(Clone, Debug, Serialize)]
 pub struct TaughtAnswer {
     /// How many points.
     pub points: usize,
-    /// Lobes up to this number are corrected.
+    /// Lobes up to this number are corrected: as asked for, or as many as the samples tell.
     pub most_lobes: usize,
     /// Largest move of a point.
     pub largest_correction_um: f64,
@@ -84,15 +85,16 @@ pub struct ComparedQuantity {
     pub left_percent: Option<f64>,
 }
 
-/// The circle to teach at `points` even angles with lobes up to `most_lobes`: in numbers, and itself.
+/// The circle to teach at `points` even angles with lobes up to `most_lobes`, or as many as the samples tell: in numbers,
+/// and itself. Of the test as it is shown: without outliers where these were left out.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
-    measured: &Measured,
+    shown: &Found,
     (points, most_lobes): (usize, usize),
 ) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
-    let found = taught(&measured.test, most_lobes).ok_or_else(|| {
+    let found = taught(&shown.test, most_lobes).ok_or_else(|| {
         StudyError::value(
             "no circle can be taught from runs that leave a part of the turn open",
             "measure full turns",
@@ -104,7 +106,7 @@ pub fn teach(
         .collect();
     let told = TaughtAnswer {
         points,
-        most_lobes,
+        most_lobes: found.lobes.harmonics.last().map_or(most_lobes, |lobe| lobe.waves),
         largest_correction_um: corrections.iter().map(|c| c.abs()).fold(0.0, f64::max) * 1e6,
         circular_before_um: found.before.circular.ok().map(|g| g * 1e6),
         circular_expected_um: found.expected.circular.ok().map(|g| g * 1e6),
@@ -113,7 +115,7 @@ pub fn teach(
         stays_um: found.stays.map(|stays| stays * 1e6),
     };
     let circle = TaughtCircle {
-        radius: measured.test.radius(),
+        radius: shown.test.radius(),
         corrections,
         found,
     };
@@ -141,8 +143,15 @@ fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
     Ok(Table::new("taught", columns)?)
 }
 
-/// The test `first` of `files` beside the test `second`.
-pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnswer {
+/// A test before, and what it shows, beside another.
+///
+/// # Errors
+/// Tests of different circles: radius, plane or feed.
+pub fn before(
+    (before, first): (&Measured, &Found),
+    (after, second): (&Measured, &Found),
+) -> Result<BeforeAnswer, StudyError> {
+    same_circle(before, after)?;
     let g = |found: &Found, direction: usize| found.directions[direction].and_then(|of| of.circular.ok());
     let both = |found: &Found| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
     let f = |found: &Found, end: usize| Some(found.all.radial[end].deviation);
@@ -156,8 +165,8 @@ pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnsw
             left_percent: left.map(|(before, after)| 100.0 * (after / before).abs()),
         }
     };
-    BeforeAnswer {
-        files: files.to_vec(),
+    Ok(BeforeAnswer {
+        files: before.files.clone(),
         compared: vec![
             compared("G CW", &|found| g(found, 0)),
             compared("G CCW", &|found| g(found, 1)),
@@ -167,5 +176,29 @@ pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnsw
             compared("D", &|found| found.mean_bidirectional),
             compared("H", &|found| found.hysteresis),
         ],
+    })
+}
+
+/// Refuses to compare tests of different circles; what one of them does not tell is no difference.
+fn same_circle(before: &Measured, after: &Measured) -> Result<(), StudyError> {
+    let [one, other] = [before, after].map(|of| of.test.radius());
+    let mm = |radius: f64| format!("{} mm", radius * 1e3);
+    let feed = |feed: f64| format!("{} mm/min", decimals(feed * 60e3, 3));
+    let feeds = before.feed.zip(after.feed);
+    let planes = before.plane.as_ref().zip(after.plane.as_ref());
+    let differing = [
+        ((one - other).abs() > 1e-9 * other).then(|| ("nominal radius", mm(one), mm(other))),
+        (planes.filter(|(one, other)| one != other))
+            .map(|(one, other)| ("plane", one.clone(), other.clone())),
+        feeds
+            .filter(|(one, other)| (one - other).abs() > 1e-9 * other)
+            .map(|(one, other)| ("feed", feed(one), feed(other))),
+    ];
+    match differing.into_iter().flatten().next() {
+        None => Ok(()),
+        Some((what, one, other)) => Err(StudyError::value(
+            format!("--before: the {what} was {one}, and is {other} now"),
+            "tests of one circle are compared, in the same plane and at the same feed",
+        )),
     }
 }

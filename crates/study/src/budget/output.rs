@@ -11,6 +11,7 @@
 
 use std::path::{Path, PathBuf};
 
+use armill_core::measure::ballbar::profile::is_gap;
 use armill_formats::file::write_atomically;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html;
@@ -21,9 +22,6 @@ use super::combine::Combined;
 use crate::StudyError;
 use crate::output::report::cells::columns;
 use crate::output::{Picture, prepare, slug, write_pictures};
-
-/// Neighbours farther apart are not joined, rad.
-const OPEN: f64 = armill_core::measure::ballbar::profile::GAP * (1.0 + 1e-6);
 
 /// Writes table and pictures into the folder `out` and gives their paths.
 ///
@@ -147,7 +145,7 @@ fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
                 .or_else(|| Some(angle.first()? + std::f64::consts::TAU));
             angle_deg.push(angle[k].to_degrees());
             radial_um.push(curve[k] * 1e6);
-            if next.is_some_and(|next| next - angle[k] > OPEN) {
+            if next.is_some_and(|next| is_gap(next - angle[k])) {
                 angle_deg.push(angle[k].to_degrees());
                 radial_um.push(f64::NAN);
             }

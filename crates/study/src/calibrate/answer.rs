@@ -312,7 +312,7 @@ fn unknown_name(robot: &Robot, unknown: &Unknown) -> String {
     format!("{at} {word} {}", unknown.axis().letter())
 }
 
-/// To a tenth of a micrometre, or of a millidegree.
-fn told(value: f64) -> f64 {
+/// A number in mm or deg to a nanometre, or a microdegree.
+pub(crate) fn told(value: f64) -> f64 {
     decimals(value, 6)
 }
