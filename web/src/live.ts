@@ -8,7 +8,7 @@ import { Newest } from "./newest";
 import { choosePosture, decidingCase } from "./posture";
 import type { Answer, Ask, At, MapAnswer, Point, Pose, Problem, Scene, Setting, Study, Values } from "./types";
 
-export type Topic = "study" | "answer" | "pose" | "busy" | "error" | "view";
+export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 /** Where the robot stands: the worst or best point of what is shown, or a place that the user chose. */
 export type Follow = "worst" | "best" | "place";
 
@@ -41,7 +41,11 @@ export class Live {
   at: At | null = null;
   section = 0;
   busy = false;
+  /** The robot is on its way: what is told of the point is of where it was. */
+  moving = false;
   error: Refused | null = null;
+  /** True where a control shows what is wrong. */
+  error_at_field = false;
   pose_error: string | null = null;
   /** From the last input to the picture. */
   took_ms: number | null = null;
@@ -68,6 +72,10 @@ export class Live {
       this.pose_error = error instanceof Error ? error.message : String(error);
       this.pose = null;
       this.tell("pose");
+    },
+    busy: (moving) => {
+      this.moving = moving;
+      this.tell("moving");
     },
   });
 
@@ -206,6 +214,7 @@ export class Live {
   private fail(error: unknown): void {
     this.error = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
     this.pending.clear();
+    this.error_at_field = false;
     this.tell("error");
   }
 

@@ -77,7 +77,7 @@ async function start(): Promise<void> {
       pace.classList.toggle("busy", live.busy);
     }
     if (topic === "error") {
-      banner.hidden = live.error === null;
+      banner.hidden = live.error === null || (live.error_at_field && current?.id === "live");
       if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Not answered: "), live.error.message, h("span", {}, live.answer ? " What is shown is the last sound answer." : ""));
     }
   });

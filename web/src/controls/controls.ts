@@ -91,7 +91,10 @@ export function controls(live: Live): HTMLElement {
     if (topic === "answer" || topic === "study") fill();
     if (topic === "error") {
       for (const control of all) control.clear();
-      if (live.error && last) told(live.error.problems, live.error.message, all, last);
+      if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
+        told(live.error.problems, live.error.message, all, last);
+        live.error_at_field = true;
+      }
     }
   });
   void api.robots().then((rows) => {

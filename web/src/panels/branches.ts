@@ -30,7 +30,7 @@ export function branches(live: Live): HTMLElement {
             h(
               "button",
               { type: "button", class: "branch", "aria-pressed": String(i === live.posture), title: "Show this posture", onclick: () => live.choosePosture(i) },
-              h("span", { class: "branch-name" }, name, posture.within_limits ? null : h("em", {}, ` ${posture.limit_joint ?? "a joint"} outside limits`)),
+              h("span", { class: "branch-name" }, name, posture.within_limits ? null : h("em", { title: "outside its joint limits" }, ` · ${posture.limit_joint ?? "a joint"} beyond limit`)),
               h("span", { class: "branch-track", "aria-hidden": "true" }, h("i", { class: value <= limit ? "bar good" : "bar", style: `width:${(100 * value) / top}%` }), h("i", { class: "limit-mark", style: `left:${(100 * limit) / top}%` })),
               h("span", { class: "branch-value" }, um(worst[i]), h("small", {}, " µm")),
             ),

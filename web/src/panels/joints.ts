@@ -32,7 +32,7 @@ export function joints(live: Live): HTMLElement {
               h("span", { class: "track" }, at === null ? null : h("i", { class: "dot", style: `left:${Math.min(100, Math.max(0, at))}%` })),
               h("small", {}, high === null ? "" : fixed(high, 0)),
             ),
-            h("span", { class: "bar-value wide" }, fixed(q, 1), " ", unit(pose.answer.joint_units[i])),
+            h("span", { class: "bar-value wide" }, fixed(q, 1), unit(pose.answer.joint_units[i])),
           );
         }),
       ),
@@ -48,4 +48,4 @@ export function joints(live: Live): HTMLElement {
   return root;
 }
 
-const unit = (name: string | undefined): string => (name === "deg" || name === undefined ? "°" : name);
+const unit = (name: string | undefined): string => (name === "deg" || name === undefined ? "°" : ` ${name}`);

@@ -1,7 +1,7 @@
 // What must be seen at a glance: where the tolerance holds, how far the tool goes, which joint does it.
 
 import { fill, h, type Child } from "../dom";
-import { DASH, percent, um } from "../format";
+import { DASH, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import type { Point } from "../types";
 
@@ -10,7 +10,7 @@ export function verdict(live: Live): HTMLElement {
   const draw = () => {
     const { answer, setting } = live;
     if (!answer || !setting) return fill(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
-    const limit = `${um(setting.limit_um).replace(/\.0$/, "")} µm`;
+    const limit = `${trimmed(setting.limit_um, 1)}\u00a0µm`;
     const { share, what, extra } = held(live);
     const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
     fill(
@@ -20,9 +20,9 @@ export function verdict(live: Live): HTMLElement {
         { class: "verdict-main" },
         h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, limit)),
         h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} hold the limit` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
-        extra ? h("p", { class: "verdict-extra" }, extra) : null,
       ),
       h("div", { class: "verdict-points" }, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live)),
+      h("p", { class: "verdict-extra" }, extra || "\u00a0"),
     );
   };
   live.listen((topic) => {
@@ -80,7 +80,7 @@ function blame(live: Live): Child {
   return h(
     "div",
     { class: "extreme still" },
-    h("span", { class: "extreme-name" }, "Mostly by"),
-    h("span", { class: "extreme-value" }, names[most] ?? DASH, h("small", {}, ` ${percent(point.joint_share_um[most]! / point.in_plane_um)} of the worst`)),
+    h("span", { class: "extreme-name" }, "Worst mostly by"),
+    h("span", { class: "extreme-value" }, names[most] ?? DASH, h("small", {}, ` ${percent(point.joint_share_um[most]! / point.in_plane_um)}`)),
   );
 }

@@ -53,6 +53,16 @@ export class Arm {
     this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total));
   }
 
+  /** See-through, where what lies behind matters more. */
+  ghost(on: boolean): void {
+    for (const child of this.group.children) {
+      const material = (child as THREE.Mesh).material as THREE.MeshStandardMaterial;
+      material.transparent = on;
+      material.opacity = on ? 0.12 : 1;
+      material.depthWrite = !on;
+    }
+  }
+
   private clear(): void {
     for (const child of this.group.children) (child as THREE.Mesh).geometry.dispose();
     this.group.clear();

@@ -9,9 +9,11 @@ export class Arrow {
   private readonly head: THREE.Mesh;
 
   constructor(colour: number) {
-    const material = new THREE.MeshBasicMaterial({ color: colour });
+    const material = new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true });
     this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(1, 1, 1, 18).translate(0, 0.5, 0), material);
     this.head = new THREE.Mesh(new THREE.ConeGeometry(1, 1, 24).translate(0, 0.5, 0), material);
+    // Over everything: an arrow into the plate must not hide behind it.
+    this.shaft.renderOrder = this.head.renderOrder = 10;
     this.group.add(this.shaft, this.head);
     this.group.visible = false;
   }

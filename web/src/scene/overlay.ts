@@ -5,10 +5,10 @@ import { fixed, mm, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import { along, css, viridis } from "./colour";
 import type { View } from "./stage";
-import type { SceneView, Show, Under } from "./view";
+import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Surely within (dashed)"], ["hold_scale", "Hold the colour scale"]];
+const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Its parts: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Surely within (dashed)"], ["hold_scale", "Hold the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend card", role: "img" });
@@ -21,6 +21,8 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     magnified.textContent = times(view.show.magnified);
     redraw();
   });
+  const soft = h("p", { hidden: true }, h("i", { class: "swatch soft" }), `ellipsoid, ${ELLIPSOID} mm per µm/N`);
+  const parts = h("p", { hidden: true }, h("i", { class: "swatch flat" }), "in plane", h("i", { class: "swatch normal" }), "normal");
   const views = h(
     "div",
     { class: "views card", role: "group", "aria-label": "Views" },
@@ -33,6 +35,8 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     SWITCHES.map(([key, text]) => {
       const box = h("input", { type: "checkbox", checked: view.show[key] as boolean });
       box.addEventListener("change", () => {
+        if (key === "ellipsoid") soft.hidden = !box.checked;
+        if (key === "parts") parts.hidden = !box.checked;
         (view.show[key] as boolean) = box.checked;
         redraw();
       });
@@ -44,7 +48,9 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     { class: "scales card" },
     h("p", {}, h("i", { class: "swatch moved" }), h("label", { for: "magnified" }, "deviation "), magnified),
     slider,
+    parts,
     h("p", {}, h("i", { class: "swatch force" }), `force, ${view.show.mm_per_n} mm per N`),
+    soft,
   );
   document.addEventListener("keydown", (e) => {
     const target = e.target as HTMLElement;

@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegments2 } from "three/addons/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
-import { um } from "../format";
+import { trimmed } from "../format";
 import type { MapAnswer, MapGrid, Plate, Vec3 } from "../types";
 import { along, viridis, type Scale } from "./colour";
 import { contour, type Line } from "./contour";
@@ -38,6 +38,7 @@ export class PlateView {
     this.plate = plate;
     this.grid = map.grid;
     this.build(map.grid, plate);
+    this.surface.visible = true;
     this.colour(map.grid, scale);
     const grid = { y_mm: map.grid.y_mm, z_mm: map.grid.z_mm, values: map.grid.in_plane_um };
     const levels = scale.levels.filter((level) => Math.abs(level - map.setting.limit_um) > 1e-6);
@@ -49,9 +50,19 @@ export class PlateView {
     this.trace(this.sure, options.certainty && map.certainty ? map.certainty.boundary_surely_mm : []);
     this.labels.group(this.name);
     if (options.values) {
-      this.tag(bound, `limit ${um(map.setting.limit_um)} µm`, "limit-tag", 1);
-      for (const { level, lines: at } of options.lines ? lines : []) this.tag(at, um(level).replace(/\.0$/, ""), "iso", 2);
+      this.tag(bound, `limit ${trimmed(map.setting.limit_um, 1)} µm`, "limit-tag", 1);
+      for (const { level, lines: at } of options.lines ? lines : []) this.tag(at, trimmed(level, 1), "iso", 2);
     }
+  }
+
+  /** Its edges alone: a plane beside the one that is shown. */
+  outline(map: MapAnswer, plate: Plate): void {
+    this.plate = plate;
+    this.grid = map.grid;
+    this.build(map.grid, plate);
+    for (const part of [this.iso, this.casing, this.limit, this.sure]) part.visible = false;
+    this.surface.visible = false;
+    this.labels.group(this.name);
   }
 
   hide(): void {
@@ -131,7 +142,7 @@ export class PlateView {
 }
 
 export function fat(width: number, colour: number, opacity: number, dashed = false): LineSegments2 {
-  const material = new LineMaterial({ color: colour, linewidth: width, transparent: true, opacity, dashed, dashSize: 14, gapSize: 10, polygonOffset: true, polygonOffsetFactor: -1 });
+  const material = new LineMaterial({ color: colour, linewidth: width, transparent: true, opacity, dashed, dashSize: 14, gapSize: 10, depthWrite: false });
   const object = new LineSegments2(new LineSegmentsGeometry(), material);
   object.visible = false;
   object.frustumCulled = false;

@@ -25,7 +25,7 @@ export class Stage {
   private drawn: (() => void)[] = [];
 
   constructor(readonly host: HTMLElement) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setClearAlpha(0);
     host.append(this.renderer.domElement);
@@ -92,6 +92,7 @@ export class Stage {
       const last = at + 500 > half;
       this.labels.add("ground", new THREE.Vector3(at, 0, height), last ? `x ${at} mm` : String(at), "tick");
       this.labels.add("ground", new THREE.Vector3(0, at, height), last ? `y ${at} mm` : String(at), "tick");
+      if (at <= half * 0.9) this.labels.add("ground", new THREE.Vector3(0, 0, height + at), `z ${at}`, "tick");
     }
     this.draw();
   }
@@ -99,7 +100,7 @@ export class Stage {
   look(view: View, subject: Subject): void {
     const { box, plate } = subject;
     const target = view === "plate" && plate ? plate.centre.clone() : box.getCenter(new THREE.Vector3());
-    const radius = view === "plate" && plate ? plate.size * 0.75 : box.getBoundingSphere(new THREE.Sphere()).radius;
+    const radius = view === "plate" && plate ? plate.size * 0.42 : box.getBoundingSphere(new THREE.Sphere()).radius;
     const from: Record<View, THREE.Vector3> = {
       overview: new THREE.Vector3(-0.62, -1, 0.42),
       front: new THREE.Vector3(1, 0, 0.0001),

@@ -8,6 +8,7 @@ import { Arm } from "./arm";
 import { Arrow } from "./arrows";
 import { scaleOf, type Scale } from "./colour";
 import { Ellipsoid } from "./ellipsoid";
+import { Part } from "./part";
 import { PathView } from "./path";
 import { PlateView } from "./plate";
 import { Stage, type Subject, type View } from "./stage";
@@ -17,6 +18,8 @@ export interface Show {
   arm: boolean;
   forces: boolean;
   deviation: boolean;
+  /** Its parts in the plane and along the normal. */
+  parts: boolean;
   ellipsoid: boolean;
   lines: boolean;
   certainty: boolean;
@@ -29,25 +32,32 @@ export interface Show {
 /** What lies under the pointer. */
 export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
 
+/** mm in the picture for 1 µm/N. */
+export const ELLIPSOID = 8;
+
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
-  readonly show: Show = { arm: true, forces: true, deviation: true, ellipsoid: false, lines: true, certainty: true, magnified: 1000, mm_per_n: 25, hold_scale: false };
+  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, magnified: 1000, mm_per_n: 25, hold_scale: false };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
   private readonly force = new Arrow(0xd55e00);
   private readonly deviation = new Arrow(0xcc3fa0);
+  private readonly in_plane = new Arrow(0x009e9a);
+  private readonly normal = new Arrow(0x4a6fd6);
   private readonly ellipsoid = new Ellipsoid();
   private readonly path = new PathView();
   private readonly volume = new VolumeView();
+  private readonly part = new Part();
   private readonly plates: PlateView[] = [];
   private readonly caster = new THREE.Raycaster();
   private looked = "";
+  private ghost = false;
 
   constructor(private readonly host: HTMLElement, private readonly live: Live) {
     this.stage = new Stage(host);
-    this.stage.scene.add(this.arm.group, this.force.group, this.deviation.group, this.ellipsoid.group, this.path.group, this.volume.group);
+    this.stage.scene.add(this.arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
     live.listen((topic) => {
       if (topic === "answer") this.drawAnswer();
       if (topic === "pose") this.drawPose();
@@ -62,6 +72,8 @@ export class SceneView {
   }
 
   look(view: View): void {
+    this.ghost = view === "plate";
+    this.arm.ghost(this.ghost);
     this.stage.look(view, this.subject());
   }
 
@@ -82,12 +94,14 @@ export class SceneView {
     this.plates.forEach((view, i) => {
       const map = answer.maps[i];
       const plate = plates[i];
-      if (!map || !plate || !scale || (answer.maps.length > 1 && i !== this.live.section)) return view.hide();
+      if (!map || !plate || !scale) return view.hide();
+      if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
       view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, values: true });
     });
     if (scene.points && scale) this.path.draw(scene.points, scale, answer.paths.length > 0);
     else this.path.clear();
     this.volume.draw(scene, setting.limit_um);
+    this.part.draw(answer.maps.length === 0 ? scene.plate : null);
     this.stage.floor(Math.min(0, scene.base_mm?.[2] ?? 0), this.reach());
     const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;
     if (key !== this.looked) {
@@ -100,7 +114,8 @@ export class SceneView {
 
   private range(): [number, number] | null {
     const { answer, scene } = this.live;
-    const values = answer!.maps.length > 0 ? answer!.maps.flatMap((m) => [m.min_in_plane_um, m.max_in_plane_um]) : (scene!.points?.in_plane_um ?? []);
+    const spans = answer!.maps.flatMap((m) => [m.min_in_plane_um, m.max_in_plane_um]).concat(answer!.volumes.flatMap((v) => [v.best?.in_plane_um ?? null, v.worst?.in_plane_um ?? null]));
+    const values = spans.length > 0 ? spans : (scene!.points?.in_plane_um ?? []);
     const known = values.filter((v): v is number => v !== null && v !== undefined);
     return known.length > 0 ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : null;
   }
@@ -125,12 +140,13 @@ export class SceneView {
     const answer = pose?.answer.postures[posture];
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm && !!drawing;
-    this.force.group.visible = this.deviation.group.visible = this.ellipsoid.group.visible = false;
+    for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
     if (drawing && answer && setting) {
       const style = getComputedStyle(document.documentElement);
       const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
       const shares = this.shares();
       this.arm.draw(drawing, new THREE.Vector3(...(scene?.base_mm ?? [0, 0, 0])), shares, colour("--joint-quiet"), colour("--joint-loud"));
+      this.arm.ghost(this.ghost);
       const most = shares.indexOf(Math.max(...shares));
       if (this.show.arm)
         this.arm.knuckles.forEach(({ name, at }, i) => {
@@ -147,9 +163,16 @@ export class SceneView {
       const moved = answer.deviation_um;
       if (this.show.deviation && moved) {
         this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
+        const normal = new THREE.Vector3(...setting.normal_axis);
+        const drawn = new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000);
+        const out = normal.clone().multiplyScalar(drawn.dot(normal));
+        if (this.show.parts) {
+          this.in_plane.draw(tip, drawn.clone().sub(out), size * 0.7);
+          this.normal.draw(tip, out, size * 0.7);
+        }
         if (this.deviation.group.visible) this.stage.labels.add("arm", this.deviation.end, `${Math.hypot(...moved).toFixed(0)} µm`, "moved");
       }
-      if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, 8);
+      if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
     }
     this.stage.draw();
   }
@@ -220,7 +243,7 @@ export class SceneView {
       if (hit?.instanceId !== undefined) return { kind: "point", index: hit.instanceId };
     }
     for (const plate of this.plates) {
-      if (!plate.group.visible) continue;
+      if (!plate.group.visible || !plate.surface.visible) continue;
       const hit = this.caster.intersectObject(plate.surface)[0];
       if (!hit) continue;
       const index = plate.nearest(...plate.place(hit.point));

@@ -9,6 +9,7 @@ import { joints } from "../panels/joints";
 import { matrix } from "../panels/matrix";
 import { notes } from "../panels/notes";
 import { point } from "../panels/point";
+import { stand } from "../panels/stand";
 import { shares } from "../panels/shares";
 import { verdict } from "../panels/verdict";
 import { overlay } from "../scene/overlay";
@@ -17,12 +18,14 @@ import type { Tab } from "./tab";
 
 export function liveTab(live: Live): Tab & { view: SceneView } {
   const host = h("div", { class: "stage", tabindex: "0", role: "img", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
+  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), stand(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
+  live.listen((topic) => topic === "moving" && right.setAttribute("aria-busy", String(live.moving)));
   const root = h(
     "div",
     { class: "live" },
     h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
     h("div", { class: "middle" }, verdict(live), host),
-    h("aside", { class: "right", "aria-label": "At the tool" }, point(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live)),
+    right,
   );
   const view = new SceneView(host, live);
   host.append(overlay(view, live));
