@@ -19,7 +19,6 @@ export function um(value: number | null | undefined): string {
 }
 
 export const mm = (value: number | null | undefined): string => trimmed(value, 1);
-export const deg = (value: number | null | undefined): string => fixed(value, 1);
 export const newton = (value: number | null | undefined): string => trimmed(value, 1);
 export const percent = (share: number | null | undefined): string =>
   share === null || share === undefined ? DASH : `${share > 0 && share < 0.01 ? "< 1" : share < 1 && share > 0.99 ? "> 99" : fixed(100 * share, 0)}${THIN}%`;
@@ -28,18 +27,6 @@ export const percent = (share: number | null | undefined): string =>
 export function trimmed(value: number | null | undefined, decimals: number): string {
   const text = fixed(value, decimals);
   return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
-}
-
-/** Three significant digits with a power of ten, as superscript: 2.32 × 10⁻⁵. Zero where it is noise beside `scale`. */
-export function scientific(value: number, scale: number): string {
-  if (Math.abs(value) <= scale * 1e-12 || value === 0) return "0";
-  const exponent = Math.floor(Math.log10(Math.abs(value)));
-  return `${fixed(value / 10 ** exponent, 2)}${THIN}×${THIN}10${superscript(exponent)}`;
-}
-
-export function superscript(exponent: number): string {
-  const digits = "⁰¹²³⁴⁵⁶⁷⁸⁹";
-  return (exponent < 0 ? "⁻" : "") + [...String(Math.abs(exponent))].map((d) => digits[Number(d)]).join("");
 }
 
 export function bytes(n: number): string {

@@ -60,6 +60,7 @@ export class Arm {
       material.transparent = on;
       material.opacity = on ? 0.12 : 1;
       material.depthWrite = !on;
+      material.needsUpdate = true;
     }
   }
 

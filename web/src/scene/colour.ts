@@ -1,6 +1,8 @@
 // Deviation to colour: viridis (Smith & van der Walt 2015), even in lightness and safe for the colour-blind, the same
 // as in the pictures of the command. Ten anchors of the published table, linear between.
 
+import { niceStep } from "../format";
+
 export type Rgb = [number, number, number];
 
 const ANCHORS = [0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725];
@@ -32,7 +34,7 @@ export function scaleOf(least: number, largest: number, limit: number): Scale {
   const span = high - low || Math.abs(high) || 1;
   if (limit < low && low - limit < span) low = limit;
   if (limit > high && limit - high < span) high = limit;
-  const step = niceUp((high - low || span) / 8);
+  const step = niceStep(high - low || span, 8);
   const first = Math.floor(low / step + 1e-9) * step;
   const last = Math.ceil(high / step - 1e-9) * step;
   const count = Math.max(1, Math.round((last - first) / step));
@@ -41,11 +43,5 @@ export function scaleOf(least: number, largest: number, limit: number): Scale {
 }
 
 export const along = (scale: Scale, value: number): number => (value - scale.low) / (scale.high - scale.low || 1);
-
-function niceUp(raw: number): number {
-  const power = 10 ** Math.floor(Math.log10(raw > 0 ? raw : 1));
-  const times = raw / power;
-  return power * (times <= 1 ? 1 : times <= 2 ? 2 : times <= 5 ? 5 : 10);
-}
 
 const tidy = (x: number): number => Number(x.toPrecision(12));
