@@ -18,9 +18,12 @@ export function s<K extends keyof SVGElementTagNameMap>(tag: K, attributes: Attr
   return element;
 }
 
+/** New children in place of the old. What had the focus has it again, if it has a data-key that is there again. */
 export function fill(element: Element, ...children: Child[]): void {
+  const focused = element.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.key : undefined;
   element.replaceChildren();
   add(element, children);
+  if (focused !== undefined) element.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
 }
 
 function set(element: Element, attributes: Attributes): void {

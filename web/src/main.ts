@@ -21,6 +21,9 @@ takeToken();
 startTheme(() => undefined);
 
 async function start(): Promise<void> {
+  const asked = api.study();
+  // The first paint does not wait for WebGL to start.
+  await painted();
   const live = new Live();
   const tabs: Tab[] = [];
   const go = (id: string) => show(tabs.find((t) => t.id === id) ?? tabs[0]!);
@@ -88,10 +91,15 @@ async function start(): Promise<void> {
     h("main", {}, tabs.map((t) => t.root)),
   );
   go(location.hash.slice(1) || "live");
-  const study = await api.study();
+  const study = await asked;
   live.open(study);
   if (study.problems.length > 0) go("study");
 }
+
+const painted = (): Promise<void> => new Promise((done) => {
+    requestAnimationFrame(() => setTimeout(done));
+    setTimeout(done, 200);
+  });
 
 start().catch((error: unknown) => {
   const lost = error instanceof Refused && error.status === 401;

@@ -29,14 +29,14 @@ export function branches(live: Live): HTMLElement {
             { class: i === live.posture ? "chosen" : "" },
             h(
               "button",
-              { type: "button", class: "branch", "aria-pressed": String(i === live.posture), title: "Show this posture", onclick: () => live.choosePosture(i) },
+              { type: "button", class: "branch", "data-key": `show ${name}`, "aria-pressed": String(i === live.posture), title: "Show this posture", onclick: () => live.choosePosture(i) },
               h("span", { class: "branch-name" }, name, posture.within_limits ? null : h("em", { title: "outside its joint limits" }, ` · ${posture.limit_joint ?? "a joint"} beyond limit`)),
               h("span", { class: "branch-track", "aria-hidden": "true" }, h("i", { class: value <= limit ? "bar good" : "bar", style: `width:${(100 * value) / top}%` }), h("i", { class: "limit-mark", style: `left:${(100 * limit) / top}%` })),
               h("span", { class: "branch-value" }, um(worst[i]), h("small", {}, " µm")),
             ),
             used
               ? h("span", { class: "used", title: "The map uses this branch" }, "in use")
-              : h("button", { type: "button", class: "use", "aria-label": `Use ${name} for the map`, disabled: posture.branch === null, onclick: () => live.change("posture.branch", posture.branch) }, "use"),
+              : h("button", { type: "button", class: "use", "data-key": `use ${name}`, "aria-label": `Use ${name} for the map`, disabled: posture.branch === null, onclick: () => live.change("posture.branch", posture.branch) }, "use"),
           );
         }),
       ),

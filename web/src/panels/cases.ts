@@ -30,7 +30,7 @@ export function cases(live: Live): HTMLElement {
                 { scope: "row" },
                 h(
                   "button",
-                  { type: "button", class: "row-button", "aria-pressed": String(live.load_case === i + 1), title: "Show this load case", onclick: () => live.chooseCase(i + 1) },
+                  { type: "button", class: "row-button", "data-key": `case ${i}`, "aria-pressed": String(live.load_case === i + 1), title: "Show this load case", onclick: () => live.chooseCase(i + 1) },
                   forces[i] ? forces[i]!.map(newton).join(", ") : `Case ${i + 1}`,
                 ),
               ),

@@ -66,7 +66,7 @@ function extreme(live: Live, which: "worst" | "best", point: Point | null): Chil
   if (!point) return null;
   return h(
     "button",
-    { type: "button", class: "extreme", "data-follow": which, "aria-pressed": String(live.follow === which), title: `Send the robot to the ${which} point`, onclick: () => live.followPoint(which) },
+    { type: "button", class: "extreme", "data-follow": which, "data-key": which, "aria-pressed": String(live.follow === which), title: `Send the robot to the ${which} point`, onclick: () => live.followPoint(which) },
     h("span", { class: "extreme-name" }, which === "worst" ? "Worst" : "Best"),
     h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` ± ${um(point.in_plane_u_um)} µm`)),
   );

@@ -71,22 +71,47 @@ export function jobsTab(live: Live, go: (tab: string) => void): Tab {
       fail(error);
     }
   };
+  // A card is built anew when the state of its job changes; while it runs only bar and words move, so that a click on
+  // "Cancel" and the focus are not lost ten times a second.
+  const cards = new Map<string, { state: string; root: HTMLElement; tick: (job: Job) => void }>();
   const draw = () => {
-    const all = [...jobs.values()].sort((a, b) => a.started_s_ago - b.started_s_ago || b.id.localeCompare(a.id));
-    fill(list, ...(all.length > 0 ? all.map((job) => card(job)) : [h("p", { class: "empty" }, "No work yet. What is started here runs on the server and survives closing this page.")]));
+    const all = [...jobs.values()].sort((a, b) => a.started_s_ago - b.started_s_ago || b.id.localeCompare(a.id, undefined, { numeric: true }));
+    const roots = all.map((job) => {
+      const state = `${job.state} ${job.answer ? "answered" : ""} ${job.files.length}`;
+      const known = cards.get(job.id);
+      if (known?.state === state) {
+        known.tick(job);
+        return known.root;
+      }
+      const made = { state, ...card(job) };
+      cards.set(job.id, made);
+      return made.root;
+    });
+    const shown = roots.length > 0 ? roots : [h("p", { class: "empty" }, "No work yet. What is started here runs on the server and survives closing this page.")];
+    if (shown.length !== list.children.length || shown.some((root, i) => root !== list.children[i])) list.replaceChildren(...shown);
   };
-  const card = (job: Job): Child => {
-    const share = job.of ? Math.min(1, job.done / job.of) : null;
-    return h(
+  const card = (first: Job): { root: HTMLElement; tick: (job: Job) => void } => {
+    const time = h("span", { class: "note" });
+    const words = h("p", { class: "note" });
+    const bar = over(first) ? null : h("progress", { max: 1, "aria-label": `${first.title}: progress` });
+    const tick = (job: Job) => {
+      time.textContent = `${ago(job.started_s_ago)}, ${duration(job.seconds)}`;
+      const counted = job.of && !over(job) ? `${job.done} of ${job.of}` : "";
+      fill(words, counted, job.best ? [counted ? " · " : "", h("span", {}, "best so far "), h("b", {}, job.best)] : null);
+      if (bar && job.of) bar.value = Math.min(1, job.done / job.of);
+    };
+    const root = h(
       "article",
-      { class: `job ${job.state}`, "aria-label": `${job.title}, ${job.state}` },
-      h("header", {}, h("h2", {}, job.title), h("span", { class: `state ${job.state}` }, job.state), h("span", { class: "note" }, `${ago(job.started_s_ago)}, ${duration(job.seconds)}`), over(job) ? null : h("button", { type: "button", class: "quiet small", onclick: () => void api.cancel(job.id).then(refresh, fail) }, "Cancel")),
-      over(job) ? null : h("progress", { max: 1, ...(share === null ? {} : { value: share }), "aria-label": `${job.title}: progress` }),
-      h("p", { class: "note" }, job.of && !over(job) ? `${job.done} of ${job.of}` : "", job.best ? [job.of && !over(job) ? " · " : "", h("span", {}, "best so far "), h("b", {}, job.best)] : null),
-      job.error ? h("div", { class: "note warn" }, job.error.message, h("ul", {}, (job.error.problems ?? []).map((p) => h("li", {}, p.message, p.hint ? h("span", { class: "hint" }, ` ${p.hint}`) : null)))) : null,
-      result(job),
-      job.files.length > 0 ? h("p", { class: "files" }, "Files: ", job.files.slice(0, 12).map((name) => [h("a", { href: fileAddress(name), target: "_blank", rel: "noopener" }, name), " "]), job.files.length > 12 ? `and ${job.files.length - 12} more in Files` : null) : null,
+      { class: `job ${first.state}`, "aria-label": `${first.title}, ${first.state}` },
+      h("header", {}, h("h2", {}, first.title), h("span", { class: `state ${first.state}` }, first.state), time, over(first) ? null : h("button", { type: "button", class: "quiet small", onclick: () => void api.cancel(first.id).then(refresh, fail) }, "Cancel")),
+      bar,
+      words,
+      first.error ? h("div", { class: "note warn" }, first.error.message, h("ul", {}, (first.error.problems ?? []).map((p) => h("li", {}, p.message, p.hint ? h("span", { class: "hint" }, ` ${p.hint}`) : null)))) : null,
+      result(first),
+      first.files.length > 0 ? h("p", { class: "files" }, "Files: ", first.files.slice(0, 12).map((name) => [h("a", { href: fileAddress(name), target: "_blank", rel: "noopener" }, name), " "]), first.files.length > 12 ? `and ${first.files.length - 12} more in Files` : null) : null,
     );
+    tick(first);
+    return { root, tick };
   };
   const result = (job: Job): Child => {
     if (job.state !== "done" || !job.answer) return null;

@@ -16,6 +16,11 @@ after(async () => {
   await server?.stop();
 });
 
+const save = async (page) => {
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await page.getByText("Saved.", { exact: true }).waitFor();
+};
+
 test("pictures of what is asked, to be had as SVG, PNG and CSV", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-pictures");
@@ -48,8 +53,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   await settled(page);
   assert.match(await page.locator(".verdict-line").innerText(), /130\u00a0µm/);
   await page.click("#tab-study");
-  await page.click("text=Save");
-  await page.waitForSelector("text=Saved.");
+  await save(page);
   if (server.folder) {
     const saved = readFileSync(join(server.folder, "study.toml"), "utf8");
     assert.match(saved, /limit_um = 130 # wider/);
@@ -57,8 +61,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   }
   await editor.fill(text);
   await page.waitForSelector(".problems .fine");
-  await page.click("text=Save");
-  await page.waitForSelector("text=Saved.");
+  await save(page);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
@@ -69,8 +72,7 @@ test("a change of a control is saved with the comments kept", { skip: process.en
   await settled(page);
   await page.click("#tab-study");
   await page.waitForSelector(".problems .fine");
-  await page.click("text=Save");
-  await page.waitForSelector("text=Saved.");
+  await save(page);
   const saved = readFileSync(join(server.folder, "study.toml"), "utf8");
   assert.match(saved, /850/);
   assert.match(saved, /# The paper does not state tool length/);
@@ -87,7 +89,8 @@ test("a job runs to its end over a reload, another is cancelled", async () => {
   await page.waitForSelector(".job.done", { timeout: 120_000 });
   assert.ok((await page.locator(".job.done .files a").count()) >= 1);
   await page.click("[data-kind=place]");
-  await page.locator(".job:not(.done) button", { hasText: "Cancel" }).click();
+  const placing = page.locator(".job", { hasText: /place/i }).first();
+  await placing.getByRole("button", { name: "Cancel" }).click();
   await page.waitForSelector(".job.cancelled", { timeout: 30_000 });
   await page.context().close();
 });
