@@ -156,15 +156,28 @@ async function scene(text, ask) {
     points = { xyz_mm: x.map((_, i) => [x[i], y[i], z[i]]), in_plane_um: col("in_plane_um"), normal_um: col("normal_um"), full_um: col("full_um") };
   }
   const b = j.volumes[0];
+  let volume = null;
+  if (b) {
+    const out = await outOf(text, ask, "--csv", "--no-pictures");
+    const rows = readFileSync(join(out, readdirSync(out).find((f) => f.endsWith(".csv"))), "utf8").trim().split("\n").filter((l) => !l.startsWith("#"));
+    const head = rows[0].split(",");
+    const [xi, yi, zi, vi] = ["x_mm", "y_mm", "z_mm", "in_plane_um"].map((n) => head.indexOf(n));
+    const values = Array(b.point_counts[0] * b.point_counts[1] * b.point_counts[2]).fill(null);
+    for (const row of rows.slice(1)) {
+      const c = row.split(","), at = [xi, yi, zi].map((k, i) => Math.round((Number(c[k]) - b.origin_mm[i]) / b.step_mm));
+      if (c[vi] !== "") values[(at[2] * b.point_counts[1] + at[1]) * b.point_counts[0] + at[0]] = Number(c[vi]);
+    }
+    volume = { origin_mm: b.origin_mm, step_mm: b.step_mm, counts: b.point_counts, in_plane_um: values };
+  }
   return {
     robot: v.robot, base_mm: [0, 0, s.base === "controller" ? -450 : 0], plate: plateOf(s, half), plates: j.maps.map((m) => plateOf(m.setting, [m.grid.y_mm[0], m.grid.z_mm.at(-1)])), points,
-    box: b ? { min_mm: b.origin_mm, max_mm: b.origin_mm.map((o, i) => o + (b.point_counts[i] - 1) * b.step_mm) } : null,
+    box: b ? { min_mm: b.origin_mm, max_mm: b.origin_mm.map((o, i) => o + (b.point_counts[i] - 1) * b.step_mm) } : null, volume,
   };
 }
-async function outOf(text, ask) {
+async function outOf(text, ask, ...more) {
   const folder = mkdtempSync(join(work, "p-"));
   writeFileSync(join(folder, "study.toml"), only(text, ask));
-  const run = await armill(["run", "study.toml"], folder);
+  const run = await armill(["run", "study.toml", ...more], folder);
   if (run.rc !== 0) throw { status: 422, body: { error: { kind: "invalid-input", message: run.stderr, problems: [] } } };
   return join(folder, "out");
 }

@@ -93,6 +93,12 @@ export class Live {
     this.use(study.text, study.asks);
   }
 
+  /** The text as it stands, into the file. */
+  async save(): Promise<void> {
+    this.study = await api.save(this.text, this.study!.version);
+    this.tell("study");
+  }
+
   /** Another text: from the file, from the editor. */
   use(text: string, asks: Ask[]): void {
     this.text = text;
@@ -205,8 +211,12 @@ export class Live {
     this.error = null;
     if (this.section >= Math.max(1, result.answer.maps.length)) this.section = 0;
     this.tell("answer");
-    this.took_ms = performance.now() - job.since;
-    this.tell("busy");
+    requestAnimationFrame(() =>
+      setTimeout(() => {
+        this.took_ms = performance.now() - job.since;
+        this.tell("busy");
+      }),
+    );
     this.tell("error");
     this.stand();
   }

@@ -59,6 +59,7 @@ async function start(): Promise<void> {
 
   const title = h("p", { class: "study-title" });
   const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Take back all changes since the file", onclick: () => live.study && live.use(live.study.text, live.study.asks) }, "changed · take back");
+  const keep = h("button", { type: "button", class: "changed keep", hidden: true, title: "Save the study as it is now, comments kept", onclick: () => live.save().catch(() => go("study")) }, "save");
   const pace = h("span", { class: "pace", role: "status" });
   const sun = h("button", { type: "button", class: "icon theme", onclick: () => switchTheme(themed) });
   const themed = () => {
@@ -74,6 +75,7 @@ async function start(): Promise<void> {
       title.textContent = live.study?.title ?? live.study?.file ?? "";
       document.title = `${live.study?.title ?? "study"} – armill`;
       changed.hidden = !live.study || live.text === live.study.text;
+      keep.hidden = changed.hidden || !live.study?.writable;
     }
     if (topic === "busy") {
       pace.textContent = live.busy ? "computing …" : live.took_ms === null ? "" : `${fixed(live.took_ms, 0)} ms`;
@@ -86,7 +88,7 @@ async function start(): Promise<void> {
   });
   fill(
     app,
-    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, changed, nav, pace, sun),
+    h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, changed, keep, nav, pace, sun),
     banner,
     h("main", {}, tabs.map((t) => t.root)),
   );

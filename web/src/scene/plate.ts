@@ -12,7 +12,14 @@ import { contour, type Line } from "./contour";
 import type { Labels } from "./labels";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
-const BLANK: [number, number, number] = [0.55, 0.58, 0.62];
+
+// The colour map once, in the light's own linear numbers; the last entry is for points without value.
+const STEPS = 1024;
+const TABLE = new Float32Array(3 * (STEPS + 1));
+for (let i = 0; i <= STEPS; i++) {
+  const [r, g, b] = i === STEPS ? [0.55, 0.58, 0.62] : viridis(i / (STEPS - 1));
+  new THREE.Color().setRGB(r!, g!, b!, THREE.SRGBColorSpace).toArray(TABLE, 3 * i);
+}
 
 export class PlateView {
   readonly group = new THREE.Group();
@@ -21,6 +28,7 @@ export class PlateView {
   private readonly casing = fat(6.5, 0x10151b, 0.85);
   private readonly limit = fat(3.4, 0xffffff, 1);
   private readonly sure = fat(2, 0xffffff, 0.95, true);
+  private readonly largest = fat(2, 0xffb14a, 1);
   private readonly frame = fat(1.6, 0x6b7683, 1);
   private shape = "";
   private plate: Plate | null = null;
@@ -28,13 +36,13 @@ export class PlateView {
 
   constructor(private readonly labels: Labels, private readonly name: string) {
     this.surface = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 }));
-    this.group.add(this.surface, this.frame, this.iso, this.casing, this.limit, this.sure);
+    this.group.add(this.surface, this.frame, this.iso, this.casing, this.limit, this.sure, this.largest);
     this.casing.renderOrder = 1;
     this.limit.renderOrder = 2;
     this.sure.renderOrder = 2;
   }
 
-  draw(map: MapAnswer, plate: Plate, scale: Scale, options: { lines: boolean; certainty: boolean; values: boolean }): void {
+  draw(map: MapAnswer, plate: Plate, scale: Scale, options: { lines: boolean; certainty: boolean; rectangle: boolean }): void {
     this.plate = plate;
     this.grid = map.grid;
     this.build(map.grid, plate);
@@ -49,10 +57,10 @@ export class PlateView {
     this.trace(this.limit, bound);
     this.trace(this.sure, options.certainty && map.certainty ? map.certainty.boundary_surely_mm : []);
     this.labels.group(this.name);
-    if (options.values) {
-      this.tag(bound, `limit ${trimmed(map.setting.limit_um, 1)} µm`, "limit-tag", 1);
-      for (const { level, lines: at } of options.lines ? lines : []) this.tag(at, trimmed(level, 1), "iso", 2);
-    }
+    const corners = options.rectangle ? map.region.rectangle_mm : null;
+    this.trace(this.largest, corners ? [rectangle(...corners)] : []);
+    this.tag(bound, `limit ${trimmed(map.setting.limit_um, 1)} µm`, "limit-tag", 1);
+    for (const { level, lines: at } of options.lines ? lines : []) this.tag(at, trimmed(level, 1), "iso", 2);
   }
 
   /** Its edges alone: a plane beside the one that is shown. */
@@ -60,7 +68,7 @@ export class PlateView {
     this.plate = plate;
     this.grid = map.grid;
     this.build(map.grid, plate);
-    for (const part of [this.iso, this.casing, this.limit, this.sure]) part.visible = false;
+    for (const part of [this.iso, this.casing, this.limit, this.sure, this.largest]) part.visible = false;
     this.surface.visible = false;
     this.labels.group(this.name);
   }
@@ -82,9 +90,9 @@ export class PlateView {
     return next(this.grid!.z_mm, z) * this.grid!.y_mm.length + next(this.grid!.y_mm, y);
   }
 
-  private point(y: number, z: number, lift = 0): THREE.Vector3 {
+  private point(y: number, z: number): THREE.Vector3 {
     const p = this.plate!;
-    return vector(p.centre_mm).addScaledVector(vector(p.y_axis), y).addScaledVector(vector(p.z_axis), z).addScaledVector(vector(p.normal_axis), lift);
+    return vector(p.centre_mm).addScaledVector(vector(p.y_axis), y).addScaledVector(vector(p.z_axis), z);
   }
 
   private build(grid: MapGrid, plate: Plate): void {
@@ -114,19 +122,20 @@ export class PlateView {
 
   private colour(grid: MapGrid, scale: Scale): void {
     const colours = this.surface.geometry.getAttribute("color") as THREE.BufferAttribute;
-    const linear = new THREE.Color();
+    const to = colours.array as Float32Array;
     grid.in_plane_um.forEach((value, i) => {
-      const [r, g, b] = value === null ? BLANK : viridis(along(scale, value));
-      linear.setRGB(r, g, b, THREE.SRGBColorSpace);
-      colours.setXYZ(i, linear.r, linear.g, linear.b);
+      const at = value === null ? STEPS : Math.round((STEPS - 1) * Math.min(1, Math.max(0, along(scale, value))));
+      for (let k = 0; k < 3; k++) to[3 * i + k] = TABLE[3 * at + k]!;
     });
     colours.needsUpdate = true;
   }
 
   private trace(object: LineSegments2, lines: Line[]): void {
+    const { centre_mm: o, y_axis: u, z_axis: v } = this.plate!;
     const points: number[] = [];
     for (const line of lines)
-      for (let i = 0; i + 1 < line.length; i++) points.push(...this.point(...line[i]!).toArray(), ...this.point(...line[i + 1]!).toArray());
+      for (let i = 1; i < line.length; i++)
+        for (const [y, z] of [line[i - 1]!, line[i]!]) points.push(o[0] + y * u[0] + z * v[0], o[1] + y * u[1] + z * v[1], o[2] + y * u[2] + z * v[2]);
     object.visible = points.length > 0;
     if (points.length === 0) return;
     object.geometry.dispose();
@@ -140,6 +149,8 @@ export class PlateView {
     for (const line of long.slice(0, most)) this.labels.add(this.name, this.point(...line[Math.floor(line.length / 2)]!), text, kind);
   }
 }
+
+const rectangle = ([y0, z0]: [number, number], [y1, z1]: [number, number]): Line => [[y0, z0], [y1, z0], [y1, z1], [y0, z1], [y0, z0]];
 
 export function fat(width: number, colour: number, opacity: number, dashed = false): LineSegments2 {
   const material = new LineMaterial({ color: colour, linewidth: width, transparent: true, opacity, dashed, dashSize: 14, gapSize: 10, depthWrite: false });

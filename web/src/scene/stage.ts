@@ -22,7 +22,6 @@ export class Stage {
   private readonly ground = new THREE.Group();
   private ground_key = "";
   private asked = false;
-  private drawn: (() => void)[] = [];
 
   constructor(readonly host: HTMLElement) {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
@@ -52,13 +51,7 @@ export class Stage {
       this.asked = false;
       this.renderer.render(this.scene, this.camera);
       this.labels.place(this.camera, this.size);
-      for (const call of this.drawn.splice(0)) call();
     });
-  }
-
-  afterDraw(call: () => void): void {
-    this.drawn.push(call);
-    this.draw();
   }
 
   /** The ground grid under what is shown: 100 mm fine, 500 mm strong, labelled along x and y. */

@@ -23,6 +23,8 @@ export interface Show {
   ellipsoid: boolean;
   lines: boolean;
   certainty: boolean;
+  /** The largest rectangle that holds the limit. */
+  rectangle: boolean;
   /** Times by which the deviation is drawn larger than it is. */
   magnified: number;
   mm_per_n: number;
@@ -38,7 +40,7 @@ export const ELLIPSOID = 8;
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
-  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, magnified: 1000, mm_per_n: 25, hold_scale: false };
+  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, mm_per_n: 25, hold_scale: false };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -96,7 +98,7 @@ export class SceneView {
       const plate = plates[i];
       if (!map || !plate || !scale) return view.hide();
       if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
-      view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, values: true });
+      view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, rectangle: this.show.rectangle });
     });
     if (scene.points && scale) this.path.draw(scene.points, scale, answer.paths.length > 0);
     else this.path.clear();
