@@ -87,7 +87,7 @@ async function values(text, ask) {
     robot: j.robot.name, kind: j.maps.length > 1 ? "sections" : j.maps.length ? "map" : j.paths.length ? "path" : "volume", base: s.base,
     centre_mm: s.centre_mm, tilt_deg: s.tilt_deg, half_size_mm: y ? [y[0], y[0]] : [400, 400], step_mm: y ? y[0] - y[1] : 10,
     flange_from_tool_mm_deg: [0, 0, s.tool_length_mm, 0, 0, 0], tool_length_mm: s.tool_length_mm, cases_n: s.cases_n, limit_um: s.limit_um,
-    branch: (j.maps[0] ?? j.paths[0] ?? j.volumes[0]).branch, spin_deg: 0,
+    branch: (j.maps[0] ?? j.paths[0] ?? j.volumes[0]).branch, spin_deg: 0, branch_meant: (j.maps[0] ?? j.paths[0] ?? j.volumes[0]).branch,
     branches: ["front elbow-up", "front elbow-down", "back elbow-up", "back elbow-down"].flatMap((b) => [`${b} no-flip`, `${b} flip`]),
   };
 }
@@ -99,7 +99,7 @@ const plateOf = (s, half) => {
 };
 // The MH12's own chain (figures of the paper); other robots draw as it does.
 function drawing(q, tool, base) {
-  const r = q.map((x) => (x * Math.PI) / 180), lift = base === "controller" ? -450 : 0;
+  const r = q.map((x) => (x * Math.PI) / 180), lift = 0;
   let R = [[1, 0, 0], [0, 1, 0], [0, 0, 1]], p = [0, 0, lift];
   const joints = [], links = [[...p]];
   const turn = (axis, a) => {
@@ -119,7 +119,7 @@ function drawing(q, tool, base) {
   return { joints, flange_mm: flange, tool_mm: along(flange, tool, axis, 0, axis), tool_axis: axis, links_mm: links };
 }
 async function pose({ text, ask, at, case: n = 1 }) {
-  const s = settingOf(JSON.parse(await answer(text, ask)));
+  const j = JSON.parse(await answer(text, ask)), s = (j.maps[at.section ?? 0] ?? { setting: settingOf(j) }).setting;
   const plate = plateOf(s, [1, 1]);
   const xyz = at.xyz_mm ?? (at.point !== undefined ? (await scene(text, ask)).points.xyz_mm[at.point] : null) ?? ("y_mm" in at ? along(s.centre_mm, at.y_mm, plate.y_axis, at.z_mm, plate.z_axis) : s.centre_mm);
   const robot = /^robot = "(.*)"/m.exec(text)[1];
@@ -153,25 +153,22 @@ async function scene(text, ask) {
     const rows = (await table(text, ask)).trim().split("\n").filter((l) => !l.startsWith("#"));
     const head = rows[0].split(","), col = (name) => rows.slice(1).map((l) => { const x = l.split(",")[head.indexOf(name)]; return x === "" || x === undefined ? null : Number(x); });
     const [x, y, z] = ["x_mm", "y_mm", "z_mm"].map(col);
-    points = { xyz_mm: x.map((_, i) => [x[i], y[i], z[i]]), in_plane_um: col("in_plane_um"), normal_um: col("normal_um"), full_um: col("full_um") };
+    const which = col("deciding_case");
+    const d = ["x", "y", "z"].map((a) => which.map((n, i) => col(`deviation_${a}_case_${n}_um`)[i]));
+    points = { xyz_mm: x.map((_, i) => [x[i], y[i], z[i]]), deviation_um: x.map((_, i) => (Number.isFinite(d[0][i]) ? d.map((c) => c[i]) : null)), columns: { in_plane_um: col("in_plane_um"), normal_um: col("normal_um"), full_um: col("full_um") } };
   }
   const b = j.volumes[0];
-  let volume = null;
   if (b) {
     const out = await outOf(text, ask, "--csv", "--no-pictures");
-    const rows = readFileSync(join(out, readdirSync(out).find((f) => f.endsWith(".csv"))), "utf8").trim().split("\n").filter((l) => !l.startsWith("#"));
-    const head = rows[0].split(",");
-    const [xi, yi, zi, vi] = ["x_mm", "y_mm", "z_mm", "in_plane_um"].map((n) => head.indexOf(n));
-    const values = Array(b.point_counts[0] * b.point_counts[1] * b.point_counts[2]).fill(null);
-    for (const row of rows.slice(1)) {
-      const c = row.split(","), at = [xi, yi, zi].map((k, i) => Math.round((Number(c[k]) - b.origin_mm[i]) / b.step_mm));
-      if (c[vi] !== "") values[(at[2] * b.point_counts[1] + at[1]) * b.point_counts[0] + at[0]] = Number(c[vi]);
-    }
-    volume = { origin_mm: b.origin_mm, step_mm: b.step_mm, counts: b.point_counts, in_plane_um: values };
+    const rows = readFileSync(join(out, readdirSync(out).find((f) => f.endsWith(".csv"))), "utf8").trim().split("\n").filter((l) => !l.startsWith("#")).map((l) => l.split(","));
+    const [xi, yi, zi, vi] = ["x_mm", "y_mm", "z_mm", "in_plane_um"].map((n) => rows[0].indexOf(n));
+    points = { xyz_mm: rows.slice(1).map((r) => [r[xi], r[yi], r[zi]].map(Number)), deviation_um: [], columns: { in_plane_um: rows.slice(1).map((r) => (r[vi] === "" ? null : Number(r[vi]))) } };
   }
+  const side = (k) => [0, 1, 2].map((i) => (i === k ? (b.point_counts[k] - 1) * b.step_mm : 0));
   return {
-    robot: v.robot, base_mm: [0, 0, s.base === "controller" ? -450 : 0], plate: plateOf(s, half), plates: j.maps.map((m) => plateOf(m.setting, [m.grid.y_mm[0], m.grid.z_mm.at(-1)])), points,
-    box: b ? { min_mm: b.origin_mm, max_mm: b.origin_mm.map((o, i) => o + (b.point_counts[i] - 1) * b.step_mm) } : null, volume,
+    robot: v.robot, base_mm: [0, 0, s.base === "controller" ? 450 : 0], plate: plateOf(s, half),
+    sections: j.maps.length > 1 ? j.maps.map((m) => ({ label: m.name, plate: plateOf(m.setting, [m.grid.y_mm[0], m.grid.z_mm.at(-1)]) })) : [],
+    points, box: b ? { corner_mm: b.origin_mm, sides_mm: [side(0), side(1), side(2)], counts: b.point_counts } : null,
   };
 }
 async function outOf(text, ask, ...more) {

@@ -8,6 +8,7 @@ export class Refused extends Error {
     readonly kind: string,
     message: string,
     readonly problems: Problem[],
+    readonly hint: string | null = null,
   ) {
     super(message);
   }
@@ -52,13 +53,13 @@ export async function raw(method: string, path: string, body?: unknown, signal?:
     throw new Refused(0, "offline", "armill does not answer: the program that serves this page has ended. Start it again and open the address that it prints.", []);
   }
   if (response.ok) return response;
-  let told: { error?: { kind?: string; message?: string; problems?: Problem[] } } = {};
+  let told: { error?: { kind?: string; message?: string; hint?: string | null; problems?: Problem[] } } = {};
   try {
     told = await response.json();
   } catch {
     // Told without a body: the status has to do.
   }
-  throw new Refused(response.status, told.error?.kind ?? "internal", told.error?.message ?? `the server answered ${response.status}`, told.error?.problems ?? []);
+  throw new Refused(response.status, told.error?.kind ?? "internal", told.error?.message ?? `the server answered ${response.status}`, told.error?.problems ?? [], told.error?.hint ?? null);
 }
 
 async function json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
@@ -85,7 +86,7 @@ export const api = {
   robots: () => json<RobotRow[]>("GET", "/api/robots"),
   jobs: () => json<{ jobs: Job[] }>("GET", "/api/jobs"),
   job: (id: string) => json<Job>("GET", `/api/jobs/${id}`),
-  start: (kind: string, text: string) => json<{ id: string }>("POST", "/api/jobs", { kind, text }),
+  start: (kind: string, text: string, options?: unknown) => json<{ id: string }>("POST", "/api/jobs", { kind, text, ...(options === undefined ? {} : { options }) }),
   cancel: (id: string) => json<Job>("DELETE", `/api/jobs/${id}`),
   events: (id: string) => new EventSource(addressed(`/api/jobs/${id}/events`)),
   files: () => json<{ files: StoredFile[] }>("GET", "/api/files"),

@@ -69,6 +69,7 @@ export class Live {
     work: ({ at, load_case }, signal) => api.pose(this.text, this.ask, at, load_case, signal),
     done: (pose, { at, load_case }) => this.takePose(pose, at, load_case),
     failed: (error) => {
+      if (error instanceof Refused && error.kind === "superseded") return;
       this.pose_error = error instanceof Error ? error.message : String(error);
       this.pose = null;
       this.tell("pose");
@@ -163,6 +164,7 @@ export class Live {
 
   chooseSection(index: number): void {
     this.section = index;
+    if (this.at && "y_mm" in this.at) this.at = { ...this.at, section: index };
     this.tell("answer");
     this.stand();
   }
@@ -181,6 +183,13 @@ export class Live {
   }
   get best(): Point | null {
     return this.map?.best ?? this.answer?.volumes[0]?.best ?? null;
+  }
+
+  /** The point of the answer that the robot stands at, where it shows that posture and case. */
+  get told(): Point | null {
+    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+    const same = point?.branch === (this.pose?.answer.postures[this.posture]?.branch ?? null) && point?.deciding_case === this.load_case;
+    return same ? point : null;
   }
 
   // ---- Talking to the server ----
@@ -222,6 +231,7 @@ export class Live {
   }
 
   private fail(error: unknown): void {
+    if (error instanceof Refused && error.kind === "superseded") return;
     this.error = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
     this.pending.clear();
     this.error_at_field = false;
@@ -243,19 +253,25 @@ export class Live {
 
   /** A point of the answer as a place to stand: of a path by its number, so that attitude and load are its own. */
   private placeOf(point: Point): At {
-    const line = this.scene?.points?.xyz_mm;
-    if (line) {
-      const off = line.map((p) => Math.hypot(p[0] - point.xyz_mm[0], p[1] - point.xyz_mm[1], p[2] - point.xyz_mm[2]));
+    const points = this.scene?.points;
+    if (points) {
+      // Points of the scene lie in base, those of the answer in the frame that coordinates count from.
+      const shift = this.scene!.base_mm;
+      const off = points.xyz_mm.map((p, i) => Math.hypot(...p.map((x, k) => x - shift[k]! - point.xyz_mm[k]!)) + Math.abs((points.columns.in_plane_um[i] ?? 1e9) - point.in_plane_um));
       return { point: off.reduce((best, v, i) => (v < off[best]! ? i : best), 0) };
     }
-    return this.answer!.maps.length === 1 ? { y_mm: point.in_plane_mm[0], z_mm: point.in_plane_mm[1] } : { xyz_mm: point.xyz_mm };
+    return this.onPlate(point.in_plane_mm[0], point.in_plane_mm[1]);
+  }
+
+  /** A place on the plate that is shown. */
+  onPlate(y_mm: number, z_mm: number): At {
+    return this.answer!.maps.length > 1 ? { y_mm, z_mm, section: this.section } : { y_mm, z_mm };
   }
 
   private takePose(pose: Pose, at: At, load_case: number): void {
     const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
-    const reason = (pose as { reason?: string }).reason;
-    this.pose_error = pose.answer.postures.length === 0 ? (reason ?? "The robot has no posture there.") : null;
-    this.posture = choosePosture(pose, this.wanted_branch ?? point?.branch ?? null, this.values?.branch ?? null);
+    this.pose_error = pose.answer.postures.length === 0 ? "The robot has no posture there." : null;
+    this.posture = choosePosture(pose, this.wanted_branch ?? point?.branch ?? null, this.values?.branch_meant ?? null);
     const decides = decidingCase(pose.in_plane[this.posture] ?? []);
     if (this.fixed_case === null && decides !== null && decides !== load_case) {
       this.load_case = decides;

@@ -59,7 +59,7 @@ async function start(): Promise<void> {
 
   const title = h("p", { class: "study-title" });
   const changed = h("button", { type: "button", class: "changed", hidden: true, title: "Take back all changes since the file", onclick: () => live.study && live.use(live.study.text, live.study.asks) }, "changed · take back");
-  const keep = h("button", { type: "button", class: "changed keep", hidden: true, title: "Save the study as it is now, comments kept", onclick: () => live.save().catch(() => go("study")) }, "save");
+  const keep = h("button", { type: "button", class: "keep", hidden: true, title: "Save the study as it is now, comments kept", onclick: () => live.save().catch(() => go("study")) }, "save");
   const pace = h("span", { class: "pace", role: "status" });
   const sun = h("button", { type: "button", class: "icon theme", onclick: () => switchTheme(themed) });
   const themed = () => {

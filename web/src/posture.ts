@@ -3,12 +3,12 @@
 import type { CaseValues, Pose } from "./types";
 
 /** Largest in-plane deviation of all cases: what a map shows at a point. */
-export function envelope(cases: CaseValues[]): CaseValues | null {
-  return cases.reduce<CaseValues | null>((most, c) => (most === null || c.in_plane_um > most.in_plane_um ? c : most), null);
+export function envelope(cases: (CaseValues | null)[]): CaseValues | null {
+  return cases.reduce<CaseValues | null>((most, c) => (c !== null && (most === null || c.in_plane_um > most.in_plane_um) ? c : most), null);
 }
 
 /** The load case, from 1, that gives the envelope. */
-export function decidingCase(cases: CaseValues[]): number | null {
+export function decidingCase(cases: (CaseValues | null)[]): number | null {
   const most = envelope(cases);
   return most === null ? null : cases.indexOf(most) + 1;
 }

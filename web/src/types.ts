@@ -180,6 +180,8 @@ export interface Values {
   limit_um: number | null;
   branch: string | null;
   spin_deg: number | null;
+  /** The branch that "nominal" and such mean. */
+  branch_meant: string;
   branches: string[];
 }
 
@@ -240,10 +242,11 @@ export interface Pose {
   answer: PoseAnswer;
   drawings: ArmDrawing[];
   limits: JointLimit[];
-  in_plane: CaseValues[][];
+  /** Of each posture, of each case; null where the arm finds no rest. */
+  in_plane: (CaseValues | null)[][];
 }
 
-export type At = { y_mm: number; z_mm: number } | { xyz_mm: Vec3 } | { joints_deg: number[] } | { point: number };
+export type At = { y_mm: number; z_mm: number; section?: number } | { xyz_mm: Vec3 } | { joints_deg: number[] } | { point: number };
 
 export interface Plate {
   corners_mm: Vec3[];
@@ -255,23 +258,31 @@ export interface Plate {
 
 export interface ScenePoints {
   xyz_mm: Vec3[];
-  in_plane_um: (number | null)[];
-  normal_um?: (number | null)[];
-  full_um?: (number | null)[];
-  along_um?: (number | null)[];
-  cross_um?: (number | null)[];
-  axial_um?: (number | null)[];
-  branch?: (string | null)[];
+  /** Under the deciding case, base. */
+  deviation_um: (Vec3 | null)[];
+  columns: {
+    in_plane_um: (number | null)[];
+    normal_um?: (number | null)[];
+    full_um?: (number | null)[];
+    along_um?: (number | null)[];
+    cross_um?: (number | null)[];
+    axial_um?: (number | null)[];
+    distance_mm?: (number | null)[];
+    branch?: (string | null)[];
+    state?: (string | null)[];
+  };
 }
 
+/** Everything in base. */
 export interface Scene {
   robot: string;
-  base_mm: Vec3 | null;
-  plate: Plate | null;
-  plates?: Plate[];
+  /** Where the frame stands that coordinates count from. */
+  base_mm: Vec3;
+  plate: Plate;
+  sections: { label: string; plate: Plate }[];
   points: ScenePoints | null;
-  box: { min_mm?: Vec3; max_mm?: Vec3; corners_mm?: Vec3[] } | null;
-  volume?: { origin_mm: Vec3; step_mm: number; counts: Vec3; in_plane_um: (number | null)[] } | null;
+  /** Its points come in `points`. */
+  box: { corner_mm: Vec3; sides_mm: [Vec3, Vec3, Vec3]; counts: Vec3 } | null;
 }
 
 export interface RobotRow {

@@ -1,9 +1,9 @@
 // What can be turned: where the part lies, tool and load, tolerance and grid, posture, robot. Every change is answered.
 
-import { api } from "../api";
+import { api, type Refused } from "../api";
 import { h } from "../dom";
 import type { Live } from "../live";
-import type { Problem, RobotRow, Vec3 } from "../types";
+import type { RobotRow, Vec3 } from "../types";
 import { Choice } from "./choice";
 import { NumberField } from "./field";
 import { Forces } from "./forces";
@@ -22,6 +22,8 @@ export function controls(live: Live): HTMLElement {
     last = control();
     live.change(key, value, whole);
   };
+
+  const ofProgram = () => live.asks.find((a) => a.name === live.ask)?.keys?.some((key) => key.startsWith("program")) ?? false;
 
   const ask = new Choice("field-ask", "What is asked", (name) => live.choose(name));
   const section = new Choice("field-section", "Plane shown", (index) => live.chooseSection(Number(index)));
@@ -54,7 +56,7 @@ export function controls(live: Live): HTMLElement {
   const half = new NumberField({ id: "field-half", label: "Half size", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v) });
   const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
   const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
-  const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, "spin_deg", v), hint: "Turn of the tool about its own axis" });
+  const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Turn of the tool about its own axis" });
   const robot = new Choice("field-robot", "Robot", (v) => touch(() => robot, "robot", v, true));
   const all: Control[] = [ask, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
 
@@ -83,7 +85,7 @@ export function controls(live: Live): HTMLElement {
     limit.set(v.limit_um);
     half.set(plane && v.kind !== "path" ? (Array.isArray(v.half_size_mm) ? v.half_size_mm[0] : v.half_size_mm) : null);
     step.set(plane && v.kind !== "path" ? v.step_mm : null);
-    branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b })));
+    branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b === "nominal" && v.branch === "nominal" ? `nominal: ${v.branch_meant}` : b })));
     spin.set(v.kind === "path" ? v.spin_deg : null);
     robot.set(v.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
   };
@@ -92,7 +94,7 @@ export function controls(live: Live): HTMLElement {
     if (topic === "error") {
       for (const control of all) control.clear();
       if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
-        told(live.error.problems, live.error.message, all, last);
+        told(live.error, all, last);
         live.error_at_field = true;
       }
     }
@@ -119,8 +121,8 @@ const KEYS: Record<string, string[]> = {
 };
 
 /** Each problem at the control whose key it names; at the one touched last where it names none. */
-function told(problems: Problem[], message: string, all: Control[], last: Control): void {
-  const list = problems.length > 0 ? problems : [{ message, hint: null }];
+function told({ problems, message, hint }: Refused, all: Control[], last: Control): void {
+  const list = problems.length > 0 ? problems : [{ message, hint }];
   for (const problem of list.slice(0, 3)) {
     const named = all.find((c) => KEYS[c.id]?.some((key) => problem.message.includes(key)));
     const lasts = KEYS[last.id]?.some((key) => problem.message.includes(key)) ?? false;

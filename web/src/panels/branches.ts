@@ -23,7 +23,7 @@ export function branches(live: Live): HTMLElement {
           const posture = pose.answer.postures[i]!;
           const name = posture.branch ?? `posture ${i + 1}`;
           const value = worst[i] ?? 0;
-          const used = live.values?.branch !== "best" && fits(posture.branch, live.values?.branch ?? "?");
+          const used = live.values?.branch_meant !== "best" && fits(posture.branch, live.values?.branch_meant ?? "?");
           return h(
             "li",
             { class: i === live.posture ? "chosen" : "" },

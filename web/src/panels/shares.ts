@@ -3,6 +3,7 @@
 import { h } from "../dom";
 import { percent, um } from "../format";
 import type { Live } from "../live";
+import { sharesOf } from "../shares";
 import { panel } from "./panel";
 
 export function shares(live: Live): HTMLElement {
@@ -10,7 +11,7 @@ export function shares(live: Live): HTMLElement {
   const draw = () => {
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
     const names = live.pose?.answer.shares_of ?? [];
-    const parts = values?.share_um;
+    const parts = sharesOf(live.pose, live.posture, live.load_case, live.scene?.plate.normal_axis);
     if (!values || !parts) return show(h("p", { class: "note" }, "Shares of the joints appear here."));
     const largest = Math.max(...parts.map(Math.abs), 1e-9);
     const order = parts.map((_, i) => i);

@@ -15,9 +15,9 @@ export function stand(live: Live): HTMLElement {
     const pitch = (list: number[]) => Math.abs((list[1] ?? 10) - (list[0] ?? 0)) || 10;
     let place = { y_mm: 0, z_mm: 0 };
     const go = (part: Partial<typeof place>) => {
-      if (live.at && "y_mm" in live.at) place = { ...live.at };
+      if (live.at && "y_mm" in live.at) place = { y_mm: live.at.y_mm, z_mm: live.at.z_mm };
       place = { ...place, ...part };
-      live.goTo(place);
+      live.goTo(live.onPlate(place.y_mm, place.z_mm));
     };
     return [
       new NumberField({ id: "stand-y", label: "y′ on the plate", unit: "mm", range: span(y_mm), step: pitch(y_mm), input: (v) => go({ y_mm: v }) }),
@@ -31,7 +31,7 @@ export function stand(live: Live): HTMLElement {
   const draw = () => {
     const { answer, scene, at } = live;
     if (!answer) return;
-    const kind = answer.maps.length === 1 ? "map" : scene?.points ? "path" : "none";
+    const kind = answer.maps.length > 0 ? "map" : scene?.points && answer.volumes.length === 0 ? "path" : "none";
     const key = `${kind} ${live.ask} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.xyz_mm.length}`;
     root.hidden = kind === "none";
     if (key !== made) {

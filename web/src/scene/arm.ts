@@ -16,9 +16,13 @@ export class Arm {
   knuckles: { name: string; at: THREE.Vector3 }[] = [];
 
   /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
-  draw(drawing: ArmDrawing, base: THREE.Vector3, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
+  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
     this.clear();
-    const knots = [base.clone(), ...drawing.links_mm.map(vector), vector(drawing.flange_mm)].filter((p, i, all) => i === 0 || p.distanceTo(all[i - 1]!) > 0.5);
+    // The line ends at the tip; the arm itself ends at the flange.
+    const tip = vector(drawing.tool_mm);
+    const line = drawing.links_mm.map(vector).filter((p, i, all) => i < all.length - 1 || p.distanceTo(tip) > 0.5);
+    const base = line[0] ?? new THREE.Vector3();
+    const knots = [...line, vector(drawing.flange_mm)].filter((p, i, all) => i === 0 || p.distanceTo(all[i - 1]!) > 0.5);
     const lengths = knots.slice(1).map((p, i) => p.distanceTo(knots[i]!));
     const total = lengths.reduce((sum, l) => sum + l, 0) || 1;
     const thick = total * 0.044;

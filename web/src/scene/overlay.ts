@@ -108,9 +108,10 @@ function hover(tip: HTMLElement, live: Live, under: Under, x: number, y: number,
     for (const remark of remarks) rows.push(["", remark]);
   } else {
     const points = live.scene!.points!;
+    const columns = points.columns;
     const i = under.index;
     rows.push(["Point", String(i + 1)], ["x, y, z", `${points.xyz_mm[i]!.map((v) => fixed(v, 1)).join(", ")} mm`]);
-    for (const [name, list] of [["In plane", points.in_plane_um], ["Along", points.along_um], ["Across", points.cross_um], ["Normal", points.normal_um ?? points.axial_um], ["Full", points.full_um]] as const) if (list) rows.push([name, `${um(list[i])} µm`]);
+    for (const [name, list] of [["In plane", columns.in_plane_um], ["Along", columns.along_um], ["Across", columns.cross_um], ["Normal", columns.normal_um], ["Full", columns.full_um]] as const) if (list) rows.push([name, `${um(list[i])} µm`]);
   }
   fill(tip, h("dl", {}, rows.map(([name, value]) => [h("dt", {}, name), h("dd", {}, value)])), h("p", {}, "Click: the robot goes there"));
   const box = host.getBoundingClientRect();

@@ -4,20 +4,22 @@ import * as THREE from "three";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { ScenePoints } from "../types";
 import { along, viridis, type Scale } from "./colour";
+import { fat } from "./plate";
 
 const MOST_BEADS = 4000;
 
 export class PathView {
   readonly group = new THREE.Group();
   beads: THREE.InstancedMesh | null = null;
-  private line: Line2 | null = null;
 
-  draw(points: ScenePoints, scale: Scale, joined: boolean): void {
+  /** `magnified`: mm drawn for 1 µm; 0 draws no deviation. */
+  draw(points: ScenePoints, scale: Scale, joined: boolean, magnified: number): void {
     this.clear();
     const colour = new THREE.Color();
-    const colours = points.in_plane_um.map((value) => {
+    const colours = points.columns.in_plane_um.map((value) => {
       const [r, g, b] = value === null ? [0.55, 0.58, 0.62] : viridis(along(scale, value));
       return colour.setRGB(r!, g!, b!, THREE.SRGBColorSpace).clone();
     });
@@ -32,9 +34,9 @@ export class PathView {
       const geometry = new LineGeometry();
       geometry.setPositions(order.flatMap((i) => points.xyz_mm[i]!));
       geometry.setColors(order.flatMap((i) => colours[i]!.toArray()));
-      this.line = new Line2(geometry, new LineMaterial({ vertexColors: true, linewidth: 7 }));
-      this.line.frustumCulled = false;
-      this.group.add(this.line);
+      const line = new Line2(geometry, new LineMaterial({ vertexColors: true, linewidth: 7 }));
+      line.frustumCulled = false;
+      this.group.add(line);
     }
     const size = this.reach(points) * (joined ? 0.012 : 0.02);
     if (n <= MOST_BEADS) {
@@ -47,12 +49,31 @@ export class PathView {
       this.beads.computeBoundingSphere();
       this.group.add(this.beads);
     }
+    if (magnified > 0 && n <= MOST_BEADS) this.deviation(points, magnified, joined);
+  }
+
+  /** Where the tool goes in truth: from every point an arrow without head, and a line through their ends. */
+  private deviation(points: ScenePoints, magnified: number, joined: boolean): void {
+    const ends = points.xyz_mm.map((p, i) => points.deviation_um[i]?.map((d, k) => p[k]! + d * magnified) ?? null);
+    const whiskers: number[] = [];
+    const rim: number[] = [];
+    ends.forEach((end, i) => {
+      if (!end) return;
+      whiskers.push(...points.xyz_mm[i]!, ...end);
+      const before = ends[i - 1];
+      if (joined && before) rim.push(...before, ...end);
+    });
+    for (const [line, width, opacity] of [[whiskers, 1.3, 0.55], [rim, 2.2, 1]] as const) {
+      const object = fat(width, 0xcc3fa0, opacity);
+      object.visible = line.length > 0;
+      if (line.length > 0) object.geometry = new LineSegmentsGeometry().setPositions(line);
+      this.group.add(object);
+    }
   }
 
   clear(): void {
-    this.line?.geometry.dispose();
+    for (const child of this.group.children) (child as THREE.Mesh).geometry.dispose();
     this.beads?.dispose();
-    this.line = null;
     this.beads = null;
     this.group.clear();
   }

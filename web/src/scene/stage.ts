@@ -90,10 +90,16 @@ export class Stage {
     this.draw();
   }
 
+  /** Ground and axes, or none where they would stand before the plate. */
+  axes(on: boolean): void {
+    this.ground.visible = on;
+    this.labels.visible("ground", on);
+  }
+
   look(view: View, subject: Subject): void {
     const { box, plate } = subject;
     const target = view === "plate" && plate ? plate.centre.clone() : box.getCenter(new THREE.Vector3());
-    const radius = view === "plate" && plate ? plate.size * 0.42 : box.getBoundingSphere(new THREE.Sphere()).radius;
+    const radius = view === "plate" && plate ? plate.size * 0.46 : box.getBoundingSphere(new THREE.Sphere()).radius;
     const from: Record<View, THREE.Vector3> = {
       overview: new THREE.Vector3(-0.62, -1, 0.42),
       front: new THREE.Vector3(1, 0, 0.0001),

@@ -2,8 +2,8 @@
 
 import * as THREE from "three";
 import type { Live } from "../live";
-import { envelope } from "../posture";
-import type { At, Plate, Vec3 } from "../types";
+import { sharesOf } from "../shares";
+import type { At, Plate } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
 import { scaleOf, type Scale } from "./colour";
@@ -76,6 +76,7 @@ export class SceneView {
   look(view: View): void {
     this.ghost = view === "plate";
     this.arm.ghost(this.ghost);
+    this.stage.axes(!this.ghost);
     this.stage.look(view, this.subject());
   }
 
@@ -87,7 +88,7 @@ export class SceneView {
     const range = this.range();
     if (range && !(this.show.hold_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.limit_um);
     const scale = this.scale;
-    const plates = this.platesOf();
+    const plates = answer.maps.length > 0 ? this.platesOf() : [];
     while (this.plates.length < plates.length) {
       const plate = new PlateView(this.stage.labels, `plate ${this.plates.length}`);
       this.plates.push(plate);
@@ -100,11 +101,11 @@ export class SceneView {
       if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
       view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, rectangle: this.show.rectangle });
     });
-    if (scene.points && scale) this.path.draw(scene.points, scale, answer.paths.length > 0);
+    if (scene.points && scale && !scene.box) this.path.draw(scene.points, scale, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
     else this.path.clear();
     this.volume.draw(scene, setting.limit_um);
-    this.part.draw(answer.maps.length === 0 ? scene.plate : null);
-    this.stage.floor(Math.min(0, scene.base_mm?.[2] ?? 0), this.reach());
+    this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
+    this.stage.floor(0, this.reach());
     const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;
     if (key !== this.looked) {
       this.looked = key;
@@ -117,37 +118,33 @@ export class SceneView {
   private range(): [number, number] | null {
     const { answer, scene } = this.live;
     const spans = answer!.maps.flatMap((m) => [m.min_in_plane_um, m.max_in_plane_um]).concat(answer!.volumes.flatMap((v) => [v.best?.in_plane_um ?? null, v.worst?.in_plane_um ?? null]));
-    const values = spans.length > 0 ? spans : (scene!.points?.in_plane_um ?? []);
+    const values = spans.length > 0 ? spans : (scene!.points?.columns.in_plane_um ?? []);
     const known = values.filter((v): v is number => v !== null && v !== undefined);
     return known.length > 0 ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : null;
   }
 
-  /** One plate a map; of a server that tells but one, the others stand parallel through their own centres. */
+  /** One plate a map. */
   private platesOf(): Plate[] {
-    const { answer, scene } = this.live;
-    if (scene!.plates && scene!.plates.length > 0) return scene!.plates;
-    if (!scene!.plate) return [];
-    return answer!.maps.map((map) => {
-      const n = new THREE.Vector3(...map.setting.normal_axis);
-      const y = new THREE.Vector3(...scene!.plate!.y_axis);
-      return { ...scene!.plate!, centre_mm: map.setting.centre_mm, normal_axis: map.setting.normal_axis, z_axis: y.clone().cross(n).toArray() as Vec3 };
-    });
+    const scene = this.live.scene;
+    if (!scene) return [];
+    return scene.sections.length > 0 ? scene.sections.map((s) => s.plate) : [scene.plate];
   }
 
   // ---- The pose: arm, arrows, ellipsoid ----
 
   private drawPose(): void {
     const { pose, posture, load_case, setting, scene } = this.live;
+    const normal_axis = scene?.plate.normal_axis;
     const drawing = pose?.drawings[posture];
     const answer = pose?.answer.postures[posture];
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm && !!drawing;
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
-    if (drawing && answer && setting) {
+    if (drawing && answer && setting && normal_axis) {
       const style = getComputedStyle(document.documentElement);
       const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
       const shares = this.shares();
-      this.arm.draw(drawing, new THREE.Vector3(...(scene?.base_mm ?? [0, 0, 0])), shares, colour("--joint-quiet"), colour("--joint-loud"));
+      this.arm.draw(drawing, shares, colour("--joint-quiet"), colour("--joint-loud"));
       this.arm.ghost(this.ghost);
       const most = shares.indexOf(Math.max(...shares));
       if (this.show.arm)
@@ -165,7 +162,7 @@ export class SceneView {
       const moved = answer.deviation_um;
       if (this.show.deviation && moved) {
         this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
-        const normal = new THREE.Vector3(...setting.normal_axis);
+        const normal = new THREE.Vector3(...normal_axis);
         const drawn = new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000);
         const out = normal.clone().multiplyScalar(drawn.dot(normal));
         if (this.show.parts) {
@@ -181,10 +178,10 @@ export class SceneView {
 
   /** Shares of the joints in the deviation that is shown, as fractions. */
   private shares(): number[] {
-    const cases = this.live.pose?.in_plane[this.live.posture] ?? [];
-    const shown = cases[this.live.load_case - 1] ?? envelope(cases);
-    const parts = shown?.share_um ?? [];
-    return (this.live.pose?.answer.joint_names ?? []).map((_, i) => (shown && shown.in_plane_um > 0 ? Math.max(0, (parts[i] ?? 0) / shown.in_plane_um) : 0));
+    const { pose, posture, load_case, scene } = this.live;
+    const shown = pose?.in_plane[posture]?.[load_case - 1];
+    const parts = sharesOf(pose, posture, load_case, scene?.plate.normal_axis) ?? [];
+    return (pose?.answer.joint_names ?? []).map((_, i) => (shown && shown.in_plane_um > 0 ? Math.max(0, (parts[i] ?? 0) / shown.in_plane_um) : 0));
   }
 
   // ---- Sizes and pointer ----
@@ -198,20 +195,16 @@ export class SceneView {
     const { scene, pose, posture } = this.live;
     const box = new THREE.Box3();
     const drawing = pose?.drawings[posture];
-    box.expandByPoint(new THREE.Vector3(...(scene?.base_mm ?? [0, 0, 0])));
+    box.expandByPoint(new THREE.Vector3());
     drawing?.links_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
     scene?.points?.xyz_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
-    if (scene?.box || scene?.volume) box.union(this.volume.box(scene));
-    const plates = scene ? this.platesOfSafe() : [];
+    if (scene?.box) box.union(this.volume.extent(scene.box));
+    const plates = this.platesOf();
     for (const plate of plates) plate.corners_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
-    const plate = plates[this.live.section] ?? scene?.plate ?? null;
+    const plate = plates[this.live.section] ?? null;
     if (!plate) return { box, plate: null };
     const [a, b] = [new THREE.Vector3(...plate.corners_mm[0]!), new THREE.Vector3(...plate.corners_mm[2]!)];
     return { box, plate: { centre: new THREE.Vector3(...plate.centre_mm), normal: new THREE.Vector3(...plate.normal_axis), up: new THREE.Vector3(...plate.z_axis), size: a.distanceTo(b) } };
-  }
-
-  private platesOfSafe(): Plate[] {
-    return this.live.answer ? this.platesOf() : [];
   }
 
   private point(): void {
@@ -230,11 +223,7 @@ export class SceneView {
 
   private placeOf(under: NonNullable<Under>): At | null {
     if (under.kind === "point") return { point: under.index };
-    const map = this.live.map!;
-    if (this.live.answer!.maps.length === 1) return { y_mm: under.y_mm, z_mm: under.z_mm };
-    const plate = this.platesOf()[this.live.section]!;
-    const at = new THREE.Vector3(...map.setting.centre_mm).addScaledVector(new THREE.Vector3(...plate.y_axis), under.y_mm).addScaledVector(new THREE.Vector3(...plate.z_axis), under.z_mm);
-    return { xyz_mm: at.toArray() as Vec3 };
+    return this.live.onPlate(under.y_mm, under.z_mm);
   }
 
   private under(event: PointerEvent): Under {

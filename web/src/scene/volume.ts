@@ -4,46 +4,55 @@ import * as THREE from "three";
 import type { Scene } from "../types";
 import { surfaceBelow } from "./surface";
 
+type Box = NonNullable<Scene["box"]>;
+
 export class VolumeView {
   readonly group = new THREE.Group();
   private readonly surface = new THREE.Mesh(
     new THREE.BufferGeometry(),
-    new THREE.MeshStandardMaterial({ color: 0x21918c, transparent: true, opacity: 0.42, side: THREE.DoubleSide, roughness: 0.6, depthWrite: false }),
+    new THREE.MeshStandardMaterial({ color: 0x21918c, transparent: true, opacity: 0.45, side: THREE.DoubleSide, roughness: 0.6, depthWrite: false }),
   );
-  private edges: THREE.LineSegments | null = null;
+  private readonly edges = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0x6b7683 }));
 
   constructor() {
-    this.group.add(this.surface);
+    this.group.add(this.surface, this.edges);
   }
 
-  draw(scene: Scene, limit_um: number): void {
-    this.group.visible = scene.box !== null || !!scene.volume;
-    if (!this.group.visible) return;
-    const box = this.box(scene);
-    this.edges?.geometry.dispose();
-    if (this.edges) this.group.remove(this.edges);
-    const size = box.getSize(new THREE.Vector3());
-    const centre = box.getCenter(new THREE.Vector3());
-    const geometry = new THREE.EdgesGeometry(new THREE.BoxGeometry(size.x, size.y, size.z).translate(centre.x, centre.y, centre.z));
-    this.edges = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: 0x6b7683 }));
-    this.group.add(this.edges);
-    this.surface.visible = !!scene.volume;
-    if (!scene.volume) return;
-    const { origin_mm, step_mm, counts, in_plane_um } = scene.volume;
-    const mesh = surfaceBelow({ origin_mm, step_mm, counts, values: in_plane_um }, limit_um);
+  draw({ box, points }: Scene, limit_um: number): void {
+    this.group.visible = box !== null;
+    if (!box) return;
+    const place = frame(box);
+    this.edges.geometry.dispose();
+    this.edges.geometry = new THREE.EdgesGeometry(new THREE.BoxGeometry(1, 1, 1).translate(0.5, 0.5, 0.5)).applyMatrix4(place);
+    this.surface.visible = points !== null;
+    if (!points) return;
+    // The points' own order is not told: each goes where it lies.
+    const [nx, ny, nz] = box.counts;
+    const values: (number | null)[] = Array<number | null>(nx * ny * nz).fill(null);
+    const back = place.clone().invert();
+    const at = new THREE.Vector3();
+    points.xyz_mm.forEach((p, i) => {
+      at.set(...p).applyMatrix4(back);
+      const [x, y, z] = [at.x * (nx - 1), at.y * (ny - 1), at.z * (nz - 1)].map((v) => Math.round(Number.isFinite(v) ? v : 0));
+      values[(z! * ny + y!) * nx + x!] = points.columns.in_plane_um[i] ?? null;
+    });
+    const mesh = surfaceBelow({ origin_mm: [0, 0, 0], step_mm: 1, counts: box.counts, values }, limit_um);
     this.surface.geometry.dispose();
-    this.surface.geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(mesh.positions, 3)).setIndex(mesh.index);
+    this.surface.geometry = new THREE.BufferGeometry()
+      .setAttribute("position", new THREE.Float32BufferAttribute(mesh.positions, 3))
+      .setIndex(mesh.index)
+      .applyMatrix4(new THREE.Matrix4().makeScale(1 / Math.max(1, nx - 1), 1 / Math.max(1, ny - 1), 1 / Math.max(1, nz - 1)).premultiply(place));
     this.surface.geometry.computeVertexNormals();
   }
 
-  box(scene: Scene): THREE.Box3 {
-    const { box, volume } = scene;
-    const corners = box?.corners_mm ?? (box?.min_mm && box.max_mm ? [box.min_mm, box.max_mm] : []);
-    const found = new THREE.Box3().setFromPoints(corners.map((c) => new THREE.Vector3(...c)));
-    if (volume && found.isEmpty()) {
-      const low = new THREE.Vector3(...volume.origin_mm);
-      found.set(low, low.clone().add(new THREE.Vector3(...volume.counts).subScalar(1).multiplyScalar(volume.step_mm)));
-    }
-    return found;
+  extent(box: Box): THREE.Box3 {
+    return new THREE.Box3(new THREE.Vector3(), new THREE.Vector3(1, 1, 1)).applyMatrix4(frame(box));
   }
+}
+
+/** From the unit cube to the box. */
+function frame({ corner_mm, sides_mm }: Box): THREE.Matrix4 {
+  // A side of no length would fold the space flat.
+  const [x, y, z] = sides_mm.map((s, i) => (Math.hypot(...s) > 0 ? new THREE.Vector3(...s) : new THREE.Vector3().setComponent(i, 1e-3)));
+  return new THREE.Matrix4().makeBasis(x!, y!, z!).setPosition(...corner_mm);
 }

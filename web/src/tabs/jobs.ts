@@ -6,12 +6,13 @@ import { ago, duration } from "../format";
 import type { Live } from "../live";
 import type { Job, Vec3 } from "../types";
 import type { Tab } from "./tab";
+import { testsDialog } from "./tests-dialog";
 
 const KINDS: [string, string, string][] = [
   ["run", "Run the study", "Every question, with tables, pictures and report in the study's folder."],
   ["place", "Find the best place", "Where the part should lie so that a path deviates least; needs [place] in the study."],
   ["posture", "Find the best posture", "The best turn of the tool and branch along the paths; needs a path."],
-  ["identify", "Identify compliances", "Joint compliances from load tests; needs them in the study."],
+  ["identify", "Identify compliances", "Joint compliances from load tests: a table in the study's folder."],
 ];
 const over = (job: Job): boolean => job.state === "done" || job.state === "failed" || job.state === "cancelled";
 
@@ -65,8 +66,8 @@ export function jobsTab(live: Live, go: (tab: string) => void): Tab {
   const start = async (kind: string) => {
     status.textContent = "";
     try {
-      await api.start(kind, live.text);
-      await refresh();
+      if (kind === "identify") return await tests.ask();
+      await begin(kind);
     } catch (error) {
       fail(error);
     }
@@ -74,6 +75,11 @@ export function jobsTab(live: Live, go: (tab: string) => void): Tab {
   // A card is built anew when the state of its job changes; while it runs only bar and words move, so that a click on
   // "Cancel" and the focus are not lost ten times a second.
   const cards = new Map<string, { state: string; root: HTMLElement; tick: (job: Job) => void }>();
+  const begin = async (kind: string, options?: unknown) => {
+    await api.start(kind, live.text, options);
+    await refresh();
+  };
+  const tests = testsDialog((name) => void begin("identify", { tests: name }).catch(fail));
   const draw = () => {
     const all = [...jobs.values()].sort((a, b) => a.started_s_ago - b.started_s_ago || b.id.localeCompare(a.id, undefined, { numeric: true }));
     const roots = all.map((job) => {
@@ -144,6 +150,7 @@ export function jobsTab(live: Live, go: (tab: string) => void): Tab {
     h("div", { class: "starters" }, KINDS.map(([kind, text, about]) => h("button", { type: "button", class: "starter", "data-kind": kind, onclick: () => void start(kind) }, h("b", {}, text), h("span", {}, about)))),
     status,
     list,
+    tests.root,
   );
   draw();
   void refresh();
