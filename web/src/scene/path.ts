@@ -52,7 +52,10 @@ export class PathView {
     if (magnified > 0 && n <= MOST_BEADS) this.deviation(points, magnified, joined);
   }
 
-  /** Where the tool goes in truth: from every point an arrow without head, and a line through their ends. */
+  /**
+   * Where the tool goes in truth: from every point an arrow without head, and a line through their ends. The line breaks
+   * where another load case begins to decide and the end leaps.
+   */
   private deviation(points: ScenePoints, magnified: number, joined: boolean): void {
     const ends = points.xyz_mm.map((p, i) => points.deviation_um[i]?.map((d, k) => p[k]! + d * magnified) ?? null);
     const whiskers: number[] = [];
@@ -61,7 +64,9 @@ export class PathView {
       if (!end) return;
       whiskers.push(...points.xyz_mm[i]!, ...end);
       const before = ends[i - 1];
-      if (joined && before) rim.push(...before, ...end);
+      const [d, d0] = [points.deviation_um[i]!, points.deviation_um[i - 1]];
+      const leap = d0 ? Math.hypot(...d.map((v, k) => v - d0[k]!)) : Infinity;
+      if (joined && before && leap < 0.4 * Math.hypot(...d)) rim.push(...before, ...end);
     });
     for (const [line, width, opacity] of [[whiskers, 1.3, 0.55], [rim, 2.2, 1]] as const) {
       const object = fat(width, 0xcc3fa0, opacity);

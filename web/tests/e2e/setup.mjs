@@ -2,7 +2,7 @@
 // Env ARMILL_BIN: the armill binary. Env CHROMIUM: the browser, Debian's if left out.
 
 import { spawn } from "node:child_process";
-import { copyFileSync, mkdtempSync, rmSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
@@ -11,12 +11,13 @@ import { chromium } from "playwright-core";
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
 const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
 
-export async function serve() {
+/** `edit`: what the study is to be instead. */
+export async function serve(edit = (text) => text) {
   if (process.env.ARMILL_URL) return { url: process.env.ARMILL_URL, folder: null, stop: async () => {} };
   const binary = process.env.ARMILL_BIN;
   if (!binary) throw new Error("ARMILL_BIN names no armill binary");
   const folder = mkdtempSync(join(tmpdir(), "armill-e2e-"));
-  copyFileSync(STUDY, join(folder, "study.toml"));
+  writeFileSync(join(folder, "study.toml"), edit(readFileSync(STUDY, "utf8")));
   const child = spawn(binary, ["serve", folder, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
   const url = await new Promise((done, fail) => {
     createInterface({ input: child.stdout }).once("line", done);
@@ -52,7 +53,7 @@ export function client(url) {
 }
 
 /** A page on the server, with whatever the browser complained about. */
-export async function open(browser, url, { width = 1280, height = 800, dark = false, scale = 1 } = {}) {
+export async function open(browser, url, { width = 1280, height = 800, dark = false, scale = 1, answers = true } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", deviceScaleFactor: scale });
   const page = await context.newPage();
   page.complaints = [];
@@ -66,7 +67,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
     if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`asked ${to.href}`);
   });
   await page.goto(url);
-  await settled(page);
+  if (answers) await settled(page);
   return page;
 }
 

@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serve, settled } from "./setup.mjs";
 
+const OWN = process.env.ARMILL_URL ? "needs a folder of its own" : false;
 let server, browser;
 before(async () => {
   server = await serve();
@@ -66,7 +67,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   await page.context().close();
 });
 
-test("a change of a control is saved with the comments kept", { skip: process.env.ARMILL_URL ? "needs a folder of its own" : false }, async () => {
+test("a change of a control is saved with the comments kept", { skip: OWN }, async () => {
   const page = await open(browser, server.url);
   await page.fill("#field-x", "850");
   await settled(page);
@@ -89,13 +90,67 @@ test("a job runs to its end over a reload, another is cancelled", async () => {
   await page.waitForSelector(".job.done", { timeout: 120_000 });
   assert.ok((await page.locator(".job.done .files a").count()) >= 1);
   await page.click("[data-kind=place]");
-  const placing = page.locator(".job", { hasText: /place/i }).first();
-  await placing.getByRole("button", { name: "Cancel" }).click();
+  await page.locator(".job.running, .job.waiting").first().getByRole("button", { name: "Cancel" }).click();
   await page.waitForSelector(".job.cancelled", { timeout: 30_000 });
+  assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
 
-test("files: the report is listed; a file that is dropped lies in the folder", { skip: process.env.ARMILL_URL ? "needs a folder of its own" : false }, async () => {
+const SMALL = `format = 1
+robot = "yaskawa/mh12"
+limit_um = 50
+[plane]
+centre_mm = [1000, 0, 800]
+half_size_mm = 100
+step_mm = 20
+[load]
+cases_n = [[3, 5, 5]]
+[[ask]]
+kind = "path"
+name = "groove"
+circle.radius_mm = 100
+step_mm = 60
+[place]
+ask = "groove"
+x_mm = [900, 1100]
+`;
+
+test("a small placement runs to its end, and its place is shown", { skip: OWN }, async () => {
+  const small = await serve(() => SMALL);
+  try {
+    const page = await open(browser, small.url);
+    await page.click("#tab-jobs");
+    await page.click("[data-kind=place]");
+    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    await page.click("text=Show this place");
+    await settled(page);
+    const x = Number(await page.inputValue("#field-x"));
+    assert.ok(x >= 900 && x <= 1100 && x !== 1000, `x is ${x}`);
+    await page.context().close();
+  } finally {
+    await small.stop();
+  }
+});
+
+test("a broken study opens in the editor with every problem marked", { skip: OWN }, async () => {
+  const broken = await serve((text) => text.replace("limit_um = 50", "limit_um = -5").replace("step_mm = 10", 'step_mm = "ten"'));
+  try {
+    const page = await open(browser, broken.url, { answers: false });
+    await page.waitForSelector(".problems .wrong");
+    assert.equal(await page.locator("#tab-study").getAttribute("aria-selected"), "true");
+    assert.ok((await page.locator(".lines b").count()) >= 1);
+    await page.locator("#study-text").fill((await page.inputValue("#study-text")).replace("limit_um = -5", "limit_um = 50").replace('step_mm = "ten"', "step_mm = 10"));
+    await page.waitForSelector(".problems .fine");
+    await page.click("#tab-live");
+    await settled(page);
+    assert.match(await page.locator(".verdict-line").innerText(), /50/);
+    await page.context().close();
+  } finally {
+    await broken.stop();
+  }
+});
+
+test("files: the report is listed; a file that is dropped lies in the folder", { skip: OWN }, async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-files");
   await page.waitForSelector("text=study.toml");
