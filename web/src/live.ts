@@ -3,10 +3,10 @@
 // A change of a control goes /api/change -> /api/answer, values, scene -> /api/pose; newest wins. The text that comes
 // back becomes the text of the next change, so that comments and order stay as the user wrote them.
 
-import { api, Refused, type Change } from "./api";
+import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, decidingCase } from "./posture";
-import type { Answer, Ask, At, MapAnswer, Point, Pose, Problem, Scene, Setting, Study, Values } from "./types";
+import type { Answer, Ask, At, Change, MapAnswer, Point, Pose, Problem, Scene, Setting, Study, Values } from "./types";
 
 export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 /** Where the robot stands: the worst or best point of what is shown, or a place that the user chose. */
@@ -192,6 +192,11 @@ export class Live {
     return same ? point : null;
   }
 
+  /** No change waits for its answer. */
+  get settled(): boolean {
+    return this.pending.size === 0;
+  }
+
   // ---- Talking to the server ----
 
   private async ask_server(job: Job, signal: AbortSignal): Promise<Result> {
@@ -215,7 +220,7 @@ export class Live {
     for (const [key, value] of result.sent) if (this.pending.get(key) === value) this.pending.delete(key);
     this.text = result.text;
     this.answer = result.answer;
-    this.values = result.values;
+    if (this.settled) this.values = result.values;
     this.scene = result.scene;
     this.error = null;
     if (this.section >= Math.max(1, result.answer.maps.length)) this.section = 0;
@@ -270,7 +275,7 @@ export class Live {
 
   private takePose(pose: Pose, at: At, load_case: number): void {
     const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
-    this.pose_error = pose.answer.postures.length === 0 ? "The robot has no posture there." : null;
+    this.pose_error = pose.answer.postures.length === 0 ? (pose.answer.unreachable?.message ?? "The robot has no posture there.") : null;
     this.posture = choosePosture(pose, this.wanted_branch ?? point?.branch ?? null, this.values?.branch_meant ?? null);
     const decides = decidingCase(pose.in_plane[this.posture] ?? []);
     if (this.fixed_case === null && decides !== null && decides !== load_case) {

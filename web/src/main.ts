@@ -4,7 +4,7 @@ import "./style/base.css";
 import "./style/live.css";
 import "./style/panels.css";
 import "./style/tabs.css";
-import { api, Refused, takeToken } from "./api";
+import { api, Refused, takeToken } from "./server";
 import { fill, h } from "./dom";
 import { fixed } from "./format";
 import { Live } from "./live";

@@ -1,6 +1,6 @@
 // What can be turned: where the part lies, tool and load, tolerance and grid, posture, robot. Every change is answered.
 
-import { api, type Refused } from "../api";
+import { api, type Refused } from "../server";
 import { h } from "../dom";
 import type { Live } from "../live";
 import type { RobotRow, Vec3 } from "../types";
@@ -44,7 +44,7 @@ export function controls(live: Live): HTMLElement {
     range: [0, 400],
     step: 5,
     input: (v) => {
-      const now = [...(live.values!.flange_from_tool_mm_deg ?? [0, 0, 0, 0, 0, 0])];
+      const now: [number, number, number, number, number, number] = [...live.values!.flange_from_tool_mm_deg];
       now[2] = v;
       live.values!.flange_from_tool_mm_deg = now;
       touch(() => tool, "tool.flange_from_tool_mm_deg", now);
@@ -76,7 +76,8 @@ export function controls(live: Live): HTMLElement {
     const maps = live.answer?.maps ?? [];
     section.set(maps.length > 1 ? String(live.section) : null, maps.map((m, i) => ({ value: String(i), text: m.name.replace(`${live.ask}: `, "") })));
     const v = live.values;
-    if (!v) return;
+    // While newer values are on their way, what the user has set stands.
+    if (!v || !live.settled) return;
     const plane = v.kind === "map" || v.kind === "path" || v.kind === "sections";
     [x, y, z].forEach((field, i) => field.set(v.centre_mm?.[i] ?? null));
     tilt.set(v.tilt_deg);

@@ -12,7 +12,7 @@ export function matrix(live: Live): HTMLElement {
   const { root, show } = panel("matrix", "Compliance matrix");
   const draw = () => {
     const posture = live.pose?.answer.postures[live.posture];
-    if (!posture) return show(h("p", { class: "note" }, "The matrix at the tool appears here."));
+    if (!posture?.compliance) return show(h("p", { class: "note" }, "The matrix at the tool appears here."));
     const c = posture.compliance;
     const most = (rows: number, columns: number) => Math.max(...c.slice(rows, rows + 3).flatMap((row) => row.slice(columns, columns + 3).map(Math.abs)));
     const scale = [[most(0, 0), most(0, 3)], [most(3, 0), most(3, 3)]];

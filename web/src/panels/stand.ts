@@ -15,7 +15,7 @@ export function stand(live: Live): HTMLElement {
     const pitch = (list: number[]) => Math.abs((list[1] ?? 10) - (list[0] ?? 0)) || 10;
     let place = { y_mm: 0, z_mm: 0 };
     const go = (part: Partial<typeof place>) => {
-      if (live.at && "y_mm" in live.at) place = { y_mm: live.at.y_mm, z_mm: live.at.z_mm };
+      if (typeof live.at?.y_mm === "number" && typeof live.at.z_mm === "number") place = { y_mm: live.at.y_mm, z_mm: live.at.z_mm };
       place = { ...place, ...part };
       live.goTo(live.onPlate(place.y_mm, place.z_mm));
     };
@@ -40,11 +40,11 @@ export function stand(live: Live): HTMLElement {
       show(...fields.map((f) => f.root));
     }
     if (!at) return;
-    if ("y_mm" in at && kind === "map") {
+    if (typeof at.y_mm === "number" && kind === "map") {
       fields[0]!.set(at.y_mm);
-      fields[1]!.set(at.z_mm);
+      fields[1]!.set(at.z_mm ?? 0);
     }
-    if ("point" in at && kind === "path") fields[0]!.set(at.point + 1);
+    if (typeof at.point === "number" && kind === "path") fields[0]!.set(at.point + 1);
   };
   live.listen((topic) => (topic === "answer" || topic === "pose") && draw());
   return root;

@@ -1,6 +1,6 @@
 // The files of the study's folder: see, download, and bring in robots, paths and measurements by dropping them.
 
-import { api, fileAddress, Refused } from "../api";
+import { api, fileAddress, Refused } from "../server";
 import { fill, h } from "../dom";
 import { ago, bytes } from "../format";
 import type { Live } from "../live";

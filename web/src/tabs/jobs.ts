@@ -1,6 +1,6 @@
 // Long work on the server: start it, watch it, cancel it, take its result. It runs on when the page is closed.
 
-import { api, fileAddress } from "../api";
+import { api, fileAddress } from "../server";
 import { fill, h, type Child } from "../dom";
 import { ago, duration } from "../format";
 import type { Live } from "../live";

@@ -1,6 +1,6 @@
 // The pictures of the command for what is asked, each to be had as SVG, PNG, and the numbers as CSV.
 
-import { api } from "../api";
+import { api } from "../server";
 import { fill, h } from "../dom";
 import { download, plainName } from "../download";
 import type { Live } from "../live";

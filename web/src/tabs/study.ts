@@ -1,6 +1,6 @@
 // The study as text: checked while it is typed, saved as it stands, comments and all.
 
-import { api, Refused } from "../api";
+import { api, Refused } from "../server";
 import { fill, h } from "../dom";
 import type { Live } from "../live";
 import { Newest } from "../newest";

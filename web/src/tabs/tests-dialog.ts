@@ -1,6 +1,6 @@
 // Which table of load tests the compliances are to be found from: one of the folder's.
 
-import { api } from "../api";
+import { api } from "../server";
 import { fill, h } from "../dom";
 
 export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogElement; ask: () => Promise<void> } {

@@ -36,7 +36,7 @@ test("the paper's study: the numbers of the page are those of the server, the to
   const shown = pose.answer.postures.findIndex((p) => p.branch === map.worst.branch);
   const values = pose.in_plane[shown][map.worst.deciding_case - 1];
   assert.deepEqual(await page.locator("#panel-point .figure-value").allInnerTexts(), [um(values.in_plane_um), um(values.normal_um), um(values.full_um)]);
-  assert.deepEqual(await page.locator("#panel-shares .bar-value").allInnerTexts(), values.share_um.map(um));
+  assert.deepEqual(await page.locator("#panel-shares .bar-value").allInnerTexts(), map.worst.joint_share_um.map(um));
   assert.equal(await page.locator("#panel-branches .branch").count(), pose.answer.postures.length);
   assert.deepEqual(await page.locator("#panel-cases tbody td:nth-child(2)").allInnerTexts(), pose.in_plane[shown].map((c) => um(c.in_plane_um)));
   const angles = pose.answer.postures[shown].joints_deg.map((q) => `${q < -0.05 ? "−" : ""}${Math.abs(q).toFixed(1)}°`);

@@ -6,7 +6,6 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serve, settled } from "./setup.mjs";
 
-const OWN = process.env.ARMILL_URL ? "needs a folder of its own" : false;
 let server, browser;
 before(async () => {
   server = await serve();
@@ -55,11 +54,9 @@ test("the study: checked while it is typed, saved with its comments", async () =
   assert.match(await page.locator(".verdict-line").innerText(), /130\u00a0µm/);
   await page.click("#tab-study");
   await save(page);
-  if (server.folder) {
-    const saved = readFileSync(join(server.folder, "study.toml"), "utf8");
-    assert.match(saved, /limit_um = 130 # wider/);
-    assert.match(saved, /# Fig. 6: a vertical plate/);
-  }
+  const saved = readFileSync(join(server.folder, "study.toml"), "utf8");
+  assert.match(saved, /limit_um = 130 # wider/);
+  assert.match(saved, /# Fig. 6: a vertical plate/);
   await editor.fill(text);
   await page.waitForSelector(".problems .fine");
   await save(page);
@@ -67,7 +64,7 @@ test("the study: checked while it is typed, saved with its comments", async () =
   await page.context().close();
 });
 
-test("a change of a control is saved with the comments kept", { skip: OWN }, async () => {
+test("a change of a control is saved with the comments kept", async () => {
   const page = await open(browser, server.url);
   await page.fill("#field-x", "850");
   await settled(page);
@@ -115,7 +112,7 @@ ask = "groove"
 x_mm = [900, 1100]
 `;
 
-test("a small placement runs to its end, and its place is shown", { skip: OWN }, async () => {
+test("a small placement runs to its end, and its place is shown", async () => {
   const small = await serve(() => SMALL);
   try {
     const page = await open(browser, small.url);
@@ -132,7 +129,7 @@ test("a small placement runs to its end, and its place is shown", { skip: OWN },
   }
 });
 
-test("a broken study opens in the editor with every problem marked", { skip: OWN }, async () => {
+test("a broken study opens in the editor with every problem marked", async () => {
   const broken = await serve((text) => text.replace("limit_um = 50", "limit_um = -5").replace("step_mm = 10", 'step_mm = "ten"'));
   try {
     const page = await open(browser, broken.url, { answers: false });
@@ -150,7 +147,7 @@ test("a broken study opens in the editor with every problem marked", { skip: OWN
   }
 });
 
-test("files: the report is listed; a file that is dropped lies in the folder", { skip: OWN }, async () => {
+test("files: the report is listed; a file that is dropped lies in the folder", async () => {
   const page = await open(browser, server.url);
   await page.click("#tab-files");
   await page.waitForSelector("text=study.toml");

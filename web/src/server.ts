@@ -1,6 +1,6 @@
 // The server: one function a call. The token comes with the URL that armill opened and stays in this tab.
 
-import type { Answer, At, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Scene, StoredFile, Study, Values } from "./types";
+import type { Answer, At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Scene, StoredFile, Study, TakenIn, Values, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -53,7 +53,7 @@ export async function raw(method: string, path: string, body?: unknown, signal?:
     throw new Refused(0, "offline", "armill does not answer: the program that serves this page has ended. Start it again and open the address that it prints.", []);
   }
   if (response.ok) return response;
-  let told: { error?: { kind?: string; message?: string; hint?: string | null; problems?: Problem[] } } = {};
+  let told: { error?: Partial<Wrong> } = {};
   try {
     told = await response.json();
   } catch {
@@ -64,11 +64,6 @@ export async function raw(method: string, path: string, body?: unknown, signal?:
 
 async function json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
   return (await raw(method, path, body, signal)).json() as Promise<T>;
-}
-
-export interface Change {
-  key: string;
-  value: unknown;
 }
 
 export const api = {
@@ -91,7 +86,7 @@ export const api = {
   events: (id: string) => new EventSource(addressed(`/api/jobs/${id}/events`)),
   files: () => json<{ files: StoredFile[] }>("GET", "/api/files"),
   put: (name: string, bytes: Blob, replace: boolean) =>
-    json<{ name: string; bytes: number; kind: string; hint: string }>("PUT", `/api/files/${encodeURIComponent(name)}${replace ? "?replace=1" : ""}`, bytes),
+    json<TakenIn>("PUT", `/api/files/${encodeURIComponent(name)}${replace ? "?replace=1" : ""}`, bytes),
 };
 
 export const fileAddress = (name: string): string => addressed(`/api/files/${name.split("/").map(encodeURIComponent).join("/")}`);
