@@ -14,9 +14,10 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend card", role: "img" });
   const tip = h("div", { class: "tip card", hidden: true });
   const magnified = h("output", {}, times(view.show.magnified));
-  const slider = h("input", { id: "magnified", type: "range", min: 2, max: 4, step: 0.05, value: Math.log10(view.show.magnified), "aria-label": "Deviation drawn larger by" });
+  const slider = h("input", { id: "magnified", type: "range", min: 2, max: 5, step: 0.05, value: Math.log10(view.show.magnified), "aria-label": "Deviation drawn larger by" });
   const redraw = () => live.tell("view");
   slider.addEventListener("input", () => {
+    view.show.magnified_by_hand = true;
     view.show.magnified = Number((10 ** Number(slider.value)).toPrecision(2));
     magnified.textContent = times(view.show.magnified);
     redraw();
@@ -58,7 +59,11 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     const hit = VIEWS.find(([, , key]) => key === e.key);
     if (hit) view.look(hit[0]);
   });
-  view.onScale = () => legend(legendBox, view, live);
+  view.onScale = () => {
+    legend(legendBox, view, live);
+    magnified.textContent = times(view.show.magnified);
+    slider.value = String(Math.log10(view.show.magnified));
+  };
   view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
   return h("div", { class: "overlay" }, views, shown, scales, legendBox, tip);
 }

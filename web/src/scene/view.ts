@@ -1,6 +1,7 @@
 // The scene of the live page: what the answer holds, drawn on the stage; the pointer's values; a click sends the robot.
 
 import * as THREE from "three";
+import { niceStep } from "../format";
 import type { Live } from "../live";
 import { sharesOf } from "../shares";
 import type { At, Plate } from "../types";
@@ -27,6 +28,7 @@ export interface Show {
   rectangle: boolean;
   /** Times by which the deviation is drawn larger than it is. */
   magnified: number;
+  magnified_by_hand: boolean;
   mm_per_n: number;
   hold_scale: boolean;
 }
@@ -40,7 +42,7 @@ export const ELLIPSOID = 8;
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
-  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, mm_per_n: 25, hold_scale: false };
+  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, hold_scale: false };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
@@ -56,6 +58,8 @@ export class SceneView {
   private readonly caster = new THREE.Raycaster();
   private looked = "";
   private ghost = false;
+  /** Until the arm has come too, the view is not final. */
+  private new_subject = false;
 
   constructor(private readonly host: HTMLElement, private readonly live: Live) {
     this.stage = new Stage(host);
@@ -109,6 +113,7 @@ export class SceneView {
     const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;
     if (key !== this.looked) {
       this.looked = key;
+      this.new_subject = true;
       this.look("overview");
     }
     this.onScale();
@@ -140,6 +145,11 @@ export class SceneView {
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm && !!drawing;
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
+    if (drawing && this.new_subject) {
+      this.new_subject = false;
+      this.look("overview");
+      this.magnify();
+    }
     if (drawing && answer && setting && normal_axis) {
       const style = getComputedStyle(document.documentElement);
       const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
@@ -174,6 +184,14 @@ export class SceneView {
       if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
     }
     this.stage.draw();
+  }
+
+  /** Draws deviations so large that they are seen, by a round number, until the user says how large. */
+  private magnify(): void {
+    const worst = this.live.worst;
+    if (this.show.magnified_by_hand || !worst || !(worst.full_um > 0)) return;
+    this.show.magnified = Math.min(1e5, Math.max(100, niceStep((0.16 * this.reach()) / (worst.full_um / 1000), 1)));
+    this.onScale();
   }
 
   /** Shares of the joints in the deviation that is shown, as fractions. */
