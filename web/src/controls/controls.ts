@@ -79,8 +79,9 @@ export function controls(live: Live): HTMLElement {
     // While newer values are on their way, what the user has set stands.
     if (!v || !live.settled) return;
     const plane = v.kind === "map" || v.kind === "path" || v.kind === "sections";
-    [x, y, z].forEach((field, i) => field.set(v.centre_mm?.[i] ?? null));
-    tilt.set(v.tilt_deg);
+    // Sections have many distances or tilts: the plane's own one would change nothing.
+    [x, y, z].forEach((field, i) => field.set(i === 0 && v.distances_mm ? null : v.centre_mm[i]!));
+    tilt.set(v.tilts_deg ? null : v.tilt_deg);
     tool.set(v.flange_from_tool_mm_deg?.[2] ?? v.tool_length_mm);
     forces.set(v.cases_n && v.cases_n.length > 0 ? v.cases_n : null);
     limit.set(v.limit_um);
