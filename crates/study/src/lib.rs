@@ -3,7 +3,8 @@
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
-//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`pose_accuracy`] and [`calibrate`] measured poses,
+//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
+//! measured paths,
 //! [`budget`] puts what was measured beside what is predicted,
 //! [`place`] finds where a part may lie best, [`advise`] what to do about a path.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
@@ -15,6 +16,7 @@
 
 pub mod advise;
 pub mod answer;
+pub mod backlash;
 pub mod ballbar;
 pub mod budget;
 pub mod calibrate;
@@ -34,6 +36,7 @@ mod naming;
 pub mod new;
 pub mod number;
 pub mod output;
+pub mod path_accuracy;
 pub mod pendant;
 pub mod place;
 pub mod pose;
