@@ -32,7 +32,7 @@ export type MapGrid = Schemas["GridAnswer"];
 
 export type At = Schemas["Place"];
 export type ArmDrawing = Schemas["DrawnPosture"];
-/** What stands behind 7 of the contract may come with each case. */
+/** Uncertainty, shares and permissible forces come where the posture has a named branch. */
 export type CaseValues = Schemas["CaseAnswer"] & {
   in_plane_u_um?: number | null;
   share_um?: number[] | null;

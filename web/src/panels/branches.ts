@@ -10,7 +10,7 @@ export function branches(live: Live): HTMLElement {
   const { root, show } = panel("branches", "Branches here");
   const draw = () => {
     const pose = live.pose;
-    if (!pose) return show(h("p", { class: "note" }, live.pose_error ?? "Every way to stand at the point appears here."));
+    if (!pose || pose.answer.postures.length === 0) return show(h("p", { class: "note" }, live.pose_error ?? "Every way to stand at the point appears here."));
     const limit = live.setting?.limit_um ?? 0;
     const worst = pose.in_plane.map((c) => envelope(c)?.in_plane_um ?? null);
     const top = Math.max(limit * 1.15, ...worst.map((w) => w ?? 0));

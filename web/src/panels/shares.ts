@@ -11,8 +11,8 @@ export function shares(live: Live): HTMLElement {
   const draw = () => {
     const values = live.pose?.in_plane[live.posture]?.[live.load_case - 1];
     const names = live.pose?.answer.shares_of ?? [];
-    const parts = sharesOf(live.pose, live.posture, live.load_case, live.scene?.plate.normal_axis);
-    if (!values || !parts) return show(h("p", { class: "note" }, "Shares of the joints appear here."));
+    const parts = sharesOf(live);
+    if (!values || !parts) return show(h("p", { class: "note" }, values ? "The shares of this posture are not known." : "Shares of the joints appear here."));
     const largest = Math.max(...parts.map(Math.abs), 1e-9);
     const order = parts.map((_, i) => i);
     const loudest = parts.indexOf(Math.max(...parts));

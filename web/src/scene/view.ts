@@ -138,19 +138,20 @@ export class SceneView {
   // ---- The pose: arm, arrows, ellipsoid ----
 
   private drawPose(): void {
-    const { pose, posture, load_case, setting, scene } = this.live;
-    const normal_axis = scene?.plate.normal_axis;
+    const { pose, posture, load_case, setting } = this.live;
     const drawing = pose?.drawings[posture];
     const answer = pose?.answer.postures[posture];
     this.stage.labels.group("arm");
-    this.arm.group.visible = this.show.arm && !!drawing;
+    this.arm.group.visible = this.show.arm;
+    // Where it cannot stand, it waits faintly where it stood.
+    if (!drawing) this.arm.ghost(true);
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
     if (drawing && this.new_subject) {
       this.new_subject = false;
       this.look("overview");
       this.magnify();
     }
-    if (drawing && answer && setting && normal_axis) {
+    if (drawing && answer && setting) {
       const style = getComputedStyle(document.documentElement);
       const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
       const shares = this.shares();
@@ -172,7 +173,8 @@ export class SceneView {
       const moved = answer.deviation_um;
       if (this.show.deviation && moved) {
         this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
-        const normal = new THREE.Vector3(...normal_axis);
+        // The tool stands against the part: its axis is the normal, everywhere.
+        const normal = new THREE.Vector3(...drawing.tool_axis);
         const drawn = new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000);
         const out = normal.clone().multiplyScalar(drawn.dot(normal));
         if (this.show.parts) {
@@ -196,9 +198,9 @@ export class SceneView {
 
   /** Shares of the joints in the deviation that is shown, as fractions. */
   private shares(): number[] {
-    const { pose, posture, load_case, scene } = this.live;
+    const { pose, posture, load_case } = this.live;
     const shown = pose?.in_plane[posture]?.[load_case - 1];
-    const parts = sharesOf(pose, posture, load_case, scene?.plate.normal_axis) ?? [];
+    const parts = sharesOf(this.live) ?? [];
     return (pose?.answer.joint_names ?? []).map((_, i) => (shown && shown.in_plane_um > 0 ? Math.max(0, (parts[i] ?? 0) / shown.in_plane_um) : 0));
   }
 
