@@ -44,6 +44,6 @@ export async function before(url) {
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const armill = spawn(process.env.ARMILL_BIN ?? "armill", ["serve", ...process.argv.slice(2), "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
   createInterface({ input: armill.stdout }).once("line", async (line) => console.log((await before(line)).url));
-  process.on("SIGINT", () => armill.kill("SIGTERM"));
+  for (const end of ["SIGINT", "SIGTERM"]) process.on(end, () => armill.kill("SIGTERM"));
   armill.on("exit", (code) => process.exit(code ?? 1));
 }
