@@ -45,6 +45,7 @@ fn main() -> ExitCode {
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
         Command::PoseAccuracy(pose_accuracy) => command::pose_accuracy::run(pose_accuracy),
         Command::Budget(budget) => command::budget::run(budget),
+        Command::Serve(serve) => command::serve::run(serve),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

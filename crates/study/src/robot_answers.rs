@@ -8,8 +8,10 @@ use armill_formats::sources::Source;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
 use crate::number::{decimals, without_rounding};
+use crate::{library, robots};
 
 /// A row of the list of robots.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
@@ -41,6 +43,18 @@ impl RobotRow {
             compliance_known: found.robot.compliance().is_some(),
         }
     }
+}
+
+/// The rows of the library; every robot of it is read for this.
+///
+/// # Errors
+/// Never in practice: what is built in reads.
+pub fn library_rows() -> Result<Vec<RobotRow>, StudyError> {
+    let row = |entry: &library::Embedded| {
+        let found = robots::find(entry.name, ".".as_ref())?;
+        Ok(RobotRow::of(entry.name, &found))
+    };
+    library::ROBOTS.iter().map(row).collect()
 }
 
 /// Everything that is known of one robot.

@@ -35,16 +35,27 @@ fn answer_table_and_pictures_are_the_files_of_a_run() {
     output::write(&study, &done, &whole, (folder.path(), Wanted::USUAL), &|_| ()).unwrap();
     let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
 
-    assert_eq!(answer_json(text(&found), None, Watch::NONE).unwrap(), file("result.json"));
+    assert_eq!(
+        answer_json(text(&found), None, Watch::NONE).unwrap(),
+        file("result.json")
+    );
     let drawn = pictures(text(&found), None, Watch::NONE).unwrap().pictures;
     assert!(!drawn.is_empty());
     for picture in &drawn {
         assert_eq!(picture.svg, file(&format!("{}.svg", picture.name)));
     }
-    let map = study.asks.iter().find(|ask| folder.path().join(format!("{}.csv", output::slug(&ask.name))).is_file());
+    let map = study.asks.iter().find(|ask| {
+        folder
+            .path()
+            .join(format!("{}.csv", output::slug(&ask.name)))
+            .is_file()
+    });
     let name = &map.unwrap().name;
     let csv = table_csv(text(&found), Some(name), Watch::NONE).unwrap();
-    assert_eq!(String::from_utf8(csv).unwrap(), file(&format!("{}.csv", output::slug(name))));
+    assert_eq!(
+        String::from_utf8(csv).unwrap(),
+        file(&format!("{}.csv", output::slug(name)))
+    );
 }
 
 #[test]
@@ -55,14 +66,21 @@ fn one_ask_alone_answers_as_among_the_others() {
         for of_ask in whole[kind].as_array().unwrap() {
             let name = of_ask["name"].as_str().unwrap();
             // A section is no ask.
-            let ask = name.split(": x = ").next().and_then(|name| name.split(": tilt").next()).unwrap();
+            let ask = name
+                .split(": x = ")
+                .next()
+                .and_then(|name| name.split(": tilt").next())
+                .unwrap();
             let alone = answer_json(text(&found), Some(ask), Watch::NONE).unwrap();
             let alone: Value = serde_json::from_str(&alone).unwrap();
             assert!(alone[kind].as_array().unwrap().contains(of_ask), "{name}");
         }
     }
     let error = answer_json(text(&found), Some("nothing"), Watch::NONE).unwrap_err();
-    assert!(error.to_string().contains("no ask is called `nothing`"), "{error}");
+    assert!(
+        error.to_string().contains("no ask is called `nothing`"),
+        "{error}"
+    );
 }
 
 const BROKEN: &str = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n[[ask]]\nkind = \"map\"\nname = \"good\"\n[[ask]]\nkind = \"map\"\nname = \"bad\"\nplane = { step_mm = -1 }\n";
@@ -106,8 +124,14 @@ fn a_change_in_an_ask_mends_it_and_comments_stay() {
 fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
     let study = BROKEN.replace("step_mm = -1", "tilt_deg = 30");
     let told = values(of(&study), Some("bad")).unwrap();
-    assert_eq!((told.tilt_deg, told.step_mm, told.limit_um), (Some(30.0), 50.0, 100.0));
-    assert_eq!((told.kind, told.branch.as_str(), told.branches.len()), ("map", "nominal", 8));
+    assert_eq!(
+        (told.tilt_deg, told.step_mm, told.limit_um),
+        (Some(30.0), 50.0, 100.0)
+    );
+    assert_eq!(
+        (told.kind, told.branch.as_str(), told.branches.len()),
+        ("map", "nominal", 8)
+    );
     let [a, _, c, _] = told.plane_corners_mm;
     let middle: Vec<f64> = (0..3).map(|k| 0.5 * (a[k] + c[k])).collect();
     for (k, centre) in [1000.0, 0.0, 800.0].into_iter().enumerate() {
@@ -122,7 +146,8 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
         matches!(ask.subject, armill_study::file::resolve::Subject::Map(_)).then(|| ask.name.clone())
     });
     let map = map.unwrap();
-    let whole: Value = serde_json::from_str(&answer_json(text(&found), Some(&map), Watch::NONE).unwrap()).unwrap();
+    let whole: Value =
+        serde_json::from_str(&answer_json(text(&found), Some(&map), Watch::NONE).unwrap()).unwrap();
     let worst = &whole["maps"][0]["worst"];
     let at = Place {
         y_mm: worst["in_plane_mm"][0].as_f64(),
@@ -130,9 +155,18 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
         ..Place::default()
     };
     let case = worst["deciding_case"].as_u64().unwrap() as usize;
-    let question = PostureQuestion { ask: Some(&map), at, case };
+    let question = PostureQuestion {
+        ask: Some(&map),
+        at,
+        case,
+    };
     let told = postures(text(&found), &question, Watch::NONE).unwrap();
-    let held = told.answer.postures.iter().position(|posture| posture.branch == worst["branch"]).unwrap();
+    let held = told
+        .answer
+        .postures
+        .iter()
+        .position(|posture| posture.branch == worst["branch"])
+        .unwrap();
     let here = told.in_plane[held][case - 1].as_ref().unwrap();
     assert!((here.in_plane_um - worst["in_plane_um"].as_f64().unwrap()).abs() < 1e-6);
     // The drawing ends where the tool is.
@@ -166,15 +200,26 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
     // The posture at a point of the path is the one of its table.
     let question = PostureQuestion {
         ask: Some("rim"),
-        at: Place { point: Some(7), ..Place::default() },
+        at: Place {
+            point: Some(7),
+            ..Place::default()
+        },
         case: 1,
     };
     let there = postures(of(CIRCLE), &question, Watch::NONE).unwrap();
     for (k, mm) in points.xyz_mm[7].iter().enumerate() {
         assert!((there.drawings[0].tool_mm[k] - mm).abs() < 1e-5);
     }
-    let held = there.answer.postures.iter().position(|posture| points.columns["branch"][7] == posture.branch);
-    let most = there.in_plane[held.unwrap()].iter().flatten().map(|case| case.in_plane_um).fold(0.0, f64::max);
+    let held = there
+        .answer
+        .postures
+        .iter()
+        .position(|posture| points.columns["branch"][7] == posture.branch);
+    let most = there.in_plane[held.unwrap()]
+        .iter()
+        .flatten()
+        .map(|case| case.in_plane_um)
+        .fold(0.0, f64::max);
     assert!((most - points.columns["in_plane_um"][7].as_f64().unwrap()).abs() < 2e-3);
 }
 
@@ -182,7 +227,10 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
 fn boxes_and_sections_have_theirs() {
     let told = scene(of(CIRCLE), Some("box"), Watch::NONE).unwrap();
     let counts = told.in_box.unwrap().counts;
-    assert_eq!(counts.iter().product::<usize>(), told.points.unwrap().xyz_mm.len());
+    assert_eq!(
+        counts.iter().product::<usize>(),
+        told.points.unwrap().xyz_mm.len()
+    );
     let told = scene(of(CIRCLE), Some("far"), Watch::NONE).unwrap();
     assert_eq!(told.sections.len(), 2);
     assert!((told.sections[0].plate.centre_mm[0] - 900.0).abs() < 1e-9 && told.points.is_none());
@@ -191,17 +239,40 @@ fn boxes_and_sections_have_theirs() {
 #[test]
 fn places_that_are_none_are_refused_in_words() {
     let refused = |at: Place, ask: &str| {
-        let question = PostureQuestion { ask: Some(ask), at, case: 1 };
-        postures(of(CIRCLE), &question, Watch::NONE).unwrap_err().to_string()
+        let question = PostureQuestion {
+            ask: Some(ask),
+            at,
+            case: 1,
+        };
+        postures(of(CIRCLE), &question, Watch::NONE)
+            .unwrap_err()
+            .to_string()
     };
-    let far = Place { xyz_mm: Some([1e10, 0.0, 0.0]), ..Place::default() };
+    let far = Place {
+        xyz_mm: Some([1e10, 0.0, 0.0]),
+        ..Place::default()
+    };
     assert!(refused(far, "rim").contains("beyond"));
-    let beyond = Place { point: Some(360), ..Place::default() };
+    let beyond = Place {
+        point: Some(360),
+        ..Place::default()
+    };
     assert!(refused(beyond, "rim").contains("from 0 to 359"));
-    let half = Place { y_mm: Some(0.0), ..Place::default() };
+    let half = Place {
+        y_mm: Some(0.0),
+        ..Place::default()
+    };
     assert!(refused(half, "rim").contains("y_mm with z_mm"));
-    let section = Place { y_mm: Some(0.0), z_mm: Some(0.0), section: Some(2), ..Place::default() };
+    let section = Place {
+        y_mm: Some(0.0),
+        z_mm: Some(0.0),
+        section: Some(2),
+        ..Place::default()
+    };
     assert!(refused(section, "far").contains("no section 2"));
-    let none = Place { joints_deg: Some(vec![0.0; 5]), ..Place::default() };
+    let none = Place {
+        joints_deg: Some(vec![0.0; 5]),
+        ..Place::default()
+    };
     assert!(refused(none, "rim").contains("5 joint positions"));
 }

@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `completions`; `poses` is for two of them.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `serve`, `completions`; `poses` is for two of them.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -30,6 +30,7 @@ mod posture;
 mod robots;
 mod roundness;
 mod run;
+mod serve;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
@@ -51,6 +52,7 @@ pub(crate) use posture::PostureArguments;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
+pub(crate) use serve::ServeArguments;
 
 use clap::{Parser, Subcommand};
 
@@ -110,6 +112,8 @@ pub(crate) enum Command {
     PoseAccuracy(Box<PoseAccuracyArguments>),
     /// What the error of a measured circle is made of, and how much of it is predicted
     Budget(BudgetArguments),
+    /// The live page of a study in the browser, on this machine alone
+    Serve(ServeArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -140,7 +144,7 @@ impl Command {
             Command::Ballbar(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
-            Command::Completions(_) => false,
+            Command::Serve(_) | Command::Completions(_) => false,
         }
     }
 }

@@ -33,9 +33,9 @@ pub struct Change {
 /// no table, a value that TOML cannot hold.
 pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Problems> {
     let checked = Document::parse(name, text)?;
-    let mut document: DocumentMut = text
-        .parse()
-        .map_err(|error: toml_edit::TomlError| Problems::from(vec![checked.problem("", error.message(), None)]))?;
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
+        Problems::from(vec![checked.problem("", error.message(), None)])
+    })?;
     let mut refused: Vec<Problem> = Vec::new();
     for Change { path, value } in changes {
         let made = match value {
@@ -171,11 +171,17 @@ mod tests {
     #[test]
     fn what_is_not_there_is_made_where_it_belongs() {
         let finer = with("ask[0].plane.step_mm", json!(2)).unwrap();
-        assert!(finer.contains("kind = \"map\"\nplane = { step_mm = 2 }\n"), "{finer}");
+        assert!(
+            finer.contains("kind = \"map\"\nplane = { step_mm = 2 }\n"),
+            "{finer}"
+        );
         let posture = with("posture.branch", json!("front")).unwrap();
         assert!(posture.contains("[posture]\nbranch = \"front\"\n"), "{posture}");
         let based = with("base", json!("controller")).unwrap();
-        assert!(based.contains("of the drawing\nbase = \"controller\"\n"), "{based}");
+        assert!(
+            based.contains("of the drawing\nbase = \"controller\"\n"),
+            "{based}"
+        );
         for text in [finer, posture, based] {
             assert!(Document::parse("", &text).is_ok(), "{text}");
         }

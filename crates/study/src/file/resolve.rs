@@ -230,7 +230,10 @@ impl Parsed {
     /// The names of its asks, in order.
     pub fn ask_names(&self) -> Vec<String> {
         let tables = self.ask_tables();
-        let names = tables.iter().enumerate().map(|(index, table)| name_of(table, index));
+        let names = tables
+            .iter()
+            .enumerate()
+            .map(|(index, table)| name_of(table, index));
         names.collect()
     }
 

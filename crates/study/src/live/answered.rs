@@ -75,7 +75,10 @@ pub fn picture_svg(
     watch: Watch<'_>,
 ) -> Result<String, StudyError> {
     let pictures = drawn(text, ask, watch)?;
-    let names: Vec<String> = pictures.iter().map(|picture| format!("`{}`", picture.name)).collect();
+    let names: Vec<String> = pictures
+        .iter()
+        .map(|picture| format!("`{}`", picture.name))
+        .collect();
     let found = pictures.into_iter().find(|picture| picture.name == name);
     found.map(|picture| picture.svg).ok_or_else(|| {
         let hint = format!("there are: {}", names.join(", "));

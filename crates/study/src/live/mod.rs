@@ -10,6 +10,7 @@
 //! | `answered` | what does `armill run` say of it: answer, table, pictures? |
 //! | `posture` | how does the arm stand at one place of it, and what does a load do there? |
 //! | `scene` | what of it can be drawn in space? |
+//! | `file_kind` | what does a file seem to be? |
 //!
 //! ```
 //! use std::path::Path;
@@ -24,14 +25,18 @@
 //! ```
 
 mod answered;
+mod file_kind;
 mod outline;
 mod posture;
 mod scene;
 mod values;
 
 pub use answered::{PictureAnswer, PicturesAnswer, answer_json, picture_svg, pictures, table_csv};
+pub use file_kind::{FileKind, kind_of};
 pub use outline::{ChangedAnswer, OutlineAnswer, OutlinedAsk, changed, outline};
-pub use posture::{CaseAnswer, DrawnJoint, DrawnPosture, JointLimits, Place, PostureQuestion, PosturesAnswer, postures};
+pub use posture::{
+    CaseAnswer, DrawnJoint, DrawnPosture, JointLimits, Place, PostureQuestion, PosturesAnswer, postures,
+};
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
 pub use values::{ValuesAnswer, values};
 

@@ -134,15 +134,28 @@ struct Asked {
 ///
 /// # Errors
 /// Every problem of the text that concerns the ask; a place that is none; no such load case.
-pub fn postures(text: Text<'_>, question: &PostureQuestion<'_>, watch: Watch<'_>) -> Result<PosturesAnswer, StudyError> {
+pub fn postures(
+    text: Text<'_>,
+    question: &PostureQuestion<'_>,
+    watch: Watch<'_>,
+) -> Result<PosturesAnswer, StudyError> {
     let (_, _, study) = text.one_ask(question.ask)?;
     let setting = setting(&study, question.at.section.unwrap_or(0))?;
     let asked = asked(&study, setting, &question.at, watch)?;
     let robot = &study.robot.robot;
-    let wrench = match (question.case.checked_sub(1).and_then(|case| asked.cases.get(case)), asked.cases.len()) {
+    let wrench = match (
+        question
+            .case
+            .checked_sub(1)
+            .and_then(|case| asked.cases.get(case)),
+        asked.cases.len(),
+    ) {
         (None, count) if count > 0 => {
             let message = format!("there is no load case {}", question.case);
-            return Err(StudyError::value(message, format!("they count from 1 to {count}")));
+            return Err(StudyError::value(
+                message,
+                format!("they count from 1 to {count}"),
+            ));
         }
         (found, _) => found.copied(),
     };
@@ -157,16 +170,29 @@ pub fn postures(text: Text<'_>, question: &PostureQuestion<'_>, watch: Watch<'_>
             reference_joints_deg: None,
             base: setting.base_name.clone(),
             caution: study.own_compliance.as_ref().and_then(|own| own.caution.clone()),
-            home_deg: home.map(|home| home.iter().enumerate().map(|(i, q)| q * JointUnit::of(robot, i).scale).collect()),
+            home_deg: home.map(|home| {
+                home.iter()
+                    .enumerate()
+                    .map(|(i, q)| q * JointUnit::of(robot, i).scale)
+                    .collect()
+            }),
         },
         &setting.model,
     )?;
-    let joints = answer.postures.iter().map(|posture| joint_positions(&study.robot, &posture.joints_deg));
+    let joints = answer
+        .postures
+        .iter()
+        .map(|posture| joint_positions(&study.robot, &posture.joints_deg));
     let joints: Vec<Vec<f64>> = joints.collect::<Result<_, StudyError>>()?;
-    let of_cases = joints.iter().map(|q| deviations(robot, setting, q, (&asked.cases, asked.normal)));
+    let of_cases = joints
+        .iter()
+        .map(|q| deviations(robot, setting, q, (&asked.cases, asked.normal)));
     Ok(PosturesAnswer {
         in_plane: of_cases.collect(),
-        drawings: joints.iter().map(|q| drawn(robot, q, &setting.flange_from_tool)).collect(),
+        drawings: joints
+            .iter()
+            .map(|q| drawn(robot, q, &setting.flange_from_tool))
+            .collect(),
         limits: limits(robot),
         answer,
     })
@@ -184,7 +210,10 @@ fn asked(study: &Study, setting: &Setting, at: &Place, watch: Watch<'_>) -> Resu
     let numbers = numbers.chain(at.xyz_mm.into_iter().flatten());
     let mut numbers = numbers.chain(at.joints_deg.iter().flatten().copied());
     if let Some(beyond) = numbers.find(|value| !value.is_finite() || value.abs() > LARGEST) {
-        return Err(StudyError::value(format!("{beyond} is beyond {LARGEST:e}"), "is the unit right?"));
+        return Err(StudyError::value(
+            format!("{beyond} is beyond {LARGEST:e}"),
+            "is the unit right?",
+        ));
     }
     match (at.y_mm, at.z_mm, &at.joints_deg, at.xyz_mm, at.point) {
         (Some(y), Some(z), None, None, None) => {
@@ -207,12 +236,20 @@ const LARGEST: f64 = 1e9;
 
 /// The tool with its tip there (base), held as on the plane.
 fn held_at(setting: &Setting, tcp: Point3<f64>) -> Isometry {
-    Isometry::from_parts(tcp.coords.into(), tool_orientation(setting.plane.tool_axis(), 0.0))
+    Isometry::from_parts(
+        tcp.coords.into(),
+        tool_orientation(setting.plane.tool_axis(), 0.0),
+    )
 }
 
 /// A point of a path, of holes or of a box.
 fn point(study: &Study, (setting, index): (&Setting, usize), watch: Watch<'_>) -> Result<Asked, StudyError> {
-    let beyond = |count: usize| StudyError::value(format!("there is no point {index}"), format!("they count from 0 to {}", count.saturating_sub(1)));
+    let beyond = |count: usize| {
+        StudyError::value(
+            format!("there is no point {index}"),
+            format!("they count from 0 to {}", count.saturating_sub(1)),
+        )
+    };
     let on_path = |path: &PathAsk| {
         let track = &path.track;
         if index >= track.len() {
@@ -235,7 +272,10 @@ fn point(study: &Study, (setting, index): (&Setting, usize), watch: Watch<'_>) -
             cases: setting.cases.clone(),
         }),
         Some(Subject::Volume(_, grid)) => Err(beyond(grid.len())),
-        _ => Err(StudyError::value("points of a map are told by y_mm and z_mm", "such as {\"y_mm\": 0, \"z_mm\": 0}")),
+        _ => Err(StudyError::value(
+            "points of a map are told by y_mm and z_mm",
+            "such as {\"y_mm\": 0, \"z_mm\": 0}",
+        )),
     }
 }
 
@@ -280,7 +320,9 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
         kind: if robot.slides(i) { "slides" } else { "turns" },
     };
     let origins = stands.joints.iter().map(|joint| joint.origin_mm);
-    let links = std::iter::once(stands.base_mm).chain(origins).chain([stands.flange_mm, stands.tool_mm]);
+    let links = std::iter::once(stands.base_mm)
+        .chain(origins)
+        .chain([stands.flange_mm, stands.tool_mm]);
     DrawnPosture {
         joints: (0..robot.joints().len()).map(joint).collect(),
         flange_mm: stands.flange_mm,

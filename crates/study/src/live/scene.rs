@@ -156,9 +156,15 @@ impl PlateInScene {
     pub(super) fn of(setting: &Setting, [y, z]: [f64; 2]) -> PlateInScene {
         let base_from_part = setting.plane.base_from_part;
         // y' runs against x of the part.
-        let corner = |along: f64, up: f64| mm(&(base_from_part * Point3::new(-along * y, up * z, 0.0)).coords);
+        let corner =
+            |along: f64, up: f64| mm(&(base_from_part * Point3::new(-along * y, up * z, 0.0)).coords);
         PlateInScene {
-            corners_mm: [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+            corners_mm: [
+                corner(-1.0, -1.0),
+                corner(1.0, -1.0),
+                corner(1.0, 1.0),
+                corner(-1.0, 1.0),
+            ],
             normal_axis: clean(setting.plane.normal().into_inner()),
             y_axis: clean(base_from_part * -Vector3::x()),
             z_axis: clean(base_from_part * Vector3::y()),
@@ -175,7 +181,11 @@ impl BoxInScene {
         let [x, y, z] = grid.counts;
         BoxInScene {
             corner_mm: mm(&grid.corner().coords),
-            sides_mm: [side(Vector3::x(), x), side(Vector3::y(), y), side(Vector3::z(), z)],
+            sides_mm: [
+                side(Vector3::x(), x),
+                side(Vector3::y(), y),
+                side(Vector3::z(), z),
+            ],
             counts: grid.counts,
         }
     }
@@ -188,7 +198,10 @@ fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
         Found::Path(ask, found) => (&ask.setting, &found.along.answers),
         Found::Holes(ask, found) => (&ask.path.setting, &found.answers),
         Found::Map(..) | Found::Sections(_) => {
-            return Err(StudyError::value("a map has its points in the answer", "ask for the answer"));
+            return Err(StudyError::value(
+                "a map has its points in the answer",
+                "ask for the answer",
+            ));
         }
     };
     let table = output::points_table(study, done)?;
@@ -200,17 +213,23 @@ fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
         _ => &[],
     };
     let counted = place("x_mm").iter().zip(place("y_mm")).zip(place("z_mm"));
-    let in_base = counted.map(|((x, y), z)| mm(&(setting.base_from_counted * (Point3::new(*x, *y, *z) * 1e-3)).coords));
+    let in_base =
+        counted.map(|((x, y), z)| mm(&(setting.base_from_counted * (Point3::new(*x, *y, *z) * 1e-3)).coords));
     let deviation = |index: usize| {
         let held = answers.points[index].as_ref().ok()?;
         let deviation = answers.deviations_at(index)[held.deciding_case];
         Some(deviation.map(|m| (m * 1e9).round() * 1e-3).into())
     };
-    let drawn = table.columns().iter().filter(|column| COLUMNS.contains(&column.name.as_str()));
+    let drawn = table
+        .columns()
+        .iter()
+        .filter(|column| COLUMNS.contains(&column.name.as_str()));
     Ok(PointsInScene {
         xyz_mm: in_base.collect(),
         deviation_um: (0..answers.points.len()).map(deviation).collect(),
-        columns: drawn.map(|column| (column.name.clone(), column_values(&column.data))).collect(),
+        columns: drawn
+            .map(|column| (column.name.clone(), column_values(&column.data)))
+            .collect(),
     })
 }
 
@@ -224,7 +243,10 @@ fn column_values(data: &ColumnData) -> Value {
         }
         ColumnData::Category { codes, labels } => {
             let word = |code: &u32| labels.get(*code as usize).filter(|word| !word.is_empty());
-            codes.iter().map(|code| word(code).cloned().map_or(Value::Null, Value::from)).collect()
+            codes
+                .iter()
+                .map(|code| word(code).cloned().map_or(Value::Null, Value::from))
+                .collect()
         }
         ColumnData::Integer(values) => values.iter().copied().collect(),
         ColumnData::Flag(values) => values.iter().copied().collect(),

@@ -89,7 +89,9 @@ pub fn values(text: Text<'_>, ask: Option<&str>) -> Result<ValuesAnswer, StudyEr
         kind: kind_name(table.kind),
         robot: file.robot.clone(),
         base: setting.base_name.clone(),
-        bases: std::iter::once(crate::BASE_LINK.to_owned()).chain(frames).collect(),
+        bases: std::iter::once(crate::BASE_LINK.to_owned())
+            .chain(frames)
+            .collect(),
         centre_mm: plane.centre_mm,
         tilt_deg: upright.then(|| plane.tilt_deg.unwrap_or(0.0)),
         rotation_deg: plane.rotation_deg,

@@ -234,10 +234,7 @@ pub(crate) fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
 pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
     drawn.par_iter().with_max_len(1).try_for_each(|picture| {
         #[cfg(feature = "png")]
-        files.save(
-            &format!("{}.png", picture.name),
-            &png(&picture.svg)?,
-        )?;
+        files.save(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
         files.save(&format!("{}.svg", picture.name), picture.svg.as_bytes())
     })
 }
@@ -292,10 +289,7 @@ pub fn write_pictures(begin: &str, pictures: &[Picture], out: &Path) -> Result<(
     }
     for picture in pictures {
         #[cfg(feature = "png")]
-        write_atomically(
-            out.join(format!("{}.png", picture.name)),
-            &png(&picture.svg)?,
-        )?;
+        write_atomically(out.join(format!("{}.png", picture.name)), &png(&picture.svg)?)?;
         write_atomically(out.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
     }
     Ok(())
