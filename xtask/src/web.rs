@@ -16,9 +16,7 @@ use std::process::{Command, ExitCode, Stdio};
 pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs Node and npm.";
 
 /// Where the description of the server stands for the page.
-const DESCRIPTION: &str = "web/src/api.json";
-/// The types made of it.
-const TYPES: &str = "src/api.d.ts";
+const DESCRIPTION: &str = "web/openapi.json";
 /// The source that embeds the page: Cargo sees by its time that it must be built again.
 const EMBEDS: &str = "crates/web/src/page.rs";
 
@@ -58,10 +56,11 @@ pub fn build() -> ExitCode {
         eprintln!("{problem}");
         return ExitCode::from(COULD_NOT_RUN);
     }
-    let steps: [&[&str]; 4] = [
+    let steps: [&[&str]; 3] = [
         &["ci", "--no-audit", "--no-fund"],
-        &["exec", "--", "openapi-typescript", "src/api.json", "-o", TYPES],
-        &["exec", "--", "tsc", "--noEmit"],
+        // What the page knows of the server.
+        &["run", "types"],
+        // Its types are checked first.
         &["run", "build"],
     ];
     for step in steps {

@@ -169,6 +169,20 @@ fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
         .unwrap();
     let here = told.in_plane[held][case - 1].as_ref().unwrap();
     assert!((here.in_plane_um - worst["in_plane_um"].as_f64().unwrap()).abs() < 1e-6);
+    // So do its uncertainty, its shares and what may act.
+    let number = |key: &str| worst[key].as_f64().unwrap();
+    assert!((here.in_plane_u_um.unwrap() - number("in_plane_u_um")).abs() < 1e-6);
+    let shares = here.share_um.as_ref().unwrap();
+    for (k, share) in shares.iter().enumerate() {
+        assert!((share - worst["joint_share_um"][k].as_f64().unwrap()).abs() < 1e-6);
+    }
+    assert!((shares.iter().sum::<f64>() - here.in_plane_um).abs() < 1e-6);
+    for (told, key) in [
+        (here.permissible_along_load_n, "permissible_along_load_n"),
+        (here.permissible_any_direction_n, "permissible_any_direction_n"),
+    ] {
+        assert!((told.unwrap() / number(key) - 1.0).abs() < 1e-9, "{key}");
+    }
     // The drawing ends where the tool is.
     let tcp = told.drawings[held].tool_mm;
     assert_eq!(told.drawings[held].links_mm.last(), Some(&tcp));

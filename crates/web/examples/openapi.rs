@@ -4,5 +4,5 @@
 #![allow(clippy::print_stdout)]
 
 fn main() {
-    println!("{:#}", armill_web::openapi_document());
+    println!("{}", armill_web::openapi_document());
 }

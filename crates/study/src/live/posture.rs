@@ -5,7 +5,9 @@
 //! study's, as in its answer. Turns that a search finds along a path are left out, and so is what moves the tool there
 //! without load.
 
+use armill_core::compliance::{by_force, permissible_force, permissible_force_in_worst_direction};
 use armill_core::frame::{Isometry, tool_orientation};
+use armill_core::kernel::{BranchChoice, Question, evaluate};
 use armill_core::nalgebra::{Point2, Point3, Unit, Vector3};
 use armill_core::predict::predict_in_full;
 use armill_core::robot::Robot;
@@ -111,15 +113,23 @@ pub struct JointLimits {
     pub unit: &'static str,
 }
 
-/// A deviation seen from the plane.
+/// A deviation seen from the plane; what is not told of such a posture is `null`.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CaseAnswer {
     /// Length of its part in the plane.
     pub in_plane_um: f64,
+    /// Its standard uncertainty, from compliances, load and tool length; of postures with a name.
+    pub in_plane_u_um: Option<f64>,
     /// Along the outward normal.
     pub normal_um: f64,
     /// Its length.
     pub full_um: f64,
+    /// Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name.
+    pub share_um: Option<Vec<f64>>,
+    /// Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
+    pub permissible_along_load_n: Option<f64>,
+    /// Force that keeps the limit whatever its direction.
+    pub permissible_any_direction_n: Option<f64>,
 }
 
 /// Where the tool is, in the terms of the core.
@@ -186,9 +196,11 @@ pub fn postures(
     let joints: Vec<Vec<f64>> = joints.collect::<Result<_, StudyError>>()?;
     let of_cases = joints
         .iter()
-        .map(|q| deviations(robot, setting, q, (&asked.cases, asked.normal)));
+        .zip(&answer.postures)
+        .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), (&asked.cases, asked.normal)));
+    let in_plane = of_cases.collect();
     Ok(PosturesAnswer {
-        in_plane: of_cases.collect(),
+        in_plane,
         drawings: joints
             .iter()
             .map(|q| drawn(robot, q, &setting.flange_from_tool))
@@ -283,29 +295,69 @@ fn point(study: &Study, (setting, index): (&Setting, usize), watch: Watch<'_>) -
 fn deviations(
     robot: &Robot,
     setting: &Setting,
-    q: &[f64],
+    (q, branch): (&[f64], &str),
     (cases, normal): (&[Wrench], Unit<Vector3<f64>>),
 ) -> Vec<Option<CaseAnswer>> {
     let Some(compliance) = robot.compliance() else {
         return vec![None; cases.len()];
     };
-    let mut standing = Standing::new(Arm {
+    let arm = Arm {
         robot,
         compliance,
         model: &setting.model,
         flange_from_tool: &setting.flange_from_tool,
-    });
+    };
+    let mut standing = Standing::new(arm);
     standing.stand(q);
+    let yields = by_force(&setting.compliance_at(robot, q));
+    let any = permissible_force_in_worst_direction(&yields, normal, setting.limit).0;
     let mut of = |wrench: &Wrench| {
         let deviation = predict_in_full(&mut standing, wrench).ok()?;
         let split = Split::of(&deviation.twist.linear, normal);
+        let question = Question {
+            arm,
+            home: Some(q),
+            cases: std::slice::from_ref(wrench),
+            doubt: setting.doubt,
+            normal,
+            choice: BranchChoice::Best,
+        };
+        let (u, shares) = in_plane_parts(&question, (q, branch)).unzip();
+        // A case that is a moment alone has no direction.
+        let along =
+            Unit::try_new(wrench.force, 1e-12).map(|f| permissible_force(&yields, normal, f, setting.limit));
         Some(CaseAnswer {
             in_plane_um: split.in_plane * 1e6,
+            in_plane_u_um: u,
             normal_um: split.normal * 1e6,
             full_um: split.full * 1e6,
+            share_um: shares,
+            permissible_along_load_n: along.filter(|n| n.is_finite()),
+            permissible_any_direction_n: Some(any).filter(|n| n.is_finite()),
         })
     };
     cases.iter().map(&mut of).collect()
+}
+
+/// Positions (rad, m) that are the same posture, whatever was computed on the way there.
+const SAME_POSTURE: f64 = 1e-6;
+
+/// Standard uncertainty (um) of the in-plane deviation and the shares in it, as a map tells them, of the posture `q` that
+/// has this name; none of a posture without a name that the arm could be asked for by.
+fn in_plane_parts(question: &Question<'_>, (q, branch): (&[f64], &str)) -> Option<(f64, Vec<f64>)> {
+    let arm = &question.arm;
+    let question = Question {
+        choice: BranchChoice::Of(branch.parse().ok()?),
+        ..*question
+    };
+    let base_from_tool = tool_on(&forward(arm.robot, q), arm.flange_from_tool);
+    let answers = evaluate(&question, 1, |_| base_from_tool, Watch::NONE).ok()?;
+    let held = answers.points[0].as_ref().ok()?;
+    let mut apart = answers.joints_at(0).iter().zip(q).map(|(a, b)| (a - b).abs());
+    let shares = answers.shares_at(0).iter().map(|share| share * 1e6).collect();
+    apart
+        .all(|apart| apart < SAME_POSTURE)
+        .then_some((held.in_plane_uncertainty * 1e6, shares))
 }
 
 /// The arm at these joint positions (rad, m).

@@ -231,3 +231,17 @@ fn every_documented_path_answers_by_its_method() {
         assert_eq!(served.ask("PATCH", &path, b"").status, 405, "{path}");
     }
 }
+
+#[test]
+fn the_page_knows_this_server() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/openapi.json");
+    // A checkout without the page has none.
+    let Ok(text) = std::fs::read_to_string(file) else {
+        return;
+    };
+    let known: Value = serde_json::from_str(&text).unwrap();
+    assert!(
+        known == armill_web::openapi_document(),
+        "stale: `cargo xtask web` makes web/openapi.json and the types anew"
+    );
+}
