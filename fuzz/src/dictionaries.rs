@@ -180,6 +180,10 @@ pub const POSES: &[&str] = &[
     "shoulder_pan_joint", "Goal roll", ";", "\t", "2,02E+13", "nan", "1e308",
 ];
 
+/// Names of columns of points along a path.
+#[rustfmt::skip]
+pub const TRACE: &[&str] = &["run", "x_mm", "y_um", "z_in", "x_m", ";", "\t", "# ", "\n0,0,0\n", "nan", "1e308", "1e-300"];
+
 /// Keys of a material file.
 #[rustfmt::skip]
 pub const MATERIAL: &[&str] = &[

@@ -239,6 +239,14 @@ pub fn poses() -> Vec<Vec<u8>> {
     ])
 }
 
+/// Points along a path, of one run and of several.
+pub fn traces() -> Vec<Vec<u8>> {
+    seeds(&[
+        "x_mm,y_mm,z_mm\n0,0,0\n10,0,0\n20,0,1\n30,0,1\n",
+        "# tracker\nrun;x_um;y_m;z_in;time\nA;1,5;0;0;1\nA;2e4;0;0;2\nB;1;0;0;1\nB;3e4;0,001;0;2\n",
+    ])
+}
+
 /// The library of materials.
 pub fn materials() -> Vec<Vec<u8>> {
     MATERIALS.iter().map(|material| material.text.into()).collect()

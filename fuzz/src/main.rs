@@ -20,6 +20,7 @@ mod dictionaries;
 mod fixtures;
 mod signal_stack;
 mod targets;
+mod tracked;
 mod verdicts;
 
 use std::sync::OnceLock;

@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::verdicts;
+use crate::{tracked, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -80,6 +80,7 @@ pub const TARGETS: &[Target] = &[
     target("profile", verdicts::profile, fixtures::profiles, &["ds", "csv", "QIF"], words::PROFILE),
     target("ballbar-csv", verdicts::ballbar_csv, fixtures::ballbar_csv, &[], words::BALLBAR),
     target("ballbar-results", verdicts::ballbar_results, fixtures::ballbar_results, &["b5r"], words::BALLBAR),
-    target("poses", verdicts::poses, fixtures::poses, &[], words::POSES),
+    target("poses", tracked::poses, fixtures::poses, &[], words::POSES),
+    target("trace", tracked::trace, fixtures::traces, &[], words::TRACE),
     target("material", verdicts::material, fixtures::materials, &[], words::MATERIAL),
 ];

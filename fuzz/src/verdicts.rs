@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use armill_core::calibrate;
 use armill_core::frame::Isometry;
 use armill_core::load::ActsOn;
 use armill_core::measure::ballbar::{Direction, Run};
@@ -17,7 +16,7 @@ use armill_formats::document::Problems;
 use armill_formats::material;
 use armill_formats::measurement::ballbar;
 use armill_formats::measurement::format::{self as forces, Measured};
-use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, poses, profile};
+use armill_formats::measurement::{csv as force_csv, dynoware, load_tests as tests, profile};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::pendant;
 use armill_formats::robot::{RobotDescription, armill};
@@ -407,29 +406,6 @@ pub fn ballbar_results(bytes: &[u8]) {
     }
 }
 
-/// Measured poses; what can be read is calibrated too.
-pub fn poses(bytes: &[u8]) {
-    static ROBOT: OnceLock<Robot> = OnceLock::new();
-    let robot = ROBOT.get_or_init(|| {
-        let found = library::robot("yaskawa/mh12").expect("it is in the library");
-        found.expect("every robot of the library reads").robot
-    });
-    let found = match poses::read("poses.csv", bytes, robot, &poses::Told::default()) {
-        Err(problems) => return refused(&problems),
-        Ok(found) => found,
-    };
-    assert_eq!(found.poses.len(), found.lines.len());
-    let question = calibrate::Question {
-        asked: calibrate::Asked::Geometry,
-        flange_from_point: Isometry::identity(),
-        turn_length: 0.25,
-    };
-    if let Ok(found) = calibrate::fit(robot, &found.poses, &question) {
-        assert!(found.standard_deviation.is_finite());
-        assert!(found.errors.position.iter().all(|error| error.norm().is_finite()));
-    }
-}
-
 /// A material file.
 pub fn material(bytes: &[u8]) {
     match material::read("metal.toml", &String::from_utf8_lossy(bytes)) {
@@ -486,7 +462,7 @@ fn flange(robot: &Robot) -> armill_core::nalgebra::Matrix4<f64> {
         .to_homogeneous()
 }
 
-fn refused(problems: &Problems) {
+pub(crate) fn refused(problems: &Problems) {
     let all = problems.as_slice();
     assert!(!all.is_empty());
     assert!(all.iter().all(|problem| !problem.message().trim().is_empty()));

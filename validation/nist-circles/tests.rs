@@ -132,7 +132,7 @@ fn arcs_have_the_zone_that_was_computed_and_no_inscribed_circle() {
         let Some(points) = points(*set) else { return };
         let (_, profile) = profile(&points);
         assert!(
-            (profile.least_squares().peak_to_valley - lsci).abs() < 1.1e-9,
+            (profile.least_squares().peak_to_valley - lsci).abs() < TWICE_COMPUTED,
             "{set}"
         );
         assert!(

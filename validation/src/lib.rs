@@ -22,6 +22,8 @@ mod studies;
 
 #[path = "../ballbar-closed-forms/case.rs"]
 mod ballbar_closed_forms;
+#[path = "../budget-circles/case.rs"]
+mod budget_circles;
 #[path = "../compliance-two-ways/case.rs"]
 mod compliance_two_ways;
 #[path = "../fanuc-identification/case.rs"]
@@ -34,6 +36,8 @@ mod force_to_deflection;
 mod inverse_vs_opw;
 #[path = "../jacobian-differences/case.rs"]
 mod jacobian_differences;
+#[path = "../joint-backlash-closed-forms/case.rs"]
+mod joint_backlash_closed_forms;
 #[path = "../mh12-fractions/case.rs"]
 mod mh12_fractions;
 #[path = "../mh12-readings/case.rs"]
@@ -44,6 +48,8 @@ mod mh12_regression;
 mod milling_mean_force;
 #[path = "../nist-circles/case.rs"]
 mod nist_circles;
+#[path = "../path-accuracy/case.rs"]
+mod path_accuracy;
 #[path = "../plane-split/case.rs"]
 mod plane_split;
 #[path = "../tx200-compliance/case.rs"]
@@ -109,6 +115,10 @@ pub const CASES: &[Case] = &[
         checks: mh12_fractions::checks,
     },
     Case {
+        folder: "path-accuracy",
+        checks: path_accuracy::checks,
+    },
+    Case {
         folder: "inverse-vs-opw",
         checks: inverse_vs_opw::checks,
     },
@@ -123,6 +133,14 @@ pub const CASES: &[Case] = &[
     Case {
         folder: "ballbar-closed-forms",
         checks: ballbar_closed_forms::checks,
+    },
+    Case {
+        folder: "budget-circles",
+        checks: budget_circles::checks,
+    },
+    Case {
+        folder: "joint-backlash-closed-forms",
+        checks: joint_backlash_closed_forms::checks,
     },
     Case {
         folder: "plane-split",

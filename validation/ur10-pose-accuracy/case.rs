@@ -81,6 +81,7 @@ fn missed(rows: &[Row]) -> [f64; 3] {
         asked: Asked::BaseAndTool,
         flange_from_point: Isometry::identity(),
         turn_length: 1.0,
+        prior: None,
     };
     let found = fit(&arms::library("universal-robots/ur10"), &poses, &question);
     let spread = found.ok().and_then(|found| found.errors.of_position());

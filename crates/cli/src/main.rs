@@ -44,6 +44,8 @@ fn main() -> ExitCode {
         Command::Roundness(roundness) => command::roundness::run(roundness),
         Command::Ballbar(ballbar) => command::ballbar::run(ballbar),
         Command::PoseAccuracy(pose_accuracy) => command::pose_accuracy::run(pose_accuracy),
+        Command::Backlash(backlash) => command::backlash::run(backlash),
+        Command::PathAccuracy(path_accuracy) => command::path_accuracy::run(path_accuracy),
         Command::Budget(budget) => command::budget::run(budget),
         Command::Serve(serve) => command::serve::run(serve),
         Command::Completions(completions) => command::completions::run(completions),

@@ -5,7 +5,7 @@
 
 mod arms;
 
-use armill_core::calibrate::{Asked, Calibrated, MeasuredPose, Place, Question, Refusal, fit};
+use armill_core::calibrate::{Asked, Calibrated, MeasuredPose, Place, Prior, Question, Refusal, fit};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::forward::forward;
@@ -65,6 +65,7 @@ fn question(asked: Asked) -> Question {
         asked,
         flange_from_point: Isometry::translation(0.0, 0.0, 0.1),
         turn_length: 0.3,
+        prior: None,
     }
 }
 
@@ -257,4 +258,120 @@ fn an_arm_that_stood_still_tells_nothing_of_itself() {
     let found = fit(&robot, &vec![pose; 20], &question(Asked::Geometry)).unwrap();
     assert_eq!(found.estimates.len(), 3);
     assert!(found.errors.of_position().unwrap().largest < 1e-12);
+}
+
+fn held(length: f64, angle: f64) -> Question {
+    Question {
+        prior: Some(Prior { length, angle }),
+        ..question(Asked::Geometry)
+    }
+}
+
+/// Poses with readings that are off by noise of this standard deviation (m), and by a sag that no geometry has.
+fn rough(
+    robot: &Robot,
+    count: usize,
+    [noise, sag]: [f64; 2],
+    stream: &mut arms::Stream,
+) -> Vec<MeasuredPose> {
+    let mut poses = measured(robot, count, false, stream);
+    for pose in &mut poses {
+        let mut draw = || (0..12).map(|_| stream.between(-0.5, 0.5)).sum::<f64>();
+        let by = Vector3::new(draw(), draw(), draw()) * noise;
+        let lever = pose.joints[1].sin() * pose.joints[2].cos();
+        pose.position += by + Vector3::new(0.2, -0.3, 1.0) * sag * lever * lever;
+    }
+    poses
+}
+
+#[test]
+fn a_wide_prior_changes_nothing_and_a_narrow_one_keeps_the_drawing() {
+    let mut stream = arms::Stream(31);
+    let robot = arms::other::ur10();
+    let poses = rough(&bent(&robot, &mut stream), 80, [1e-4, 0.0], &mut stream);
+    let free = fit(&robot, &poses, &question(Asked::Geometry)).unwrap();
+    let wide = fit(&robot, &poses, &held(1e3, 1e3)).unwrap();
+    assert_eq!(free.told, free.estimates.len() as f64);
+    assert!((wide.told - free.told).abs() < 1e-6);
+    for (a, b) in free.estimates.iter().zip(&wide.estimates) {
+        assert!((a.value - b.value).abs() < 1e-9, "{:?}", a.unknown);
+        let ratio = a.standard_uncertainty / b.standard_uncertainty;
+        assert!((ratio - 1.0).abs() < 1e-6, "{:?} {ratio}", a.unknown);
+    }
+    let narrow = fit(&robot, &poses, &held(1e-9, 1e-9)).unwrap();
+    let plain = fit(&robot, &poses, &question(Asked::BaseAndTool)).unwrap();
+    assert!(
+        (narrow.told - plain.estimates.len() as f64).abs() < 1e-3,
+        "{}",
+        narrow.told
+    );
+    for (a, b) in narrow.errors.position.iter().zip(&plain.errors.position) {
+        assert!((a - b).norm() < 1e-7);
+    }
+    let of_chain = narrow
+        .estimates
+        .iter()
+        .filter(|one| matches!(one.unknown.place, Place::After(_)));
+    assert!(of_chain.clone().count() > 10);
+    for one in of_chain {
+        // Nothing is known but what was known before.
+        assert!(one.value.abs() < 1e-8 && (one.standard_uncertainty / 1e-9 - 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn the_scatter_is_that_of_the_readings_that_the_unknowns_leave() {
+    let mut stream = arms::Stream(33);
+    let robot = arms::other::ur10();
+    let poses = rough(&bent(&robot, &mut stream), 300, [1e-4, 0.0], &mut stream);
+    let found = fit(&robot, &poses, &held(1e-3, 2e-3)).unwrap();
+    let squares: f64 = found.errors.position.iter().map(Vector3::norm_squared).sum();
+    let s = (squares / (900.0 - found.told)).sqrt();
+    assert!((found.standard_deviation / s - 1.0).abs() < 1e-9);
+    // 870 degrees of freedom tell a standard deviation to 2.4 %.
+    assert!((s / 1e-4 - 1.0).abs() < 0.08, "{s}");
+    assert!(found.told < found.estimates.len() as f64 && found.told > 9.0);
+}
+
+#[test]
+fn few_poses_with_a_prior_meet_others_better_than_without() {
+    // Twelve poses have 36 readings for 25 unknowns.
+    let mut stream = arms::Stream(35);
+    let robot = arms::other::ur10();
+    let mut sums = [0.0; 3];
+    for _ in 0..10 {
+        let real = bent(&robot, &mut stream);
+        let few = rough(&real, 12, [3e-4, 0.0], &mut stream);
+        let others = rough(&real, 100, [0.0, 0.0], &mut stream);
+        let of = |question: &Question| {
+            let found = fit(&robot, &few, question).unwrap();
+            let errors = found.errors_of(&robot, &others).unwrap();
+            errors.of_position().unwrap().rms
+        };
+        // Small motions of `bent` are even to 1 mm and 2 mrad: 0.58 of that is their standard deviation.
+        let asked = [
+            question(Asked::BaseAndTool),
+            question(Asked::Geometry),
+            held(0.58e-3, 1.16e-3),
+        ];
+        for (sum, question) in sums.iter_mut().zip(&asked) {
+            *sum += of(question) / 10.0;
+        }
+    }
+    let [plain, free, held] = sums;
+    assert!(held < 0.9 * free && held < 0.5 * plain, "{plain} {free} {held}");
+}
+
+#[test]
+fn a_prior_that_holds_nothing_or_all_is_refused() {
+    let mut stream = arms::Stream(37);
+    let robot = arms::other::ur10();
+    let poses = measured(&robot, 40, false, &mut stream);
+    for (length, angle) in [(0.0, 1.0), (1.0, -1.0), (f64::NAN, 1.0), (1.0, f64::INFINITY)] {
+        let refused = fit(&robot, &poses, &held(length, angle)).unwrap_err();
+        assert!(matches!(refused, Refusal::Prior(_)), "{refused}");
+    }
+    // Perfect poses leave no scatter, and nothing is held.
+    let found = fit(&robot, &poses, &held(1e-3, 1e-3)).unwrap();
+    assert!(found.estimates.iter().all(|one| one.value.abs() < 1e-9));
 }

@@ -3,11 +3,12 @@
 //! The parser is the crate `roxmltree`; before it runs, and behind it, what would take it or those who walk its tree
 //! too long is refused. Places are bytes of the text.
 
+use std::io::Read;
 use std::ops::Range;
 
 use roxmltree::{Document, Node, ParsingOptions};
 
-use crate::document::{Problems, Source};
+use crate::document::{Problem, Problems, Source, unreadable};
 
 /// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
@@ -15,6 +16,24 @@ const MOST_NODES: u32 = 1_000_000;
 const MOST_ATTRIBUTES: usize = 200;
 /// Elements within elements: robots have five, xacro with conditions ten. What walks the tree calls itself for each.
 const MOST_LEVELS: usize = 64;
+
+/// Larger than this is no file that is read as a whole, in bytes: results have some kB.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// The text of the XML file `path`.
+///
+/// # Errors
+/// A reader that fails; more than [`MOST_BYTES`].
+pub(crate) fn text_of(path: &str, reader: impl Read) -> Result<String, Problems> {
+    let mut bytes = Vec::new();
+    let whole = reader.take(MOST_BYTES + 1).read_to_end(&mut bytes);
+    whole.map_err(|error| unreadable(path, &error))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let message = format!("an XML file of more than {} MiB", MOST_BYTES >> 20);
+        return Err(Problem::of_file(path, message, "export one result alone").into());
+    }
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
 
 /// The tree of an XML text.
 ///

@@ -9,15 +9,24 @@ use crate::chart::runs;
 use crate::colour::category;
 use crate::legend::{Entry, Key};
 use crate::line::without_straight;
-use crate::page::{BORDER_PX, Heading};
+use crate::page::{BORDER_PX, Heading, SMALL_PX};
 use crate::plane::Growth;
 use crate::polar_plot::{PolarPlot, RADIUS_PX, RadialSeries, WIDTH_PX, nominal_style};
-use crate::svg::{Style, Svg};
+use crate::svg::{Style, Svg, Text};
 
 /// Room above the rim for the name of a ray.
 const ABOVE_PX: f64 = 24.0;
 /// Below the rim, before the legend.
 const BELOW_PX: f64 = 32.0;
+/// More room all around where rays are marked.
+const MARKED_PX: f64 = 26.0;
+/// How far a marked ray and its name stand out of the rim.
+const TICK_PX: f64 = 3.0;
+const NAME_PX: f64 = 36.0;
+/// Rays that are closer have one name.
+const CLOSE_DEG: f64 = 6.0;
+/// Colour of marked rays.
+const MARK_COLOUR: usize = 1;
 /// Radius of the dot where a run begins.
 const START_PX: f64 = 3.5;
 
@@ -61,6 +70,17 @@ pub struct BallbarPlot {
     pub growth: Growth,
     /// The runs.
     pub traces: Vec<BallbarTrace>,
+    /// Rays that are named, such as where joints turn back.
+    pub marks: Vec<RayMark>,
+}
+
+/// A ray with a name outside the rim.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RayMark {
+    /// Angle in degrees.
+    pub angle_deg: f64,
+    /// Its name; those of rays that lie close are put together.
+    pub name: String,
 }
 
 impl BallbarPlot {
@@ -90,8 +110,11 @@ impl BallbarPlot {
             true => division,
             false => format!("{}; {division}", self.subtitle),
         };
-        let mut page = Heading::new(&under.title, &under.subtitle).page(WIDTH_PX);
-        let centre = [WIDTH_PX / 2.0, page.top_px + RADIUS_PX + ABOVE_PX];
+        let marks = self.marks_apart();
+        let beside = if marks.is_empty() { 0.0 } else { MARKED_PX };
+        let width = WIDTH_PX + 2.0 * beside;
+        let mut page = Heading::new(&under.title, &under.subtitle).page(width);
+        let centre = [width / 2.0, page.top_px + RADIUS_PX + ABOVE_PX + beside];
         under.draw_spokes(&mut page.svg, centre, &rings);
         rings.draw(&mut page.svg, centre);
         let mut entries = vec![Entry::line(nominal_style(), under.zero.clone())];
@@ -112,10 +135,45 @@ impl BallbarPlot {
             draw_start(&mut page.svg, at, trace.sense);
         }
         under.write_scale(&mut page.svg, centre, &rings);
+        for (deg, name) in &marks {
+            let [inner, outer] = [rings.radius_px(rings.first_um()), RADIUS_PX + TICK_PX]
+                .map(|px| under.on_circle(centre, *deg, px));
+            page.svg.line(inner, outer, &mark_style());
+            let at = under.on_circle(centre, *deg, RADIUS_PX + NAME_PX);
+            let text = Text::new(SMALL_PX).bold().colour(category(MARK_COLOUR)).middle();
+            page.svg.text([at[0], at[1] + 4.0], name, &text);
+        }
+        if !marks.is_empty() {
+            entries.push(Entry::line(mark_style(), "joint turns back"));
+        }
         if starts.count() > 0 {
             entries.push(Entry::new(Key::Dot(Style::fill(crate::colour::INK)), "start"));
         }
-        page.finish_with_legend(&entries, [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX])
+        page.finish_with_legend(
+            &entries,
+            [BORDER_PX + 20.0, centre[1] + RADIUS_PX + BELOW_PX + beside],
+        )
+    }
+
+    /// The marks by their angles, those that lie close put together: `L, U`.
+    fn marks_apart(&self) -> Vec<(f64, String)> {
+        let mut marks: Vec<&RayMark> = self
+            .marks
+            .iter()
+            .filter(|mark| mark.angle_deg.is_finite())
+            .collect();
+        marks.sort_by(|a, b| a.angle_deg.total_cmp(&b.angle_deg));
+        let mut apart: Vec<(f64, String)> = Vec::new();
+        for mark in marks {
+            match apart.last_mut() {
+                Some((deg, name)) if mark.angle_deg - *deg < CLOSE_DEG => {
+                    name.push_str(", ");
+                    name.push_str(&mark.name);
+                }
+                _ => apart.push((mark.angle_deg, mark.name.clone())),
+            }
+        }
+        apart
     }
 
     /// A style a trace: the colour is the way round, the dashes tell how many went that way before.
@@ -158,6 +216,11 @@ impl Sense {
             Sense::Anticlockwise => 2,
         })
     }
+}
+
+/// A marked ray.
+fn mark_style() -> Style {
+    Style::line(category(MARK_COLOUR), 1.1).dashed("2 3")
 }
 
 /// The dot where a run begins.

@@ -18,6 +18,7 @@
 //! | what was measured, and what became of it? | [`ForcePlot`] |
 //! | which cell holds the tolerance? | [`Comparison`] |
 //! | what is an error made of; is it what was measured, wave by wave? | [`BudgetBars`], [`WaveBars`] |
+//! | how many poses are met within how much? | [`ErrorDistribution`] |
 //! | which joint is to blame? | [`ShareBars`] |
 //! | in which direction does the arm yield? | [`StiffnessEllipse`] |
 //! | how does the arm stand? | [`ArmDrawing`] |
@@ -49,6 +50,7 @@ mod vector_field;
 mod budget_bars;
 mod comparison;
 mod ellipse;
+mod error_distribution;
 mod shares;
 mod wave_bars;
 
@@ -85,13 +87,14 @@ mod svg;
 mod ticks;
 
 pub use arm::{ArmDrawing, ArmJoint, ArmPosture, View};
-pub use ballbar_plot::{BallbarPlot, BallbarTrace, Sense};
+pub use ballbar_plot::{BallbarPlot, BallbarTrace, RayMark, Sense};
 pub use budget_bars::{BudgetBar, BudgetBars, BudgetGroup};
 pub use cell_map::{Cell, CellMap};
 pub use colour::ColourScale;
 pub use comparison::{ComparedCell, Comparison};
 pub use ellipse::StiffnessEllipse;
 pub use error::ReportError;
+pub use error_distribution::{ErrorDistribution, ErrorSet};
 pub use force_plot::{Envelope, ForcePlot, ForceTrace};
 pub use grid::{Grid, PointState};
 pub use hole_map::{HoleMap, HoleMark};

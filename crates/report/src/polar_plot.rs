@@ -276,7 +276,7 @@ impl Rings {
         self.ticks.step
     }
 
-    fn first_um(&self) -> f64 {
+    pub(crate) fn first_um(&self) -> f64 {
         self.ends_um[0]
     }
 

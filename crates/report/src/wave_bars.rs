@@ -7,7 +7,7 @@
 //!                   5°  -80°       phase of the second beyond the first
 //! ```
 //!
-//! Where either amplitude is less than a twentieth of the largest a phase means little and is left out.
+//! Where either amplitude is less than a twentieth of the largest, or no phase is told, it is left out.
 
 use crate::colour::{GRID, INK, MUTED, category};
 use crate::legend::{Entry, Key};
@@ -33,8 +33,8 @@ pub struct WaveBar {
     pub measured_um: f64,
     /// Of the second.
     pub predicted_um: f64,
-    /// Phase of the second beyond the first.
-    pub phase_difference_deg: f64,
+    /// Phase of the second beyond the first, where both are there.
+    pub phase_difference_deg: Option<f64>,
 }
 
 /// What the waves of two curves show.
@@ -103,9 +103,11 @@ impl WaveBars {
                 &Text::new(SMALL_PX).middle(),
             );
             let least = LITTLE * most;
-            if wave.measured_um > least && wave.predicted_um > least && wave.phase_difference_deg.is_finite()
-            {
-                let phase = format!("{:+.0}°", wave.phase_difference_deg);
+            let told = wave
+                .phase_difference_deg
+                .filter(|deg| deg.is_finite() && wave.measured_um > least && wave.predicted_um > least);
+            if let Some(deg) = told {
+                let phase = format!("{deg:+.0}°");
                 let text = Text::new(SMALL_PX).middle().colour(MUTED);
                 page.svg.text(under(31.0), &phase, &text);
             }
@@ -140,7 +142,7 @@ mod tests {
             waves,
             measured_um,
             predicted_um,
-            phase_difference_deg: -12.4,
+            phase_difference_deg: Some(-12.4),
         }
     }
 
@@ -152,6 +154,8 @@ mod tests {
             ..WaveBars::default()
         };
         assert_eq!(bars.to_svg().matches("-12°").count(), 1);
+        bars.waves[0].phase_difference_deg = None;
+        assert!(!bars.to_svg().contains("-12°"));
         bars.waves[1].measured_um = f64::NAN;
         assert!(!bars.to_svg().contains("NaN"));
         bars.waves.clear();

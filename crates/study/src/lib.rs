@@ -3,7 +3,8 @@
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
 //! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
-//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`pose_accuracy`] and [`calibrate`] measured poses,
+//! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
+//! measured paths,
 //! [`budget`] puts what was measured beside what is predicted,
 //! [`place`] finds where a part may lie best, [`advise`] what to do about a path, [`live`] tells a page what it shows of a
 //! study while it is being written.
@@ -16,6 +17,7 @@
 
 pub mod advise;
 pub mod answer;
+pub mod backlash;
 pub mod ballbar;
 pub mod budget;
 pub mod calibrate;
@@ -36,6 +38,7 @@ mod naming;
 pub mod new;
 pub mod number;
 pub mod output;
+pub mod path_accuracy;
 pub mod pendant;
 pub mod place;
 pub mod pose;

@@ -17,10 +17,9 @@ use armill_formats::measurement::poses::Measured;
 use serde::Serialize;
 
 use crate::StudyError;
-use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer};
+use crate::calibrate::answer::{ErrorsAnswer, FrameAnswer, errors_answer, frame_answer, told};
 use crate::calibrate::calibration::refused;
 use crate::calibrate::question::Question;
-use crate::number::decimals;
 
 /// Poses that were measured, in numbers.
 #[derive(Clone, Debug, Serialize)]
@@ -151,6 +150,8 @@ pub fn answer(
 
 /// Joint positions nearer to each other than this (rad, m) are of one posture.
 const SAME_POSTURE: f64 = 1e-2;
+/// Width of a cell of joint space, rad, m: so wide that few postures are near its edge.
+const CELL: f64 = 16.0 * SAME_POSTURE;
 
 /// Visits of the same pose, in the order of their first one.
 fn groups(measured: &Measured) -> Vec<Vec<usize>> {
@@ -170,22 +171,50 @@ fn groups(measured: &Measured) -> Vec<Vec<usize>> {
         let mut both = joints(a).iter().zip(joints(b));
         measured.names.is_some() || both.all(|(a, b)| (a - b).abs() < SAME_POSTURE)
     };
-    let mut by_key: BTreeMap<_, Vec<usize>> = BTreeMap::new();
+    // Groups by key and cell of joint space, so that a row is compared with few.
+    let mut by_cell: BTreeMap<_, Vec<usize>> = BTreeMap::new();
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for place in 0..measured.poses.len() {
-        let alike = by_key.entry(key(place)).or_default();
-        match alike
-            .iter()
-            .find(|group| is_one_posture(groups[**group][0], place))
+        let around = match measured.names {
+            Some(_) => vec![Vec::new()],
+            None => cells_around(joints(place), SAME_POSTURE),
+        };
+        let key = key(place);
+        let near = around
+            .into_iter()
+            .filter_map(|cell| by_cell.get(&(key.clone(), cell)))
+            .flatten();
+        match near
+            .filter(|group| is_one_posture(groups[**group][0], place))
+            .min()
         {
             Some(group) => groups[*group].push(place),
             None => {
-                alike.push(groups.len());
+                let own = match measured.names {
+                    Some(_) => vec![Vec::new()],
+                    None => cells_around(joints(place), 0.0),
+                };
+                let own = own.into_iter().next().unwrap_or_default();
+                by_cell.entry((key, own)).or_default().push(groups.len());
                 groups.push(vec![place]);
             }
         }
     }
     groups
+}
+
+/// The cells of joint space, [`CELL`] wide, that what is within `reach` of these joints lies in.
+fn cells_around(joints: &[f64], reach: f64) -> Vec<Vec<i64>> {
+    let mut cells: Vec<Vec<i64>> = vec![Vec::new()];
+    for joint in joints {
+        let [from, to] = [joint - reach, joint + reach].map(|at| (at / CELL).floor() as i64);
+        let next = |cell: &Vec<i64>| -> Vec<Vec<i64>> {
+            let with = |at: i64| cell.iter().copied().chain([at]).collect();
+            (from..=to).map(with).collect()
+        };
+        cells = cells.iter().flat_map(next).collect();
+    }
+    cells
 }
 
 /// Where a visit was to be and where it was, m, axes of the base.
@@ -264,9 +293,4 @@ fn repeated(by_pose: &[PoseAnswer]) -> Option<RepeatedAnswer> {
         rp_max_mm: largest(|pose| pose.rp_mm),
         vap_max_mm: by_pose.iter().filter_map(|pose| pose.vap_mm).reduce(f64::max),
     })
-}
-
-/// To a nanometre, or a microdegree.
-fn told(value: f64) -> f64 {
-    decimals(value, 6)
 }

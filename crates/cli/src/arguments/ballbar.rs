@@ -7,6 +7,8 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
+use super::program::ProgramOptions;
+
 #[derive(Debug, Args)]
 #[command(
     allow_negative_numbers = true,
@@ -18,6 +20,7 @@ Examples:
   armill ballbar runs.csv
   armill ballbar cw.csv ccw.csv --radius-mm 100 --plane XY --out test
   armill ballbar first.csv --teach points.csv
+  armill ballbar first.csv --program ring.src --study cell --feed-mm-per-min 1000
   armill ballbar second.csv --before first.csv --json"
 )]
 pub(crate) struct BallbarArguments {
@@ -63,12 +66,27 @@ pub(crate) struct BallbarArguments {
     /// Write the points of the circle to teach instead
     #[arg(long, value_name = "FILE")]
     pub teach: Option<PathBuf>,
-    /// How many points to teach
-    #[arg(long, value_name = "N", default_value_t = 72)]
-    pub points: usize,
+    /// How many points to teach: 72, of a program as many as --within-um needs, if left out
+    #[arg(long, value_name = "N")]
+    pub points: Option<usize>,
     /// Lobes up to which the taught circle corrects
     #[arg(long, value_name = "N", default_value_t = 12)]
     pub teach_lobes: usize,
+    // `--program` and what belongs to it.
+    #[command(flatten)]
+    pub program: ProgramOptions,
+    /// The study that has the circle, for --program
+    #[arg(long, value_name = "STUDY")]
+    pub study: Option<PathBuf>,
+    /// Name of the circle in that study, where it has several
+    #[arg(long, value_name = "NAME", requires = "study")]
+    pub ask: Option<String>,
+    /// Where angle 0 of the files lies on the circle, from its +y' towards z'
+    #[arg(long, value_name = "DEG", default_value_t = 0.0, requires = "study")]
+    pub zero_deg: f64,
+    /// Angles of the files grow from z' towards y'
+    #[arg(long, requires = "study")]
+    pub mirrored: bool,
     /// Write the answer, tables, pictures and a report into this folder
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

@@ -16,7 +16,8 @@ The guide: docs/guide/calibrate.md
 
 Examples:
   armill calibrate poses.csv --robot yaskawa/mh12 --hold-out 0.2 --out my-mh12.toml
-  armill calibrate poses.csv --robot arm.toml --hold-out others.csv --residuals residuals.csv --json"
+  armill calibrate poses.csv --robot arm.toml --hold-out others.csv --residuals residuals.csv --json
+  armill calibrate few.csv --robot arm.toml --prior-mm 0.5 --prior-deg 0.05 --hold-out 0.3 --drawing errors.svg"
 )]
 pub(crate) struct CalibrateArguments {
     /// Measured poses (CSV)
@@ -32,6 +33,12 @@ pub(crate) struct CalibrateArguments {
     /// Tracker and measured point stood for the held-out file where they stood before
     #[arg(long, requires = "hold_out")]
     pub same_set_up: bool,
+    /// Arms of this kind are off by so much along an axis (standard deviation); with --prior-deg
+    #[arg(long, value_name = "MM", requires = "prior_deg")]
+    pub prior_mm: Option<f64>,
+    /// And by so much about an axis: what poses hardly tell stays near the drawing
+    #[arg(long, value_name = "DEG", requires = "prior_mm")]
+    pub prior_deg: Option<f64>,
     #[command(flatten)]
     pub poses: PosesOptions,
     /// Write the calibrated robot to this file
@@ -40,6 +47,9 @@ pub(crate) struct CalibrateArguments {
     /// Write the residuals of every pose to this file (CSV)
     #[arg(long, value_name = "FILE")]
     pub residuals: Option<PathBuf>,
+    /// Draw errors before and after to this file (.svg, .png)
+    #[arg(long, value_name = "FILE")]
+    pub drawing: Option<PathBuf>,
     /// Print as JSON on stdout
     #[arg(long)]
     pub json: bool,

@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `serve`, `completions`; `poses` is for two of them.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -11,6 +11,7 @@
 //! be, is checked in `command`, so that all refusals sound alike.
 
 mod advise;
+mod backlash;
 mod ballbar;
 mod budget;
 mod calibrate;
@@ -22,17 +23,20 @@ mod forces;
 mod identify;
 mod materials;
 mod new;
+mod path_accuracy;
 mod place;
 mod pose;
 mod pose_accuracy;
 mod poses;
 mod posture;
+mod program;
 mod robots;
 mod roundness;
 mod run;
 mod serve;
 
 pub(crate) use advise::AdviseArguments;
+pub(crate) use backlash::BacklashArguments;
 pub(crate) use ballbar::{BallbarArguments, CentreChoice};
 pub(crate) use budget::BudgetArguments;
 pub(crate) use calibrate::{CalibrateArguments, UnknownsArgument};
@@ -44,11 +48,13 @@ pub(crate) use forces::ForcesArguments;
 pub(crate) use identify::{IdentifyArguments, PointsArgument, PriorArgument};
 pub(crate) use materials::MaterialsArguments;
 pub(crate) use new::NewArguments;
+pub(crate) use path_accuracy::PathAccuracyArguments;
 pub(crate) use place::{PlaceArguments, PlaceOptions};
 pub(crate) use pose::PoseArguments;
 pub(crate) use pose_accuracy::PoseAccuracyArguments;
 pub(crate) use poses::{PosesOptions, TurnArgument};
 pub(crate) use posture::PostureArguments;
+pub(crate) use program::ProgramOptions;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
@@ -108,8 +114,12 @@ pub(crate) enum Command {
     Roundness(RoundnessArguments),
     /// How round the tool goes, and why not rounder, from a ball-bar
     Ballbar(Box<BallbarArguments>),
+    /// How much play each joint has, from a ball-bar; which circles tell; made-up tests
+    Backlash(Box<BacklashArguments>),
     /// How near the arm comes to its poses, and how alike, from a laser tracker
     PoseAccuracy(Box<PoseAccuracyArguments>),
+    /// How near the tip keeps to a path, and how alike, from a laser tracker
+    PathAccuracy(PathAccuracyArguments),
     /// What the error of a measured circle is made of, and how much of it is predicted
     Budget(BudgetArguments),
     /// The live page of a study in the browser, on this machine alone
@@ -142,7 +152,9 @@ impl Command {
             Command::Forces(a) => a.json,
             Command::Roundness(a) => a.json,
             Command::Ballbar(a) => a.json,
+            Command::Backlash(a) => a.json,
             Command::PoseAccuracy(a) => a.json,
+            Command::PathAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
             Command::Serve(_) | Command::Completions(_) => false,
         }

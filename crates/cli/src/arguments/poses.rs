@@ -12,10 +12,10 @@ pub(crate) struct PosesOptions {
     #[arg(long)]
     pub turns: bool,
     /// Axes that measured turns go about, x first (fixed ones if left out)
-    #[arg(long, value_enum)]
+    #[arg(long, value_enum, requires = "turns")]
     pub turn_order: Option<TurnArgument>,
     /// A radian counts as much as so many millimetres (with --turns)
-    #[arg(long, value_name = "L", default_value_t = 250.0)]
+    #[arg(long, value_name = "L", default_value_t = 250.0, requires = "turns")]
     pub turn_mm: f64,
     /// About where the measured point sits on the flange
     #[arg(long, value_name = "X,Y,Z", value_delimiter = ',', allow_hyphen_values = true)]

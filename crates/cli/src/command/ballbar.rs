@@ -1,7 +1,7 @@
 //! `armill ballbar`: how round the tool goes, and why not rounder, from files of a ball-bar.
 //!
 //! Stdout holds a [`BallbarAnswer`], in words or as JSON; `--out` takes it with tables, pictures and a report, `--teach`
-//! the points of the circle to teach.
+//! the points of the circle to teach, `--program` a program of the robot through them.
 //!
 //! ```text
 //! circle of 100 mm in XY, 1000 mm/min; least-squares centre, (12.1, -3.4) um from the set-up
@@ -12,24 +12,33 @@
 //! lobes                              of what both directions have in common
 //! ```
 
+use std::path::PathBuf;
+
 use armill_formats::file::write_atomically;
-use armill_formats::measurement::ballbar::Told;
+use armill_formats::measurement::ballbar::{Told, direction_of};
+use armill_formats::robot_program::Written;
 use armill_study::StudyError;
-use armill_study::ballbar::answer::{FeatureAnswer, LobeAnswer, PartAnswer, ShownAnswer};
-use armill_study::ballbar::read::direction_of;
+use armill_study::ballbar::answer::{LobeAnswer, PartAnswer, ShownAnswer};
+use armill_study::ballbar::results::FeatureAnswer;
 use armill_study::ballbar::teach::ComparedQuantity;
 use armill_study::ballbar::{
-    BallbarAnswer, Centring, Cyclic, Question, Wanted, analyse, answer, before, output, read, teach,
+    BallbarAnswer, Centring, CircleWanted, Cyclic, Found, Measured, Question, TaughtAnswer, TaughtCircle,
+    Wanted, analyse, answer, before, output, points_within, read, sagitta, taught_program, teach,
 };
 use armill_study::number::decimals;
+use armill_study::studies;
 
 use super::numbers::{above_zero, finite};
+use super::program::{self, save};
 use crate::Outcome;
 use crate::arguments::{BallbarArguments, CentreChoice};
 use crate::terminal::{Align, columns, print, say};
 
-/// Most lobes and points: beyond these nothing is measured.
-const MOST: usize = 360;
+/// Most lobes: beyond these nothing is measured.
+const MOST_LOBES: usize = 360;
+/// Points that are taught, and most of them.
+const USUAL_POINTS: usize = 72;
+const MOST_POINTS: usize = 3600;
 /// Outliers that are told in words.
 const MOST_OUTLIERS: usize = 10;
 
@@ -44,24 +53,34 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
     let mut answer = answer(&measured, &question, &found);
     if !arguments.before.is_empty() {
         let first = read(&arguments.before, &wanted)?;
-        answer.before = Some(before(&first.files, (&analyse(&first, &question)?, &found)));
+        let shown = analyse(&first, &question)?;
+        answer.before = Some(before((&first, &shown), (&measured, &found))?);
     }
-    let taught = match &arguments.teach {
+    let taught = taught(arguments, (&measured, &found))?;
+    let table = match &taught {
         None => None,
-        Some(file) => {
-            let (told, table) = teach(&measured, (arguments.points, arguments.teach_lobes))?;
-            answer.taught = Some(told);
-            Some((file, table))
+        Some((told, circle, _)) => {
+            if told.most_lobes < arguments.teach_lobes {
+                answer.warnings.push(format!(
+                    "the taught circle takes off {} lobes, not {}: the samples are too far apart for more",
+                    told.most_lobes, arguments.teach_lobes
+                ));
+            }
+            answer.taught = Some(told.clone());
+            Some(circle.csv()?)
         }
     };
-    if let Some((file, table)) = &taught {
+    if let Some(out) = &arguments.out {
+        output::write(&answer, (&measured, &found), (out, table.as_deref()))?;
+        say(&format!("tables, pictures and report in {}", out.display()));
+    }
+    // Last, so that points stand nowhere if the folder cannot be written.
+    if let (Some(file), Some(table)) = (&arguments.teach, &table) {
         write_atomically(file, table)?;
         say(&format!("points to teach in {}", file.display()));
     }
-    if let Some(out) = &arguments.out {
-        let table = taught.as_ref().map(|(_, table)| table.as_slice());
-        output::write(&answer, (&measured, &found), (out, table))?;
-        say(&format!("tables, pictures and report in {}", out.display()));
+    if let Some((_, _, Some((folder, written)))) = &taught {
+        save(folder, written)?;
     }
     for warning in &answer.warnings {
         say(&format!("warning: {warning}"));
@@ -72,6 +91,63 @@ pub(crate) fn run(arguments: &BallbarArguments) -> Result<Outcome, StudyError> {
         as_text(&answer)
     })?;
     Ok(Outcome::Fine)
+}
+
+/// A program, with the folder that it goes to.
+type Program = (PathBuf, Written);
+
+/// The circle to teach, where it is asked for, and its program.
+fn taught(
+    arguments: &BallbarArguments,
+    (measured, found): (&Measured, &Found),
+) -> Result<Option<(TaughtAnswer, TaughtCircle, Option<Program>)>, StudyError> {
+    let told_feed = measured.feed.map(|feed| feed * 60e3);
+    let program = program::wanted(&arguments.program, arguments.feed_mm_per_min.or(told_feed))?;
+    if arguments.teach.is_none() && program.is_none() {
+        return Ok(None);
+    }
+    let radius = measured.test.radius();
+    let needed = program
+        .as_ref()
+        .map(|(_, wanted)| points_within(radius, wanted.within));
+    let points = arguments
+        .points
+        .unwrap_or(needed.unwrap_or(USUAL_POINTS).min(MOST_POINTS));
+    if points <= 2 * arguments.teach_lobes {
+        let message = format!(
+            "--points: {points} points cannot hold the {} lobes of --teach-lobes",
+            arguments.teach_lobes
+        );
+        return Err(StudyError::value(message, "more than two points a lobe"));
+    }
+    let (told, circle) = teach(found, (points, arguments.teach_lobes))?;
+    let Some((folder, wanted)) = program else {
+        return Ok(Some((told, circle, None)));
+    };
+    let Some(study) = &arguments.study else {
+        return Err(StudyError::value(
+            "--program: where the circle lies, and of which robot, a study tells",
+            "--study STUDY",
+        ));
+    };
+    finite("--zero-deg", &[arguments.zero_deg])?;
+    let place = CircleWanted {
+        ask: arguments.ask.clone(),
+        zero: arguments.zero_deg.to_radians(),
+        mirrored: arguments.mirrored,
+    };
+    let study = studies::find(study)?.read()?;
+    let mut written = taught_program(&study, &circle, &place, &wanted)?;
+    let sagitta = sagitta(radius, points);
+    if sagitta > wanted.within {
+        written.notes.push(format!(
+            "straight moves between {points} points leave the circle by {:.1} um; {} points keep within {} um",
+            sagitta * 1e6,
+            points_within(radius, wanted.within),
+            arguments.program.within_um
+        ));
+    }
+    Ok(Some((told, circle, Some((folder, written)))))
 }
 
 /// What files do not tell.
@@ -95,13 +171,17 @@ fn wanted(arguments: &BallbarArguments) -> Result<Wanted, StudyError> {
 
 /// What is asked.
 fn question(arguments: &BallbarArguments) -> Result<Question, StudyError> {
-    for (flag, value, least) in [
-        ("--lobes", arguments.lobes, 0),
-        ("--teach-lobes", arguments.teach_lobes, 0),
-        ("--points", arguments.points, 3),
+    for (flag, value, [least, most]) in [
+        ("--lobes", arguments.lobes, [0, MOST_LOBES]),
+        ("--teach-lobes", arguments.teach_lobes, [0, MOST_LOBES]),
+        (
+            "--points",
+            arguments.points.unwrap_or(USUAL_POINTS),
+            [3, MOST_POINTS],
+        ),
     ] {
-        if !(least..=MOST).contains(&value) {
-            let message = format!("{flag}: {value} is outside {least} to {MOST}");
+        if !(least..=most).contains(&value) {
+            let message = format!("{flag}: {value} is outside {least} to {most}");
             return Err(StudyError::value(message, "see `armill ballbar --help`"));
         }
     }
@@ -260,13 +340,14 @@ fn parts(answer: &BallbarAnswer) -> Vec<String> {
         ]
     };
     // Lobes have a line of their own below.
-    let shown = parts.radial.iter().filter(|part| !part.what.contains(" lobes, "));
+    let shown = parts.radial.iter().filter(|part| part.kind != "lobes");
     lines.extend(table(shown.map(row)));
     let [a, b] = &answer.axes;
-    if let (Some([sa, sb]), Some([u, _])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
+    if let (Some([sa, sb]), Some([ua, ub])) = (parts.scale_um_per_m, parts.scale_u_um_per_m) {
         lines.push(format!(
-            "scale        {a} {sa:+.1} um/m, {b} {sb:+.1} um/m, +- {:.1} um/m",
-            2.0 * u
+            "scale        {a} {sa:+.1} +- {:.1} um/m, {b} {sb:+.1} +- {:.1} um/m",
+            2.0 * ua,
+            2.0 * ub
         ));
     }
     if let (Some(s), Some(u)) = (parts.squareness_urad, parts.squareness_u_urad) {
@@ -341,6 +422,9 @@ fn results(answer: &BallbarAnswer) -> Vec<String> {
             ]
         };
         lines.extend(table(of.features.iter().map(row)));
+        if !of.without_number.is_empty() {
+            lines.push(format!("  without a number: {}", of.without_number.join(", ")));
+        }
     }
     lines
 }

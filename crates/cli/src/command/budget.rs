@@ -4,8 +4,9 @@
 //!
 //! ```text
 //! circle: radius 100 mm, 72 angles over 360 deg; centre least-squares, radius least-squares     circle, datum
-//! contribution   largest um   at deg   rms um   scatter um   alone %   without %                each part of the error
+//! contribution   largest um   at deg   rms um   scatter um   u um   alone %   without %         each part of the error
 //! sums                                                                                          what they make together
+//! without load, predicted                                                                       beside what was measured
 //! part, residual                                                                                how much is explained
 //! waves   part um   predicted um   phase deg   explained %                                      wave by wave
 //! ```
@@ -52,18 +53,19 @@ fn as_text(told: &BudgetAnswer) -> String {
     );
     lines.push(String::new());
     lines.push(format!(
-        "{:<30} {:>10} {:>8} {:>8} {:>10} {:>8} {:>9}",
-        "contribution", "largest um", "at deg", "rms um", "scatter um", "alone %", "without %"
+        "{:<30} {:>10} {:>8} {:>8} {:>10} {:>7} {:>8} {:>9}",
+        "contribution", "largest um", "at deg", "rms um", "scatter um", "u um", "alone %", "without %"
     ));
     let percent = |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{value:.1}"));
     lines.extend(told.contributions.iter().map(|one| {
         format!(
-            "{:<30} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>8} {:>9}",
+            "{:<30} {:>10.2} {:>8.1} {:>8.2} {:>10.2} {:>7} {:>8} {:>9}",
             one.name,
             one.largest_um,
             one.largest_at_deg,
             one.rms_um,
             one.scatter_um,
+            one.bias_u_um.map_or("-".to_owned(), |um| format!("{um:.2}")),
             percent(one.explained_alone_percent),
             percent(one.explained_without_percent)
         )
@@ -83,6 +85,17 @@ fn as_text(told: &BudgetAnswer) -> String {
         "{:<30} {:>10.2}   load {:.2} and path without load {:.2}",
         "plain sum", sums.plain_um, sums.load_um, sums.unloaded_um
     ));
+    if let Some(beside) = &told.without_load {
+        lines.push(format!(
+            "{:<30} {:>10.2}   at {:.1} deg; measured {:.2} at {:.1} deg, explained {:.1} %; in no sum",
+            "without load, predicted",
+            beside.predicted_um,
+            beside.predicted_at_deg,
+            beside.measured_um,
+            beside.measured_at_deg,
+            beside.explained_percent
+        ));
+    }
     if let Some(part) = &told.part {
         lines.extend(of_part(part));
     }
@@ -101,12 +114,12 @@ fn of_part(part: &PartAnswer) -> Vec<String> {
             "part", part.largest_um, part.largest_at_deg, part.rms_um, part.points
         ),
         format!(
-            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {:.2} um beyond known scatter",
+            "{:<30} {:>10.2}   at {:.1} deg; rms {:.2} um, {:.2} um beyond known scatter and uncertainty",
             "residual",
             part.residual.largest_um,
             part.residual.largest_at_deg,
             part.residual.rms_um,
-            part.residual.beyond_scatter_um
+            part.residual.beyond_known_um
         ),
         String::new(),
         format!(
@@ -129,11 +142,11 @@ fn of_part(part: &PartAnswer) -> Vec<String> {
     }
     lines.extend(part.waves.iter().map(|wave| {
         format!(
-            "{:>5} {:>9.2} {:>13.2} {:>21.1} {:>12}",
+            "{:>5} {:>9.2} {:>13.2} {:>21} {:>12}",
             wave.waves,
             wave.measured_um,
             wave.predicted_um,
-            wave.phase_difference_deg,
+            percent(wave.phase_difference_deg),
             percent(wave.explained_percent)
         )
     }));

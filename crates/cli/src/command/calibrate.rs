@@ -1,7 +1,7 @@
 //! `armill calibrate`: the geometry of this very arm from measured poses.
 //!
 //! Stdout holds a [`CalibrateAnswer`], in words or as JSON; `--out` takes the robot with the small motions that were found,
-//! `--residuals` what is left at every pose.
+//! `--residuals` what is left at every pose, `--drawing` a picture of it.
 //!
 //! ```text
 //! robot: file, poses, parameters
@@ -11,14 +11,15 @@
 //! base, point                                    where they were found
 //! ```
 
-use armill_core::calibrate::Asked;
+use armill_core::calibrate::{Asked, Prior};
 use armill_formats::file::write_atomically;
 use armill_study::calibrate::answer::ParameterAnswer;
 use armill_study::calibrate::{
-    CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, read, residuals, robot_file,
+    CalibrateAnswer, HoldOut, SetAnswer, answer, calibrate, drawing, read, residuals, robot_file,
 };
 use armill_study::{StudyError, robots};
 
+use super::numbers::above_zero;
 use super::poses::{errors_head, errors_text, frames_text, question};
 use crate::Outcome;
 use crate::arguments::{CalibrateArguments, UnknownsArgument};
@@ -35,7 +36,8 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
         UnknownsArgument::Geometry => Asked::Geometry,
         UnknownsArgument::Zeros => Asked::Zeros,
     };
-    let (question, told) = question(&arguments.poses, asked)?;
+    let (mut question, told) = question(&arguments.poses, asked)?;
+    question.prior = prior(arguments)?;
     let hold_out = hold_out(arguments)?;
     let shown = arguments.poses_file.display().to_string();
     let measured = read((&shown, &arguments.poses_file), &found.robot, &told, &question)?;
@@ -51,11 +53,25 @@ pub(crate) fn run(arguments: &CalibrateArguments) -> Result<Outcome, StudyError>
         write_atomically(file, residuals(&calibration).as_bytes())?;
         say(&format!("residuals in {}", file.display()));
     }
+    if let Some(file) = &arguments.drawing {
+        super::drawing::write(file, &drawing(&answer, &calibration))?;
+    }
     print(&match arguments.json {
         true => serde_json::to_string_pretty(&answer)?,
         false => as_text(&answer),
     })?;
     Ok(Outcome::Fine)
+}
+
+/// How far small motions of the chain are from zero, as the options tell it.
+fn prior(arguments: &CalibrateArguments) -> Result<Option<Prior>, StudyError> {
+    let Some((mm, deg)) = arguments.prior_mm.zip(arguments.prior_deg) else {
+        return Ok(None);
+    };
+    Ok(Some(Prior {
+        length: above_zero("--prior-mm", mm)? * 1e-3,
+        angle: above_zero("--prior-deg", deg)?.to_radians(),
+    }))
 }
 
 /// A number is a part of the file, all else another file.
@@ -68,6 +84,10 @@ fn hold_out(arguments: &CalibrateArguments) -> Result<HoldOut, StudyError> {
             path: text.into(),
             same_set_up: arguments.same_set_up,
         }),
+        Ok(part) if arguments.same_set_up => Err(StudyError::value(
+            format!("--same-set-up: the part {part} is of the same file, and so of the same set-up"),
+            "it goes with a file of other poses",
+        )),
         Ok(part) if part > 0.0 && part < 1.0 => Ok(HoldOut::Fraction(part)),
         Ok(part) => Err(StudyError::value(
             format!("--hold-out: {part} is not between 0 and 1"),
@@ -85,6 +105,12 @@ fn as_text(answer: &CalibrateAnswer) -> String {
         training.poses,
         answer.parameters.len()
     )];
+    lines.extend(answer.prior.as_ref().map(|prior| {
+        format!(
+            "prior {} mm and {} deg; of parameters, base and point the poses tell {:.1}",
+            prior.length_mm, prior.angle_deg, answer.told_by_poses
+        )
+    }));
     if !answer.unused.is_empty() {
         lines.push(format!("passed over: {}", answer.unused.join(", ")));
     }

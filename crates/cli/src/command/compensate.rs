@@ -3,15 +3,13 @@
 //! `--out` (`compensated` beside the study) takes a table and a picture a path; stdout a line each, before and
 //! after. `--program` takes the path as a program of the robot, in the language of its ending.
 
-use std::path::PathBuf;
-
-use armill_formats::file::{create_folder, write_atomically};
-use armill_formats::robot_program::Language;
+use armill_formats::file::write_atomically;
 use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
 use armill_study::in_place::check_folder;
-use armill_study::program_out::{ProgramWanted, program};
+use armill_study::program_out::program;
 use armill_study::{StudyError, output, studies};
 
+use super::program::{save, wanted};
 use crate::Outcome;
 use crate::arguments::CompensateArguments;
 use crate::progress::Progress;
@@ -24,7 +22,7 @@ use crate::terminal::{print, say};
 pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.study)?;
     let study = found.read()?;
-    let wanted = wanted(arguments)?;
+    let wanted = wanted(&arguments.program, arguments.feed_mm_per_min)?;
     let out = arguments
         .out
         .clone()
@@ -53,15 +51,7 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
             return Err(StudyError::value(message, "name it: --ask NAME"));
         };
         let written = program(&study, one.setting, (&one.path.0, &one.path.1), wanted)?;
-        create_folder(folder)?;
-        for (name, bytes) in &written.files {
-            write_atomically(folder.join(name), bytes)?;
-            say(&format!("program {}", folder.join(name).display()));
-        }
-        written
-            .notes
-            .iter()
-            .for_each(|note| say(&format!("note: {note}")));
+        save(folder, &written)?;
     }
     let answer = CompensationAnswer {
         paths: commanded.into_iter().map(|one| one.told).collect(),
@@ -74,52 +64,6 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
     })?;
     say(&format!("paths to command in {}", out.display()));
     Ok(Outcome::Fine)
-}
-
-/// The program that is asked for, and its folder.
-fn wanted(arguments: &CompensateArguments) -> Result<Option<(PathBuf, ProgramWanted)>, StudyError> {
-    let Some(file) = &arguments.program else {
-        return Ok(None);
-    };
-    let ending = file
-        .extension()
-        .and_then(|ending| ending.to_str())
-        .map(str::to_lowercase);
-    let language = ending.as_deref().and_then(Language::of_ending);
-    let language = language.ok_or_else(|| {
-        let message = format!(
-            "--program: the ending of {} is that of no language",
-            file.display()
-        );
-        StudyError::value(message, ".src, .mod, .jbi, .ls, .script or .pjx")
-    })?;
-    let finite = |option: &str, value: f64, [least, most]: [f64; 2]| match value >= least && value <= most {
-        true => Ok(value),
-        false => Err(StudyError::value(
-            format!("{option}: {value} is outside {least} to {most}"),
-            "see `armill compensate --help`",
-        )),
-    };
-    let feed = arguments.feed_mm_per_min;
-    let wanted = ProgramWanted {
-        language,
-        name: file
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned(),
-        frame_number: arguments.frame,
-        tool_number: arguments.tool,
-        within: finite("--within-um", arguments.within_um, [0.1, 1e6])? * 1e-6,
-        retract: finite("--retract-mm", arguments.retract_mm, [0.0, 1e4])? * 1e-3,
-        blend: finite("--blend-mm", arguments.blend_mm, [0.0, 1e3])? * 1e-3,
-        feed: match feed {
-            Some(feed) => Some(finite("--feed-mm-per-min", feed, [1.0, 1e6])? / 60e3),
-            None => None,
-        },
-    };
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
-    Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), wanted)))
 }
 
 /// What came of the program that a path came from.

@@ -1,7 +1,7 @@
 //! What each command does: options into a question, the answer of `armill-study` onto stdout, in words or as JSON.
 //!
 //! A file a command: `run`, `check`, `compare`, `new`, `robots` (a folder, for its own commands), `materials`, `pose`, `posture`, `place`, `advise`, `compensate`, `identify`, `calibrate`,
-//! `forces`, `roundness`, `ballbar`, `budget`, `pose_accuracy`, `serve`, `completions`. `poses`: options of measured poses. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
+//! `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`. `poses`: options of measured poses. `program`: options of a program of the robot. `numbers`: what an option that takes numbers refuses. `drawing`: pictures that were asked for.
 //!
 //! Each command has one function `run(&Arguments) -> Result<Outcome, StudyError>`: it finds robot or study,
 //! makes the question from the options (numbers checked, mm and degrees into SI), asks `armill_study`, writes
@@ -10,6 +10,7 @@
 //! and compute no more than the length of a vector or a percentage.
 
 pub(crate) mod advise;
+pub(crate) mod backlash;
 pub(crate) mod ballbar;
 pub(crate) mod budget;
 pub(crate) mod calibrate;
@@ -21,6 +22,7 @@ pub(crate) mod forces;
 pub(crate) mod identify;
 pub(crate) mod materials;
 pub(crate) mod new;
+pub(crate) mod path_accuracy;
 pub(crate) mod place;
 pub(crate) mod pose;
 pub(crate) mod pose_accuracy;
@@ -33,3 +35,4 @@ pub(crate) mod serve;
 mod drawing;
 mod numbers;
 mod poses;
+mod program;

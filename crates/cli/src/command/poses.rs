@@ -24,6 +24,7 @@ pub(super) fn question(options: &PosesOptions, asked: Asked) -> Result<(Question
         asked,
         tool_point: tool_point_mm * 1e-3,
         turn_length: options.turns.then_some(turn_length),
+        prior: None,
     };
     let told = Told {
         columns: options.columns.clone(),

@@ -4,22 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
+use crate::cell::armill;
 
 /// Half a degree beside whole ones: 12 um large, an ellipse of 30 um, 20 um of backlash in X, 40 um off along X.
 fn deviation_um(degrees: f64, sign: f64) -> f64 {
@@ -129,6 +116,19 @@ fn files_of_one_circle_are_one_test_and_what_they_lack_is_told_beside() {
         warned.contains("no CCW run") && warned.contains("not told apart: squareness, servo mismatch"),
         "{warned}"
     );
+    // A sum of two errors is neither: what it is along the radius is told, not an angle or a scale.
+    number(&part(&one, "squareness")["value_um"], 0.0, 0.02);
+    let parts = &one["parts"];
+    for of in [
+        "squareness_urad",
+        "squareness_u_urad",
+        "scale_um_per_m",
+        "servo_mismatch_s",
+    ] {
+        assert!(parts[of].is_null(), "{of}: {parts}");
+    }
+    let (_, text, _) = armill(folder.path(), &["ballbar", "cw.csv", "--radius-mm", "100"]);
+    assert!(!text.contains("than 90 deg"), "{text}");
 }
 
 #[test]
@@ -197,6 +197,62 @@ fn a_circle_is_taught_and_the_second_test_put_beside_the_first() {
 }
 
 #[test]
+fn few_samples_tell_few_lobes() {
+    let folder = folder();
+    // 36 samples of ten lobes, 5 um high.
+    let rows = (0..36).fold(String::new(), |text, k| {
+        let deviation = 5.0 * f64::from(100 * k).to_radians().cos();
+        text + &format!("{},{deviation},CCW,1\n", 10 * k)
+    });
+    std::fs::write(folder.path().join("few.csv"), format!("{HEAD}{NAMES}{rows}")).unwrap();
+    let found = told(folder.path(), &["few.csv", "--lobes", "100"]);
+    let lobes = found["lobes"].as_array().unwrap();
+    assert_eq!(lobes.len(), 17);
+    number(&lobes[9]["amplitude_um"], 5.0, 1e-3);
+    assert!(
+        found["warnings"]
+            .to_string()
+            .contains("17 lobes are told, not 100"),
+        "{}",
+        found["warnings"]
+    );
+    let teach = ["few.csv", "--teach", "p.csv", "--teach-lobes", "30"];
+    let found = told(folder.path(), &teach);
+    assert_eq!(found["taught"]["most_lobes"], 17);
+    assert!(
+        found["warnings"]
+            .to_string()
+            .contains("takes off 17 lobes, not 30"),
+        "{}",
+        found["warnings"]
+    );
+}
+
+#[test]
+fn columns_that_are_passed_over_are_told() {
+    let folder = folder();
+    let text = format!(
+        "{HEAD}{}{}",
+        NAMES.replace("run", "run_no"),
+        rows("CW", 1, |_| 0.0)
+    );
+    std::fs::write(folder.path().join("odd.csv"), text).unwrap();
+    let (code, _, err) = armill(folder.path(), &["ballbar", "odd.csv"]);
+    assert!(
+        code == 0 && err.contains("a column was passed over, odd.csv: run_no"),
+        "{err}"
+    );
+}
+
+#[test]
+fn points_are_written_where_all_else_is_too() {
+    let folder = folder();
+    let all = ["ballbar", "test.csv", "--teach", "p.csv", "--out", "test.csv"];
+    let (code, ..) = armill(folder.path(), &all);
+    assert!(code == 2 && !folder.path().join("p.csv").exists());
+}
+
+#[test]
 fn dirt_is_told_and_left_out_on_demand() {
     let folder = folder();
     let kept = told(folder.path(), &["dirt.csv"]);
@@ -207,6 +263,22 @@ fn dirt_is_told_and_left_out_on_demand() {
     let g = |told: &Value| told["directions"][0]["circular_um"].as_f64().unwrap();
     // 80 um on top of a flank of the ellipse.
     assert!(g(&kept) > g(&clean) + 5.0, "{kept} {clean}");
+    // The circle to teach is that of the samples that are left: at 100 degrees, beside the dirt.
+    let correction = |more: &[&str]| -> f64 {
+        let teach = ["dirt.csv", "--teach", "p.csv", "--teach-lobes", "30"];
+        let _ = told(folder.path(), &[&teach, more].concat());
+        let table = std::fs::read_to_string(folder.path().join("p.csv")).unwrap();
+        let row = table.lines().find(|line| line.starts_with("100")).unwrap();
+        row.split(',').nth(2).unwrap().parse().unwrap()
+    };
+    let a = 100_f64.to_radians();
+    let smooth = -(12.0 + 30.0 * (2.0 * a).cos() - 10.0 * a.cos());
+    // 30 lobes take up a sixth of 80 um.
+    let [with, without] = [correction(&[]), correction(&["--leave-out-outliers"])];
+    assert!(
+        (without - smooth).abs() < 2.0 && with < smooth - 10.0,
+        "{with} {without} for {smooth}"
+    );
 }
 
 #[test]
@@ -222,6 +294,14 @@ fn an_arc_says_that_it_is_one() {
     let warned = told["warnings"].to_string();
     assert!(warned.contains("CCW1 has no samples from"), "{warned}");
     assert!(warned.contains("nothing is known of the step Y-"), "{warned}");
+    // A sample stands on 0 degrees, and none before it.
+    assert!(warned.contains("nothing is known of the step X+"), "{warned}");
+    assert!(part(&told, "step X+").is_null() && !part(&told, "step X-").is_null());
+    // An arc tells one scale better than the other.
+    let both_ways = format!("{HEAD}{NAMES}{arc}{}", arc.replace("CCW", "CW"));
+    std::fs::write(folder.path().join("arcs.csv"), both_ways).unwrap();
+    let u = &self::told(folder.path(), &["arcs.csv"])["parts"]["scale_u_um_per_m"];
+    assert!(u[1].as_f64().unwrap() > 2.0 * u[0].as_f64().unwrap(), "{u}");
     assert!(told["lobes"].as_array().unwrap().is_empty());
     let (code, _, err) = armill(folder.path(), &["ballbar", "arc.csv", "--teach", "p.csv"]);
     assert!(
@@ -268,6 +348,18 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
         ),
     );
     write(
+        "far.csv",
+        &format!("{NAMES}{}0.5,90000000,CW,1\n", rows("CW", 1, |_| 0.0)),
+    );
+    let with = |head: &str| format!("{head}{NAMES}{}", rows("CW", 1, |_| 0.0));
+    write(
+        "fast.csv",
+        &with("# radius_mm: 100\n# plane: XY\n# feed_mm_per_min: 2000\n"),
+    );
+    write("yz.csv", &with("# radius_mm: 100\n# plane: YZ\n"));
+    let each = (0..101).fold(String::new(), |text, k| text + &format!("{k},1,CW,{k}\n"));
+    write("each.csv", &format!("{NAMES}{each}"));
+    write(
         "small.csv",
         &format!("# radius_mm: 150\n{NAMES}{}", rows("CW", 1, |_| 0.0)),
     );
@@ -286,10 +378,48 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             ],
         ),
         (&["unit.csv", "cells.csv"], &["unit.csv:1", "cells.csv:3"]),
-        (&["cw.csv"], &["nothing tells the nominal radius", "--radius-mm"]),
+        (&["cw.csv"], &["nothing tells the nominal radius", "radius_mm"]),
         (
             &["mixed.csv"],
-            &["the radius is off by", "more than half the nominal"],
+            &["mixed.csv:363:5: the radius is off by 90000 mm, more than half the nominal 100 mm"],
+        ),
+        // The radius comes from another file: the run is told by its file and its name.
+        (
+            &["test.csv", "far.csv"],
+            &["far.csv: CW3 (run `1`), sample 361: the radius is off by"],
+        ),
+        (&["each.csv"], &["each.csv:102:1: more than 100 runs"]),
+        (
+            &["test.csv", "--before", "small.csv"],
+            &["--before: the nominal radius was 150 mm, and is 100 mm now"],
+        ),
+        (
+            &["test.csv", "--before", "fast.csv"],
+            &["--before: the feed was 2000 mm/min, and is 1000 mm/min now"],
+        ),
+        (
+            &["test.csv", "--before", "yz.csv"],
+            &["--before: the plane was YZ, and is XY now"],
+        ),
+        (
+            &["test.csv", "--cyclic", "1e-306"],
+            &["a cyclic error with a period of", "is outside 6.981 to 100 mm"],
+        ),
+        (
+            &["test.csv", "--cyclic", "200"],
+            &["a period of 200 mm is outside"],
+        ),
+        (
+            &[
+                "test.csv",
+                "--teach",
+                "p.csv",
+                "--points",
+                "60",
+                "--teach-lobes",
+                "30",
+            ],
+            &["--points: 60 points cannot hold the 30 lobes of --teach-lobes"],
         ),
         (
             &["test.csv", "small.csv"],
@@ -332,4 +462,205 @@ fn what_is_wrong_is_told_with_its_place_and_a_hint() {
             assert!(err.contains(word), "{arguments:?}: no `{word}` in\n{err}");
         }
     }
+}
+
+const CIRCLE: &str = r#"
+format = 1
+robot = "yaskawa/mh12"
+limit_um = 200
+tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
+plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
+load = { cases_n = [[1, 0, 0]] }
+
+[[ask]]
+kind = "path"
+name = "ring"
+circle = { radius_mm = 100 }
+"#;
+
+#[test]
+fn the_taught_circle_comes_as_a_program_that_passes_every_point() {
+    use armill_formats::robot_program::{Motion, ProgramText, Speed, Target, read};
+    let folder = folder();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
+    // Angle 0 of the bar lies at 90 degrees of the circle, and its angles grow the other way.
+    for (zero_deg, way, keys) in [
+        (0.0, 1.0, &[][..]),
+        (90.0, -1.0, &["--zero-deg", "90", "--mirrored"][..]),
+    ] {
+        for ending in ["src", "mod", "ls", "script"] {
+            let file = format!("prog/ring.{ending}");
+            let asked = [
+                "test.csv",
+                "--teach",
+                "p.csv",
+                "--points",
+                "48",
+                "--program",
+                &file,
+                "--study",
+                "study.toml",
+            ];
+            let (code, _, err) = armill(at, &[&["ballbar"], &asked[..], keys].concat());
+            assert_eq!(code, 0, "{err}");
+            // Straight moves between 48 points leave the circle by R (1 - cos(pi / 48)) = 214 um.
+            assert!(
+                err.contains("leave the circle by 214.1 um; 324 points keep within 5 um"),
+                "{err}"
+            );
+            let table = std::fs::read_to_string(at.join("p.csv")).unwrap();
+            let rows: Vec<Vec<f64>> = table
+                .lines()
+                .filter(|line| !line.starts_with('#'))
+                .skip(1)
+                .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+                .collect();
+            let name = std::fs::read_dir(at.join("prog"))
+                .unwrap()
+                .map(|entry| entry.unwrap().path())
+                .find(|path| {
+                    path.extension()
+                        .is_some_and(|own| own.eq_ignore_ascii_case(ending))
+                })
+                .unwrap();
+            let text = ProgramText::new(&name.display().to_string(), &std::fs::read(&name).unwrap());
+            let program = read(vec![text]).unwrap();
+            let moves: Vec<_> = program
+                .moves
+                .iter()
+                .filter(|next| next.motion == Motion::Linear)
+                .collect();
+            // 48 points, the first again to close, and up.
+            assert_eq!(moves.len(), 48 + 2, "{ending}");
+            assert!(
+                moves
+                    .iter()
+                    .all(|next| matches!(next.speed, Speed::Tip(v) if (v - 1.0 / 60.0).abs() < 2e-4)),
+                "{ending}"
+            );
+            let tip = |target: &Target| target.pose().unwrap().translation.vector * 1e3;
+            // The circle lies on the plane about the origin of its frame, -x is y' and y is z'.
+            let wanted: Vec<[f64; 2]> = rows
+                .iter()
+                .map(|row| {
+                    let a = (zero_deg + way * row[0]).to_radians();
+                    [-row[1] * a.cos(), row[1] * a.sin()]
+                })
+                .collect();
+            for next in &moves[..49] {
+                let tip = tip(&next.target);
+                let off = |[x, y]: &[f64; 2]| (tip.x - x).hypot(tip.y - y);
+                let nearest = wanted.iter().map(off).fold(f64::MAX, f64::min);
+                // FANUC and KUKA write micrometres, two of them on a diagonal.
+                assert!(
+                    nearest < 2e-3 && tip.z.abs() < 1e-3,
+                    "{ending} {keys:?}: {nearest} {tip}"
+                );
+            }
+            // Every point once, in one way round.
+            let close = (tip(&moves[0].target) - tip(&moves[48].target)).norm();
+            assert!(close < 1e-9, "{ending}: {close}");
+            let angles: Vec<f64> = moves[..48]
+                .iter()
+                .map(|next| tip(&next.target))
+                .map(|t| t.y.atan2(-t.x))
+                .collect();
+            assert!(
+                angles
+                    .windows(2)
+                    .all(|pair| (pair[1] - pair[0]).rem_euclid(TAU) < 0.14),
+                "{ending}"
+            );
+        }
+    }
+    // Without a count as many points as the straight moves need.
+    let asked = [
+        "ballbar",
+        "test.csv",
+        "--teach",
+        "p.csv",
+        "--program",
+        "prog/many.src",
+        "--study",
+        "study.toml",
+    ];
+    let (code, _, err) = armill(at, &asked);
+    assert!(code == 0 && !err.contains("leave the circle"), "{err}");
+    assert_eq!(
+        std::fs::read_to_string(at.join("p.csv")).unwrap().lines().count(),
+        325
+    );
+}
+
+#[test]
+fn a_program_of_another_circle_or_of_none_is_refused() {
+    let folder = folder();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), CIRCLE).unwrap();
+    std::fs::write(
+        at.join("small.toml"),
+        CIRCLE.replace("radius_mm = 100", "radius_mm = 60"),
+    )
+    .unwrap();
+    let two = format!("{CIRCLE}[[ask]]\nkind = \"path\"\nname = \"other\"\ncircle = {{ radius_mm = 50 }}\n");
+    std::fs::write(at.join("two.toml"), two).unwrap();
+    std::fs::write(
+        at.join("line.toml"),
+        CIRCLE.replace(
+            "circle = { radius_mm = 100 }",
+            "line = { from_mm = [0, 0], to_mm = [50, 0] }",
+        ),
+    )
+    .unwrap();
+    for (arguments, said) in [
+        (&["--program", "a.src"][..], "--study STUDY"),
+        (
+            &["--program", "a.txt", "--study", "study.toml"],
+            "that of no language",
+        ),
+        (
+            &["--program", "a.src", "--study", "small.toml"],
+            "the circle of the study has 60 mm, that of the ball-bar 100 mm",
+        ),
+        (
+            &["--program", "a.src", "--study", "two.toml"],
+            "2 circles: ring, other",
+        ),
+        (
+            &["--program", "a.src", "--study", "two.toml", "--ask", "third"],
+            "no circle called `third`",
+        ),
+        (
+            &["--program", "a.src", "--study", "line.toml"],
+            "asks for no circle",
+        ),
+        (
+            &["--program", "a.src", "--study", "study.toml", "--zero-deg", "nan"],
+            "not a finite number",
+        ),
+        (
+            &["--program", "a.src", "--study", "study.toml", "--points", "4000"],
+            "--points: 4000 is outside 3 to 3600",
+        ),
+    ] {
+        let (code, _, err) = armill(at, &[&["ballbar", "test.csv"], arguments].concat());
+        assert!(code == 2 && err.contains(said), "{arguments:?} {code}: {err}");
+    }
+    assert!(!at.join("a.src").exists());
+    // A name among several will do.
+    let (code, _, err) = armill(
+        at,
+        &[
+            "ballbar",
+            "test.csv",
+            "--program",
+            "a.src",
+            "--study",
+            "two.toml",
+            "--ask",
+            "ring",
+        ],
+    );
+    assert!(code == 0 && at.join("a.src").exists(), "{err}");
 }

@@ -8,22 +8,9 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
+use crate::cell::armill;
 
 const STUDY: &str = r#"
 format = 1
@@ -282,4 +269,128 @@ fn all_problems_are_told_at_once_each_where_it_stands() {
     .unwrap();
     let (code, _, err) = armill(at, &["check", "."]);
     assert!(code == 2 && err.contains("`groove` is no circle"), "{err}");
+}
+
+/// The MH12 with play in all joints.
+fn with_play() -> String {
+    let mh12 =
+        std::fs::read_to_string(crate::documents::repository().join("robots/yaskawa/mh12.toml")).unwrap();
+    let play = "\nbacklash_deg = 0.01\nbacklash_u_deg = 0.001\nbacklash_source = \"paper\"\ncompliance_source = \"paper\"";
+    mh12.replace("\ncompliance_source = \"paper\"", play)
+}
+
+#[test]
+fn backlash_that_the_ballbar_saw_is_not_counted_again() {
+    let (folder, plain_load) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let at = folder.path();
+    let plain = told(at);
+    assert!(plain["without_load"].is_null());
+    std::fs::write(at.join("arm.toml"), with_play()).unwrap();
+    let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    let study = study.replace("robot = \"yaskawa/mh12\"", "robot = \"arm.toml\"");
+    // What backlash adds along this circle, from runs with and without it.
+    let (bare, measured) = study.split_once("[measured]").unwrap();
+    std::fs::write(at.join("study.toml"), bare).unwrap();
+    let with = load_um(at);
+    let play: Vec<f64> = with
+        .iter()
+        .zip(&plain_load)
+        .map(|(with, load)| with - load)
+        .collect();
+    assert!(play.iter().any(|um| um.abs() > 40.0), "{play:?}");
+
+    // The same ball-bar and the same part as without backlash: nothing of the budget changes.
+    std::fs::write(at.join("study.toml"), &study).unwrap();
+    let same = told(at);
+    for k in 0..3 {
+        for key in ["largest_um", "rms_um", "explained_alone_percent"] {
+            let path = format!("/contributions/{k}/{key}");
+            assert!(
+                (number(&same, &path) - number(&plain, &path)).abs() < 0.02,
+                "{path}: {same}"
+            );
+        }
+    }
+    assert!(
+        (number(&same, "/part/explained_percent") - number(&plain, "/part/explained_percent")).abs() < 0.01
+    );
+    // That ball-bar saw another arm, and the row beside it says so.
+    assert!(number(&same, "/without_load/predicted_um") > 20.0);
+    assert!(number(&same, "/without_load/explained_percent") < 50.0, "{same}");
+    let (_, text, _) = armill(at, &["budget", "."]);
+    assert!(
+        text.contains("without load, predicted") && text.contains("in no sum"),
+        "{text}"
+    );
+
+    // A ball-bar of the arm that is predicted: the row explains it whole.
+    let mut file = "# radius_mm: 100\nangle_deg,radius_dev_um,direction,run\n".to_owned();
+    for (k, um) in play.iter().enumerate() {
+        let _ = writeln!(file, "{k},{um:.5},CCW,1");
+    }
+    std::fs::write(at.join("own.csv"), file).unwrap();
+    let own = measured.replace("\"run1.csv\", \"run2.csv\"", "\"own.csv\"");
+    std::fs::write(at.join("study.toml"), format!("{bare}[measured]{own}")).unwrap();
+    let own = told(at);
+    // The table of the run has three decimals.
+    assert!(number(&own, "/without_load/explained_percent") > 99.9, "{own}");
+
+    // Without a ball-bar the prediction stands for it, as a part of its own.
+    let part = format!("{bare}[measured]\npart = \"cmm.csv\"\n");
+    std::fs::write(at.join("study.toml"), part).unwrap();
+    let alone = told(at);
+    assert_eq!(alone["contributions"][1]["name"], "path without load, predicted");
+    assert_eq!(alone["contributions"][1]["origin"], "unloaded");
+    assert!(
+        (number(&alone, "/contributions/0/rms_um") - number(&plain, "/contributions/0/rms_um")).abs() < 0.02
+    );
+    assert!(
+        alone["warnings"]
+            .to_string()
+            .contains("is predicted from gravity"),
+        "{alone}"
+    );
+}
+
+#[test]
+fn doubt_of_compliances_stands_beside_the_load_and_is_less_without_centre_and_radius() {
+    let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let at = folder.path();
+    let free = number(&told(at), "/contributions/0/bias_u_um");
+    assert!(free > 0.05, "{free}");
+    let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    // Twice the load, twice the doubt.
+    let sure = study.replace("cases_n = [[6, 10, 10]]", "cases_n = [[12, 20, 20]]");
+    std::fs::write(at.join("study.toml"), &sure).unwrap();
+    let twice = number(&told(at), "/contributions/0/bias_u_um");
+    assert!((twice / free - 2.0).abs() < 1e-6, "{twice} {free}");
+    let kept = format!("{study}centre = \"as-measured\"\nradius = \"as-measured\"\n");
+    std::fs::write(
+        at.join("study.toml"),
+        kept.replace("ballbar = [\"run1.csv\", \"run2.csv\"]\n", "")
+            .replace("part = \"cmm.csv\"", "ballbar = [\"run1.csv\"]"),
+    )
+    .unwrap();
+    let kept = told(at);
+    assert!(number(&kept, "/contributions/0/bias_u_um") > 2.0 * free, "{kept}");
+}
+
+#[test]
+fn waves_that_are_hardly_there_have_neither_phase_nor_share() {
+    let (folder, _) = experiment([0.0, 0.0], "", (0.0, 1.0));
+    let told = told(folder.path());
+    let least = number(&told, "/part/least_wave_um");
+    for wave in told["part"]["waves"].as_array().unwrap() {
+        let is_there = number(wave, "/measured_um") >= least;
+        assert_eq!(wave["explained_percent"].is_number(), is_there, "{wave}");
+        assert_eq!(wave["measured_phase_deg"].is_number(), is_there, "{wave}");
+        assert!(is_there || wave["phase_difference_deg"].is_null(), "{wave}");
+    }
+    // The reversal is a square wave: it has no even waves but those of the ellipse, and what angles off a sample leave.
+    let waves = told["part"]["waves"].as_array().unwrap();
+    assert!(
+        waves.iter().any(|wave| wave["explained_percent"].is_null()),
+        "{told}"
+    );
+    assert!(waves[1]["explained_percent"].is_number());
 }

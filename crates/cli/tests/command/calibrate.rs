@@ -4,8 +4,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use assert_cmd::Command;
 use serde_json::Value;
+
+use crate::cell::armill;
 
 const ROBOT: &str = r#"format = 1
 name = "lever"
@@ -34,20 +35,6 @@ what = "a lever of two arms"
 where = "this test"
 licence = "ours"
 "#;
-
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
 
 fn json(folder: &Path, arguments: &[&str]) -> Value {
     let (code, out, err) = armill(folder, &[arguments, &["--json"]].concat());
@@ -223,6 +210,15 @@ fn what_cannot_be_is_refused_with_all_problems_at_once() {
             &["calibrate", "poses.csv", "--turns", "--turn-mm", "0"],
             &["--turn-mm: 0 is not above 0"],
         ),
+        (&["calibrate", "poses.csv", "--turn-mm", "100"], &["--turns"]),
+        (
+            &["calibrate", "poses.csv", "--turn-order", "fixed-xyz"],
+            &["--turns"],
+        ),
+        (
+            &["calibrate", "poses.csv", "--hold-out", "0.2", "--same-set-up"],
+            &["--same-set-up: the part 0.2 is of the same file"],
+        ),
         (
             &["calibrate", "poses.csv", "--tool-mm", "1,2"],
             &["--tool-mm: 2 numbers"],
@@ -323,4 +319,154 @@ fn a_ur10_calibrated_by_random_poses_is_judged_by_others_of_them_and_by_cubes_el
     // The robot that was written is the one that was judged.
     let again = json(folder.path(), &["pose-accuracy", cubes, "--robot", "ur10.toml"]);
     assert!((number(&again["absolute"]["rms_mm"]) - rms(&answer, "held_out", "after")).abs() < 1e-5);
+}
+
+#[test]
+fn a_prior_keeps_what_poses_do_not_tell_and_the_drawing_shows_both_sets() {
+    let folder = folder();
+    let asked = [
+        "calibrate",
+        "poses.csv",
+        "--robot",
+        "lever.toml",
+        "--hold-out",
+        "0.25",
+    ];
+
+    let answer = json(
+        folder.path(),
+        &[
+            &asked[..],
+            &[
+                "--prior-mm",
+                "100",
+                "--prior-deg",
+                "10",
+                "--drawing",
+                "errors.svg",
+            ],
+        ]
+        .concat(),
+    );
+    let along = answer["parameters"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|one| one["name"] == "A along x")
+        .unwrap();
+    assert!((number(&along["value_mm"]) - 0.5).abs() < 1e-4, "{answer}");
+    assert!((number(&answer["prior"]["length_mm"]) - 100.0).abs() < 1e-9);
+    assert!(number(&answer["told_by_poses"]) > 2.0);
+    let drawing = std::fs::read_to_string(folder.path().join("errors.svg")).unwrap();
+    for part in [
+        "found from, before",
+        "held out, after",
+        "lever: errors of position",
+    ] {
+        assert!(drawing.contains(part), "{part}");
+    }
+    for (arguments, said) in [
+        (&["--prior-mm", "1"][..], "--prior-deg"),
+        (
+            &["--prior-mm", "0", "--prior-deg", "1"],
+            "--prior-mm: 0 is not above 0",
+        ),
+        (&["--drawing", "errors.jpg"], "is no picture that armill draws"),
+    ] {
+        let (code, _, err) = armill(folder.path(), &[&asked[..], arguments].concat());
+        assert!(code == 2 && err.contains(said), "{arguments:?}: {err}");
+    }
+}
+
+#[test]
+fn a_ur10_of_twenty_poses_meets_others_better_with_a_prior() {
+    let Some(random) = ur10("Series_C/measurements_random_poses.csv") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    // Every tenth row or so of the file: twenty poses, and the file itself to judge by.
+    let text = std::fs::read_to_string(&random).unwrap();
+    let count = text.lines().count() - 1;
+    let some = text
+        .lines()
+        .enumerate()
+        .filter(|(k, _)| *k == 0 || (k - 1) % (count / 20) == 0);
+    let some: Vec<&str> = some.map(|(_, line)| line).take(21).collect();
+    std::fs::write(folder.path().join("few.csv"), some.join("\n")).unwrap();
+    let random = random.to_str().unwrap();
+    let asked = [
+        "calibrate",
+        "few.csv",
+        "--robot",
+        "universal-robots/ur10",
+        "--hold-out",
+        random,
+        "--same-set-up",
+    ];
+    let rms = |prior: &[&str]| {
+        let answer = json(folder.path(), &[&asked[..], prior].concat());
+        assert_eq!(answer["training"]["poses"], 20);
+        ["before", "after"].map(|when| number(&answer["held_out"][when]["rms_mm"]))
+    };
+    let [before, free] = rms(&[]);
+    let [same, held] = rms(&["--prior-mm", "0.5", "--prior-deg", "0.05"]);
+    println!("before {before}, free {free}, held {held}");
+    assert!((before - same).abs() < 1e-9);
+    assert!(
+        held < free && held < before,
+        "before {before}, free {free}, held {held}"
+    );
+}
+
+#[test]
+fn a_named_branch_of_a_calibrated_robot_is_the_posture_that_the_drawing_has() {
+    let Some(random) = ur10("Series_C/measurements_random_poses.csv") else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let asked = [
+        "calibrate",
+        random.to_str().unwrap(),
+        "--robot",
+        "universal-robots/ur10",
+        "--out",
+        "mine.toml",
+    ];
+    let (code, _, err) = armill(folder.path(), &asked);
+    assert_eq!(code, 0, "{err}");
+    let postures = |robot: &str| {
+        let answer = json(
+            folder.path(),
+            &[
+                "pose",
+                robot,
+                "--at-mm",
+                "700,-300,400",
+                "--axis",
+                "0.1,0.2,-1",
+                "--compliance-class",
+                "light",
+            ],
+        );
+        answer["postures"].as_array().unwrap().clone()
+    };
+    let (nominal, mine) = (postures("universal-robots/ur10"), postures("mine.toml"));
+    assert!(
+        nominal.len() >= 4 && nominal.len() == mine.len(),
+        "{} {}",
+        nominal.len(),
+        mine.len()
+    );
+    for posture in &nominal {
+        let branch = &posture["branch"];
+        let own = mine.iter().find(|own| own["branch"] == *branch);
+        let own = own.unwrap_or_else(|| panic!("{branch} of {mine:?}"));
+        let joints =
+            |of: &Value| -> Vec<f64> { of["joints_deg"].as_array().unwrap().iter().map(number).collect() };
+        for (a, b) in joints(posture).iter().zip(joints(own)) {
+            // Lengths of a metre are off by a millimetre, angles by some hundredths: half a degree at the worst.
+            let apart = (a - b + 180.0).rem_euclid(360.0) - 180.0;
+            assert!(apart.abs() < 0.5, "{branch}: {a} {b}");
+        }
+    }
 }

@@ -155,16 +155,8 @@ impl Cell {
 
     /// armill with these arguments, in this folder.
     pub fn armill<S: AsRef<std::ffi::OsStr>>(&self, arguments: &[S]) -> Said {
-        let output = Command::new(ARMILL)
-            .current_dir(self.path())
-            .args(arguments)
-            .output()
-            .expect("armill starts");
-        Said {
-            code: output.status.code().unwrap_or(-1),
-            out: String::from_utf8(output.stdout).expect("stdout is UTF-8"),
-            err: String::from_utf8(output.stderr).expect("stderr is UTF-8"),
-        }
+        let (code, out, err) = armill(self.path(), arguments);
+        Said { code, out, err }
     }
 
     /// `result.json` of the folder `out`.
@@ -179,6 +171,20 @@ impl Cell {
         files.retain(|name, _| !name.starts_with(".armill-"));
         files
     }
+}
+
+/// armill with these arguments, in any folder: exit code (-1 where a signal ended it), stdout and stderr.
+pub fn armill<S: AsRef<std::ffi::OsStr>>(folder: &Path, arguments: &[S]) -> (i32, String, String) {
+    let output = Command::new(ARMILL)
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .expect("armill starts");
+    (
+        output.status.code().unwrap_or(-1),
+        String::from_utf8(output.stdout).expect("stdout is UTF-8"),
+        String::from_utf8(output.stderr).expect("stderr is UTF-8"),
+    )
 }
 
 impl Said {

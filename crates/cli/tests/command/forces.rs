@@ -1,24 +1,10 @@
 //! `armill forces` as a user runs it: numbers, tables, pictures; and everything that can be wrong.
 
 use std::fmt::Write;
-use std::path::Path;
 
-use assert_cmd::Command;
 use serde_json::Value;
 
-fn armill(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(assert_cmd::cargo::cargo_bin!("armill"))
-        .args(arguments)
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-    (
-        output.status.code().unwrap(),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
-}
+use crate::cell::armill;
 
 /// 3 s at 1 kHz: (30, -40, 0) N from 1 s to 2 s with a hum of 2 N, 5 N of drift along x.
 fn record(separator: char, names: &str) -> String {

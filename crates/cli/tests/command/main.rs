@@ -1,7 +1,7 @@
 //! The command as a user meets it: one program with all its tests, so that it is linked once.
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `documents` (every page is run). Commands: `run`,
-//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `compare`, `holes`, `unloaded` (backlash). What goes wrong: `refused`,
+//! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes wrong: `refused`,
 //! `terminal`, `killed`.
 
 // A panic is how a test says that its claim is false; helper functions too.
@@ -9,6 +9,7 @@
 
 mod advise;
 mod assumed;
+mod backlash;
 mod ballbar;
 mod budget;
 mod calibrate;
@@ -24,6 +25,7 @@ mod import;
 mod killed;
 mod materials;
 mod new_and_robots;
+mod path_accuracy;
 mod place;
 mod pose;
 mod posture;

@@ -5,20 +5,21 @@
 //!
 //! ```text
 //! explainable   = 1 - (<s, s> + u_m^2) / <m, m>
-//! beyond        = root of (<e, e> - <s, s> - u_m^2), 0 where that is negative         e = m - sum of b_i
+//! beyond        = root of (<e, e> - <s, s> - u_m^2 - u_b^2), 0 where that is negative         e = m - sum of b_i
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
 //! | `s` | scatter of all contributions together | m |
 //! | `u_m` | standard uncertainty of a measured point | m |
+//! | `u_b` | of the biases together, round the circle | m |
 //! | `e` | residual | m |
 
 use super::agreement::{Agreement, agreement};
 use super::contribution::{Contribution, Sums, bias_of};
 use super::datum::{Datum, Removed};
 use super::turn::Turn;
-use super::waves::{WavePair, pairs, turns_as_good};
+use super::waves::{WavePair, least_amplitude, pairs, turns_as_good};
 
 /// Contributions, their sums, and the measured part.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,10 +49,12 @@ pub struct Comparison {
     pub shares: Vec<Share>,
     /// What could be explained if all biases were known: the rest is scatter.
     pub explainable: f64,
-    /// Root mean square of the residual beyond all known scatter, m.
-    pub beyond_scatter: f64,
+    /// Root mean square of the residual beyond all known scatter and uncertainty, m.
+    pub beyond_known: f64,
     /// Wave by wave.
     pub waves: Vec<WavePair>,
+    /// Waves of less amplitude are none, m.
+    pub least_wave: f64,
     /// Share of all turns of the prediction at which it agrees as well; none without waves.
     pub turns_as_good: Option<f64>,
 }
@@ -115,7 +118,10 @@ fn compare(
     Some(Comparison {
         shares: (0..contributions.len()).map(share).collect::<Option<_>>()?,
         explainable: 1.0 - scatter / measured_rms.powi(2),
-        beyond_scatter: (together.residual_rms.powi(2) - scatter).max(0.0).sqrt(),
+        beyond_known: (together.residual_rms.powi(2) - scatter - sums.u.powi(2))
+            .max(0.0)
+            .sqrt(),
+        least_wave: least_amplitude(&waves, scatter.sqrt(), measured.len()),
         turns_as_good: turns_as_good(&waves),
         waves,
         measured_rms,
@@ -186,7 +192,7 @@ mod tests {
         let found = balance(&turn(), parts(0.0), Some((&measured, 0.0)), (BOTH, 10));
         let told = found.comparison.unwrap();
         assert!((told.together.explained - 1.0).abs() < 1e-12 && told.together.residual_rms < 1e-12);
-        assert!(told.explainable == 1.0 && told.beyond_scatter < 1e-12);
+        assert!(told.explainable == 1.0 && told.beyond_known < 1e-12);
         for share in &told.shares {
             assert!(share.alone < 0.9 && share.without < 0.9);
         }
@@ -214,7 +220,7 @@ mod tests {
             let found = balance(&turn(), parts(sigma), Some((&measured, 0.0)), (BOTH, 10));
             let told = found.comparison.unwrap();
             off.push(told.together.explained - told.explainable);
-            beyond.push(told.beyond_scatter);
+            beyond.push(told.beyond_known);
         }
         // 1 - sigma^2 / <m, m> in the mean. One turn of 720 points misses by a twentieth of what is left, and by twice what
         // noise and signal have in common by chance: together a fiftieth.
@@ -232,8 +238,8 @@ mod tests {
             found.comparison.unwrap()
         });
         assert_eq!(sharp.together.explained, blurred.together.explained);
-        assert!(blurred.explainable < sharp.explainable && blurred.beyond_scatter == 0.0);
-        assert!((sharp.beyond_scatter - 1e-5 / 2.0_f64.sqrt()).abs() < 1e-9);
+        assert!(blurred.explainable < sharp.explainable && blurred.beyond_known == 0.0);
+        assert!((sharp.beyond_known - 1e-5 / 2.0_f64.sqrt()).abs() < 1e-9);
     }
 
     #[test]

@@ -22,7 +22,7 @@ use super::turn::largest;
 pub enum Origin {
     /// What pushes on the tool: predicted.
     Load,
-    /// The path without load: measured.
+    /// The path without load: measured, or predicted where it was not.
     Unloaded,
 }
 
@@ -42,7 +42,7 @@ pub struct Contribution {
     pub bias: Vec<f64>,
     /// Standard deviation of one cut about the bias, m.
     pub scatter: Vec<f64>,
-    /// Standard uncertainty of the bias itself, where it is known, m.
+    /// Standard uncertainty of the bias itself, root mean square round the circle, where it is known, m.
     pub u: Option<f64>,
 }
 
@@ -53,6 +53,8 @@ pub struct Sums {
     pub bias: Vec<f64>,
     /// Standard deviation of one cut, m.
     pub scatter: Vec<f64>,
+    /// Standard uncertainty of the bias round the circle, as far as those of its parts are known, m.
+    pub u: f64,
     /// Largest bias of each origin, m.
     pub of_origin: [f64; 2],
     /// Largest bias, m.
@@ -89,6 +91,7 @@ impl Sums {
             largest_with_scatter: with_scatter.fold(0.0, f64::max),
             plain: of_origin.iter().sum(),
             root_sum_square: of_origin[0].hypot(of_origin[1]),
+            u: contributions.iter().filter_map(|one| one.u).fold(0.0, f64::hypot),
             bias,
             scatter,
             of_origin,

@@ -27,4 +27,4 @@ pub use contribution::{Contribution, Origin, Sums};
 pub use datum::{Datum, Removed};
 pub use turn::{Turn, TurnError};
 pub use unloaded::{Unloaded, unloaded};
-pub use waves::{WavePair, pairs, turns_as_good};
+pub use waves::{ToldPair, WavePair, least_amplitude, pairs, turns_as_good};

@@ -9,7 +9,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::measure::ballbar::profile::GAP;
+use crate::measure::ballbar::profile::{GAP, is_gap};
 
 /// Angles round a circle, and their weights.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,13 +47,13 @@ impl Turn {
             next if next < count => angle[next] - angle[k],
             _ => angle[0] + TAU - angle[k],
         };
-        // Steps of just that width are no gap, however they are rounded.
-        let known = |k: usize| if gap(k) <= GAP * (1.0 + 1e-6) { gap(k) } else { 0.0 };
+        let known = |k: usize| if is_gap(gap(k)) { 0.0 } else { gap(k) };
         let arc: f64 = (0..count).map(known).sum();
         if arc < TAU / 3.0 {
             return Err(TurnError::TooShort(arc));
         }
-        let reach: Vec<f64> = (0..count).map(|k| gap(k).min(GAP)).collect();
+        let reach = |k: usize| if is_gap(gap(k)) { GAP } else { gap(k) };
+        let reach: Vec<f64> = (0..count).map(reach).collect();
         let all: f64 = reach.iter().sum();
         let weight = (0..count).map(|k| (reach[k] + reach[(k + count - 1) % count]) / (2.0 * all));
         Ok(Turn {

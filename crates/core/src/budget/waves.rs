@@ -6,6 +6,12 @@
 //! <m, p turned by t>   = 1/2 sum of A_n B_n cos(phi_n - psi_n - n t)
 //! ```
 //!
+//! A wave that is hardly there has no phase, and a share of it means nothing: the least amplitude that is told is
+//!
+//! ```text
+//! A_least = max(A_largest / 100, 2 s / sqrt N)        noise s of N angles makes waves of 2 s / sqrt N (rms)
+//! ```
+//!
 //! A prediction that has nothing to do with the measurement may lie right by chance. Turned round the circle it keeps
 //! its size and its shape, and would agree no worse: [`turns_as_good`] is the share of all turns at which it does.
 
@@ -25,6 +31,18 @@ pub struct WavePair {
 }
 
 impl WavePair {
+    /// This pair without what is smaller than `least` (m): phases of two waves that are there, a share of a measured one.
+    pub fn told(&self, least: f64) -> ToldPair {
+        let is_there = |wave: &Harmonic| wave.amplitude >= least && wave.amplitude > 0.0;
+        let [measured, predicted] = [is_there(&self.measured), is_there(&self.predicted)];
+        ToldPair {
+            measured_phase: measured.then_some(self.measured.phase),
+            predicted_phase: predicted.then_some(self.predicted.phase),
+            phase_difference: (measured && predicted).then(|| self.phase_difference()),
+            explained: self.explained().filter(|_| measured),
+        }
+    }
+
     /// Phase of the prediction beyond that of the measurement, -pi to pi, rad.
     pub fn phase_difference(&self) -> f64 {
         let by = self.predicted.phase - self.measured.phase;
@@ -37,6 +55,31 @@ impl WavePair {
         let left = m * m + p * p - 2.0 * m * p * self.phase_difference().cos();
         (m > 0.0).then(|| 1.0 - left / (m * m))
     }
+}
+
+/// What of a pair means anything.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ToldPair {
+    /// rad
+    pub measured_phase: Option<f64>,
+    /// rad
+    pub predicted_phase: Option<f64>,
+    /// rad
+    pub phase_difference: Option<f64>,
+    /// Share of the measured wave that is explained.
+    pub explained: Option<f64>,
+}
+
+/// Waves of less than this part of the largest of both curves are none.
+const LITTLE: f64 = 0.01;
+
+/// The least amplitude (m) that is a wave: of curves with noise of this standard deviation (m) at so many angles.
+pub fn least_amplitude(pairs: &[WavePair], noise: f64, angles: usize) -> f64 {
+    let sizes = pairs
+        .iter()
+        .flat_map(|pair| [pair.measured.amplitude, pair.predicted.amplitude]);
+    let of_noise = 2.0 * noise / (angles.max(1) as f64).sqrt();
+    (LITTLE * sizes.fold(0.0, f64::max)).max(of_noise)
 }
 
 /// Waves 1 to `most` of both curves, or as many as the angles tell.
@@ -109,6 +152,50 @@ mod tests {
         let weighed: f64 = seen.map(|pair| pair.explained().unwrap() * squares(pair)).sum();
         let whole = super::super::agreement(&turn(), &p, &m).unwrap().explained;
         assert!((weighed / all - whole).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_wave_that_is_hardly_there_has_neither_phase_nor_share() {
+        // The ellipse is 20 um; three waves are a thousandth of it, four a fiftieth and predicted alone.
+        let m = curve(|a| 2e-5 * (2.0 * a).cos() + 2e-8 * (3.0 * a).cos());
+        let p = curve(|a| 1e-5 * (2.0 * a - 0.9).cos() + 2e-8 * (3.0 * a).sin() + 4e-7 * (4.0 * a).cos());
+        let found = pairs(&turn(), (&p, &m), 6);
+        let least = least_amplitude(&found, 0.0, 360);
+        assert!((least - 2e-7).abs() < 1e-12);
+        let told: Vec<ToldPair> = found.iter().map(|pair| pair.told(least)).collect();
+        assert!(told[1].phase_difference.is_some() && told[1].explained.is_some());
+        let nothing = ToldPair {
+            measured_phase: None,
+            predicted_phase: None,
+            phase_difference: None,
+            explained: None,
+        };
+        assert_eq!([told[2], told[4]], [nothing; 2]);
+        assert!(told[3].predicted_phase.is_some() && told[3].explained.is_none());
+        assert_eq!(told[3].phase_difference, None);
+    }
+
+    #[test]
+    fn noise_makes_waves_of_the_amplitude_that_counts_as_none() {
+        // Hashed, so that neighbours have nothing to do with each other: evenly spread, standard deviation 1 / root of 12.
+        let noise = |seed: u64, k: usize| {
+            let hashed = ((seed << 32) | (k as u64 + 1)).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let hashed = (hashed ^ (hashed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            ((hashed ^ (hashed >> 32)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+        };
+        let mut squares = Vec::new();
+        for seed in 0..20 {
+            let m: Vec<f64> = (0..360).map(|k| noise(seed, k)).collect();
+            squares.extend(
+                pairs(&turn(), (&m, &m), 12)
+                    .iter()
+                    .map(|pair| pair.measured.amplitude.powi(2)),
+            );
+        }
+        let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
+        let expected = least_amplitude(&[], (1.0_f64 / 12.0).sqrt(), 360);
+        // 240 squares of two degrees of freedom each: 6 % of the mean square, three times that.
+        assert!((rms / expected - 1.0).abs() < 0.1, "{rms} {expected}");
     }
 
     #[test]

@@ -143,6 +143,14 @@ impl<'a> Arm<'a> {
         rows
     }
 
+    /// What a small motion of the chain has come to, m or rad; 0 of base and tool, whose frames have taken it.
+    pub fn value(&self, unknown: &Unknown) -> f64 {
+        match unknown.place {
+            Place::After(joint) => self.small[joint][unknown.component],
+            Place::Base | Place::Tool => 0.0,
+        }
+    }
+
     /// This arm with its unknowns changed by these amounts.
     pub fn changed(&self, unknowns: &[Unknown], by: &[f64]) -> Arm<'a> {
         let mut arm = self.clone();

@@ -8,6 +8,8 @@
 //! s^2 = |r|^2 / (m - p)        cov = s^2 (J'J)^-1        standard uncertainty = sqrt(diagonal)
 //! ```
 //!
+//! With a [prior](super::prior) small motions are held to zero, and `p` is the number that the poses tell.
+//!
 //! These uncertainties take what the geometry leaves (sag, gears, tracker) for noise that is independent from pose to pose.
 //!
 //! Source: Mooring, Roth and Driels 1991; Everett, Driels and Mooring 1987; `docs/theory/calibration.md`.
@@ -17,6 +19,7 @@ use nalgebra::{DMatrix, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use super::arm::Arm;
 use super::errors::PoseErrors;
 use super::pose::MeasuredPose;
+use super::prior::{Hold, Prior};
 use super::select::{Redundant, select};
 use super::triangle::{Triangle, solve};
 use super::unknown::{Asked, Place, Unknown, unknowns};
@@ -31,6 +34,9 @@ const MOST_STEPS: usize = 60;
 const SETTLED: f64 = 1e-13;
 /// Damping at first, and where no step helps any more.
 const DAMPING: [f64; 2] = [1e-3, 1e9];
+/// Rounds of scatter and geometry with a prior, and the change of the variance that ends them.
+const MOST_ROUNDS: usize = 40;
+const SAME_SCATTER: f64 = 1e-6;
 /// Fewest poses: below, base and tool alone meet any measurement.
 const FEWEST_POSES: usize = 4;
 /// Greatest position that a tracker measures, m.
@@ -45,6 +51,8 @@ pub struct Question {
     pub flange_from_point: Isometry,
     /// So many metres count as much as a radian.
     pub turn_length: f64,
+    /// What is known of small motions of the chain before; nothing if left out.
+    pub prior: Option<Prior>,
 }
 
 /// Why there is no answer.
@@ -79,6 +87,9 @@ pub enum Refusal {
     /// A weight of turns that is not above 0.
     #[error("a radian counts as {0} m, which is no length above 0")]
     TurnLength(f64),
+    /// A prior that holds nothing, or all.
+    #[error("a prior of {} m and {} rad: both must be above 0", .0.length, .0.angle)]
+    Prior(Prior),
     /// The search left the finite numbers or found no independent unknown.
     #[error("no geometry near the nominal one was found; do these poses belong to this robot?")]
     NotFound,
@@ -114,6 +125,8 @@ pub struct Calibrated {
     pub errors: PoseErrors,
     /// `s`, m: standard deviation of a single reading about the geometry that was found.
     pub standard_deviation: f64,
+    /// How many of the estimates the poses tell: all without a prior.
+    pub told: f64,
     /// Of each joint but the last, m and rad.
     small: Vec<[f64; 6]>,
 }
@@ -172,6 +185,9 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
     if !(question.turn_length > 0.0 && question.turn_length.is_finite()) {
         return Err(Refusal::TurnLength(question.turn_length));
     }
+    if let Some(prior) = question.prior.filter(|prior| !prior.is_sound()) {
+        return Err(Refusal::Prior(prior));
+    }
     let with = poses.iter().filter(|pose| pose.rotation.is_some()).count();
     if with != 0 && with != poses.len() {
         let poses = poses.len();
@@ -179,33 +195,58 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
     }
     let length = question.turn_length;
     let start = start(robot, poses, &question.flange_from_point);
-    let frames = unknowns(robot, Asked::BaseAndTool, with > 0);
-    let (placed, _, _) = settle(start, &frames, poses, length)?;
-    let unknowns = unknowns(robot, question.asked, with > 0);
-    let (arm, kept, redundant) = settle(placed, &unknowns, poses, length)?;
-
-    let triangle = triangle(&arm, &kept, poses, length);
-    let rows = triangle.rows;
-    if rows <= kept.len() || poses.len() < FEWEST_POSES {
-        return Err(Refusal::TooFew {
+    let free = Data {
+        poses,
+        length,
+        hold: Hold::NOTHING,
+    };
+    let rows = if with > 0 { 6 } else { 3 } * poses.len();
+    let enough = |unknowns: usize| match rows > unknowns {
+        true => Ok(()),
+        false => Err(Refusal::TooFew {
             poses: poses.len(),
             rows,
-            unknowns: kept.len(),
-        });
-    }
-    let (r, z) = triangle.whole();
-    let (_, inverse) = solve(&r, &z, 0.0).ok_or(Refusal::NotFound)?;
-    let variance = z.norm_squared() / (rows - kept.len()) as f64;
+            unknowns,
+        }),
+    };
+    let frames = unknowns(robot, Asked::BaseAndTool, with > 0);
+    let (in_frames, _) = told_apart(&start, &frames, &free);
+    let mut arm = settle(start, &in_frames, &free)?;
+    enough(in_frames.len())?;
+    let unknowns = unknowns(robot, question.asked, with > 0);
+    let mut variance = cost(&arm, &in_frames, &free) / (rows - in_frames.len()) as f64;
+    // Once for all rounds: what is kept in one and not in the next would keep a value that nobody tells.
+    let (kept, redundant) = told_apart(&arm, &unknowns, &free);
+    enough(kept.len())?;
+    let (mut rounds, mut is_settled) = (0, false);
+    // Without a prior nothing depends on the scatter, and one round is enough.
+    let (inverse, told) = loop {
+        let data = Data {
+            hold: question
+                .prior
+                .map_or(Hold::NOTHING, |prior| Hold::of(&prior, variance.sqrt())),
+            ..free
+        };
+        arm = settle(arm, &kept, &data)?;
+        let (r, z) = triangle(&arm, &kept, &data).whole();
+        let (_, inverse) = solve(&r, &z, 0.0).ok_or(Refusal::NotFound)?;
+        let told = data.hold.told(&kept, &inverse);
+        let next = cost(&arm, &kept, &free) / (rows as f64 - told);
+        is_settled |= question.prior.is_none() || (next / variance - 1.0).abs() < SAME_SCATTER;
+        variance = next;
+        rounds += 1;
+        // What is left of perfect poses is rounding, and holds nothing.
+        if is_settled || rounds == MOST_ROUNDS || variance == 0.0 {
+            break (inverse, told);
+        }
+    };
     let covariance = inverse * variance;
     if !covariance.iter().all(|entry| entry.is_finite()) {
         return Err(Refusal::NotFound);
     }
     let estimate = |(k, unknown): (usize, &Unknown)| Estimate {
         unknown: *unknown,
-        value: match unknown.place {
-            Place::After(joint) => arm.small[joint][unknown.component],
-            Place::Base | Place::Tool => 0.0,
-        },
+        value: arm.value(unknown),
         standard_uncertainty: covariance[(k, k)].max(0.0).sqrt(),
     };
     Ok(Calibrated {
@@ -216,6 +257,7 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         flange_from_point: arm.flange_from_point,
         errors: errors_of(&arm, poses),
         standard_deviation: variance.sqrt(),
+        told,
         small: arm.small,
         covariance,
     })
@@ -283,42 +325,51 @@ fn start<'a>(robot: &'a Robot, poses: &[MeasuredPose], flange_from_point: &Isome
     Arm::nominal(robot, tracker_from_base, flange_from_point)
 }
 
-fn triangle(arm: &Arm<'_>, unknowns: &[Unknown], poses: &[MeasuredPose], length: f64) -> Triangle {
+/// What an arm is held against.
+#[derive(Clone, Copy)]
+struct Data<'p> {
+    poses: &'p [MeasuredPose],
+    /// So many metres count as much as a radian.
+    length: f64,
+    hold: Hold,
+}
+
+fn triangle(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> Triangle {
     let mut triangle = Triangle::new(unknowns.len());
-    for pose in poses {
-        triangle.take(&arm.rows(unknowns, pose, length));
+    for pose in data.poses {
+        triangle.take(&arm.rows(unknowns, pose, data.length));
     }
+    triangle.take(&data.hold.rows(arm, unknowns));
     triangle
 }
 
-/// Sum of squares of all residuals, m^2.
-fn cost(arm: &Arm<'_>, poses: &[MeasuredPose], length: f64) -> f64 {
+/// Sum of squares of all residuals and of what is held, m^2.
+fn cost(arm: &Arm<'_>, unknowns: &[Unknown], data: &Data<'_>) -> f64 {
     let of = |pose| {
         let (linear, angular) = arm.residual(pose);
-        linear.norm_squared() + angular.map_or(0.0, |turn| turn.norm_squared() * length * length)
+        linear.norm_squared() + angular.map_or(0.0, |turn| turn.norm_squared() * data.length * data.length)
     };
-    poses.iter().map(of).sum()
+    data.poses.iter().map(of).sum::<f64>() + data.hold.cost(arm, unknowns)
 }
 
-/// The arm at the least sum of squares over those of `unknowns` that can be told apart, these, and the others.
-fn settle<'a>(
-    mut arm: Arm<'a>,
-    unknowns: &[Unknown],
-    poses: &[MeasuredPose],
-    length: f64,
-) -> Result<(Arm<'a>, Vec<Unknown>, Vec<Redundant>), Refusal> {
-    let (r, _) = triangle(&arm, unknowns, poses, length).whole();
+/// Those of `unknowns` that the poses can tell apart where `arm` stands, and the others. What is held does not matter.
+fn told_apart(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Unknown>, Vec<Redundant>) {
+    let (r, _) = triangle(arm, unknowns, free).whole();
     let (kept, redundant) = select(&r, unknowns);
-    let kept: Vec<Unknown> = kept.into_iter().map(|k| unknowns[k]).collect();
-    let mut least = cost(&arm, poses, length);
+    (kept.into_iter().map(|k| unknowns[k]).collect(), redundant)
+}
+
+/// The arm at the least sum of squares over the unknowns `kept`.
+fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
+    let mut least = cost(&arm, kept, data);
     let mut damping = DAMPING[0];
     for _ in 0..MOST_STEPS {
-        let (r, z) = triangle(&arm, &kept, poses, length).whole();
+        let (r, z) = triangle(&arm, kept, data).whole();
         let mut settled = true;
         while damping < DAMPING[1] {
             let (step, _) = solve(&r, &z, damping).ok_or(Refusal::NotFound)?;
-            let next = arm.changed(&kept, step.as_slice());
-            let there = cost(&next, poses, length);
+            let next = arm.changed(kept, step.as_slice());
+            let there = cost(&next, kept, data);
             if there <= least {
                 settled = least - there <= SETTLED * least;
                 (arm, least) = (next, there);
@@ -332,7 +383,7 @@ fn settle<'a>(
         }
     }
     match least.is_finite() {
-        true => Ok((arm, kept, redundant)),
+        true => Ok(arm),
         false => Err(Refusal::NotFound),
     }
 }

@@ -15,8 +15,6 @@ pub(super) struct Triangle {
     held: DMatrix<f64>,
     block: DMatrix<f64>,
     filled: usize,
-    /// Rows taken in.
-    pub rows: usize,
 }
 
 impl Triangle {
@@ -26,7 +24,6 @@ impl Triangle {
             held: DMatrix::zeros(unknowns + 1, unknowns + 1),
             block: DMatrix::zeros(BLOCK, unknowns + 1),
             filled: 0,
-            rows: 0,
         }
     }
 
@@ -38,7 +35,6 @@ impl Triangle {
             }
             self.block.row_mut(self.filled).copy_from(&row);
             self.filled += 1;
-            self.rows += 1;
         }
     }
 
@@ -110,7 +106,6 @@ mod tests {
         let mut triangle = Triangle::new(3);
         triangle.take(&rows.rows(0, 100).into_owned());
         triangle.take(&rows.rows(100, 900).into_owned());
-        assert_eq!(triangle.rows, 1000);
         let (r, z) = triangle.whole();
         let (x, inverse) = solve(&r, &z, 0.0).unwrap();
         let j = rows.columns(0, 3).into_owned();

@@ -1,7 +1,7 @@
 //! Where does the tolerance hold?
 //!
-//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle;
-//! [`unloaded`]: what moves the tool there beside its load; `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
+//! [`plane`]: deviation over a plane; [`volume`]: in space; [`along`]: along a path; [`radial`]: what becomes of a circle,
+//! [`radial_parts`]: without load, and how sure; [`unloaded`]: what moves the tool there beside its load; `worst` and `jumps`: where a path is worst, and where the arm jumps; [`limits`]: which force and cut a path permits
 //! (`varied`: one cut, varied), [`depth_by_feed`]: over both; [`region`]: the part within a limit, its area, boundary and
 //! what fits; [`certainty`]: how sure that is.
 //!
@@ -16,6 +16,7 @@ pub mod limits;
 mod marching_squares;
 pub mod plane;
 pub mod radial;
+pub mod radial_parts;
 pub mod region;
 mod turns;
 pub mod unloaded;
@@ -30,6 +31,7 @@ pub use jumps::{Jump, jumps};
 pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use radial::{RadialDeviation, radial_deviations};
+pub use radial_parts::{radial_doubts, radial_without_load};
 pub use region::{Region, region_within};
 pub use unloaded::Unloaded;
 pub use volume::{BoxGrid, VolumeMap, volume_map};

@@ -10,8 +10,7 @@ use crate::kernel::Answers;
 use crate::load::PathLoad;
 use crate::path::Track;
 use crate::predict::beside_load;
-use crate::source::backlash::{dragged, run_in};
-use crate::source::{Arm, Standing};
+use crate::source::{Arm, Standing, backlash};
 use crate::spatial::Wrench;
 
 /// What moved the tool beside the load, and where links lay.
@@ -60,14 +59,12 @@ fn drag(arm: &Arm<'_>, track: &Track, answers: &Answers) -> Vec<f64> {
     let theta = |index: usize, joint: usize| arm.robot.theta(joint, answers.joints_at(index));
     for stretch in track.path.stretches() {
         let held: Vec<usize> = stretch.filter(|index| answers.points[*index].is_ok()).collect();
-        for (joint, backlash) in arm.model.structure.gaps() {
-            let moves = || {
-                held.windows(2)
-                    .map(|pair| theta(pair[1], joint) - theta(pair[0], joint))
-            };
-            let mut link = run_in(held.iter().map(|index| theta(*index, joint)), backlash.gap);
-            for (index, by) in held.iter().zip([0.0].into_iter().chain(moves())) {
-                link = dragged(link, by, backlash.gap);
+        for (joint, gap) in arm.model.structure.gaps() {
+            let moves = held
+                .windows(2)
+                .map(|pair| theta(pair[1], joint) - theta(pair[0], joint));
+            let links = backlash::along([0.0].into_iter().chain(moves), gap.gap);
+            for (index, link) in held.iter().zip(links) {
                 lies[index * joints + joint] = link;
             }
         }

@@ -14,6 +14,12 @@
 //! | `w` | angle that a point stands for: half the way to each neighbour | rad |
 //! | `k`, `f` | waves a turn, cut-off | UPR |
 //!
+//! Many points and many waves are weighed over their neighbours instead, out to where `s` is nothing:
+//!
+//! ```text
+//! dR_filtered(theta) = sum over points of w dR s(theta_i - theta),    s(x) = exp(-pi (x / al)^2) / al,    al = sqrt(ln 2 / pi) 2 pi / f
+//! ```
+//!
 //! That is the convolution with the Gaussian weight round the circle, exact for even angles; for uneven ones the sums are
 //! good to the square of the step. Steps may be a seventh of a wave of the cut-off at most: a wave of 3.5 times
 //! the cut-off, which still passes by 1/5000, then has two points. Source: ISO 16610-21 (weight and cut-off), ISO 12181-2
@@ -32,6 +38,10 @@ use super::polar::Polar;
 const POINTS_PER_WAVE: f64 = 7.0;
 /// Waves that pass by less than this are left out.
 const LEAST_TRANSMISSION: f64 = 1e-17;
+/// Neighbours whose weight is a smaller part of the largest are left out.
+const LEAST_WEIGHT: f64 = 1e-17;
+/// Sums of so many steps are made through waves, whatever is shorter.
+const FEW_STEPS: f64 = 1e7;
 
 impl Polar {
     /// The deviations of the points after the Gaussian filter of cut-off `upr`.
@@ -57,7 +67,20 @@ impl Polar {
         let waves = passing.min(self.most_waves()) as usize;
         let weighed = self.deviations.iter().zip(self.stands_for());
         let weighed: Vec<f64> = weighed.map(|(by, width)| by * width).collect();
-        let mut parts = wave_sums(&self.angles, &weighed, waves);
+        let by_waves = self.angles.len() as f64 * waves as f64;
+        if by_waves > FEW_STEPS {
+            let width = (LN_2 / PI).sqrt() * TAU / upr;
+            let sorted: Vec<f64> = self.order.iter().map(|i| self.angles[*i]).collect();
+            if pairs_within(&sorted, reach(width)) < by_waves {
+                return Ok(self.moved_round(&weighed, (&sorted, width)));
+            }
+        }
+        Ok(self.through_waves(&weighed, (waves, upr)))
+    }
+
+    /// The filter by the waves of `weighed`: deviation times the angle that a point stands for.
+    fn through_waves(&self, weighed: &[f64], (waves, upr): (usize, f64)) -> Vec<f64> {
+        let mut parts = wave_sums(&self.angles, weighed, waves);
         for (k, part) in parts.iter_mut().enumerate() {
             let both_ways = if k == 0 { 0.5 } else { 1.0 };
             *part = part.conj() * (both_ways / PI * (-LN_2 * (k as f64 / upr).powi(2)).exp());
@@ -71,7 +94,29 @@ impl Polar {
                 .fold(Complex::new(0.0, 0.0), |sum, part| sum * turn + part);
             sum.re
         };
-        Ok(self.angles.par_iter().map(at).collect())
+        self.angles.par_iter().map(at).collect()
+    }
+
+    /// The filter by the weight of this width (rad), moved round the circle; `sorted` are the angles as they follow each other.
+    fn moved_round(&self, weighed: &[f64], (sorted, width): (&[f64], f64)) -> Vec<f64> {
+        let (count, reach) = (sorted.len(), reach(width));
+        let at = |place: usize| {
+            let near = |next: usize, by: usize| {
+                let apart = (sorted[next] - sorted[place]).abs();
+                let apart = apart.min(TAU - apart);
+                let is_near = apart <= reach && by < count;
+                is_near.then(|| weighed[self.order[next]] * (-PI * (apart / width).powi(2)).exp())
+            };
+            let behind = (0..).map_while(|by| near((place + by) % count, by));
+            let before = (1..).map_while(|by| near((place + count - by % count) % count, by));
+            (behind.sum::<f64>() + before.sum::<f64>()) / width
+        };
+        let found: Vec<f64> = (0..count).into_par_iter().map(at).collect();
+        let mut filtered = vec![0.0; count];
+        for (index, value) in self.order.iter().zip(found) {
+            filtered[*index] = value;
+        }
+        filtered
     }
 
     /// The most waves a turn that the steps between the points can tell: less than two points a wave tell none.
@@ -92,6 +137,28 @@ impl Polar {
         }
         stands_for
     }
+}
+
+/// How far a weight of this width counts, rad.
+fn reach(width: f64) -> f64 {
+    width * (-LEAST_WEIGHT.ln() / PI).sqrt()
+}
+
+/// How many pairs of neighbours are within `reach` (rad), each from both sides; without end where that is half a turn.
+fn pairs_within(sorted: &[f64], reach: f64) -> f64 {
+    let count = sorted.len();
+    if reach >= 0.5 * PI {
+        return f64::INFINITY;
+    }
+    let (mut end, mut pairs) = (0, 0.0);
+    for (place, angle) in sorted.iter().enumerate() {
+        let turned = |next: usize| sorted[next % count] + TAU * (next / count) as f64;
+        while end < place + count && turned(end) - angle <= reach {
+            end += 1;
+        }
+        pairs += 2.0 * (end - place) as f64;
+    }
+    pairs
 }
 
 #[cfg(test)]
@@ -144,6 +211,31 @@ mod tests {
             // Sums over steps differ from the integral by the transmission of as many waves as there are points.
             assert!((weighed.sum::<f64>() - filtered).abs() < 1e-15, "{at}");
         }
+    }
+
+    #[test]
+    fn many_points_and_waves_are_filtered_over_neighbours_as_through_waves() {
+        for unevenness in [0.0, 0.5] {
+            let polar = wavy(3000, 110.0, unevenness);
+            let weighed = polar.deviations.iter().zip(polar.stands_for());
+            let weighed: Vec<f64> = weighed.map(|(by, width)| by * width).collect();
+            let width = (LN_2 / PI).sqrt() * TAU / 100.0;
+            let sorted: Vec<f64> = polar.order.iter().map(|i| polar.angles[*i]).collect();
+            let near = polar.moved_round(&weighed, (&sorted, width));
+            // 7.5 waves of the cut-off: where they end nothing passes.
+            let through = polar.through_waves(&weighed, (751, 100.0));
+            for (one, other) in near.iter().zip(&through) {
+                assert!((one - other).abs() < 1e-17, "{unevenness}: {one} {other}");
+            }
+            assert_eq!(pairs_within(&sorted, reach(TAU)), f64::INFINITY);
+        }
+        let sorted: Vec<f64> = (0..360).map(|deg| f64::from(deg).to_radians()).collect();
+        // Each with itself from either side, and two neighbours on each.
+        assert_eq!(pairs_within(&sorted, 2.5_f64.to_radians()), 360.0 * 6.0);
+        // As many as a scanner gives, at the finest cut-off: through waves these are 1e11 steps.
+        let dense = wavy(300_000, 15_000.0, 0.0);
+        let halved = dense.filtered(15_000.0).unwrap();
+        assert!((largest(&halved) - 2.5e-6).abs() < 1e-9);
     }
 
     #[test]

@@ -1,15 +1,15 @@
 //! The least-squares circle (LSCI): the circle nearest to points.
 //!
-//! Least over `c` and `R`: `sum of (|p - c| - R)^2`, by Gauss-Newton steps from the circle with the least
-//! `sum of (|p - c|^2 - R^2)^2`, which has a closed form about the mean of the points:
+//! Least over `c` and `R`: `sum of w (|p - c| - R)^2`, by Gauss-Newton steps from the circle with the least
+//! `sum of w (|p - c|^2 - R^2)^2`, which has a closed form about the mean of the points:
 //!
 //! ```text
-//! c = 1/2 (sum p p^T)^-1 sum p |p|^2,    R^2 = |c|^2 + mean |p|^2
+//! c = 1/2 (sum w p p^T)^-1 sum w p |p|^2,    R^2 = |c|^2 + mean |p|^2
 //! ```
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
-//! | `p` | a point, from the mean of all | m |
+//! | `p`, `w` | a point, from the mean of all; its weight | m, - |
 //! | `c`, `R` | centre, from there, and radius | m |
 //!
 //! A part of a circle will do; the shorter it is the less its centre is known.
@@ -32,7 +32,8 @@ pub struct ReferenceCircle {
 }
 
 /// Points on a line spread across it by less than this part of what they spread along it, squared.
-const ON_A_LINE: f64 = 1e-18;
+/// Below 1e-16 it would be rounding.
+pub(super) const ON_A_LINE: f64 = 1e-14;
 /// The steps have come to rest where they move no point's distance by more than this part of the spread.
 const SETTLED: f64 = 1e-13;
 /// Most steps: each takes off all but about the roundness over the radius, so that a circle needs four or five.
@@ -41,28 +42,38 @@ const MOST_ROUNDS: usize = 50;
 /// The least-squares circle of `points` (m); `None` below three points, where they lie on a line, and where no circle is
 /// nearest.
 pub fn least_squares(points: &[Point2<f64>]) -> Option<ReferenceCircle> {
+    let weighed: Vec<(f64, Vector2<f64>)> = points.iter().map(|p| (1.0, p.coords)).collect();
+    weighed_least_squares(&weighed)
+}
+
+/// The same of points (m) that do not weigh alike, each with its weight above 0.
+pub(crate) fn weighed_least_squares(points: &[(f64, Vector2<f64>)]) -> Option<ReferenceCircle> {
     if points.len() < 3 {
         return None;
     }
-    let count = points.len() as f64;
-    let mean = points.iter().fold(Vector2::zeros(), |sum, p| sum + p.coords) / count;
-    let off: Vec<Vector2<f64>> = points.iter().map(|p| p.coords - mean).collect();
-    let (mut centre, mut radius) = closed(&off)?;
-    let least_step = SETTLED * SETTLED * off.iter().map(Vector2::norm_squared).sum::<f64>();
+    let all: f64 = points.iter().map(|(w, _)| w).sum();
+    let mean = points.iter().fold(Vector2::zeros(), |sum, (w, p)| sum + p * *w) / all;
+    let off: Vec<(f64, Vector2<f64>)> = points.iter().map(|(w, p)| (*w, p - mean)).collect();
+    let (mut centre, mut radius) = closed(&off, all)?;
+    let least_step = SETTLED * SETTLED * off.iter().map(|(w, p)| w * p.norm_squared()).sum::<f64>();
     for _ in 0..MOST_ROUNDS {
         let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-        for p in &off {
+        for (w, p) in &off {
             let away = p - centre;
             let distance = away.norm();
+            // A point on the centre is in no direction from it.
+            if distance == 0.0 {
+                continue;
+            }
             let row = (away / distance).push(1.0);
-            normal += row * row.transpose();
-            right += row * (distance - radius);
+            normal += row * row.transpose() * *w;
+            right += row * ((distance - radius) * w);
         }
         let step = normal.lu().solve(&right)?;
         centre += step.xy();
         radius += step.z;
         if (normal * step).dot(&step) <= least_step {
-            let distances = off.iter().map(|p| (p - centre).norm());
+            let distances = off.iter().map(|(_, p)| (p - centre).norm());
             let (low, high) =
                 distances.fold((f64::MAX, f64::MIN), |(low, high), d| (low.min(d), high.max(d)));
             return (radius > 0.0).then_some(ReferenceCircle {
@@ -75,19 +86,16 @@ pub fn least_squares(points: &[Point2<f64>]) -> Option<ReferenceCircle> {
     None
 }
 
-/// The circle in closed form through points about their mean; `None` where they lie on a line.
-fn closed(off: &[Vector2<f64>]) -> Option<(Vector2<f64>, f64)> {
-    let spread: Matrix2<f64> = off.iter().map(|p| p * p.transpose()).sum();
+/// The circle in closed form through points about their mean, of so much weight; `None` where they lie on a line.
+fn closed(off: &[(f64, Vector2<f64>)], all: f64) -> Option<(Vector2<f64>, f64)> {
+    let spread: Matrix2<f64> = off.iter().map(|(w, p)| p * p.transpose() * *w).sum();
     let along = spread.symmetric_eigenvalues();
     if along.min() <= ON_A_LINE * along.max() {
         return None;
     }
-    let weighed: Vector2<f64> = off.iter().map(|p| p * p.norm_squared()).sum();
+    let weighed: Vector2<f64> = off.iter().map(|(w, p)| p * (p.norm_squared() * w)).sum();
     let centre = spread.try_inverse()? * weighed * 0.5;
-    Some((
-        centre,
-        (centre.norm_squared() + spread.trace() / off.len() as f64).sqrt(),
-    ))
+    Some((centre, (centre.norm_squared() + spread.trace() / all).sqrt()))
 }
 
 #[cfg(test)]
@@ -204,5 +212,31 @@ mod tests {
             assert_eq!(least_squares(&line[..2]), None);
         }
         assert_eq!(least_squares(&[Point2::new(0.1, 0.2); 9]), None);
+        // A line far away, rounded to a part of 1e-16 of its places.
+        let far: Vec<_> = (0..9)
+            .map(|i| Point2::new(0.1, 0.3) * (1e3 + f64::from(i) / 7.0))
+            .collect();
+        assert_eq!(least_squares(&far), None);
+    }
+
+    #[test]
+    fn a_point_on_the_centre_is_a_point_and_weights_are_points_that_stand_there_again() {
+        // Four of a square and its middle: the radius is their mean distance.
+        let square = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]].map(Point2::from);
+        let with: Vec<_> = square.into_iter().chain([Point2::origin()]).collect();
+        let round = least_squares(&with).unwrap();
+        assert!(
+            round.centre.coords.norm() < 1e-12 && round.radius.is_finite() && round.peak_to_valley <= 1.0
+        );
+        let wavy = arc([0.0, 200.0], 0.1, |phi| 8e-6 * (3.0 * phi).cos());
+        let twice: Vec<_> = wavy.iter().chain(&wavy[..100]).copied().collect();
+        let weighed: Vec<_> = (wavy.iter().enumerate())
+            .map(|(k, p)| (if k < 100 { 2.0 } else { 1.0 }, p.coords))
+            .collect();
+        let [one, other] = [
+            least_squares(&twice).unwrap(),
+            weighed_least_squares(&weighed).unwrap(),
+        ];
+        assert!((one.centre - other.centre).norm() < 1e-13 && (one.radius - other.radius).abs() < 1e-13);
     }
 }

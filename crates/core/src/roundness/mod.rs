@@ -3,7 +3,7 @@
 //! [`least_squares`](mod@least_squares): the circle nearest to points. [`profile`]: points that a circle can be put to, in
 //! radii of it. `circumscribed`: the smallest circle about them. `search`: the best centre of all, with proof;
 //! [`zone`] and `inscribed` ask for it: the narrowest ring that holds the points, the largest circle between them.
-//! [`polar`]: deviations over the angle, and what stands out of them; `filter` and `harmonics`: their waves.
+//! [`polar`]: deviations over the angle; [`outlier`]: what is not of the profile; `filter` and `harmonics`: their waves.
 //! [`plane`]: points in space, seen in their plane. `error`: what keeps any of these from being told.
 //!
 //! Names after ISO 12181: LSCI, MZCI, MCCI and MICI are the four reference circles, RONt the peak to valley about one.
@@ -15,6 +15,7 @@ mod filter;
 mod harmonics;
 mod inscribed;
 pub mod least_squares;
+pub mod outlier;
 pub mod plane;
 pub mod polar;
 pub mod profile;

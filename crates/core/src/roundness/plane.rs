@@ -14,6 +14,8 @@
 
 use nalgebra::{Matrix3, Point2, Point3, Vector3};
 
+use super::least_squares::ON_A_LINE;
+
 /// A plane with axes of its own.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
@@ -28,9 +30,6 @@ pub struct Plane {
     /// Peak to valley of the points along the normal, m.
     pub flatness: f64,
 }
-
-/// Points on a line spread across it by less than this part of what they spread along it, squared.
-const ON_A_LINE: f64 = 1e-18;
 
 impl Plane {
     /// The least-squares plane of `points` (m); `None` below three, and where they lie on a line.

@@ -1,4 +1,4 @@
-//! Deviations of points from their least-squares circle over the angle, and what stands out of them.
+//! Deviations of points from their least-squares circle over the angle.
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -12,6 +12,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Point2, Vector2};
 
 use super::least_squares::ReferenceCircle;
+use super::outlier::{Ends, strange};
 
 /// A profile as deviations over the angle.
 #[derive(Clone, Debug)]
@@ -39,17 +40,8 @@ pub struct Gap {
     pub width: f64,
 }
 
-/// A point stands out where it is off its neighbours by so many times their spread ...
-const STANDS_OUT: f64 = 10.0;
-/// ... and by this part of the whole roundness: a profile as smooth as its rounding has no dirt.
-const LEAST_PART: f64 = 0.05;
-/// Neighbours on each side that a point is compared with.
-const NEIGHBOURS: usize = 3;
 /// Points do not neighbour each other across a gap of so much, rad.
 const ENDS: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// For normal noise the median of the amounts is so much of the standard deviation.
-const MEDIAN_OF_NORMAL: f64 = 0.6745;
-
 impl Polar {
     pub(super) fn about(points: &[Point2<f64>], circle: &ReferenceCircle) -> Polar {
         let from = |p: &Point2<f64>| p - circle.centre;
@@ -104,45 +96,25 @@ impl Polar {
         self.angles.iter().zip(deviations).map(at).collect()
     }
 
-    /// Points that stand out of their neighbours by many times what others do, in the order of the points, each with how
-    /// far (m, outward): dirt and scratches, or a true edge. None below three times the neighbours; the ends of an arc have
-    /// too few neighbours to be compared with.
+    /// Points that stand out of their neighbours ([`super::outlier`]), in the order of the points, each with how far (m,
+    /// outward): dirt and scratches, or a true edge.
     pub fn outliers(&self) -> Vec<(usize, f64)> {
-        let count = self.order.len();
-        if count < 6 * NEIGHBOURS {
-            return Vec::new();
-        }
         // From behind the widest gap on.
         let begin = self.order.iter().position(|i| self.angles[*i] > self.gap.from);
-        let index = |place: usize| self.order[(begin.unwrap_or(0) + place) % count];
-        let at = |place: usize| self.deviations[index(place)];
-        let ends = if self.gap.width > ENDS { NEIGHBOURS } else { 0 };
-        let off = |place: usize| {
-            let before = (1..=NEIGHBOURS).map(|by| at(place + count - by));
-            let after = (1..=NEIGHBOURS).map(|by| at(place + by));
-            at(place) - median(before.chain(after).collect())
+        let (last, first) = self.order.split_at(begin.unwrap_or(0));
+        let order: Vec<usize> = first.iter().chain(last).copied().collect();
+        let values: Vec<f64> = order.iter().map(|index| self.deviations[*index]).collect();
+        let ends = if self.gap.width > ENDS {
+            Ends::Open
+        } else {
+            Ends::Closed
         };
-        let off: Vec<(usize, f64)> = (ends..count - ends)
-            .map(|place| (index(place), off(place)))
-            .collect();
-        let spread = median(off.iter().map(|(_, by)| by.abs()).collect()) / MEDIAN_OF_NORMAL;
-        let least = (STANDS_OUT * spread).max(LEAST_PART * (self.highest_peak() + self.deepest_valley()));
-        let mut found = off;
-        found.retain(|(_, by)| by.abs() > least);
+        let off = strange(&values, ends);
+        let told = order.into_iter().zip(off);
+        let mut found: Vec<(usize, f64)> = told.filter_map(|(index, off)| Some((index, off?))).collect();
         found.sort_by_key(|(index, _)| *index);
         found
     }
-}
-
-/// The one in the middle; of an even count the mean of the two.
-fn median(mut values: Vec<f64>) -> f64 {
-    let count = values.len();
-    let (below, &mut upper, _) = values.select_nth_unstable_by(count / 2, f64::total_cmp);
-    if count % 2 == 1 {
-        return upper;
-    }
-    let lower = below.iter().copied().fold(f64::MIN, f64::max);
-    (lower + upper) / 2.0
 }
 
 /// The places of `angles` in rising order.

@@ -31,16 +31,19 @@ pub fn dragged(before: f64, moved: f64, gap: f64) -> f64 {
 /// Torques below this hold no flank, N m (N): rounding, far below the friction of any joint.
 const NO_TORQUE: f64 = 1e-6;
 
-/// Where the link of a joint lies that goes through `positions` (rad, m) after a run-in: on the flank that its first move
-/// pushes, or in the middle if it stands still all along.
-pub fn run_in(positions: impl Iterator<Item = f64>, gap: f64) -> f64 {
-    let mut positions = positions.peekable();
-    let Some(start) = positions.peek().copied() else {
-        return 0.0;
-    };
-    let mut moves = positions.map(|position| position - start);
-    let first = moves.find(|by| by.abs() > STANDS_STILL);
-    first.map_or(0.0, |by| -0.5 * gap * by.signum())
+/// Where a link lies (rad, m) after each of these moves of its motor, behind a run-in: at first on the flank that its first
+/// real move pushes, or in the middle of its gap if it stands still all along.
+pub fn along<M: Iterator<Item = f64> + Clone>(moves: M, gap: f64) -> impl Iterator<Item = f64> {
+    let mut gone = moves.clone().scan(0.0, |gone, by| {
+        *gone += by;
+        Some(*gone)
+    });
+    let first = gone.find(|gone| gone.abs() > STANDS_STILL);
+    let mut lies = first.map_or(0.0, |gone| -0.5 * gap * gone.signum());
+    moves.map(move |by| {
+        lies = dragged(lies, by, gap);
+        lies
+    })
 }
 
 /// How far the link of a joint with this screw lies from its motor, rad (m): `dragged` as friction has it, or on the flank
@@ -64,7 +67,7 @@ mod tests {
         let moves = [
             1e-3, 1e-3, -5e-5, -5e-5, -5e-5, -5e-5, -1e-3, 3e-5, 0.0, -3e-5, 1e-3,
         ];
-        let (mut lag, mut motor, mut links) = (run_in([0.0, 1.0].into_iter(), gap), 0.0, Vec::new());
+        let (mut lag, mut motor, mut links) = (-0.5 * gap, 0.0, Vec::new());
         for by in moves {
             lag = dragged(lag, by, gap);
             motor += by;
@@ -81,12 +84,12 @@ mod tests {
 
     #[test]
     fn a_run_in_pushes_to_the_first_real_move() {
-        let after = |positions: &[f64]| run_in(positions.iter().copied(), 2e-4);
-        assert_eq!(after(&[0.3, 0.2, 0.5]), 1e-4);
+        let after = |moves: &[f64]| along(moves.iter().copied(), 2e-4).collect::<Vec<f64>>();
+        assert_eq!(after(&[0.0, -0.1, 0.3]), [1e-4, 1e-4, -1e-4]);
         // What rounding moves stands still; a slow joint moves in the end.
-        assert_eq!(after(&[0.3, 0.3 + 1e-16, 0.3 - 1e-16]), 0.0);
-        assert_eq!(after(&[0.3, 0.3 + 4e-7, 0.3 + 8e-7, 0.3 + 1.2e-6]), -1e-4);
-        assert_eq!((after(&[]), after(&[0.3])), (0.0, 0.0));
+        assert!(after(&[1e-16, -2e-16]).iter().all(|lies| lies.abs() < 1e-15));
+        assert_eq!(after(&[0.0, 4e-7, 4e-7, 4e-7]), [-1e-4; 4]);
+        assert_eq!(after(&[]), [0.0; 0]);
     }
 
     #[test]

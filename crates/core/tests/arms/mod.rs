@@ -34,6 +34,12 @@ impl Stream {
         lower + (upper - lower) * self.next()
     }
 
+    /// Normal, of mean 0 and standard deviation 1, by Box and Muller.
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.next()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * self.next()).cos()
+    }
+
     /// Joint positions inside the limits.
     pub fn joints(&mut self, robot: &Robot) -> Vec<f64> {
         self.joints_beyond(robot, 0.0)

@@ -16,6 +16,7 @@ use std::io::{self, BufRead, ErrorKind};
 use std::ops::Range;
 
 use super::problem::{Excerpt, Problem, Problems};
+use crate::table::sheet::is_remark;
 
 /// No line of a tool path or of a record is longer, in bytes.
 pub(crate) const LONGEST_LINE: usize = 1 << 16;
@@ -155,6 +156,19 @@ impl<R: BufRead> Lines<R> {
     /// The path that problems show.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The next line that is neither empty nor a remark; `None` behind the last.
+    ///
+    /// # Errors
+    /// Those of [`Lines::next`].
+    pub fn next_row(&mut self) -> Result<Option<Line>, Problems> {
+        loop {
+            match self.next()? {
+                Some(line) if is_remark(&line.text) => {}
+                other => return Ok(other),
+            }
+        }
     }
 
     /// The next line; `None` behind the last.

@@ -46,6 +46,7 @@ use toml::de::DeTable;
 
 pub(crate) use self::path::joined;
 pub(crate) use self::problem::MOST_PROBLEMS;
+pub(crate) use self::problem::unreadable;
 pub use self::problem::{Problem, Problems};
 pub use self::source::Source;
 

@@ -230,3 +230,7 @@ impl IntoIterator for Problems {
         self.0.into_iter()
     }
 }
+/// A file that cannot be read, from its beginning or from somewhere on.
+pub(crate) fn unreadable(path: &str, error: &std::io::Error) -> Problem {
+    Problem::of_file(path, format!("cannot read it: {error}"), "is the disk there?")
+}

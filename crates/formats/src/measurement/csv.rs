@@ -26,7 +26,7 @@ use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_n
 use super::format::{Format, Measured, Wanted};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_blank_row, is_remark, separator_of};
+use crate::table::sheet::{Cell, cells, is_blank_row, separator_of};
 
 /// Reads the record in `reader`; `path` is what problems show, `acts_on` what the forces act on. `wanted.channels` is
 /// no part of a table.
@@ -41,7 +41,7 @@ pub fn read(
     wanted: &Wanted,
 ) -> Result<Measured, Problems> {
     let mut lines = Lines::new(path, reader);
-    let Some(first) = next(&mut lines)? else {
+    let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "no record in this file", HEADER_HINT).into());
     };
     let mut table = Table {
@@ -66,7 +66,7 @@ pub fn read(
     while problems.len() < MOST_PROBLEMS {
         let line = match waiting.take() {
             Some(line) => line,
-            None => match next(&mut lines) {
+            None => match lines.next_row() {
                 Ok(Some(line)) => line,
                 Ok(None) => break,
                 Err(wrong) => {
@@ -94,16 +94,6 @@ pub fn read(
             .map(|(name, _)| name)
             .collect(),
     })
-}
-
-/// The next line that is neither empty nor a remark.
-fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
-    loop {
-        match lines.next()? {
-            Some(line) if is_remark(&line.text) => {}
-            other => return Ok(other),
-        }
-    }
 }
 
 /// What the columns of a file are.
@@ -153,7 +143,7 @@ impl Table<'_> {
             let message = "no column of this table is a force".to_owned();
             return Err(self.at(first, message, HEADER_HINT));
         }
-        let Some(below) = next(lines)? else {
+        let Some(below) = lines.next_row()? else {
             return Err(Problem::of_file(self.path, "no record in this file", HEADER_HINT).into());
         };
         let units = cells(&below.text, self.separator);

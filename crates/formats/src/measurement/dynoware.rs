@@ -33,7 +33,7 @@ use super::columns::{Column, Quantity, Samples, doubled, measured, missing, of_n
 use super::format::{Format, Measured, Wanted};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{Cell, cells, is_remark, separator_of};
+use crate::table::sheet::{Cell, cells, separator_of};
 
 /// No header is longer, in lines.
 const MOST_HEADER_LINES: usize = 200;
@@ -77,7 +77,7 @@ pub fn read(
         problems: Vec::new(),
     };
     while export.problems.len() < MOST_PROBLEMS {
-        let taken = match next(&mut lines) {
+        let taken = match lines.next_row() {
             Ok(Some(line)) => export.take(line, &mut lines),
             Ok(None) => break,
             Err(wrong) => Err(wrong),
@@ -89,16 +89,6 @@ pub fn read(
         }
     }
     export.finish()
-}
-
-/// The next line that is neither empty nor a remark.
-fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
-    loop {
-        match lines.next()? {
-            Some(line) if is_remark(&line.text) => {}
-            other => return Ok(other),
-        }
-    }
 }
 
 /// What the three forces are called in a file, and the three moments, which it need not have.
@@ -260,7 +250,7 @@ impl Reader<'_> {
             let message = format!("more than {MOST_CHANNELS} channels");
             return Err(self.at(line, message, "this is no line of channels"));
         }
-        let Some(below) = next(lines)? else {
+        let Some(below) = lines.next_row()? else {
             let message = "the file ends behind its channels".to_owned();
             return Err(self.at(line, message, "export it again"));
         };

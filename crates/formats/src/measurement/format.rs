@@ -9,7 +9,7 @@ use std::io::{BufRead, Cursor, Read};
 use armill_core::load::{ActsOn, Record};
 
 use super::{csv, dynoware};
-use crate::document::{Problem, Problems};
+use crate::document::{Problems, unreadable};
 
 /// A kind of file of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,10 +68,7 @@ pub fn read(
 ) -> Result<Measured, Problems> {
     let mut head = Vec::new();
     let begun = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
-    begun.map_err(|error| {
-        let message = format!("cannot read it: {error}");
-        Problem::of_file(path, message, "is the disk there?")
-    })?;
+    begun.map_err(|error| unreadable(path, &error))?;
     let format = match wanted {
         Wanted {
             channels: Some(_), ..

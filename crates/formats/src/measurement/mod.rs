@@ -7,6 +7,7 @@
 //! - [`profile`]: points of a profile that was to be round.
 //! - [`ballbar`]: radii along a circle, and what a ball-bar's own program made of them.
 //! - [`poses`]: joint positions and where a laser tracker saw the arm.
+//! - [`trace`]: where the tip went along a path, run after run.
 //!
 //! Force records are [`Record`](armill_core::load::Record)s in the axes of the sensor. Whether the force acts on the
 //! tool or on the part, and how the sensor stands, no file tells: the caller says it.
@@ -21,3 +22,4 @@ pub mod format;
 pub mod load_tests;
 pub mod poses;
 pub mod profile;
+pub mod trace;

@@ -363,6 +363,7 @@ fn ballbar_plot() -> BallbarPlot {
         vertical: "Y".into(),
         growth: Growth::Right,
         traces: runs.map(trace).to_vec(),
+        marks: Vec::new(),
     }
 }
 

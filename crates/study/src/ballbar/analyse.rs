@@ -1,15 +1,17 @@
 //! What a circular test shows, in SI.
 
 use armill_core::measure::ballbar::centre::seen_from;
-use armill_core::measure::ballbar::lobes::common;
-use armill_core::measure::ballbar::parts::{Asked, Parts, Reversal, Step, of_axes, parts, strongest_period};
+use armill_core::measure::ballbar::parts::{
+    Asked, Parts, Reversal, Step, of_axes, parts, periods, strongest_period,
+};
 use armill_core::measure::ballbar::{
     Centre, CircularTest, Difference, Direction, Lobes, Outlier, Quantities, Run, between_directions,
-    between_runs, hysteresis, least_squares_centre, lobes, mean_bidirectional, outliers, quantities,
+    hysteresis, least_squares_centre, lobes, mean_bidirectional, most_lobes, outliers, quantities, repeats,
 };
 
 use super::Measured;
 use crate::StudyError;
+use crate::number::decimals;
 
 /// From which centre radii are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,7 +94,7 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
         false => Vec::new(),
     };
     reversals.extend(question.reversals.iter().map(|angle| Reversal {
-        name: format!("at {} deg", crate::number::decimals(angle.to_degrees(), 3)),
+        name: format!("at {} deg", decimals(angle.to_degrees(), 3)),
         steps: vec![Step {
             angle: *angle,
             outwards: [1.0; 2],
@@ -114,12 +116,12 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
     let centre = least_squares_centre(&test);
     let mut asked = Asked {
         reversals,
-        most_lobes: question.most_lobes,
+        most_lobes: question.most_lobes.min(most_lobes(&test)),
         period: None,
     };
     asked.period = match question.cyclic {
         Cyclic::None => None,
-        Cyclic::Told(period) => Some(period),
+        Cyclic::Told(period) => Some(period_of(&test, period)?),
         Cyclic::Found => strongest_period(&test, &asked),
     };
     let parts = parts(&test, &asked);
@@ -149,10 +151,26 @@ pub fn analyse(measured: &Measured, question: &Question) -> Result<Found, StudyE
         between: between_directions(&shown),
         asked,
         parts,
-        lobes: lobes(&common(&shown), question.most_lobes.max(2)),
+        lobes: lobes(&shown, question.most_lobes.max(2)),
         outliers: dirt,
         test: shown,
     })
+}
+
+/// A told period, if the test can tell it.
+fn period_of(test: &CircularTest, period: f64) -> Result<f64, StudyError> {
+    let [least, most] = periods(test);
+    // A period at its limit is told in as many digits as the limit.
+    if period >= least * (1.0 - 1e-3) && period <= most * (1.0 + 1e-3) {
+        return Ok(period);
+    }
+    let message = format!(
+        "a cyclic error with a period of {} mm is outside {} to {} mm: four samples, and the radius",
+        decimals(period * 1e3, 6),
+        decimals(least * 1e3, 3),
+        decimals(most * 1e3, 3)
+    );
+    Err(StudyError::value(message, "name the period in mm, or `found`"))
 }
 
 /// The runs without the outliers that belong to no reversal.
@@ -171,14 +189,4 @@ fn without(test: &CircularTest, dirt: &[Vec<Outlier>]) -> Result<CircularTest, S
             "keep them, and look at the run",
         )
     })
-}
-
-/// Every pair of runs of one direction.
-fn repeats(test: &CircularTest) -> Vec<([usize; 2], Difference)> {
-    let runs = test.runs();
-    let pairs = (0..runs.len()).flat_map(|second| (0..second).map(move |first| [first, second]));
-    pairs
-        .filter(|[first, second]| runs[*first].direction() == runs[*second].direction())
-        .map(|pair| (pair, between_runs(&runs[pair[0]], &runs[pair[1]])))
-        .collect()
 }

@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::analyse::{Found, Question};
 use super::read::Measured;
+use super::results::{ResultsAnswer, beside, results};
 use super::teach::{BeforeAnswer, TaughtAnswer};
 use super::warnings::warnings;
 
@@ -156,7 +157,7 @@ pub struct PartsAnswer {
     pub cyclic_period_mm: Option<f64>,
     /// Sets of parts of which only a sum is known, or a single one that nothing is known of.
     pub not_told_apart: Vec<Vec<String>>,
-    /// Root mean square about the least-squares circle.
+    /// Root mean square without radius and offset, those of the parts.
     pub rms_before_um: f64,
     /// And of what no part explains.
     pub rms_after_um: f64,
@@ -167,6 +168,9 @@ pub struct PartsAnswer {
 pub struct PartAnswer {
     /// Its name.
     pub what: String,
+    /// What kind of part: `radius`, `offset`, `scale mismatch`, `squareness`, `reversal`, `direction radius`,
+    /// `servo mismatch`, `lobes`, `cyclic`.
+    pub kind: &'static str,
     /// How large it is along the radius.
     pub value_um: f64,
     /// Standard uncertainty.
@@ -195,38 +199,6 @@ pub struct OutlierAnswer {
     pub off_um: f64,
     /// Whether an axis reverses there: then it is a spike, no dirt.
     pub at_reversal: bool,
-}
-
-/// What the bar's own program made of it.
-#[derive(Clone, Debug, Serialize)]
-pub struct ResultsAnswer {
-    /// Its file.
-    pub file: String,
-    /// What was planned.
-    pub test: Option<String>,
-    /// On which machine.
-    pub machine: Option<String>,
-    /// When.
-    pub date: Option<String>,
-    /// In which plane.
-    pub plane: Option<String>,
-    /// Each result as the file has it.
-    pub features: Vec<FeatureAnswer>,
-}
-
-/// One result of the bar's own program, and ours of the same kind.
-#[derive(Clone, Debug, Serialize)]
-pub struct FeatureAnswer {
-    /// As the file calls it.
-    pub name: String,
-    /// As the file has it.
-    // unit: the field `unit` tells it
-    pub value: f64,
-    /// The unit of both.
-    pub unit: String,
-    /// Ours in that unit, where both tell the same kind of thing; definitions and signs may differ.
-    // unit: the field `unit` tells it
-    pub ours: Option<f64>,
 }
 
 /// What `found` says of `measured`.
@@ -297,25 +269,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
             .collect(),
         outliers: outliers(&names, found),
         outliers_left_out: question.without_outliers,
-        results: measured
-            .results
-            .iter()
-            .map(|(file, results)| ResultsAnswer {
-                file: file.clone(),
-                test: results.test.clone(),
-                machine: results.machine.clone(),
-                date: results.date.clone(),
-                plane: results.plane.clone(),
-                features: (results.features.iter())
-                    .map(|feature| FeatureAnswer {
-                        name: feature.name.clone(),
-                        value: feature.value,
-                        unit: feature.unit.clone(),
-                        ours: None,
-                    })
-                    .collect(),
-            })
-            .collect(),
+        results: results(measured),
         axes,
         parts,
         taught: None,
@@ -323,7 +277,7 @@ pub fn answer(measured: &Measured, question: &Question, found: &Found) -> Ballba
         unused: measured.unused.clone(),
         warnings: Vec::new(),
     };
-    beside(&mut told);
+    beside(&mut told, found);
     told.warnings = warnings(measured, question, (found, &told));
     told
 }
@@ -396,20 +350,42 @@ pub(crate) fn name_of(term: Term, (axes, found): (&[String; 2], &Found)) -> Stri
     }
 }
 
+/// What kind of part a term makes.
+fn kind_of(term: Term) -> &'static str {
+    match term {
+        Term::Radius => "radius",
+        Term::Offset(_) => "offset",
+        Term::ScaleMismatch => "scale mismatch",
+        Term::Squareness => "squareness",
+        Term::DirectionRadius => "direction radius",
+        Term::ServoMismatch => "servo mismatch",
+        Term::Reversal(_) => "reversal",
+        Term::Lobes(..) => "lobes",
+        Term::Cyclic(..) => "cyclic",
+    }
+}
+
 fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswer {
     let axes = measured.axes();
     let radius = measured.test.radius();
     let name = |term: Term| name_of(term, (&axes, found));
-    let of = |term: Term| parts.of(term);
-    // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R; of a good test the two hang together little.
+    // A sum of several errors is none of them.
+    let of = |term: Term| parts.alone(term);
+    // alpha = (radius + mismatch)/R, beta = (radius - mismatch)/R.
     let scale = of(Term::Radius).zip(of(Term::ScaleMismatch));
     let per_m = 1e6 / radius;
-    let both = |part: &Part, other: &Part| part.u.hypot(other.u) * per_m;
+    let both = |(mean, half): (&Part, &Part)| {
+        [1.0, -1.0].map(|side| {
+            let variance = mean.u.powi(2) + half.u.powi(2) + 2.0 * side * parts.scale_covariance;
+            variance.max(0.0).sqrt() * per_m
+        })
+    };
     let servo = of(Term::ServoMismatch).zip(measured.feed);
     PartsAnswer {
         radial: (parts.parts.iter())
             .map(|part| PartAnswer {
                 what: name(part.term),
+                kind: kind_of(part.term),
                 value_um: part.value * 1e6,
                 u_um: part.u * 1e6,
             })
@@ -420,7 +396,7 @@ fn of_parts(parts: &Parts, (measured, found): (&Measured, &Found)) -> PartsAnswe
                 (mean.value - half.value) * per_m,
             ]
         }),
-        scale_u_um_per_m: scale.map(|(mean, half)| [both(mean, half); 2]),
+        scale_u_um_per_m: scale.map(both),
         squareness_urad: of(Term::Squareness).map(|part| 2.0 * part.value * per_m),
         squareness_u_urad: of(Term::Squareness).map(|part| 2.0 * part.u * per_m),
         servo_mismatch_s: servo.map(|(part, feed)| 2.0 * part.value / feed),
@@ -446,32 +422,4 @@ fn outliers(names: &[&str], found: &Found) -> Vec<OutlierAnswer> {
             })
         })
         .collect()
-}
-
-/// Puts our numbers beside those of the bar's own program.
-fn beside(told: &mut BallbarAnswer) {
-    let part = |what: &str| {
-        let parts = told.parts.iter().flat_map(|parts| &parts.radial);
-        parts
-            .clone()
-            .find(|part| part.what == what)
-            .map(|part| part.value_um)
-    };
-    let [a, b] = &told.axes;
-    let step = |axis: &str, side: &str| part(&format!("step {axis}{side}"));
-    let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
-    let ours = [
-        ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
-        ("AF_SQUARENESS", "um/m", squareness),
-        ("AF_BACKLASH_A_POS", "um", step(a, "+")),
-        ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
-        ("AF_BACKLASH_B_POS", "um", step(b, "+")),
-        ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
-    ];
-    for feature in told.results.iter_mut().flat_map(|results| &mut results.features) {
-        let of = ours
-            .iter()
-            .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);
-        feature.ours = of.and_then(|(.., value)| *value);
-    }
 }

@@ -5,17 +5,21 @@
 //! ```
 //!
 //! [`read`](mod@read): files into one circle. [`analyse`](mod@analyse): what it shows. [`answer`](mod@answer): that, in numbers with their units.
-//! `warnings`: what to know before use.
-//! [`teach`](mod@teach): the circle to teach instead, and the test before beside the one after. [`output`]: tables, pictures, report.
+//! [`results`]: what the bar's own program made of it. `warnings`: what to know before use.
+//! [`teach`](mod@teach): the circle to teach instead, and the test before beside the one after. [`program`]: that circle as
+//! a program of the robot. [`output`]: tables, pictures, report.
 
 pub mod analyse;
 pub mod answer;
 pub mod output;
+pub mod program;
 pub mod read;
+pub mod results;
 pub mod teach;
 mod warnings;
 
 pub use analyse::{Centring, Cyclic, Found, Question, analyse};
 pub use answer::{BallbarAnswer, answer};
+pub use program::{CircleWanted, points_within, sagitta, taught_program};
 pub use read::{Measured, Wanted, read};
-pub use teach::{BeforeAnswer, TaughtAnswer, before, teach};
+pub use teach::{BeforeAnswer, TaughtAnswer, TaughtCircle, before, teach};

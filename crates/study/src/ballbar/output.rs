@@ -213,6 +213,7 @@ fn circle(told: &BallbarAnswer, (measured, found): (&Measured, &Found)) -> Pictu
         vertical: told.axes[1].clone(),
         growth: Growth::Right,
         traces: (0..found.test.runs().len()).map(trace).collect(),
+        marks: Vec::new(),
     };
     Picture {
         name: "ballbar".to_owned(),
@@ -317,7 +318,7 @@ fn html(told: &BallbarAnswer, drawn: &[Picture]) -> String {
         });
     }
     for results in &told.results {
-        let row = |feature: &super::answer::FeatureAnswer| {
+        let row = |feature: &super::results::FeatureAnswer| {
             let ours = feature.ours.map_or_else(String::new, |ours| format!("{ours:.1}"));
             vec![
                 feature.name.clone(),

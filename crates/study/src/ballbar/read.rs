@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use armill_core::measure::ballbar::{CircularTest, Direction, Run};
+use armill_core::measure::ballbar::{CircularTest, Run, RunError};
 use armill_formats::document::{Problem, Problems};
 use armill_formats::measurement::ballbar::{self, Held, Recorded, Results, Told};
 
@@ -105,7 +105,7 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
     let Some(radius) = radius else {
         return Err(StudyError::value(
             "nothing tells the nominal radius",
-            "a line `# radius_mm: 100` in the file, or tell it (option `radius_mm`)",
+            "a line `# radius_mm: 100` in the file, or --radius-mm 100",
         ));
     };
     let mut notes = Vec::new();
@@ -129,10 +129,28 @@ pub fn read(files: &[impl AsRef<Path>], wanted: &Wanted) -> Result<Measured, Stu
         }
     }
     let test = CircularTest::new(radius, runs).map_err(|error| {
-        StudyError::value(
-            error.to_string(),
-            "is the nominal radius right, and the unit of the radii?",
-        )
+        // Runs count from the first of each file on: as results call them, and as the file does.
+        let message = match &error {
+            RunError::TooFar {
+                run,
+                sample,
+                deviation,
+                radius,
+            } => {
+                let Origin { name, label, file } = &origins[*run];
+                let label = match label.as_str() {
+                    "" => String::new(),
+                    label => format!(" (run `{label}`)"),
+                };
+                let why = CircularTest::too_far(*radius, *deviation).unwrap_or_default();
+                format!("{file}: {name}{label}, sample {}: {why}", sample + 1)
+            }
+            RunError::TooMany(_) => {
+                return StudyError::value(error.to_string(), "name fewer files, or fewer runs");
+            }
+            _ => error.to_string(),
+        };
+        StudyError::value(message, "is the nominal radius right, and the unit of the radii?")
     })?;
     Ok(Measured {
         test,
@@ -177,9 +195,4 @@ fn one_of<T: PartialEq + std::fmt::Debug>(
         }
     }
     Ok(found.map(|(value, _)| value))
-}
-
-/// A direction by its name on the command line.
-pub fn direction_of(word: &str) -> Option<Direction> {
-    ballbar::direction_of(word)
 }

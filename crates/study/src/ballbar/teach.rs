@@ -8,20 +8,21 @@
 
 use std::f64::consts::TAU;
 
-use armill_core::measure::ballbar::{Extreme, taught};
+use armill_core::measure::ballbar::{Extreme, Taught, taught};
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use serde::Serialize;
 
 use super::analyse::Found;
 use super::read::Measured;
 use crate::StudyError;
+use crate::number::decimals;
 
 /// A circle to teach.
 #[derive(Clone, Debug, Serialize)]
 pub struct TaughtAnswer {
     /// How many points.
     pub points: usize,
-    /// Lobes up to this number are corrected.
+    /// Lobes up to this number are corrected: as asked for, or as many as the samples tell.
     pub most_lobes: usize,
     /// Largest move of a point.
     pub largest_correction_um: f64,
@@ -35,6 +36,31 @@ pub struct TaughtAnswer {
     pub radial_expected_um: [f64; 2],
     /// Half of the largest difference between the directions: no taught circle takes it off. None of one direction.
     pub stays_um: Option<f64>,
+}
+
+/// The circle itself.
+#[derive(Clone, Debug)]
+pub struct TaughtCircle {
+    /// Nominal radius, m.
+    pub radius: f64,
+    /// What is added to it at even angles from 0 on, m.
+    pub corrections: Vec<f64>,
+    found: Taught,
+}
+
+impl TaughtCircle {
+    /// Radius to teach at an angle of the files (rad), m.
+    pub fn radius_at(&self, angle: f64) -> f64 {
+        self.radius + self.found.correction(angle)
+    }
+
+    /// A row a point, as CSV.
+    ///
+    /// # Errors
+    /// A table that cannot be.
+    pub fn csv(&self) -> Result<Vec<u8>, StudyError> {
+        Ok(csv::write(&table(self.radius, &self.corrections)?))
+    }
 }
 
 /// A test before the one that is told.
@@ -59,15 +85,16 @@ pub struct ComparedQuantity {
     pub left_percent: Option<f64>,
 }
 
-/// The circle to teach at `points` even angles with lobes up to `most_lobes`: in numbers, and as a table.
+/// The circle to teach at `points` even angles with lobes up to `most_lobes`, or as many as the samples tell: in numbers,
+/// and itself. Of the test as it is shown: without outliers where these were left out.
 ///
 /// # Errors
 /// Runs that are no full turns.
 pub fn teach(
-    measured: &Measured,
+    shown: &Found,
     (points, most_lobes): (usize, usize),
-) -> Result<(TaughtAnswer, Vec<u8>), StudyError> {
-    let found = taught(&measured.test, most_lobes).ok_or_else(|| {
+) -> Result<(TaughtAnswer, TaughtCircle), StudyError> {
+    let found = taught(&shown.test, most_lobes).ok_or_else(|| {
         StudyError::value(
             "no circle can be taught from runs that leave a part of the turn open",
             "measure full turns",
@@ -79,7 +106,7 @@ pub fn teach(
         .collect();
     let told = TaughtAnswer {
         points,
-        most_lobes,
+        most_lobes: found.lobes.harmonics.last().map_or(most_lobes, |lobe| lobe.waves),
         largest_correction_um: corrections.iter().map(|c| c.abs()).fold(0.0, f64::max) * 1e6,
         circular_before_um: found.before.circular.ok().map(|g| g * 1e6),
         circular_expected_um: found.expected.circular.ok().map(|g| g * 1e6),
@@ -87,7 +114,12 @@ pub fn teach(
         radial_expected_um: um(found.expected.radial),
         stays_um: found.stays.map(|stays| stays * 1e6),
     };
-    Ok((told, csv::write(&table(measured.test.radius(), &corrections)?)))
+    let circle = TaughtCircle {
+        radius: shown.test.radius(),
+        corrections,
+        found,
+    };
+    Ok((told, circle))
 }
 
 /// A row a point.
@@ -111,8 +143,15 @@ fn table(radius: f64, corrections: &[f64]) -> Result<Table, StudyError> {
     Ok(Table::new("taught", columns)?)
 }
 
-/// The test `first` of `files` beside the test `second`.
-pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnswer {
+/// A test before, and what it shows, beside another.
+///
+/// # Errors
+/// Tests of different circles: radius, plane or feed.
+pub fn before(
+    (before, first): (&Measured, &Found),
+    (after, second): (&Measured, &Found),
+) -> Result<BeforeAnswer, StudyError> {
+    same_circle(before, after)?;
     let g = |found: &Found, direction: usize| found.directions[direction].and_then(|of| of.circular.ok());
     let both = |found: &Found| found.all.circular.ok().filter(|_| found.test.is_bidirectional());
     let f = |found: &Found, end: usize| Some(found.all.radial[end].deviation);
@@ -126,8 +165,8 @@ pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnsw
             left_percent: left.map(|(before, after)| 100.0 * (after / before).abs()),
         }
     };
-    BeforeAnswer {
-        files: files.to_vec(),
+    Ok(BeforeAnswer {
+        files: before.files.clone(),
         compared: vec![
             compared("G CW", &|found| g(found, 0)),
             compared("G CCW", &|found| g(found, 1)),
@@ -137,5 +176,29 @@ pub fn before(files: &[String], (first, second): (&Found, &Found)) -> BeforeAnsw
             compared("D", &|found| found.mean_bidirectional),
             compared("H", &|found| found.hysteresis),
         ],
+    })
+}
+
+/// Refuses to compare tests of different circles; what one of them does not tell is no difference.
+fn same_circle(before: &Measured, after: &Measured) -> Result<(), StudyError> {
+    let [one, other] = [before, after].map(|of| of.test.radius());
+    let mm = |radius: f64| format!("{} mm", radius * 1e3);
+    let feed = |feed: f64| format!("{} mm/min", decimals(feed * 60e3, 3));
+    let feeds = before.feed.zip(after.feed);
+    let planes = before.plane.as_ref().zip(after.plane.as_ref());
+    let differing = [
+        ((one - other).abs() > 1e-9 * other).then(|| ("nominal radius", mm(one), mm(other))),
+        (planes.filter(|(one, other)| one != other))
+            .map(|(one, other)| ("plane", one.clone(), other.clone())),
+        feeds
+            .filter(|(one, other)| (one - other).abs() > 1e-9 * other)
+            .map(|(one, other)| ("feed", feed(one), feed(other))),
+    ];
+    match differing.into_iter().flatten().next() {
+        None => Ok(()),
+        Some((what, one, other)) => Err(StudyError::value(
+            format!("--before: the {what} was {one}, and is {other} now"),
+            "tests of one circle are compared, in the same plane and at the same feed",
+        )),
     }
 }

@@ -13,6 +13,8 @@ pub(super) fn warnings(
     (found, told): (&Found, &BallbarAnswer),
 ) -> Vec<String> {
     let mut warnings = measured.notes.clone();
+    let unused = measured.unused.iter();
+    warnings.extend(unused.map(|of| format!("a column was passed over, {of}")));
     for direction in Direction::BOTH {
         match found.test.of(direction).count() {
             0 => warnings.push(format!(
@@ -56,6 +58,15 @@ pub(super) fn warnings(
     if told.runs.iter().any(|run| run.shown.circular_um.is_none()) {
         warnings
             .push("no ring is the narrowest about some runs: their arc is too short for its form".to_owned());
+    }
+    if let Some(lobes) = &found.lobes {
+        let told = lobes.harmonics.len();
+        if told < question.most_lobes {
+            warnings.push(format!(
+                "{told} lobes are told, not {}: the samples are too far apart for more",
+                question.most_lobes
+            ));
+        }
     }
     match &told.parts {
         None => warnings.push("too few samples for the parts of the deviation".to_owned()),

@@ -8,7 +8,7 @@ use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePa
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::combine::Combined;
+use super::combine::{Beside, Combined};
 use crate::file::experiment::Experiment;
 use crate::file::path::PathAsk;
 
@@ -31,12 +31,14 @@ pub struct BudgetAnswer {
     pub contributions: Vec<ContributionAnswer>,
     /// Load cases that the deviation under load was predicted for.
     pub load_cases: usize,
-    /// Least and greatest deviation under load of all of them, from the nominal circle.
+    /// Least and greatest deviation that the load makes of all of them, from the nominal circle.
     pub load_envelope_um: [f64; 2],
     /// Standard deviation of ball-bar runs the same way; none where no way has two.
     pub repeatability_um: Option<f64>,
     /// What they make together.
     pub sums: SumsAnswer,
+    /// What is predicted of the path without load beside what the ball-bar saw; none where either is missing.
+    pub without_load: Option<WithoutLoadAnswer>,
     /// The part beside them; none where it was not measured.
     pub part: Option<PartAnswer>,
     /// What a user must know, each a sentence.
@@ -76,7 +78,7 @@ pub struct ContributionAnswer {
     pub largest_at_deg: f64,
     /// Root mean square of the bias.
     pub rms_um: f64,
-    /// Standard uncertainty of the bias, where it is known.
+    /// Standard uncertainty of the bias, root mean square round the circle, where it is known.
     pub bias_u_um: Option<f64>,
     /// Root mean square of the standard deviation of one cut.
     pub scatter_um: f64,
@@ -90,6 +92,27 @@ pub struct ContributionAnswer {
     pub explained_without_percent: Option<f64>,
 }
 
+/// The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut.
+#[derive(Clone, Debug, Serialize)]
+pub struct WithoutLoadAnswer {
+    /// Largest predicted by size, from its datum.
+    pub predicted_um: f64,
+    /// Where.
+    pub predicted_at_deg: f64,
+    /// Root mean square.
+    pub predicted_rms_um: f64,
+    /// Largest measured by size, from its datum.
+    pub measured_um: f64,
+    /// Where.
+    pub measured_at_deg: f64,
+    /// Root mean square.
+    pub measured_rms_um: f64,
+    /// How much of the measured mean square is predicted.
+    pub explained_percent: f64,
+    /// How alike the shapes are.
+    pub likeness_percent: Option<f64>,
+}
+
 /// What the parts make together.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SumsAnswer {
@@ -101,6 +124,8 @@ pub struct SumsAnswer {
     pub as_functions_um: f64,
     /// The same with twice the scatter.
     pub with_scatter_um: f64,
+    /// Standard uncertainty of the biases together, root mean square round the circle, as far as it is known.
+    pub u_um: f64,
     /// Root of the squares of `load_um` and `unloaded_um`.
     pub root_sum_square_um: f64,
     /// `load_um` and `unloaded_um` added plainly, as the paper does.
@@ -136,6 +161,8 @@ pub struct PartAnswer {
     pub turns_as_good_percent: Option<f64>,
     /// What is not explained.
     pub residual: ResidualAnswer,
+    /// Waves of less amplitude are none: they have no phase, and no share.
+    pub least_wave_um: f64,
     /// Wave by wave.
     pub waves: Vec<WaveAnswer>,
 }
@@ -149,8 +176,8 @@ pub struct ResidualAnswer {
     pub largest_um: f64,
     /// Where.
     pub largest_at_deg: f64,
-    /// Root mean square beyond all known scatter: what has another cause.
-    pub beyond_scatter_um: f64,
+    /// Root mean square beyond all known scatter and uncertainty: what has another cause.
+    pub beyond_known_um: f64,
 }
 
 /// One wave of the part and of its prediction.
@@ -160,14 +187,14 @@ pub struct WaveAnswer {
     pub waves: usize,
     /// Amplitude of the part.
     pub measured_um: f64,
-    /// Its phase: a crest lies at this over `waves`.
-    pub measured_phase_deg: f64,
+    /// Its phase: a crest lies at this over `waves`; none where there is no wave.
+    pub measured_phase_deg: Option<f64>,
     /// Amplitude of the prediction.
     pub predicted_um: f64,
-    /// Its phase.
-    pub predicted_phase_deg: f64,
-    /// Phase of the prediction beyond that of the part.
-    pub phase_difference_deg: f64,
+    /// Its phase, likewise.
+    pub predicted_phase_deg: Option<f64>,
+    /// Phase of the prediction beyond that of the part, where both are there.
+    pub phase_difference_deg: Option<f64>,
     /// How much of this wave of the part is explained; none where there is no wave.
     pub explained_percent: Option<f64>,
 }
@@ -223,9 +250,14 @@ pub fn answer(experiment: &Experiment, path: &PathAsk, combined: &Combined) -> B
             unloaded_um: um(sums.of_origin[1]),
             as_functions_um: um(sums.largest),
             with_scatter_um: um(sums.largest_with_scatter),
+            u_um: um(sums.u),
             root_sum_square_um: um(sums.root_sum_square),
             plain_um: um(sums.plain),
         },
+        without_load: combined
+            .without_load
+            .as_ref()
+            .map(|beside| without_load(combined, beside)),
         part: balance
             .comparison
             .as_ref()
@@ -278,6 +310,26 @@ fn contribution(
     }
 }
 
+fn without_load(combined: &Combined, beside: &Beside) -> WithoutLoadAnswer {
+    let turn = &combined.turn;
+    let most = |curve: &[f64]| {
+        let (at, most) = largest(curve);
+        (most * 1e6, turn.angle()[at].to_degrees())
+    };
+    let [(predicted_um, predicted_at_deg), (measured_um, measured_at_deg)] =
+        [most(&beside.predicted), most(&beside.measured)];
+    WithoutLoadAnswer {
+        predicted_um,
+        predicted_at_deg,
+        predicted_rms_um: turn.rms(&beside.predicted) * 1e6,
+        measured_um,
+        measured_at_deg,
+        measured_rms_um: turn.rms(&beside.measured) * 1e6,
+        explained_percent: beside.agreement.explained * 100.0,
+        likeness_percent: beside.agreement.likeness.map(|share| share * 100.0),
+    }
+}
+
 fn part(experiment: &Experiment, combined: &Combined, told: &Comparison) -> PartAnswer {
     let at_deg = |at: usize| combined.turn.angle()[at].to_degrees();
     let of_file = experiment.part.as_ref();
@@ -302,28 +354,44 @@ fn part(experiment: &Experiment, combined: &Combined, told: &Comparison) -> Part
             rms_um: told.together.residual_rms * 1e6,
             largest_um: told.together.residual_largest.1 * 1e6,
             largest_at_deg: at_deg(told.together.residual_largest.0),
-            beyond_scatter_um: told.beyond_scatter * 1e6,
+            beyond_known_um: told.beyond_known * 1e6,
         },
-        waves: told.waves.iter().map(wave).collect(),
+        least_wave_um: told.least_wave * 1e6,
+        waves: told
+            .waves
+            .iter()
+            .map(|pair| wave(pair, told.least_wave))
+            .collect(),
     }
 }
 
-fn wave(pair: &WavePair) -> WaveAnswer {
+fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
+    let told = pair.told(least);
+    let deg = |phase: Option<f64>| phase.map(f64::to_degrees);
     WaveAnswer {
         waves: pair.measured.waves,
         measured_um: pair.measured.amplitude * 1e6,
-        measured_phase_deg: pair.measured.phase.to_degrees(),
+        measured_phase_deg: deg(told.measured_phase),
         predicted_um: pair.predicted.amplitude * 1e6,
-        predicted_phase_deg: pair.predicted.phase.to_degrees(),
-        phase_difference_deg: pair.phase_difference().to_degrees(),
-        explained_percent: pair.explained().map(|share| share * 100.0),
+        predicted_phase_deg: deg(told.predicted_phase),
+        phase_difference_deg: deg(told.phase_difference),
+        explained_percent: told.explained.map(|share| share * 100.0),
     }
+}
+
+/// Whether the path without load is a prediction.
+fn is_predicted(combined: &Combined) -> bool {
+    let of_path = |one: &Contribution| one.origin == Origin::Unloaded;
+    combined.has_cut_way.is_none() && combined.balance.contributions.iter().any(of_path)
 }
 
 /// What was taken for granted, and what the numbers do not bear.
 fn warnings(experiment: &Experiment, combined: &Combined, told: &BudgetAnswer) -> Vec<String> {
     let mut warnings = experiment.notes.clone();
     match combined.has_cut_way {
+        None if is_predicted(combined) => warnings.push(
+            "no ball-bar test: the path without load is predicted from gravity, backlash and geometry alone".to_owned(),
+        ),
         None => warnings.push(
             "no ball-bar test: what the path does without load is left out, and the part holds it".to_owned(),
         ),

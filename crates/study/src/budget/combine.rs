@@ -2,24 +2,29 @@
 //!
 //! | contribution | origin | bias | scatter of one cut |
 //! |---|---|---|---|
-//! | deviation under load | load | its mean force, or the mean of the cases given | between these cases |
+//! | deviation under load | load | what the load adds: its mean force, or the mean of the cases given | between these cases |
+//! | predicted | unloaded | without a ball-bar: gravity, backlash and geometry of the study | - |
 //! | both ways | unloaded | mean of clockwise and anticlockwise runs | - |
 //! | reversal | unloaded | half of what the way that was cut has more than the other | - |
 //! | repeatability | unloaded | - | of runs the same way |
 //!
 //! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is told as the end of
-//! the envelope. Given cases may each act: all are as likely.
+//! the envelope. Given cases may each act: all are as likely. A ball-bar sees gravity, backlash and geometry: where one was
+//! taken, what is predicted of them stands beside it and in no sum.
 
 use armill_core::budget::turn::Turn;
 use armill_core::budget::unloaded::known_angles;
-use armill_core::budget::{Balance, Contribution, Origin, balance, unloaded};
+use armill_core::budget::{Agreement, Balance, Contribution, Datum, Origin, agreement, balance, unloaded};
 use armill_core::load::PathLoad;
 use armill_core::measure::ballbar::profile::{STATIONS, station};
 use armill_core::measure::ballbar::{CircularTest, Direction, Profile};
+use armill_core::watch::Watch;
 
+use super::parts::{Parts, parts};
 use crate::error::StudyError;
 use crate::file::experiment::Experiment;
 use crate::file::path::PathAsk;
+use crate::file::resolve::Study;
 use crate::run::PathFound;
 
 /// Curves at common angles. SI.
@@ -29,7 +34,7 @@ pub struct Combined {
     pub turn: Turn,
     /// The budget.
     pub balance: Balance,
-    /// Least and greatest deviation under load of all cases at each angle, from the nominal circle.
+    /// Least and greatest deviation that the load makes of all cases at each angle, from the nominal circle.
     pub envelope: [Vec<f64>; 2],
     /// Load cases.
     pub cases: usize,
@@ -39,6 +44,19 @@ pub struct Combined {
     pub has_cut_way: Option<bool>,
     /// Standard deviation of runs the same way; none where no way has two.
     pub repeatability: Option<f64>,
+    /// The path without load, predicted and measured the way it was cut; none where either is missing.
+    pub without_load: Option<Beside>,
+}
+
+/// A predicted curve beside the measured one, both from their datum. m
+#[derive(Clone, Debug)]
+pub struct Beside {
+    /// Predicted.
+    pub predicted: Vec<f64>,
+    /// Measured.
+    pub measured: Vec<f64>,
+    /// How the first explains the second.
+    pub agreement: Agreement,
 }
 
 /// Waves a turn that are told.
@@ -47,8 +65,12 @@ pub const MOST_WAVES: usize = 12;
 /// What was measured beside what was found of the path.
 ///
 /// # Errors
-/// A path that is not reached everywhere; curves that have too few angles in common.
-pub fn combine(experiment: &Experiment, path: &PathAsk, found: &PathFound) -> Result<Combined, StudyError> {
+/// A path that is not reached everywhere; curves that have too few angles in common; those of a run.
+pub fn combine(
+    (study, experiment): (&Study, &Experiment),
+    (path, found): (&PathAsk, &PathFound),
+    watch: Watch<'_>,
+) -> Result<Combined, StudyError> {
     if found.radial.is_empty() {
         return Err(StudyError::value(
             format!(
@@ -71,20 +93,36 @@ pub fn combine(experiment: &Experiment, path: &PathAsk, found: &PathFound) -> Re
             "full turns, a sample every 15 degrees or more",
         )
     })?;
-    let cases: Vec<Vec<f64>> = found
-        .radial
-        .iter()
-        .map(|case| turn.of_even(&case.outward))
-        .collect();
     let cases_are_given = matches!(path.load, PathLoad::Cases(_));
-    let mut contributions = vec![under_load(&cases, cases_are_given)];
+    let biased = if cases_are_given { found.radial.len() } else { 1 };
+    let Parts {
+        load,
+        without,
+        doubts,
+    } = parts(study, (path, found), biased, watch)?;
+    let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
+    let without = without.map(|curve| turn.of_even(&curve));
+    let mut contributions = vec![Contribution {
+        u: uncertainty(&doubts, &turn, experiment),
+        ..under_load(&cases[..biased])
+    }];
     let mut has_cut_way = None;
     let mut repeatability = None;
+    let mut without_load = None;
     if let Some(test) = test {
         let seen = of_test(test, &turn, experiment)?;
         has_cut_way = Some(seen.has_cut_way);
         repeatability = seen.scatter;
+        without_load = without.and_then(|predicted| beside(&turn, (&predicted, &seen), experiment));
         contributions.extend(contributions_of(seen, turn.angle().len()));
+    } else if let Some(bias) = without {
+        contributions.push(Contribution {
+            name: "path without load, predicted".to_owned(),
+            origin: Origin::Unloaded,
+            scatter: vec![0.0; bias.len()],
+            bias,
+            u: None,
+        });
     }
     // Every angle is one of the part's own.
     let measured: Option<Vec<f64>> =
@@ -100,6 +138,7 @@ pub fn combine(experiment: &Experiment, path: &PathAsk, found: &PathFound) -> Re
         cases_are_given,
         has_cut_way,
         repeatability,
+        without_load,
         balance: balance(
             &turn,
             contributions,
@@ -110,9 +149,8 @@ pub fn combine(experiment: &Experiment, path: &PathAsk, found: &PathFound) -> Re
     })
 }
 
-/// What the load does: of given cases their mean and how they scatter about it, else the mean force.
-fn under_load(cases: &[Vec<f64>], are_given: bool) -> Contribution {
-    let taken = if are_given { cases } else { &cases[..1] };
+/// What the load does: the mean of these cases, each as likely, and how they scatter about it.
+fn under_load(taken: &[Vec<f64>]) -> Contribution {
     let count = taken.len() as f64;
     let mean = |k: usize| taken.iter().map(|case| case[k]).sum::<f64>() / count;
     let angles = taken[0].len();
@@ -128,6 +166,34 @@ fn under_load(cases: &[Vec<f64>], are_given: bool) -> Contribution {
         bias,
         u: None,
     }
+}
+
+/// Standard uncertainty (m) of what the load does, root mean square round the circle: that of the curves that each unknown
+/// adds, from their datum; `None` where nothing of it is known.
+fn uncertainty(doubts: &[Vec<f64>], turn: &Turn, experiment: &Experiment) -> Option<f64> {
+    let of = |curve: &Vec<f64>| {
+        let (_, form) = Datum::taken_off(turn, &turn.of_even(curve), experiment.removed);
+        turn.rms(&form)
+    };
+    (!doubts.is_empty()).then(|| doubts.iter().map(of).fold(0.0, f64::hypot))
+}
+
+/// What is predicted of the path without load beside what the ball-bar saw of it, the way it was cut.
+fn beside(
+    turn: &Turn,
+    (predicted, seen): (&[f64], &armill_core::budget::Unloaded),
+    experiment: &Experiment,
+) -> Option<Beside> {
+    let reversal = seen.reversal.as_ref();
+    let cut_way = |k: usize| seen.mean[k] + reversal.map_or(0.0, |by| by[k]);
+    let measured: Vec<f64> = (0..seen.mean.len()).map(cut_way).collect();
+    let form = |curve: &[f64]| Datum::taken_off(turn, curve, experiment.removed).1;
+    let (predicted, measured) = (form(predicted), form(&measured));
+    Some(Beside {
+        agreement: agreement(turn, &predicted, &measured)?,
+        predicted,
+        measured,
+    })
 }
 
 /// The path without load, in parts.

@@ -1,15 +1,16 @@
 //! What is the error of a measured circle made of, and how much of it is predicted?
 //!
 //! ```text
-//! study with [measured] -> run the circle -> combine: Combined (SI) -> BudgetAnswer, table, pictures
+//! study with [measured] -> run the circle -> its parts -> combine: Combined (SI) -> BudgetAnswer, table, pictures
 //! ```
 //!
-//! [`combine`](mod@combine): predicted and measured curves at common angles. [`answer`](mod@answer): what came of it, in numbers.
+//! [`parts`](mod@parts): what the load does, and what there is without it. [`combine`](mod@combine): predicted and measured curves at common angles. [`answer`](mod@answer): what came of it, in numbers.
 //! [`output`]: its table and pictures.
 
 pub mod answer;
 pub mod combine;
 pub mod output;
+pub mod parts;
 
 pub use answer::{BudgetAnswer, answer};
 pub use combine::{Combined, combine};
@@ -54,7 +55,7 @@ pub fn point_count(study: &Study) -> Result<usize, StudyError> {
 pub fn budget(study: &Study, watch: Watch<'_>) -> Result<(Combined, BudgetAnswer), StudyError> {
     let (experiment, path) = circle(study)?;
     let found = runner(study, watch)?.path(path)?;
-    let combined = combine(experiment, path, &found)?;
+    let combined = combine((study, experiment), (path, &found), watch)?;
     let told = answer(experiment, path, &combined);
     Ok((combined, told))
 }
@@ -66,7 +67,7 @@ pub(crate) fn beside(study: &Study, done: &[Done<'_>]) -> Option<Result<(Combine
     let Found::Path(path, found) = &found.found else {
         return None;
     };
-    let combined = combine(experiment, path, found).map(|combined| {
+    let combined = combine((study, experiment), (path, found), Watch::NONE).map(|combined| {
         let told = answer(experiment, path, &combined);
         (combined, told)
     });

@@ -11,19 +11,17 @@
 
 use std::path::{Path, PathBuf};
 
+use armill_core::measure::ballbar::profile::is_gap;
 use armill_formats::file::write_atomically;
 use armill_formats::table::{Column, ColumnData, Table, csv};
 use armill_report::html;
 use armill_report::{BudgetBar, BudgetBars, BudgetGroup, Growth, PolarPlot, RadialSeries, WaveBar, WaveBars};
 
-use super::answer::{BudgetAnswer, PartAnswer};
+use super::answer::{BudgetAnswer, PartAnswer, WithoutLoadAnswer};
 use super::combine::Combined;
 use crate::StudyError;
 use crate::output::report::cells::columns;
 use crate::output::{Picture, prepare, slug, write_pictures};
-
-/// Neighbours farther apart are not joined, rad.
-const OPEN: f64 = armill_core::measure::ballbar::profile::GAP * (1.0 + 1e-6);
 
 /// Writes table and pictures into the folder `out` and gives their paths.
 ///
@@ -147,7 +145,7 @@ fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
                 .or_else(|| Some(angle.first()? + std::f64::consts::TAU));
             angle_deg.push(angle[k].to_degrees());
             radial_um.push(curve[k] * 1e6);
-            if next.is_some_and(|next| next - angle[k] > OPEN) {
+            if next.is_some_and(|next| is_gap(next - angle[k])) {
                 angle_deg.push(angle[k].to_degrees());
                 radial_um.push(f64::NAN);
             }
@@ -171,6 +169,12 @@ fn circle(told: &BudgetAnswer, combined: &Combined) -> String {
         .iter()
         .filter(|one| one.bias.iter().any(|b| *b != 0.0));
     series.extend(parts.map(|one| closed(&one.name, &one.bias)));
+    series.extend(
+        combined
+            .without_load
+            .as_ref()
+            .map(|beside| closed("path without load, predicted", &beside.predicted)),
+    );
     let picture = PolarPlot {
         title: format!("{}: predicted and measured", told.ask),
         subtitle: subtitle(told),
@@ -211,12 +215,12 @@ pub(crate) fn in_words(told: &BudgetAnswer) -> String {
     if let Some(part) = &told.part {
         text.push_str(&format!(
             " The part is off by {:.1} µm; {:.1} % of its mean square are explained, {:.1} % could be. What is left has {:.1} \
-             µm rms, {:.1} µm of it beyond known scatter.",
+             µm rms, {:.1} µm of it beyond known scatter and uncertainty.",
             part.largest_um,
             part.explained_percent,
             part.explainable_percent,
             part.residual.rms_um,
-            part.residual.beyond_scatter_um
+            part.residual.beyond_known_um
         ));
     }
     text
@@ -235,6 +239,7 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
             ("at", "deg"),
             ("rms", "µm"),
             ("scatter", "µm"),
+            ("uncertainty", "µm"),
             ("alone", "%"),
             ("without", "%"),
         ]),
@@ -246,6 +251,7 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
                     format!("{:.1}", one.largest_at_deg),
                     um(one.rms_um),
                     um(one.scatter_um),
+                    one.bias_u_um.map_or_else(|| "–".to_owned(), um),
                     percent(one.explained_alone_percent),
                     percent(one.explained_without_percent),
                 ]
@@ -267,7 +273,7 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
                     wave.waves.to_string(),
                     um(wave.measured_um),
                     um(wave.predicted_um),
-                    format!("{:.1}", wave.phase_difference_deg),
+                    percent(wave.phase_difference_deg),
                     percent(wave.explained_percent),
                 ]
             })
@@ -278,7 +284,51 @@ pub(crate) fn tables(told: &BudgetAnswer) -> Vec<html::Table> {
         .as_ref()
         .filter(|part| !part.waves.is_empty())
         .map(of_part);
-    std::iter::once(contributions).chain(waves).collect()
+    let beside = told.without_load.as_ref().map(without_load);
+    std::iter::once(contributions)
+        .chain(beside)
+        .chain(waves)
+        .collect()
+}
+
+/// The path without load: what is predicted beside what was measured.
+fn without_load(told: &WithoutLoadAnswer) -> html::Table {
+    let row = |name: &str, [most_um, at_deg, rms_um]: [f64; 3], shares: [Option<f64>; 2]| {
+        let percent =
+            |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"));
+        vec![
+            name.to_owned(),
+            format!("{most_um:.2}"),
+            format!("{at_deg:.1}"),
+            format!("{rms_um:.2}"),
+            percent(shares[0]),
+            percent(shares[1]),
+        ]
+    };
+    html::Table {
+        caption: "The path without load. The measured one stands in the sums, the predicted one beside it."
+            .to_owned(),
+        columns: columns(&[
+            ("path without load", ""),
+            ("largest", "µm"),
+            ("at", "deg"),
+            ("rms", "µm"),
+            ("explained", "%"),
+            ("alike", "%"),
+        ]),
+        rows: vec![
+            row(
+                "measured",
+                [told.measured_um, told.measured_at_deg, told.measured_rms_um],
+                [None; 2],
+            ),
+            row(
+                "predicted",
+                [told.predicted_um, told.predicted_at_deg, told.predicted_rms_um],
+                [Some(told.explained_percent), told.likeness_percent],
+            ),
+        ],
+    }
 }
 
 /// A row an angle.
@@ -305,6 +355,10 @@ fn table_of(told: &BudgetAnswer, combined: &Combined) -> Result<Table, StudyErro
     }
     columns.push(column("sum_um".to_owned(), "um", um(&balance.sums.bias)));
     columns.push(column("scatter_um".to_owned(), "um", um(&balance.sums.scatter)));
+    if let Some(beside) = &combined.without_load {
+        let name = "predicted_without_load_um".to_owned();
+        columns.push(column(name, "um", um(&beside.predicted)));
+    }
     if let Some(part) = &balance.comparison {
         columns.push(column("part_um".to_owned(), "um", um(&part.measured)));
         columns.push(column(

@@ -31,6 +31,11 @@ pub struct CalibrateAnswer {
     pub tracker_from_base: FrameAnswer,
     /// Where the measured point is on the flange.
     pub flange_from_point: FrameAnswer,
+    /// What was known before; none where nothing was.
+    pub prior: Option<PriorAnswer>,
+    /// How many of all estimates, base and point included, the poses tell; all without a prior.
+    // unit: a count
+    pub told_by_poses: f64,
     /// Standard deviation of a single reading about what was found.
     pub standard_deviation_mm: f64,
     /// Columns that were passed over.
@@ -41,6 +46,15 @@ pub struct CalibrateAnswer {
     pub notes: Vec<String>,
     /// Where methods come from.
     pub sources: Vec<&'static str>,
+}
+
+/// Standard deviations of small motions of the chain about zero.
+#[derive(Clone, Debug, Serialize)]
+pub struct PriorAnswer {
+    /// Along an axis.
+    pub length_mm: f64,
+    /// About an axis.
+    pub angle_deg: f64,
 }
 
 /// Poses of one kind.
@@ -157,6 +171,11 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         not_identifiable: redundant.collect(),
         tracker_from_base: frame(Place::Base, &after.tracker_from_base),
         flange_from_point: frame(Place::Tool, &after.flange_from_point),
+        prior: question.prior.map(|prior| PriorAnswer {
+            length_mm: told(prior.length * 1e3),
+            angle_deg: told(prior.angle.to_degrees()),
+        }),
+        told_by_poses: decimals(after.told, 3),
         standard_deviation_mm: told(after.standard_deviation * 1e3),
         unused: calibration.unused.clone(),
         not_measured: calibration.not_measured,
@@ -164,6 +183,7 @@ pub fn answer(robot: &Robot, calibration: &Calibration, question: &Question) -> 
         sources: vec![
             "Everett, Driels, Mooring 1987: how many parameters a chain has",
             "Mooring, Roth, Driels 1991: Fundamentals of Manipulator Calibration",
+            "theory: docs/theory/calibration.md",
         ],
     }
 }
@@ -173,6 +193,12 @@ fn notes(calibration: &Calibration, question: &Question) -> Vec<String> {
         "uncertainties take what the geometry leaves for noise; sag, gears and heat that repeat are not noise".to_owned(),
         "before: the chain as the robot file says, base and measured point fitted to the same poses".to_owned(),
     ];
+    if question.prior.is_some() {
+        notes.push(
+            "small motions are held to zero as far as the poses tell them less well than the prior"
+                .to_owned(),
+        );
+    }
     if question.turn_length.is_none() {
         notes.push("found from positions alone".to_owned());
     }
@@ -286,7 +312,7 @@ fn unknown_name(robot: &Robot, unknown: &Unknown) -> String {
     format!("{at} {word} {}", unknown.axis().letter())
 }
 
-/// To a tenth of a micrometre, or of a millidegree.
-fn told(value: f64) -> f64 {
+/// A number in mm or deg to a nanometre, or a microdegree.
+pub(crate) fn told(value: f64) -> f64 {
     decimals(value, 6)
 }

@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`question`] (what is asked, and reading the poses), [`calibration`](mod@calibration) (fits before and after, poses held
-//! out), [`answer`](mod@answer) (all of it as one JSON value), [`output`] (table of residuals, robot file).
+//! out), [`answer`](mod@answer) (all of it as one JSON value), [`output`] (table of residuals, drawing, robot file).
 
 pub mod answer;
 pub mod calibration;
@@ -14,5 +14,5 @@ pub mod question;
 
 pub use answer::{CalibrateAnswer, ErrorsAnswer, SetAnswer, answer};
 pub use calibration::{Calibration, Set, calibrate};
-pub use output::{residuals, robot_file};
+pub use output::{drawing, residuals, robot_file};
 pub use question::{HoldOut, Question, read};

@@ -1,4 +1,4 @@
-//! The table of residuals, and the robot file with what was found.
+//! The table of residuals, their drawing, and the robot file with what was found.
 //!
 //! ```text
 //! set, line, before_x_mm .. before_mm, after_x_mm .. after_mm       training and held out; axes of the tracker
@@ -6,9 +6,12 @@
 
 use std::fmt::Write;
 
+use armill_core::calibrate::PoseErrors;
 use armill_core::robot::Robot;
 use armill_formats::robot::armill::{Geometry, with_geometry};
+use armill_report::{ErrorDistribution, ErrorSet};
 
+use super::answer::CalibrateAnswer;
 use super::calibration::{Calibration, Set};
 use crate::StudyError;
 
@@ -39,6 +42,29 @@ pub fn residuals(calibration: &Calibration) -> String {
         add("held out", set);
     }
     text
+}
+
+/// Errors of position before and after, as SVG.
+pub fn drawing(told: &CalibrateAnswer, calibration: &Calibration) -> String {
+    let lengths = |errors: &PoseErrors| errors.position.iter().map(|e| e.norm() * 1e3).collect();
+    let of = |name: &str, set: &Set| ErrorSet {
+        name: name.to_owned(),
+        before_mm: lengths(&set.before),
+        after_mm: lengths(&set.after),
+    };
+    let mut sets = vec![of("found from", &calibration.training)];
+    sets.extend(calibration.held_out.as_ref().map(|set| of("held out", set)));
+    let held_out = match &told.held_out {
+        Some(set) => format!(", {} held out", set.poses),
+        None => String::new(),
+    };
+    ErrorDistribution {
+        title: format!("{}: errors of position", told.robot),
+        subtitle: format!("{} poses found from{held_out}", told.training.poses),
+        quantity: "distance of measured from predicted (mm)".to_owned(),
+        sets,
+    }
+    .to_svg()
 }
 
 /// The robot file `text` (at `path`) with the small motions that were found.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use armill_core::calibrate::{self, Asked};
+use armill_core::calibrate::{self, Asked, Prior};
 use armill_core::frame::Isometry;
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
@@ -37,6 +37,8 @@ pub struct Question {
     pub tool_point: Vector3<f64>,
     /// So many metres count as much as a radian of turn; without it turns are passed over.
     pub turn_length: Option<f64>,
+    /// What is known of small motions of the chain before they are measured.
+    pub prior: Option<Prior>,
 }
 
 impl Question {
@@ -47,6 +49,7 @@ impl Question {
             flange_from_point: Isometry::from_parts(self.tool_point.into(), Default::default()),
             // Where no turn is given, nothing is weighed by it.
             turn_length: self.turn_length.unwrap_or(1.0),
+            prior: self.prior,
         }
     }
 }

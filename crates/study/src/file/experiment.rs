@@ -117,7 +117,7 @@ impl Experiment {
         folder: &Path,
         (asks, all_read): (&[Ask], bool),
     ) -> Option<Experiment> {
-        let circle = circle(places, table, (asks, all_read));
+        let circle = circle(places, ("measured", table.ask.as_ref()), (asks, all_read));
         if table.part.is_none() && table.ballbar.is_empty() {
             let hint = "part = \"cmm.csv\", or ballbar = [\"first.csv\", \"second.csv\"]";
             places.problem("measured", "nothing measured is named", hint);
@@ -165,10 +165,10 @@ impl Experiment {
     }
 }
 
-/// The circle that was cut, with its radius (m); `None` where there is none, told at its place.
-fn circle(
+/// The circle that the table `key` is of, with its radius (m); `None` where there is none, told at its place.
+pub(super) fn circle(
     places: &mut Places<'_>,
-    table: &ExperimentTable,
+    (key, ask): (&str, Option<&String>),
     (asks, all_read): (&[Ask], bool),
 ) -> Option<(String, f64)> {
     let radius = |ask: &Ask| match &ask.subject {
@@ -183,7 +183,7 @@ fn circle(
         .filter_map(|ask| Some((ask.name.clone(), radius(ask)?)))
         .collect();
     let hint = "the name of an ask of kind = \"path\" with circle = { radius_mm = 100 }";
-    match (&table.ask, &circles[..]) {
+    match (ask, &circles[..]) {
         (Some(name), _) => {
             let found = circles.iter().find(|(own, _)| own == name);
             // An ask with problems of its own is told there.
@@ -192,28 +192,20 @@ fn circle(
                     true => format!("`{name}` is no circle"),
                     false => format!("the study asks for nothing called `{name}`"),
                 };
-                places.problem("measured.ask", message, hint);
+                places.problem(&format!("{key}.ask"), message, hint);
             }
             found.cloned()
         }
         (None, [one]) => Some(one.clone()),
         (None, _) if !all_read => None,
         (None, []) => {
-            places.problem(
-                "measured",
-                "the study has no circle that could have been measured",
-                hint,
-            );
+            places.problem(key, "the study has no circle that could have been measured", hint);
             None
         }
         (None, several) => {
             let names: Vec<&str> = several.iter().map(|(name, _)| name.as_str()).collect();
             let message = format!("the study has {} circles: {}", several.len(), names.join(", "));
-            places.problem(
-                "measured",
-                message,
-                "name the one that was measured: ask = \"...\"",
-            );
+            places.problem(key, message, "name the one that was measured: ask = \"...\"");
             None
         }
     }
@@ -221,13 +213,13 @@ fn circle(
 
 /// Angles of a file as those of the circle.
 #[derive(Clone, Copy, Debug)]
-struct Turned {
+pub(super) struct Turned {
     zero: f64,
     sign: f64,
 }
 
 impl Turned {
-    fn new(zero_deg: Option<f64>, mirrored: bool) -> Turned {
+    pub(super) fn new(zero_deg: Option<f64>, mirrored: bool) -> Turned {
         Turned {
             zero: zero_deg.unwrap_or(0.0).to_radians(),
             sign: if mirrored { -1.0 } else { 1.0 },
@@ -336,9 +328,24 @@ fn test(
     folder: &Path,
     (removed, notes): (Removed, &mut Vec<String>),
 ) -> Option<CircularTest> {
-    let key = "measured.ballbar";
+    let turned = Turned::new(
+        table.ballbar_zero_deg.or(table.zero_deg),
+        table.ballbar_mirrored.unwrap_or(table.mirrored),
+    );
+    let of = ("measured.ballbar", &table.ballbar[..]);
+    let measured = bar(places, of, (folder, table.radius_mm), notes)?;
+    turned_test(places, of.0, &measured, (turned, removed.centre))
+}
+
+/// What the files named at `key` hold of one circle; `None` where they cannot be read, told at its place.
+pub(super) fn bar(
+    places: &mut Places<'_>,
+    (key, files): (&str, &[String]),
+    (folder, radius_mm): (&Path, Option<f64>),
+    notes: &mut Vec<String>,
+) -> Option<ballbar::Measured> {
     let mut all_there = true;
-    for (index, file) in table.ballbar.iter().enumerate() {
+    for (index, file) in files.iter().enumerate() {
         if !folder.join(file).is_file() {
             let hint = "a CSV with `angle_deg,radius_dev_um,direction,run`, or results of a ball-bar (.b5r)";
             places.problem(
@@ -349,25 +356,32 @@ fn test(
             all_there = false;
         }
     }
-    let files: Vec<_> = table.ballbar.iter().map(|file| folder.join(file)).collect();
+    let files: Vec<_> = files.iter().map(|file| folder.join(file)).collect();
     if !all_there {
         return None;
     }
     let wanted = BallbarWanted {
         told: Told {
-            radius: table.radius_mm.map(|mm| mm * 1e-3),
+            radius: radius_mm.map(|mm| mm * 1e-3),
             ..Told::default()
         },
         ..BallbarWanted::default()
     };
     let measured = taken(places, key, ballbar::read(&files, &wanted))?;
     notes.extend(measured.notes.iter().cloned());
-    let turned = Turned::new(
-        table.ballbar_zero_deg.or(table.zero_deg),
-        table.ballbar_mirrored.unwrap_or(table.mirrored),
-    );
+    Some(measured)
+}
+
+/// These runs in the angles of the circle, seen from their own centre where that is taken off; `None` where that cannot be,
+/// told at its place.
+pub(super) fn turned_test(
+    places: &mut Places<'_>,
+    key: &str,
+    measured: &ballbar::Measured,
+    (turned, takes_centre): (Turned, bool),
+) -> Option<CircularTest> {
     let of_test = || -> Result<CircularTest, RunError> {
-        let offset = least_squares_centre(&measured.test).filter(|_| removed.centre);
+        let offset = least_squares_centre(&measured.test).filter(|_| takes_centre);
         let centred = match offset {
             Some(centre) => seen_from(&measured.test, centre.offset)?,
             None => measured.test.clone(),

@@ -7,6 +7,7 @@ use armill_formats::robot::spring_tables::{MassTable, SpringTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::circles::BallbarTable;
 use super::experiment::ExperimentTable;
 use super::holes::HolesTable;
 use super::path::cut::CutTable;
@@ -63,6 +64,10 @@ pub struct StudyFile {
     pub place: Option<PlaceTable>,
     /// What was measured on one circle, beside which the prediction is put.
     pub measured: Option<ExperimentTable>,
+    /// Circular tests without load on circles of the study, for the backlash of the joints.
+    #[schemars(length(max = 100))]
+    #[serde(default)]
+    pub ballbar: Vec<BallbarTable>,
     /// Figures published by others, to stand beside ours.
     #[schemars(length(max = 1000))]
     #[serde(default)]

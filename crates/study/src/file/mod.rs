@@ -6,10 +6,10 @@
 //!
 //! [`format`](mod@format) is the file as it stands; [`resolve`] checks it and works out what each ask means (`ask`,
 //! [`path`], [`holes`], `names`, `memory`), its [`quantities`] in SI, the [`compliance`] and [`stiffness`] that it brings, and the
-//! [`positioner`]; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
-//! along paths, [`placement`] where a part may lie, [`experiment`] what was measured on a circle; `actual` finds the arm as it
-//! was measured; `places` tells problems where they stand.
+//! [`positioner`]; `actual` the arm as it was measured; `other_robot` puts another robot in place of its own; [`posture_search`] the turns of the tool that are tried
+//! along paths, [`placement`] where a part may lie, [`experiment`] what was measured on a circle, [`circles`] circular tests for the backlash of joints; `places` tells problems where they stand.
 
+pub mod circles;
 pub mod compliance;
 pub mod experiment;
 pub mod format;

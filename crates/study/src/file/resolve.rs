@@ -21,6 +21,7 @@ use armill_formats::robot::RobotDescription;
 
 use super::actual::find_actual;
 use super::ask::Resolver;
+use super::circles::MeasuredCircle;
 use super::compliance::{self, OwnCompliance};
 use super::experiment::Experiment;
 use super::format::{AskTable, StatementTable, StudyFile};
@@ -51,6 +52,8 @@ pub struct Study {
     pub place: Option<PlaceTable>,
     /// What was measured on one circle.
     pub experiment: Option<Experiment>,
+    /// Circular tests for the backlash of the joints.
+    pub circles: Vec<MeasuredCircle>,
     /// What others state.
     pub statements: Vec<StatementTable>,
 }
@@ -285,6 +288,9 @@ impl Parsed {
             .measured
             .as_ref()
             .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
+        let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
+            .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&asks, all_read)))
+            .collect();
         problems.append(&mut places.problems);
         problems.extend(unfit_names(document, file));
         Problems::from(without_repeats(problems)).into_result()?;
@@ -308,6 +314,7 @@ impl Parsed {
             asks,
             place: file.place.clone(),
             experiment,
+            circles,
             statements: file.statement.clone(),
         })
     }

@@ -12,12 +12,12 @@ use armill_core::load::Record;
 use armill_core::load::record::revolutions::Revolution;
 use armill_core::nalgebra::Vector3;
 use armill_formats::file::write_atomically;
-use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_formats::table::{Column, Table, csv};
 use armill_report::{Envelope, ForcePlot, ForceTrace};
 
 use super::{ForcesAnswer, Treated};
 use crate::StudyError;
-use crate::output::prepare;
+use crate::output::{column, prepare};
 
 /// Decimals of forces that mean something: a millionth of a newton.
 const FORCE_DECIMALS: u8 = 6;
@@ -171,15 +171,4 @@ fn time(name: &str, description: &str, values: Vec<f64>) -> Column {
 /// A column of forces, N.
 fn force(name: &str, description: &str, values: Vec<f64>) -> Column {
     column(name, "N", description, (FORCE_DECIMALS, values))
-}
-
-/// A column whose every row has a number.
-fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
-    Column {
-        name: name.to_owned(),
-        unit: Some(unit.to_owned()),
-        description: description.to_owned(),
-        decimals: Some(decimals),
-        data: ColumnData::Float(values),
-    }
 }

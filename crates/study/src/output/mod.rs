@@ -36,7 +36,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use armill_formats::file::{create_folder, remove_abandoned, write_atomically};
-use armill_formats::table::{Table, csv};
+use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 
 use crate::answer::StudyAnswer;
@@ -301,6 +301,22 @@ pub fn write_pictures(begin: &str, pictures: &[Picture], out: &Path) -> Result<(
 /// Never in practice: the answer holds strings, finite numbers and lists of them.
 pub fn json(answer: &StudyAnswer) -> Result<String, StudyError> {
     Ok(serde_json::to_string(answer)? + "\n")
+}
+
+/// A column whose every row has a number.
+pub(crate) fn column(
+    name: &str,
+    unit: &str,
+    description: &str,
+    (decimals, values): (u8, Vec<f64>),
+) -> Column {
+    Column {
+        name: name.to_owned(),
+        unit: Some(unit.to_owned()),
+        description: description.to_owned(),
+        decimals: Some(decimals),
+        data: ColumnData::Float(values),
+    }
 }
 
 #[cfg(test)]

@@ -129,7 +129,7 @@ const FEW_WAVES: f64 = 50.0;
 const SOURCES: [&str; 4] = [
     "reference circles and parameters: ISO 12181-1",
     "Gaussian filter of a closed profile: ISO 16610-21",
-    "minimum zone and maximum inscribed circle: branch and bound over all centres, proven to 1e-14 of the radius",
+    "minimum zone and maximum inscribed circle: branch and bound over all centres, proven to 1e-14 of the radius, or to the rounding of the centre's distance",
     "theory: docs/theory/roundness.md",
 ];
 
@@ -229,7 +229,7 @@ fn notes(measured: &Measured, question: &Question, judged: &Judged) -> Vec<Strin
     }
     if !judged.outliers.is_empty() {
         notes.push(format!(
-            "{} of the points stand out of their neighbours by ten times what others do, perhaps dirt; none was left out",
+            "{} of the points stand out of their neighbours by twelve times what others do, perhaps dirt; none was left out",
             judged.outliers.len()
         ));
     }

@@ -10,12 +10,12 @@ use std::path::{Path, PathBuf};
 use armill_core::nalgebra::Point2;
 use armill_core::roundness::Polar;
 use armill_formats::file::write_atomically;
-use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_formats::table::{Table, csv};
 use armill_report::{Growth, PolarPlot, RadialReference, RadialSeries};
 
 use super::{Judged, RoundnessAnswer};
 use crate::StudyError;
-use crate::output::prepare;
+use crate::output::{column, prepare};
 
 /// Pixels that a picture is drawn in for each of its own.
 #[cfg(feature = "png")]
@@ -152,34 +152,17 @@ fn drawn(polar: &Polar) -> Vec<usize> {
     if count <= MOST_DRAWN {
         return round;
     }
-    let by = |a: &&usize, b: &&usize| polar.deviations[**a].total_cmp(&polar.deviations[**b]);
     let extremes = |step: &[usize]| {
-        let [low, high] = [step.iter().position_min(by), step.iter().position_max(by)];
-        let (first, last) = (low.min(high), low.max(high));
-        [step[first], step[last]]
+        let by = |a: &usize, b: &usize| polar.deviations[step[*a]].total_cmp(&polar.deviations[step[*b]]);
+        let [low, high] =
+            [(0..step.len()).min_by(by), (0..step.len()).max_by(by)].map(Option::unwrap_or_default);
+        [step[low.min(high)], step[low.max(high)]]
     };
     round
         .chunks(count.div_ceil(MOST_DRAWN / 2))
         .flat_map(extremes)
         .collect()
 }
-
-/// Where the least and the greatest of a list stand.
-trait Extremes<'a>: Iterator<Item = &'a usize> + Sized {
-    fn position_min(self, by: impl Fn(&&usize, &&usize) -> std::cmp::Ordering) -> usize {
-        self.enumerate()
-            .min_by(|(_, a), (_, b)| by(a, b))
-            .map_or(0, |(k, _)| k)
-    }
-
-    fn position_max(self, by: impl Fn(&&usize, &&usize) -> std::cmp::Ordering) -> usize {
-        self.enumerate()
-            .max_by(|(_, a), (_, b)| by(a, b))
-            .map_or(0, |(k, _)| k)
-    }
-}
-
-impl<'a, I: Iterator<Item = &'a usize>> Extremes<'a> for I {}
 
 /// A row a point, round the circle.
 fn table(judged: &Judged) -> Result<Table, StudyError> {
@@ -215,15 +198,4 @@ fn table(judged: &Judged) -> Result<Table, StudyError> {
         ));
     }
     Ok(Table::new("roundness", columns)?)
-}
-
-/// A column whose every row has a number.
-fn column(name: &str, unit: &str, description: &str, (decimals, values): (u8, Vec<f64>)) -> Column {
-    Column {
-        name: name.to_owned(),
-        unit: Some(unit.to_owned()),
-        description: description.to_owned(),
-        decimals: Some(decimals),
-        data: ColumnData::Float(values),
-    }
 }

@@ -1,7 +1,7 @@
 //! Where the measured circle lies: the pivot is never set up where the path has its centre.
 //!
-//! Least over `e` and `rho`: `sum of w (|p - e| - rho)^2` over the samples of all runs, by Gauss-Newton steps from the
-//! set-up. One centre for all runs, since the pivot stands still between them: what the two directions differ by stays.
+//! Least over `e` and `rho`: `sum of w (|p - e| - rho)^2` over the samples of all runs, as
+//! [`least_squares`](mod@crate::roundness::least_squares) finds it. One centre for all runs, since the pivot stands still between them: what the two directions differ by stays.
 //! Each direction weighs the same, however many runs and samples it has.
 //!
 //! | symbol | meaning | unit |
@@ -10,10 +10,11 @@
 //! | `e` | the centre, from there | m |
 //! | `rho` | radius of the least-squares circle | m |
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::Vector2;
 
 use super::profile::Profile;
 use super::run::{CircularTest, Direction, Run, RunError};
+use crate::roundness::least_squares::{ReferenceCircle, weighed_least_squares};
 
 /// The least-squares circle of all runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,10 +27,6 @@ pub struct Centre {
 
 /// Least arc that tells a centre, rad: of a shorter one centre and radius go together.
 pub const LEAST_ARC: f64 = std::f64::consts::TAU / 3.0;
-/// Steps smaller than this part of the radius have come to rest.
-const SETTLED: f64 = 1e-15;
-/// Most steps: each squares what is left, as a part of the radius.
-const MOST_ROUNDS: usize = 20;
 
 /// The least-squares circle of all runs; `None` where no direction has an arc of [`LEAST_ARC`].
 pub fn least_squares_centre(test: &CircularTest) -> Option<Centre> {
@@ -47,26 +44,12 @@ pub fn least_squares_centre(test: &CircularTest) -> Option<Centre> {
     if widest < LEAST_ARC {
         return None;
     }
-    let mut offset = Vector2::zeros();
-    let mut radius = test.radius();
-    for _ in 0..MOST_ROUNDS {
-        let (mut normal, mut right) = (Matrix3::zeros(), Vector3::zeros());
-        for (weight, place) in &samples {
-            let away = place - offset;
-            let distance = away.norm();
-            let row = (away / distance).push(1.0);
-            normal += row * row.transpose() * *weight;
-            right += row * (distance - radius) * *weight;
-        }
-        let step = normal.lu().solve(&right)?;
-        offset += step.xy();
-        radius += step.z;
-        if step.amax() <= SETTLED * test.radius() {
-            break;
-        }
-    }
-    let found = radius > 0.0 && offset.norm() < 0.5 * test.radius();
-    found.then_some(Centre { offset, radius })
+    let ReferenceCircle { centre, radius, .. } = weighed_least_squares(&samples)?;
+    let found = centre.coords.norm() < 0.5 * test.radius();
+    found.then_some(Centre {
+        offset: centre.coords,
+        radius,
+    })
 }
 
 /// The same runs as they are seen from a centre at `offset` (m) from that of the set-up.

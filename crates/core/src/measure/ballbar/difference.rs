@@ -4,7 +4,7 @@
 //! what depends on the direction: backlash, lag, friction.
 
 use super::profile::{Profile, mean, station};
-use super::run::{CircularTest, Direction, Run};
+use super::run::{CircularTest, Direction};
 
 /// A difference of radii at every station of a turn, m; `None` within a gap of one of both.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,10 +49,15 @@ impl Difference {
     }
 }
 
-/// What the first run has more than the second.
-pub fn between_runs(first: &Run, second: &Run) -> Difference {
-    let [first, second] = [first, second].map(|run| Profile::of(run).stations());
-    Difference::of(&first, &second)
+/// Every pair of runs of one direction by their places, with what the first has more than the second.
+pub fn repeats(test: &CircularTest) -> Vec<([usize; 2], Difference)> {
+    let runs = test.runs();
+    let stations: Vec<_> = runs.iter().map(|run| Profile::of(run).stations()).collect();
+    let pairs = (0..runs.len()).flat_map(|second| (0..second).map(move |first| [first, second]));
+    pairs
+        .filter(|[first, second]| runs[*first].direction() == runs[*second].direction())
+        .map(|pair| (pair, Difference::of(&stations[pair[0]], &stations[pair[1]])))
+        .collect()
 }
 
 /// What the mean of the clockwise runs has more than that of the anticlockwise ones.
@@ -69,6 +74,7 @@ pub fn mean_of(test: &CircularTest, direction: Direction) -> Vec<Option<f64>> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::run::Run;
     use super::*;
 
     fn run(direction: Direction, of: impl Fn(f64) -> f64) -> Run {
@@ -79,14 +85,20 @@ mod tests {
 
     #[test]
     fn a_difference_tells_its_sign_its_place_and_its_root_mean_square() {
-        let flat = run(Direction::Clockwise, |_| 3e-6);
-        let wave = run(Direction::Clockwise, |a| 3e-6 - 5e-6 * a.sin());
-        let span = between_runs(&wave, &flat).span().unwrap();
+        let flat = || run(Direction::Clockwise, |_| 3e-6);
+        let wave = || run(Direction::Clockwise, |a| 3e-6 - 5e-6 * a.sin());
+        let back = run(Direction::Anticlockwise, |_| 0.0);
+        let of = |runs: Vec<Run>| {
+            let found = repeats(&CircularTest::new(0.1, runs).unwrap());
+            assert!(found.len() == 1 && found[0].0 == [0, 2]);
+            found[0].1.span().unwrap()
+        };
+        let span = of(vec![wave(), back.clone(), flat()]);
         assert!((span.largest.abs() - 5e-6).abs() < 1e-12);
         assert!((span.largest + 5e-6 * span.angle.sin()).abs() < 1e-12);
         // Straight lines between samples lie within the wave by (1 deg)^2/12 of it.
         assert!((span.rms - 5e-6 / 2_f64.sqrt()).abs() < 1e-9);
-        let back = between_runs(&flat, &wave).span().unwrap();
+        let back = of(vec![flat(), back, wave()]);
         assert_eq!((back.largest.abs(), back.rms), (span.largest.abs(), span.rms));
     }
 

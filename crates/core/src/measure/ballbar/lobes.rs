@@ -7,10 +7,13 @@
 //! The first is where the circle lies, not how round it is; the second is the ellipse of scale and squareness; three
 //! lobes are what bent guideways make.
 
-use super::profile::station;
-use super::run::CircularTest;
-use super::{Direction, difference::mean_of};
-use crate::roundness::Harmonic;
+use std::f64::consts::PI;
+
+use nalgebra::Complex;
+
+use super::profile::Profile;
+use super::run::{CircularTest, Direction, Run};
+use crate::roundness::{Harmonic, Polar};
 
 /// A mean and its lobes.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,63 +32,123 @@ impl Lobes {
     }
 }
 
-/// The mean and the lobes 1 to `most` of radii at every station, m; `None` where one is unknown.
-pub fn lobes(stations: &[Option<f64>], most: usize) -> Option<Lobes> {
-    let radii: Vec<f64> = stations.iter().copied().collect::<Option<_>>()?;
-    let count = radii.len() as f64;
-    let of = |waves: usize| {
-        let (mut cosine, mut sine) = (0.0, 0.0);
-        for (index, radius) in radii.iter().enumerate() {
-            let (s, c) = (waves as f64 * station(index)).sin_cos();
-            cosine += 2.0 * radius * c / count;
-            sine += 2.0 * radius * s / count;
+/// Most lobes that the samples of every run tell: more than two samples a lobe at the widest step.
+pub fn most_lobes(test: &CircularTest) -> usize {
+    let steps = test.runs().iter().map(|run| Profile::of(run).widest_step());
+    let widest = steps.fold(0.0, f64::max);
+    // Of 36 even samples 17, however they are rounded.
+    if widest > 0.0 {
+        (PI / widest * (1.0 - 1e-6)) as usize
+    } else {
+        0
+    }
+}
+
+/// The mean and the lobes 1 to `most` of what both directions have in common, the mean of their means; of one direction,
+/// of its mean. No more lobes than [`most_lobes`]; `None` where a run has a gap.
+///
+/// By least squares over the samples of each run: straight lines between them would flatten a lobe of few samples.
+pub fn lobes(test: &CircularTest, most: usize) -> Option<Lobes> {
+    let most = most.min(most_lobes(test));
+    let directions = Direction::BOTH.map(|direction| test.of(direction).collect::<Vec<&Run>>());
+    let measured = directions.iter().filter(|runs| !runs.is_empty()).count();
+    // The mean, then each lobe.
+    let mut sums = vec![Complex::new(0.0, 0.0); most + 1];
+    for runs in &directions {
+        let weight = 1.0 / (measured * runs.len()) as f64;
+        for run in runs {
+            let of_run = of_run(&Profile::of(run), most)?;
+            sums.iter_mut()
+                .zip(of_run)
+                .for_each(|(sum, of)| *sum += of * weight);
         }
-        Harmonic {
-            waves,
-            amplitude: cosine.hypot(sine),
-            phase: sine.atan2(cosine),
-        }
-    };
+    }
+    let (mean, lobes) = sums.split_first()?;
+    let harmonics = lobes.iter().enumerate().map(|(index, lobe)| Harmonic {
+        waves: index + 1,
+        amplitude: lobe.norm(),
+        phase: lobe.arg(),
+    });
     Some(Lobes {
-        mean: radii.iter().sum::<f64>() / count,
-        harmonics: (1..=most).map(of).collect(),
+        mean: mean.re,
+        harmonics: harmonics.collect(),
     })
 }
 
-/// What both directions have in common at every station, m: the mean of their means; of one direction, its mean.
-pub fn common(test: &CircularTest) -> Vec<Option<f64>> {
-    let measured = Direction::BOTH.iter().filter(|d| test.of(**d).next().is_some());
-    let means: Vec<_> = measured.map(|direction| mean_of(test, *direction)).collect();
-    let count = means.len() as f64;
-    let sum = |index: usize| -> Option<f64> { means.iter().map(|mean| mean[index]).sum() };
-    let stations = means.first().map_or(0, Vec::len);
-    (0..stations).map(|index| Some(sum(index)? / count)).collect()
+/// The mean of a run and its lobes, as `amplitude e^(i phase)`.
+fn of_run(profile: &Profile, most: usize) -> Option<Vec<Complex<f64>>> {
+    let (angle, deviation): (Vec<f64>, Vec<f64>) = profile.samples().unzip();
+    let harmonics = Polar::of_deviations(&angle, &deviation).harmonics(most);
+    let told = Lobes { mean: 0.0, harmonics };
+    // What they leave has the mean of the fit.
+    let left: f64 = angle.iter().zip(&deviation).map(|(a, dr)| dr - told.at(*a)).sum();
+    let mean = Complex::new(left / angle.len() as f64, 0.0);
+    let lobes = told
+        .harmonics
+        .iter()
+        .map(|lobe| Complex::from_polar(lobe.amplitude, lobe.phase));
+    let known = profile.gaps().is_empty() && told.harmonics.len() == most;
+    known.then(|| [mean].into_iter().chain(lobes).collect())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::profile::STATIONS;
+    use std::f64::consts::TAU;
+
     use super::*;
+
+    fn run(direction: Direction, count: usize, of: impl Fn(f64) -> f64) -> Run {
+        let angle: Vec<f64> = (0..count).map(|k| TAU * k as f64 / count as f64).collect();
+        let deviation = angle.iter().map(|a| of(*a)).collect();
+        Run::new(direction, angle, deviation).unwrap()
+    }
 
     #[test]
     fn lobes_come_out_with_their_height_and_crest() {
         let wave = |a: f64| 4e-6 + 3e-6 * (2.0 * (a - 0.3)).cos() + 1e-6 * (5.0 * (a - 1.0)).cos();
-        let stations: Vec<_> = (0..STATIONS).map(|index| Some(wave(station(index)))).collect();
-        let found = lobes(&stations, 6).unwrap();
-        assert!((found.mean - 4e-6).abs() < 1e-18);
+        // Three runs one way and one the other: the lag of each way cancels.
+        let runs = [-1.0, -1.0, -1.0, 1.0].map(|sign| {
+            let direction = if sign < 0.0 {
+                Direction::Clockwise
+            } else {
+                Direction::Anticlockwise
+            };
+            run(direction, 720, |a| wave(a) + sign * 7e-6 * (2.0 * a).sin())
+        });
+        let found = lobes(&CircularTest::new(0.1, runs.to_vec()).unwrap(), 6).unwrap();
+        assert!((found.mean - 4e-6).abs() < 1e-17);
         for (lobe, amplitude) in found.harmonics.iter().zip([0.0, 3e-6, 0.0, 0.0, 1e-6, 0.0]) {
-            assert!((lobe.amplitude - amplitude).abs() < 1e-18, "{lobe:?}");
+            assert!((lobe.amplitude - amplitude).abs() < 1e-17, "{lobe:?}");
         }
         assert!((found.harmonics[1].phase - 0.6).abs() < 1e-9);
         for a in [0.0, 1.0, 4.0] {
-            assert!((found.at(a) - wave(a)).abs() < 1e-17);
+            assert!((found.at(a) - wave(a)).abs() < 1e-16);
         }
     }
 
     #[test]
+    fn few_samples_tell_few_lobes_and_these_in_full() {
+        let of = |a: f64| 2e-6 * (10.0 * a).cos();
+        let test = CircularTest::new(0.1, vec![run(Direction::Clockwise, 36, of)]).unwrap();
+        let found = lobes(&test, 100).unwrap();
+        // Straight lines between the samples would leave 1.5 um of the tenth, and make a 26th.
+        assert_eq!((found.harmonics.len(), most_lobes(&test)), (17, 17));
+        for lobe in &found.harmonics {
+            let amplitude = if lobe.waves == 10 { 2e-6 } else { 0.0 };
+            assert!((lobe.amplitude - amplitude).abs() < 1e-17, "{lobe:?}");
+        }
+        assert_eq!(lobes(&test, 0).unwrap().harmonics, []);
+        let dense = CircularTest::new(
+            0.1,
+            vec![run(Direction::Clockwise, 720, |a| (360.0 * a).cos() * 1e-6)],
+        );
+        assert_eq!(most_lobes(&dense.unwrap()), 359);
+    }
+
+    #[test]
     fn a_gap_leaves_no_lobes() {
-        let mut stations = vec![Some(0.0); STATIONS];
-        stations[7] = None;
-        assert_eq!(lobes(&stations, 3), None);
+        let whole = run(Direction::Clockwise, 720, |_| 0.0);
+        let gap = whole.without(&(100..140).collect::<Vec<_>>()).unwrap();
+        assert_eq!(lobes(&CircularTest::new(0.1, vec![whole, gap]).unwrap(), 3), None);
     }
 }

@@ -1,27 +1,16 @@
 //! Samples that are not of the path: dirt on a ball, a cable that pulled.
 //!
-//! A sample is compared with what its neighbours foretell: the middle between the medians of the five before it and the
-//! five behind, and the line through the medians of two fives on either side alone. `d` is the least of the three
-//! differences: noise where a run goes on smoothly, and noise on either side of a step at a reversal. A sample is an outlier where `d` is
-//! more than `FACTOR` times the scatter of all `d` of its run (1.4826 of their median size), and more than `LEAST`. The same
-//! is done once more with the profile of what is left, so that dirt of some samples is seen in a dense run as well.
+//! The rule is that of [`crate::roundness::outlier`], for the samples of a run and once more for the profile of what is left,
+//! so that dirt of some samples is seen in a dense run as well.
 //!
 //! A spike where an axis reverses is real: friction holds the axis for a moment. Such samples are told as what they are.
 
 use super::profile::{Profile, wrapped};
 use super::run::Run;
+use crate::roundness::outlier::{Ends, strange};
 
-/// Samples in a row whose median is taken.
-const ROW: usize = 5;
-/// More than this many times the scatter is no noise.
-const FACTOR: f64 = 12.0;
-/// Less than this is never an outlier, m: files are rounded to a micrometre at the coarsest.
-const LEAST: f64 = 2e-6;
 /// A spike within this of a reversal belongs to it, rad: 3 degrees.
 const NEAR: f64 = std::f64::consts::TAU / 120.0;
-/// From median size to standard deviation, of a normal distribution.
-const NORMAL: f64 = 1.4826;
-
 /// A sample that its neighbours contradict.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlier {
@@ -37,11 +26,11 @@ pub struct Outlier {
 
 /// The outliers of a run in the order of its samples; `reversals` are angles where an axis reverses, rad.
 pub fn outliers(run: &Run, reversals: &[f64]) -> Vec<Outlier> {
-    let mut off: Vec<Option<f64>> = strange(run.deviation());
+    let mut off: Vec<Option<f64>> = strange(run.deviation(), Ends::Open);
     let alone: Vec<usize> = (0..off.len()).filter(|at| off[*at].is_some()).collect();
     let profile = run.without(&alone).map(|run| Profile::of(&run));
     let (angles, deviations): (Vec<f64>, Vec<f64>) = profile.iter().flat_map(Profile::samples).unzip();
-    let cells = strange(&deviations);
+    let cells = strange(&deviations, Ends::Open);
     // In a run that is no denser than its profile, the cells are the samples.
     if run.angle().len() > 2 * angles.len() && cells.iter().any(Option::is_some) {
         for (at, angle) in run.angle().iter().enumerate() {
@@ -70,41 +59,6 @@ pub fn outliers(run: &Run, reversals: &[f64]) -> Vec<Outlier> {
             })
         })
         .collect()
-}
-
-/// How far each value is from what its neighbours foretell, where that is too much.
-fn strange(values: &[f64]) -> Vec<Option<f64>> {
-    // Medians of five in a row, by the place of the first.
-    let rows: Vec<f64> = values.windows(ROW).map(|row| median(&mut row.to_vec())).collect();
-    let row = |from: Option<usize>| from.and_then(|from| rows.get(from)).copied();
-    let off: Vec<f64> = (0..values.len())
-        .map(|at| {
-            let [before, earlier] = [row(at.checked_sub(ROW)), row(at.checked_sub(2 * ROW))];
-            let [behind, later] = [row(Some(at + 1)), row(Some(at + 1 + ROW))];
-            // The middle of a row is three samples away, that of the next five more.
-            let line = |near: Option<f64>, far: Option<f64>| Some(near? + 0.6 * (near? - far?));
-            let between = before.zip(behind).map(|(before, behind)| 0.5 * (before + behind));
-            let foretold = [between, line(before, earlier), line(behind, later)];
-            let differences = foretold.into_iter().flatten().map(|told| values[at] - told);
-            differences
-                .min_by(|a, b| a.abs().total_cmp(&b.abs()))
-                .unwrap_or(0.0)
-        })
-        .collect();
-    let mut sizes: Vec<f64> = off.iter().map(|off| off.abs()).collect();
-    let most = (FACTOR * NORMAL * median(&mut sizes)).max(LEAST);
-    off.into_iter()
-        .map(|off| (off.abs() > most).then_some(off))
-        .collect()
-}
-
-/// The middle value; 0 of none.
-fn median(values: &mut [f64]) -> f64 {
-    let middle = values.len() / 2;
-    if values.is_empty() {
-        return 0.0;
-    }
-    *values.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
 #[cfg(test)]

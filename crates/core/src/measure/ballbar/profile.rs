@@ -2,8 +2,8 @@
 //!
 //! Samples within a cell of a quarter of a degree become one, the mean of their angles and of their deviations: what is
 //! straight there stays as it is. So a bar that stood still for a while has no more weight than one that went on, and a
-//! million samples cost what a thousand do. Between samples a profile is straight; where they leave more than
-//! [`GAP`] between them it is unknown.
+//! million samples cost what a thousand do. Between samples a profile is straight; where they leave a gap between them
+//! ([`is_gap`]) it is unknown.
 
 use std::f64::consts::TAU;
 
@@ -14,6 +14,14 @@ const CELLS: usize = 1440;
 
 /// Samples farther apart than this leave a gap, rad: 15 degrees.
 pub const GAP: f64 = TAU / 24.0;
+
+/// Steps of just [`GAP`] leave none, rad: half a degree for rounding, and for being seen from another centre.
+const SLACK: f64 = TAU / 720.0;
+
+/// Whether neighbours so far apart (rad) leave a gap between them.
+pub fn is_gap(apart: f64) -> bool {
+    apart > GAP + SLACK
+}
 
 /// Angles of a turn at which profiles are compared: every half degree.
 pub const STATIONS: usize = 720;
@@ -72,7 +80,7 @@ impl Profile {
         if behind == 0.0 {
             return Some(self.deviation[before]);
         }
-        if apart > GAP {
+        if is_gap(apart) {
             return None;
         }
         let share = behind / apart;
@@ -86,13 +94,22 @@ impl Profile {
 
     /// Where no samples are: from which angle to which, rad, the second beyond the first and perhaps beyond a turn.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
+        self.steps().filter(|[from, to]| is_gap(to - from)).collect()
+    }
+
+    /// The widest step from one sample to the next that is no gap, rad; 0 of none.
+    pub fn widest_step(&self) -> f64 {
+        let widths = self.steps().map(|[from, to]| to - from);
+        widths.filter(|width| !is_gap(*width)).fold(0.0, f64::max)
+    }
+
+    /// From each sample to the next, the last to the first a turn on, rad.
+    fn steps(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let count = self.angle.len();
-        let ends = (0..count).map(|k| {
+        (0..count).map(move |k| {
             let turn = if k + 1 == count { TAU } else { 0.0 };
             [self.angle[k], self.angle[(k + 1) % count] + turn]
-        });
-        // Samples every 15 degrees leave no gap, however they are rounded.
-        ends.filter(|[from, to]| to - from > GAP * (1.0 + 1e-6)).collect()
+        })
     }
 
     /// How much of a turn has samples, rad.
@@ -173,8 +190,25 @@ mod tests {
     }
 
     #[test]
+    fn samples_every_15_degrees_are_known_in_between_and_from_another_centre_too() {
+        // A millimetre of 100 moves angles by up to 0.6 degrees, neighbours from each other by a tenth.
+        let seen = |k: i32, e: f64| {
+            let a = f64::from(15 * k).to_radians();
+            (a + e * a.sin(), 1e-5)
+        };
+        for e in [0.0, 0.01] {
+            let profile = of((0..24).map(|k| seen(k, e)));
+            assert!(
+                profile.gaps().is_empty() && profile.stations().iter().all(Option::is_some),
+                "{e}"
+            );
+            assert!((profile.widest_step() - GAP).abs() <= 0.3 * e + 1e-12, "{e}");
+        }
+    }
+
+    #[test]
     fn samples_at_one_angle_are_a_gap_of_a_turn() {
-        let one = of((0..20).map(|_| (1.0, 0.5)));
+        let one = of((0..30).map(|_| (1.0, 0.5)));
         assert!((one.arc()).abs() < 1e-12);
         assert_eq!((one.at(1.0), one.at(2.0)), (Some(0.5), None));
     }

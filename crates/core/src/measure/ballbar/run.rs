@@ -78,10 +78,7 @@ pub enum RunError {
     #[error("a nominal radius of {} mm is not above 0 and at most {} mm", .0 * 1e3, CircularTest::LARGEST_RADIUS * 1e3)]
     Radius(f64),
     /// A deviation that no circular test has.
-    #[error(
-        "run {}, sample {}: the radius is off by {} mm, more than half the nominal {} mm", run + 1, sample + 1,
-        deviation * 1e3, radius * 1e3
-    )]
+    #[error("run {}, sample {}: {}", run + 1, sample + 1, CircularTest::too_far(*radius, *deviation).unwrap_or_default())]
     TooFar {
         /// Which run, from 0.
         run: usize,
@@ -92,14 +89,17 @@ pub enum RunError {
         /// m
         radius: f64,
     },
+    /// More runs than anybody drives.
+    #[error("{0} runs are more than the {most} that are taken together", most = CircularTest::MOST_RUNS)]
+    TooMany(usize),
     /// A test without runs.
     #[error("a test of no runs tells nothing")]
     NoRuns,
 }
 
 impl Run {
-    /// Fewest samples of a run: every 30 degrees.
-    pub const LEAST: usize = 12;
+    /// Fewest samples of a run: a turn of them leaves no gap.
+    pub const LEAST: usize = 24;
 
     /// A run of these angles (rad) and radial deviations (m).
     ///
@@ -168,11 +168,13 @@ pub struct CircularTest {
 impl CircularTest {
     /// Longest bar, m: a longer radius is a wrong unit.
     pub const LARGEST_RADIUS: f64 = 10.0;
+    /// Most runs: every two of one direction are compared.
+    pub const MOST_RUNS: usize = 100;
 
     /// Runs round a circle of this nominal radius (m).
     ///
     /// # Errors
-    /// A radius that no bar has, no runs, a deviation of more than half the radius.
+    /// A radius that no bar has, no runs or too many, a deviation of more than half the radius.
     pub fn new(radius: f64, runs: Vec<Run>) -> Result<CircularTest, RunError> {
         // Not a number is no radius either.
         if !(radius > 0.0 && radius <= CircularTest::LARGEST_RADIUS) {
@@ -181,8 +183,12 @@ impl CircularTest {
         if runs.is_empty() {
             return Err(RunError::NoRuns);
         }
+        if runs.len() > CircularTest::MOST_RUNS {
+            return Err(RunError::TooMany(runs.len()));
+        }
         for (run, of) in runs.iter().enumerate() {
-            if let Some(sample) = of.deviation.iter().position(|dr| dr.abs() > 0.5 * radius) {
+            let far = |dr: &f64| CircularTest::too_far(radius, *dr).is_some();
+            if let Some(sample) = of.deviation.iter().position(far) {
                 return Err(RunError::TooFar {
                     run,
                     sample,
@@ -192,6 +198,14 @@ impl CircularTest {
             }
         }
         Ok(CircularTest { radius, runs })
+    }
+
+    /// What to say of a deviation (m) that no test of this radius (m) has; none of one that it may have.
+    pub fn too_far(radius: f64, deviation: f64) -> Option<String> {
+        (deviation.abs() > 0.5 * radius).then(|| {
+            let [off, nominal] = [deviation, radius].map(|metres| metres * 1e3);
+            format!("the radius is off by {off} mm, more than half the nominal {nominal} mm")
+        })
     }
 
     /// Nominal radius, m.
@@ -227,19 +241,19 @@ mod tests {
 
     #[test]
     fn samples_that_are_no_run_are_refused() {
-        assert_eq!(run(11).unwrap_err(), RunError::TooShort(11));
-        assert!(run(12).is_ok());
-        let odd = Run::new(Direction::Clockwise, vec![0.0; 12], vec![0.0; 13]);
-        assert_eq!(odd.unwrap_err().to_string(), "12 angles but 13 radii");
+        assert_eq!(run(23).unwrap_err(), RunError::TooShort(23));
+        assert!(run(24).is_ok());
+        let odd = Run::new(Direction::Clockwise, vec![0.0; 24], vec![0.0; 25]);
+        assert_eq!(odd.unwrap_err().to_string(), "24 angles but 25 radii");
         for (angle, deviation) in [(f64::NAN, 0.0), (0.0, f64::INFINITY)] {
-            let run = Run::new(Direction::Clockwise, vec![angle; 12], vec![deviation; 12]);
+            let run = Run::new(Direction::Clockwise, vec![angle; 24], vec![deviation; 24]);
             assert_eq!(run.unwrap_err(), RunError::NotFinite(0));
         }
     }
 
     #[test]
     fn runs_that_are_no_test_are_refused() {
-        let runs = || vec![run(12).unwrap()];
+        let runs = || vec![run(24).unwrap()];
         assert!(CircularTest::new(0.1, runs()).is_ok());
         for radius in [0.0, -0.1, 10.1, f64::NAN] {
             assert!(matches!(
@@ -248,6 +262,8 @@ mod tests {
             ));
         }
         assert_eq!(CircularTest::new(0.1, Vec::new()), Err(RunError::NoRuns));
+        let many = CircularTest::new(0.1, vec![run(24).unwrap(); 101]);
+        assert_eq!(many, Err(RunError::TooMany(101)));
         let far = CircularTest::new(1.9e-6, runs()).unwrap_err().to_string();
         assert!(
             far.starts_with("run 1, sample 1: the radius is off by 0.001 mm"),
@@ -259,11 +275,11 @@ mod tests {
     fn samples_are_left_out_by_their_places() {
         let run = Run::new(
             Direction::Anticlockwise,
-            (0..14).map(f64::from).collect(),
-            vec![0.0; 14],
+            (0..26).map(f64::from).collect(),
+            vec![0.0; 26],
         );
-        let fewer = run.unwrap().without(&[0, 13]).unwrap();
-        assert_eq!((fewer.angle()[0], fewer.angle().len()), (1.0, 12));
+        let fewer = run.unwrap().without(&[0, 25]).unwrap();
+        assert_eq!((fewer.angle()[0], fewer.angle().len()), (1.0, 24));
         assert!(fewer.without(&[3]).is_none());
     }
 }

@@ -13,7 +13,7 @@
 
 use super::centre::{least_squares_centre, seen_from};
 use super::difference::between_directions;
-use super::lobes::{Lobes, common, lobes};
+use super::lobes::{Lobes, lobes};
 use super::profile::Profile;
 use super::quantities::{Quantities, quantities};
 use super::run::{CircularTest, Run};
@@ -38,35 +38,30 @@ impl Taught {
     }
 }
 
-/// The circle to teach with lobes up to `most`; `None` where the runs are no full turns.
+/// The circle to teach with lobes up to `most`, or as many as the samples tell; `None` where the runs are no full turns.
 pub fn taught(test: &CircularTest, most: usize) -> Option<Taught> {
+    if test.runs().iter().any(|run| !Profile::of(run).gaps().is_empty()) {
+        return None;
+    }
     let centre = least_squares_centre(test)?;
     let centred = seen_from(test, centre.offset).ok()?;
-    let mut lobes = lobes(&common(&centred), most)?;
+    let mut lobes = lobes(&centred, most)?;
     lobes.harmonics.retain(|lobe| lobe.waves != 1);
-    let all: Vec<&Run> = centred.runs().iter().collect();
-    let mut taught = Taught {
-        lobes,
-        stays: between_directions(&centred)
-            .span()
-            .map(|span| 0.5 * span.largest.abs()),
-        before: quantities(&centred, &all)?,
-        expected: quantities(&centred, &all)?,
-    };
     let corrected = |run: &Run| -> Option<Run> {
-        let samples = run.samples().map(|(a, dr)| (a, dr + taught.correction(a)));
+        let samples = run.samples().map(|(a, dr)| (a, dr - lobes.at(a)));
         let (angle, deviation) = samples.unzip();
         Run::new(run.direction(), angle, deviation).ok()
     };
     let runs: Vec<Run> = centred.runs().iter().map(corrected).collect::<Option<_>>()?;
     let corrected = CircularTest::new(test.radius(), runs).ok()?;
-    let all: Vec<&Run> = corrected.runs().iter().collect();
-    taught.expected = quantities(&corrected, &all)?;
-    let full = centred
-        .runs()
-        .iter()
-        .all(|run| Profile::of(run).gaps().is_empty());
-    full.then_some(taught)
+    let of_all = |test: &CircularTest| quantities(test, &test.runs().iter().collect::<Vec<_>>());
+    let stays = between_directions(&centred).span();
+    Some(Taught {
+        stays: stays.map(|span| 0.5 * span.largest.abs()),
+        before: of_all(&centred)?,
+        expected: of_all(&corrected)?,
+        lobes,
+    })
 }
 
 #[cfg(test)]

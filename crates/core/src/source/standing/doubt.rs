@@ -38,27 +38,42 @@ impl Standing<'_> {
         standing: &AsItStands<'_>,
         along: &Vector3<f64>,
     ) -> Result<f64, Unstable> {
-        let Wrench { force, moment } = *standing.wrench;
-        let told = self.elastic(standing.wrench)?.linear.dot(along);
         let mut variance = 0.0;
+        self.moves_of_doubt(doubt, (standing, along), |by| variance += by * by)?;
+        Ok(variance)
+    }
+
+    /// Tells how far (m) each unknown of `doubt`, off by its standard uncertainty, moves the tool along the unit vector
+    /// `along`: always the same unknowns in the same order. The arm stands as before, its last load is another one.
+    ///
+    /// # Errors
+    /// [`Unstable`] where the arm finds no rest under a load that is off.
+    pub fn moves_of_doubt(
+        &mut self,
+        doubt: &Doubt,
+        (standing, along): (&AsItStands<'_>, &Vector3<f64>),
+        mut told: impl FnMut(f64),
+    ) -> Result<(), Unstable> {
+        let Wrench { force, moment } = *standing.wrench;
+        let as_is = self.elastic(standing.wrench)?.linear.dot(along);
         if doubt.relative > 0.0 {
             let off = *standing.wrench * (1.0 + doubt.relative);
-            variance += (self.elastic(&off)?.linear.dot(along) - told).powi(2);
+            told(self.elastic(&off)?.linear.dot(along) - as_is);
         }
         for u in doubt.forces.iter().filter(|u| **u != Vector3::zeros()) {
             let off = Wrench {
                 force: force + u,
                 moment,
             };
-            variance += (self.elastic(&off)?.linear.dot(along) - told).powi(2);
+            told(self.elastic(&off)?.linear.dot(along) - as_is);
         }
         if doubt.tool_length > 0.0 {
             let off = standing.tcp + standing.tool_axis * doubt.tool_length;
             self.stand_in(standing.joints, standing.frames, &off);
             let elsewhere = self.elastic(standing.wrench);
             self.stand_in(standing.joints, standing.frames, &standing.tcp);
-            variance += (elsewhere?.linear.dot(along) - told).powi(2);
+            told(elsewhere?.linear.dot(along) - as_is);
         }
-        Ok(variance)
+        Ok(())
     }
 }

@@ -3,14 +3,16 @@
 //! | element | attribute | meaning |
 //! |---|---|---|
 //! | `TEST_SPEC` | `NAME` | what was planned |
-//! | `OPERATOR`, `DATE_STARTED`, `SERIAL_NUMBER` | (text) | who, when, which bar |
+//! | `DATE_STARTED` | (text) | when |
 //! | `MACHINE_TESTED` | `NAME` | the machine |
 //! | `PLANE` | `TEST_PLANE` | `XY`, `YZ` or `ZX` |
 //! | `FEATURE` | `NAME`, `DT`, (text) | a result: `AF_CIRCULARITY`, its unit, its value |
 //!
-//! Elements may nest in any way. A unit that is not known is kept as it is called; a feature without a number is listed.
+//! Elements may nest in any way. A unit that is not known is kept as it is called; a feature without a number is
+//! listed by its name.
 //!
-//! Names and units as a public reader of such files has them; no file was at hand: see `docs/theory/ballbar.md`.
+//! Names and units as they stand in a public reader of such files, and as remembered from it \[recalled\]; no file was at
+//! hand: see `docs/theory/ballbar.md`.
 
 use roxmltree::Node;
 
@@ -22,14 +24,10 @@ use crate::xml::{children, parse, tag};
 pub struct Results {
     /// What was planned.
     pub test: Option<String>,
-    /// Who measured.
-    pub operator: Option<String>,
     /// When.
     pub date: Option<String>,
     /// On which machine.
     pub machine: Option<String>,
-    /// With which bar.
-    pub serial_number: Option<String>,
     /// In which plane.
     pub plane: Option<String>,
     /// In the order of the file.
@@ -81,9 +79,7 @@ pub fn read(path: &str, text: &str) -> Result<Results, Problems> {
         let attribute = |name: &str| node.attribute(name).map(str::trim).map(str::to_owned);
         match node.tag_name().name() {
             "TEST_SPEC" => results.test = attribute("NAME").or_else(text),
-            "OPERATOR" => results.operator = text().or_else(|| attribute("NAME")),
             "DATE_STARTED" => results.date = text(),
-            "SERIAL_NUMBER" => results.serial_number = text(),
             "MACHINE_TESTED" => results.machine = attribute("NAME").or_else(text),
             "PLANE" => results.plane = attribute("TEST_PLANE").or_else(text),
             "FEATURE" => match feature(&source, node) {

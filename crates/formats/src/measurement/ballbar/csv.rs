@@ -3,7 +3,7 @@
 //! | column | meaning | unit |
 //! |---|---|---|
 //! | `angle_deg` | from the first axis of the plane towards the second, any turn | `_deg`, `_rad` |
-//! | `index` | in place of it: number of the sample, even along one turn from `start_deg` on | |
+//! | `index` | in place of it: number of the sample, one by one, even along one turn from `start_deg` on | |
 //! | `radius_dev_um` | radius minus the nominal one, outwards positive | `_um`, `_mm`, `_m` |
 //! | `radius_mm` | in place of it: the radius; the nominal one must be told | `_mm`, `_um`, `_m` |
 //! | `direction` | `CW` or `CCW`; or a remark, or told beside | |
@@ -23,7 +23,7 @@
 use std::f64::consts::TAU;
 use std::io::BufRead;
 
-use armill_core::measure::ballbar::{Direction, Run};
+use armill_core::measure::ballbar::{CircularTest, Direction, Run};
 
 use super::columns::{Column, Columns, HEADER_HINT};
 use super::remarks::Remarks;
@@ -44,7 +44,7 @@ const RADIANS: f64 = 6.5;
 ///
 /// # Errors
 /// Every problem of the file, at most 200: missing and double columns, cells that are no numbers or directions, rows of
-/// another length, a direction, a nominal radius or a start that nothing tells, runs that are too short.
+/// another length, a direction, a nominal radius or a start that nothing tells, runs that are too short or too many.
 pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, Problems> {
     let mut lines = Lines::new(path, reader);
     let mut remarks = Remarks::beside(told);
@@ -64,7 +64,14 @@ pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, P
             continue;
         }
         match &mut table {
-            Some(table) => problems.extend(table.row(&line, &remarks).err().into_iter().flatten()),
+            Some(table) => match table.row(&line, &remarks) {
+                Ok(()) => {}
+                Err(Refused::Row(wrong)) => problems.extend(wrong),
+                Err(Refused::File(wrong)) => {
+                    problems.extend(wrong);
+                    return Err(problems.into());
+                }
+            },
             None => match Table::of(path, line) {
                 Ok(made) => table = Some(made),
                 Err(wrong) => {
@@ -85,12 +92,24 @@ pub fn read(path: &str, reader: impl BufRead, told: &Told) -> Result<Recorded, P
     Ok(recorded)
 }
 
+/// Why a row is not taken.
+enum Refused {
+    /// What is wrong with it.
+    Row(Vec<Problem>),
+    /// Too much for one file: nothing behind it is read.
+    File(Vec<Problem>),
+}
+
 /// A run as far as it was read.
 struct Group {
     /// As the file calls it; of runs without names how many parts were told before.
     key: (String, Direction, usize),
     /// The line that it begins on.
     first: Line,
+    /// Where a run without angles begins, rad.
+    start: Option<f64>,
+    /// Whether its numbers were told to be out of order.
+    told: bool,
     /// rad, or the number of the sample.
     angle: Vec<f64>,
     /// m: deviations, or radii.
@@ -130,7 +149,7 @@ impl Table {
     ///
     /// # Errors
     /// Another count of cells than names; cells that are no numbers or directions; no direction; too many rows.
-    fn row(&mut self, line: &Line, remarks: &Remarks) -> Result<(), Vec<Problem>> {
+    fn row(&mut self, line: &Line, remarks: &Remarks) -> Result<(), Refused> {
         if is_blank_row(&line.text, self.separator) {
             return Ok(());
         }
@@ -141,7 +160,7 @@ impl Table {
                 ',' => "decimal commas need `;` or a tab between cells",
                 _ => "every row has a cell for each column",
             };
-            return Err(vec![self.at(line, message, hint)]);
+            return Err(Refused::Row(vec![self.at(line, message, hint)]));
         }
         let (mut angle, mut radius, mut run) = (0.0, 0.0, None);
         let mut direction = remarks.direction;
@@ -177,8 +196,9 @@ impl Table {
             };
             problems.extend(taken.err().into_iter().flatten());
         }
+        problems.extend(self.too_far(line, (&found, radius), remarks));
         if !problems.is_empty() {
-            return Err(problems);
+            return Err(Refused::Row(problems));
         }
         let Some(direction) = direction else {
             let hint = "a column `direction`, a line `# direction: CW` above, or the option --direction";
@@ -186,11 +206,8 @@ impl Table {
                 // Told once, not for every row.
                 true => {
                     self.samples = 1;
-                    Err(vec![self.at(
-                        line,
-                        "nothing tells which way round this was".to_owned(),
-                        hint,
-                    )])
+                    let message = "nothing tells which way round this was".to_owned();
+                    Err(Refused::Row(vec![self.at(line, message, hint)]))
                 }
                 false => Ok(()),
             };
@@ -198,42 +215,106 @@ impl Table {
         self.samples += 1;
         if self.samples > MOST_SAMPLES {
             let message = format!("more than {MOST_SAMPLES} samples");
-            return Err(vec![self.at(line, message, "cut the file into its runs")]);
+            return Err(Refused::File(vec![self.at(
+                line,
+                message,
+                "cut the file into its runs",
+            )]));
         }
         let name = run.or(remarks.run.as_deref());
-        self.push((name, direction, remarks.parts), line, [angle, radius]);
-        Ok(())
+        self.push((name, direction), (line, remarks), [angle, radius])
+    }
+
+    /// A radius (m, or its deviation) that no circular test has, if the nominal one is told above.
+    fn too_far(&self, line: &Line, (row, radius): (&[Cell<'_>], f64), remarks: &Remarks) -> Option<Problem> {
+        let nominal = remarks.radius?;
+        let is_radius = |column: &Option<Column>| matches!(column, Some(Column::Radius(_)));
+        let is_either =
+            |column: &Option<Column>| is_radius(column) || matches!(column, Some(Column::Deviation(_)));
+        let at = self.columns.columns.iter().position(is_either)?;
+        let off = match is_radius(&self.columns.columns[at]) {
+            true => radius - nominal,
+            false => radius,
+        };
+        let error = CircularTest::too_far(nominal, off)?;
+        let hint = "is the nominal radius right, and the unit of the radii?";
+        Some(line.problem(&self.path, row[at].span.clone(), error, hint))
     }
 
     /// Puts a sample into its run.
+    ///
+    /// # Errors
+    /// One run too many; a number of a sample that does not follow the one before, a second start of a run.
     fn push(
         &mut self,
-        (name, direction, parts): (Option<&str>, Direction, usize),
-        line: &Line,
+        (name, direction): (Option<&str>, Direction),
+        (line, remarks): (&Line, &Remarks),
         [angle, radius]: [f64; 2],
-    ) {
+    ) -> Result<(), Refused> {
         let before = self.groups.get(self.current);
         if before.is_some_and(|group| group.key.1 != direction) {
             self.changes += 1;
         }
         // Rows of a named run belong together wherever they stand.
-        let part = if name.is_some() { 0 } else { parts + self.changes };
+        let part = match name {
+            Some(_) => 0,
+            None => remarks.parts + self.changes,
+        };
         let name = name.unwrap_or_default();
         let is_of = |group: &Group| group.key.0 == name && group.key.1 == direction && group.key.2 == part;
         if !before.is_some_and(is_of) {
-            self.current = self.groups.iter().position(is_of).unwrap_or_else(|| {
+            let known = self.groups.iter().position(is_of);
+            if known.is_none() && self.groups.len() == CircularTest::MOST_RUNS {
+                let message = format!("more than {} runs", CircularTest::MOST_RUNS);
+                let hint = "`run` tells which run of its direction a row is of, not which row";
+                return Err(Refused::File(vec![self.at(line, message, hint)]));
+            }
+            self.current = known.unwrap_or_else(|| {
                 self.groups.push(Group {
                     key: (name.to_owned(), direction, part),
                     first: line.clone(),
+                    start: remarks.start,
+                    told: false,
                     angle: Vec::new(),
                     radius: Vec::new(),
                 });
                 self.groups.len() - 1
             });
         }
+        let wrong = match self.columns.have(|column| column == Column::Index) {
+            true => self.out_of_order(angle, remarks),
+            false => None,
+        };
         let group = &mut self.groups[self.current];
         group.angle.push(angle);
         group.radius.push(radius);
+        match wrong {
+            // Once a run.
+            Some((message, hint)) if !group.told => {
+                group.told = true;
+                Err(Refused::Row(vec![self.at(line, message, hint)]))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What keeps the number of a sample from telling its angle, with a hint.
+    fn out_of_order(&self, number: f64, remarks: &Remarks) -> Option<(String, &'static str)> {
+        let group = &self.groups[self.current];
+        if group.start != remarks.start {
+            return Some((
+                "a second `start_deg` of the same run".to_owned(),
+                "name another run",
+            ));
+        }
+        let hint = "samples are numbered one by one; others carry their angle, in a column `angle_deg`";
+        match group.angle.last() {
+            Some(before) if number != before + 1.0 => {
+                Some((format!("sample {number} follows sample {before}"), hint))
+            }
+            None if number.fract() != 0.0 => Some((format!("sample {number} is not a whole number"), hint)),
+            _ => None,
+        }
     }
 
     /// The runs, now that all rows are read; what they lack goes to `problems`.
@@ -256,13 +337,10 @@ impl Table {
             problems.push(self.at(&self.header, "nothing tells the nominal radius".to_owned(), hint));
         }
         let by_index = self.columns.have(|column| column == Column::Index);
-        if by_index && remarks.start.is_none() {
+        if let Some(group) = self.groups.iter().find(|group| by_index && group.start.is_none()) {
             let hint = "a line `# start_deg: 0` above, or the option --start-deg";
-            problems.push(self.at(
-                &self.header,
-                "nothing tells the angle of the first sample".to_owned(),
-                hint,
-            ));
+            let message = "nothing tells the angle of the first sample".to_owned();
+            problems.push(self.at(&group.first, message, hint));
         }
         let degrees = self
             .columns
@@ -276,12 +354,17 @@ impl Table {
         for Group {
             key,
             first,
+            start,
             angle,
             radius,
+            ..
         } in self.groups
         {
+            if problems.len() >= MOST_PROBLEMS {
+                break;
+            }
             let angle = match by_index {
-                true => of_indices(&angle, remarks.start.unwrap_or(0.0), key.1),
+                true => of_indices(&angle, start.unwrap_or(0.0), key.1),
                 false => angle,
             };
             let far = |most: f64| angle.iter().any(|a| a.abs() > most);
@@ -336,17 +419,10 @@ impl Table {
 
 /// Angles of samples that are even along one turn, by their numbers.
 fn of_indices(numbers: &[f64], start: f64, direction: Direction) -> Vec<f64> {
-    let [first, last] = numbers
-        .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], k| {
-            [low.min(*k), high.max(*k)]
-        });
     // The sample behind the last would be the first again.
-    let step = TAU / (last - first + 1.0);
-    numbers
-        .iter()
-        .map(|number| start + direction.sign() * step * (number - first))
-        .collect()
+    let step = TAU / numbers.len() as f64;
+    let angle = |k: usize| start + direction.sign() * step * k as f64;
+    (0..numbers.len()).map(angle).collect()
 }
 
 /// How far a run turns altogether, rad; jumps by a turn are none.

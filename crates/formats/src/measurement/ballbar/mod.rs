@@ -12,11 +12,12 @@ mod remarks;
 #[cfg(test)]
 mod tests;
 
-use std::io::{BufRead, Read};
+use std::io::BufRead;
 
 use armill_core::measure::ballbar::{Direction, Run};
 
-use crate::document::{Problem, Problems};
+use crate::document::{Problems, unreadable};
+use crate::xml;
 
 pub use b5r::{Feature, Results};
 
@@ -59,9 +60,6 @@ pub enum Held {
     Results(Results),
 }
 
-/// Larger than this no result file is, in bytes: XML is read as a whole.
-const MOST_XML_BYTES: u64 = 64 << 20;
-
 /// A direction by its name in a file; `None` for another word.
 pub fn direction_of(word: &str) -> Option<Direction> {
     match word.trim().to_lowercase().as_str() {
@@ -77,22 +75,11 @@ pub fn direction_of(word: &str) -> Option<Direction> {
 /// # Errors
 /// The problems of the file, those of [`csv::read`] or [`b5r::read`].
 pub fn read(path: &str, mut reader: impl BufRead, told: &Told) -> Result<Held, Problems> {
-    let unreadable = |error: std::io::Error| {
-        let message = format!("cannot read it: {error}");
-        Problems::from(Problem::of_file(path, message, "is the disk there?"))
-    };
-    let head = reader.fill_buf().map_err(unreadable)?;
+    let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
     let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
     let first = head.iter().find(|byte| !byte.is_ascii_whitespace());
     if first != Some(&b'<') {
         return csv::read(path, reader, told).map(Held::Runs);
     }
-    let mut bytes = Vec::new();
-    let most = MOST_XML_BYTES + 1;
-    reader.take(most).read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 == most {
-        let message = format!("an XML file of more than {} MiB", MOST_XML_BYTES >> 20);
-        return Err(Problem::of_file(path, message, "result files have some kB").into());
-    }
-    b5r::read(path, &String::from_utf8_lossy(&bytes)).map(Held::Results)
+    b5r::read(path, &xml::text_of(path, reader)?).map(Held::Results)
 }

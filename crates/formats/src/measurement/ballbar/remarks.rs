@@ -7,7 +7,7 @@
 //! | `plane` | `XY`, `YZ`, `ZX`, or any word; likewise |
 //! | `direction` | `CW` or `CCW`, of the rows below |
 //! | `run` | what the rows below are called |
-//! | `start_deg` | where a run without angles begins |
+//! | `start_deg` | where a run without angles begins, of the rows below |
 //!
 //! Other remarks are for people.
 
@@ -31,9 +31,11 @@ pub(super) struct Remarks {
     pub direction: Option<Direction>,
     /// Of the rows below.
     pub run: Option<String>,
-    /// rad
+    /// Of the rows below, rad.
     pub start: Option<f64>,
-    /// How often a run or direction was told: rows on either side are not of one run.
+    /// As it was told beside the file, rad.
+    start_beside: Option<f64>,
+    /// How often a run, a direction or a start was told: rows on either side are not of one run.
     pub parts: usize,
 }
 
@@ -47,6 +49,7 @@ impl Remarks {
             direction: told.direction,
             run: None,
             start: told.start,
+            start_beside: told.start,
             parts: 0,
         }
     }
@@ -65,7 +68,7 @@ impl Remarks {
         let refused = |message: String, hint: &str| -> Problems {
             line.problem(path, 0..line.text.len(), message, hint).into()
         };
-        let quantity = |[least, most]: [f64; 2], unit: &str| {
+        let quantity = |[least, most]: [f64; 2], unit: &str, example: &str| {
             // A single number needs no separator: a comma is a decimal one.
             let value = number(value, ';').filter(|value| *value > least && *value <= most);
             value.ok_or_else(|| {
@@ -73,7 +76,7 @@ impl Remarks {
                     "`{}` is not a number above {least} and up to {most} {unit}",
                     line.text.trim()
                 );
-                refused(message, "such as `# radius_mm: 100`")
+                refused(message, &format!("such as `# {example}`"))
             })
         };
         let twice = |what: &str| {
@@ -82,14 +85,14 @@ impl Remarks {
         };
         match key.trim().to_lowercase().as_str() {
             "radius_mm" | "nominal_radius_mm" => {
-                let radius = quantity([0.0, 1e4], "mm")? * 1e-3;
+                let radius = quantity([0.0, 1e4], "mm", "radius_mm: 100")? * 1e-3;
                 match self.radius.replace(radius) {
                     Some(before) if (before - radius).abs() > 1e-9 * radius => Err(twice("nominal radius")),
                     _ => Ok(()),
                 }
             }
             "feed_mm_per_min" => {
-                let feed = quantity([0.0, 1e7], "mm/min")? / 60e3;
+                let feed = quantity([0.0, 1e7], "mm/min", "feed_mm_per_min: 1000")? / 60e3;
                 match self.feed.replace(feed) {
                     Some(before) if before != feed => Err(twice("feed")),
                     _ => Ok(()),
@@ -100,8 +103,13 @@ impl Remarks {
                 _ => Ok(()),
             },
             "start_deg" => {
-                self.start = Some(quantity([-1e4, 1e4], "deg")?.to_radians());
-                Ok(())
+                let start = quantity([-1e4, 1e4], "deg", "start_deg: 0")?.to_radians();
+                self.parts += 1;
+                self.start = Some(start);
+                match self.start_beside {
+                    Some(beside) if (beside - start).abs() > 1e-9 => Err(twice("start")),
+                    _ => Ok(()),
+                }
             }
             "direction" => {
                 self.parts += 1;

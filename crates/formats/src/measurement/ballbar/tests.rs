@@ -125,6 +125,63 @@ fn numbers_of_samples_are_angles_along_the_way_round() {
 }
 
 #[test]
+fn each_run_of_numbered_samples_begins_where_the_line_above_it_says() {
+    let bare: String = (0..36).fold(String::new(), |text, k| text + &format!("{k},2\n"));
+    let parted = format!(
+        "index,radius_dev_um\n# direction: CW\n# start_deg: 0\n{bare}# direction: CCW\n# start_deg: 180\n{bare}\
+         # start_deg: 90\n{bare}"
+    );
+    let found = recorded(&parted);
+    let starts: Vec<f64> = found
+        .runs
+        .iter()
+        .map(|run| run.angle()[0].to_degrees().round())
+        .collect();
+    assert_eq!(starts, [0.0, 180.0, 90.0]);
+    assert!((found.runs[0].angle()[1] + TAU / 36.0).abs() < 1e-12);
+    // Told beside, it is that of all runs.
+    let beside = Told {
+        start: Some(0.0),
+        direction: Some(Direction::Clockwise),
+        radius: None,
+    };
+    let told = read_as(&format!("# start_deg: 90\nindex,radius_dev_um\n{bare}"), &beside).unwrap_err();
+    assert!(told.contains("another start was told before"), "{told}");
+    assert!(read_as(&format!("# start_deg: 0\nindex,radius_dev_um\n{bare}"), &beside).is_ok());
+}
+
+#[test]
+fn samples_that_are_not_numbered_one_by_one_are_refused() {
+    let head = "# start_deg: 0\n# direction: CW\nindex,radius_dev_um\n";
+    let tens: String = (0..36).fold(String::new(), |text, k| text + &format!("{},2\n", 10 * k));
+    let told = problems(&format!("{head}{tens}"));
+    assert!(told.contains("bar.csv:5:1: sample 10 follows sample 0"), "{told}");
+    assert_eq!(told.matches("follows sample").count(), 1, "once a run");
+    let halves: String = (0..36).fold(String::new(), |text, k| text + &format!("{k}.5,2\n"));
+    assert!(problems(&format!("{head}{halves}")).contains("sample 0.5 is not a whole number"));
+    let named = "# start_deg: 0\n# direction: CW\nindex,radius_dev_um,run\n0,1,a\n# start_deg: 5\n1,1,a\n";
+    assert!(problems(named).contains("bar.csv:6:1: a second `start_deg` of the same run"));
+}
+
+#[test]
+fn a_run_for_each_row_is_told_once() {
+    let rows: String = (0..100_000).fold(String::new(), |text, k| text + &format!("{},1,CW,{k}\n", k % 360));
+    let told = problems(&format!("{NAMES}{rows}"));
+    assert!(told.contains("bar.csv:102:1: more than 100 runs"), "{told}");
+    assert_eq!(told.matches("error:").count(), 1, "{told}");
+}
+
+#[test]
+fn a_radius_that_no_test_has_is_told_at_its_cell() {
+    let text = format!("# radius_mm: 100\n{NAMES}{}7,51000,CW,1\n", rows(',', "CW", "1"));
+    let told = problems(&text);
+    assert!(
+        told.contains("bar.csv:75:3: the radius is off by 51 mm, more than half the nominal 100 mm"),
+        "{told}"
+    );
+}
+
+#[test]
 fn everything_that_is_wrong_is_told_at_once_with_its_place() {
     let text = format!("{NAMES}{}5,x,CW,1\n6,7,left,1\n7,8,CW\n", rows(',', "CW", "1"));
     let told = problems(&text);
@@ -180,12 +237,20 @@ fn what_is_wrong_is_told_with_what_to_do() {
             "is not a number above 0",
         ),
         (
+            "# start_deg: here\nindex,radius_dev_um\n".to_owned(),
+            "such as `# start_deg: 0`",
+        ),
+        (
+            "# feed_mm_per_min: 0\nangle_deg,radius_dev_um\n".to_owned(),
+            "such as `# feed_mm_per_min: 1000`",
+        ),
+        (
             "# radius_mm: 100\n# radius_mm: 150\nangle_deg,radius_dev_um\n".to_owned(),
             "another nominal radius",
         ),
         (
             "# direction: CW\nangle_deg,radius_dev_um\n1,2\n2,3\n".to_owned(),
-            "a run of 2 samples is shorter than the 12",
+            "a run of 2 samples is shorter than the 24",
         ),
         (
             "# direction: CW\nangle_deg,radius_dev_um\n".to_owned(),
@@ -232,10 +297,7 @@ fn results_of_a_bar_are_read_with_their_units() {
         panic!("results are wanted");
     };
     assert_eq!(found.machine.as_deref(), Some("MH12"));
-    assert_eq!(
-        (found.plane.as_deref(), found.operator.as_deref()),
-        (Some("XY"), Some("me"))
-    );
+    assert_eq!(found.plane.as_deref(), Some("XY"));
     let told: Vec<_> = found
         .features
         .iter()

@@ -19,7 +19,7 @@ use armill_core::robot::Robot;
 use super::columns::{Column, Mapping, Quantity, missing, named, of_data_set};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 
 /// No tracker measures farther, m.
 const FARTHEST: f64 = 1e4;
@@ -89,7 +89,7 @@ impl TurnOrder {
 /// unknown, cells that are no numbers, rows of another length, angles and lengths that no arm has.
 pub fn read(path: &str, reader: impl BufRead, robot: &Robot, told: &Told) -> Result<Measured, Problems> {
     let mut lines = Lines::new(path, reader);
-    let Some(first) = next(&mut lines)? else {
+    let Some(first) = lines.next_row()? else {
         return Err(Problem::of_file(path, "no poses in this file", COLUMNS_HINT).into());
     };
     let table = Table::of(path, &first, robot, told)?;
@@ -104,7 +104,7 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot, told: &Told) -> Res
     };
     let mut problems = Vec::new();
     while problems.len() < MOST_PROBLEMS {
-        match next(&mut lines) {
+        match lines.next_row() {
             Ok(None) => break,
             Err(wrong) => {
                 problems.extend(wrong);
@@ -131,16 +131,6 @@ pub fn read(path: &str, reader: impl BufRead, robot: &Robot, told: &Told) -> Res
     Ok(measured)
 }
 
-/// The next line that is neither empty nor a remark.
-fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
-    loop {
-        match lines.next()? {
-            Some(line) if is_remark(&line.text) => {}
-            other => return Ok(other),
-        }
-    }
-}
-
 /// What the columns of a file are.
 struct Table<'a> {
     path: &'a str,
@@ -159,9 +149,11 @@ impl<'a> Table<'a> {
         let whole = 0..line.text.len();
         let found = cells(&line.text, separator);
         // Single names of the data set could mean anything; both together do not.
-        let is_data_set = ["shoulder_pan_joint", "measurement_x"]
-            .iter()
-            .all(|name| found.iter().any(|cell| cell.text == *name));
+        let is_data_set = ["shoulder_pan_joint", "measurement_x"].iter().all(|name| {
+            found
+                .iter()
+                .any(|cell| of_data_set(&cell.text) == of_data_set(name))
+        });
         let (mut columns, mut unused, mut problems) = (Vec::new(), Vec::new(), Vec::new());
         for cell in &found {
             let mapped = told.columns.iter().find(|mapping| mapping.theirs == cell.text);
@@ -172,14 +164,18 @@ impl<'a> Table<'a> {
                     None => cell.text.as_ref(),
                 },
             };
-            let column: Option<Column> = named(name, robot).unwrap_or_else(|(message, hint)| {
-                problems.push(line.problem(path, cell.span.clone(), message, &hint));
-                None
-            });
-            if mapped.is_some() && column.is_none() {
-                let message = format!("`{name}`, which `{}` is mapped to, means nothing here", cell.text);
-                problems.push(line.problem(path, cell.span.clone(), message, COLUMNS_HINT));
-            }
+            let column: Option<Column> = match named(name, robot) {
+                Ok(None) if mapped.is_some() => {
+                    let message = format!("`{name}`, which `{}` is mapped to, means nothing here", cell.text);
+                    problems.push(line.problem(path, cell.span.clone(), message, COLUMNS_HINT));
+                    None
+                }
+                Ok(column) => column,
+                Err((message, hint)) => {
+                    problems.push(line.problem(path, cell.span.clone(), message, &hint));
+                    None
+                }
+            };
             let held = |before: &Option<Column>| {
                 column.is_some_and(|c| before.is_some_and(|b| b.quantity == c.quantity))
             };

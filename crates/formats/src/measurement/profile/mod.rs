@@ -1,26 +1,26 @@
 //! Where do the points of a round profile lie? Points as measuring machines and roundness instruments write them.
 //!
 //! - [`columns`](mod@columns): what a column is, in which unit, and the point of a row.
-//! - [`table`]: tables whose columns name their units.
-//! - [`plain`]: points in rows without names, such as those of NIST.
-//! - [`qif`]: results of coordinate measuring machines.
+//! - `table`: tables whose columns name their units.
+//! - `plain`: points in rows without names, such as those of NIST.
+//! - `qif`: results of coordinate measuring machines, which hold no points.
 //!
-//! Which of the three a file is in is seen in its first line that is no remark: `<` begins QIF, a number a file without
-//! names. All lengths come out in m.
+//! Which of the three a file is in is seen in how it begins: `<` begins QIF; else a number in the first line that is no
+//! remark a file without names. All lengths come out in m.
 
 pub mod columns;
-pub mod plain;
-pub mod qif;
-pub mod table;
+mod plain;
+mod qif;
+mod table;
 
-use std::io::{BufRead, Cursor, Read};
+use std::io::BufRead;
 
 use armill_core::nalgebra::{Point2, Point3};
 
+use self::columns::COLUMNS_HINT;
 pub use self::columns::LengthUnit;
-pub use self::qif::ActualCircle;
-use crate::document::{Problem, Problems};
-use crate::table::sheet::is_remark;
+use crate::document::lines::Lines;
+use crate::document::{Problem, Problems, unreadable};
 
 /// A kind of file of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +29,6 @@ pub enum Format {
     Table,
     /// Rows of numbers without names.
     Plain,
-    /// Quality Information Framework, XML.
-    Qif,
 }
 
 impl Format {
@@ -39,7 +37,6 @@ impl Format {
         match self {
             Format::Table => "table",
             Format::Plain => "rows without names",
-            Format::Qif => "QIF",
         }
     }
 }
@@ -77,8 +74,6 @@ pub struct Measured {
     pub unused: Vec<String>,
 }
 
-/// So much of a file is looked at for its format, in bytes.
-const HEAD_BYTES: u64 = 1 << 12;
 /// A profile has no more points: an hour of an instrument that takes 10 000 a second.
 const MOST_POINTS: usize = 20_000_000;
 
@@ -106,35 +101,24 @@ impl Points {
 /// Every problem of the file, at most 200. Of a QIF file: the circles that it holds in place of points, for it tells no
 /// points that were measured.
 pub fn read(path: &str, mut reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
-    let mut head = Vec::new();
-    let begun = reader.by_ref().take(HEAD_BYTES).read_to_end(&mut head);
-    begun.map_err(|error| {
-        let message = format!("cannot read it: {error}");
-        Problem::of_file(path, message, "is the disk there?")
-    })?;
-    let format = format_of(&head);
-    let whole = Cursor::new(head).chain(reader);
-    match format {
-        Format::Table => table::read(path, whole, wanted),
-        Format::Plain => plain::read(path, whole, wanted),
-        Format::Qif => qif::read(path, whole),
+    let head = reader.fill_buf().map_err(|error| unreadable(path, &error))?;
+    let head = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
+    if head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'<') {
+        return Err(qif::refusal(path, reader));
+    }
+    let mut lines = Lines::new(path, reader);
+    match lines.next_row()? {
+        None => Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into()),
+        Some(first) if begins_with_number(&first.text) => plain::read((first, lines), wanted),
+        Some(first) => table::read((first, lines), wanted),
     }
 }
 
-/// The format of a file that begins so.
-pub fn format_of(head: &[u8]) -> Format {
-    let text = String::from_utf8_lossy(head);
-    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
-    let mut lines = text.split(['\n', '\r']);
-    let first = lines.find(|line| !is_remark(line)).unwrap_or("").trim_start();
-    if first.starts_with('<') {
-        return Format::Qif;
-    }
-    let word = first.split([' ', '\t', ',', ';']).next().unwrap_or("");
-    match word.replace(',', ".").parse::<f64>() {
-        Ok(_) => Format::Plain,
-        Err(_) => Format::Table,
-    }
+/// Whether a first line is one of numbers, not of names.
+fn begins_with_number(line: &str) -> bool {
+    let word = line.split_whitespace().next().unwrap_or_default();
+    let word = word.split([',', ';']).next().unwrap_or_default();
+    word.parse::<f64>().is_ok()
 }
 
 #[cfg(test)]
@@ -143,17 +127,32 @@ mod tests {
 
     #[test]
     fn the_format_is_seen_in_the_first_line_that_is_no_remark() {
+        let wanted = Wanted {
+            unit: Some(LengthUnit::Millimetre),
+            ..Wanted::default()
+        };
+        let remarks = "# by hand, with much to say\n".repeat(10_000);
         for (text, format) in [
-            ("x_mm,y_mm\n", Format::Table),
-            ("# 1 2 3\n\n\u{20}x_mm;y_mm\n", Format::Table),
-            ("", Format::Table),
-            ("38\n1 2 3\n", Format::Plain),
-            ("\u{feff}# by hand\r\n1,5\t2,5\r\n", Format::Plain),
-            ("-1e3;2;3\n", Format::Plain),
-            ("<?xml version=\"1.0\"?>\n", Format::Qif),
-            ("\u{feff}\n <QIFDocument>", Format::Qif),
+            ("x_mm,y_mm\n1,2\n", Some(Format::Table)),
+            ("# 1 2 3\n\n\u{20}x_mm;y_mm\n1;2\n", Some(Format::Table)),
+            ("1\n1 2 3\n", Some(Format::Plain)),
+            ("\u{feff}# by hand\r\n1,5\t2,5\r\n", Some(Format::Plain)),
+            ("-1e3;2;3\n", Some(Format::Plain)),
+            (&format!("{remarks}1 2 3\n"), Some(Format::Plain)),
+            ("<?xml version=\"1.0\"?>\n", None),
+            ("\u{feff}\n <QIFDocument>", None),
         ] {
-            assert_eq!(format_of(text.as_bytes()), format, "{text:?}");
+            let told = match format {
+                Some(Format::Plain) => wanted,
+                _ => Wanted::default(),
+            };
+            match (read("f", text.as_bytes(), &told), format) {
+                (Ok(measured), Some(format)) => assert_eq!(measured.format, format),
+                (Err(problems), None) => assert!(problems.to_string().contains("not XML"), "{problems}"),
+                (found, _) => panic!("{found:?}"),
+            }
         }
+        let empty = read("f", "# nothing\n".as_bytes(), &wanted).unwrap_err();
+        assert!(empty.to_string().contains("no points in this file"));
     }
 }

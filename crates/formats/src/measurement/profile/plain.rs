@@ -12,22 +12,22 @@
 use std::io::BufRead;
 
 use super::columns::Layout;
-use super::table::{next, too_many};
+use super::table::too_many;
 use super::{Format, MOST_POINTS, Measured, Points, Wanted};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
 use crate::table::sheet::number;
 
-/// Reads the rows in `reader`; `path` is what problems show.
+/// Reads the rows from `line` on.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: no unit told, cells that are no numbers, rows of another length, another
 /// count of rows than the first line tells, coordinates that no part has.
-pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
-    let mut lines = Lines::new(path, reader);
-    let Some(mut line) = next(&mut lines)? else {
-        return Err(Problem::of_file(path, "no points in this file", UNIT_HINT).into());
-    };
+pub(super) fn read(
+    (mut line, mut lines): (Line, Lines<impl BufRead>),
+    wanted: &Wanted,
+) -> Result<Measured, Problems> {
+    let path = &lines.name().to_owned();
     let mut problems = Vec::new();
     let factor = wanted.unit.map_or(1.0, super::LengthUnit::factor);
     if wanted.unit.is_none() {
@@ -43,7 +43,7 @@ pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measure
         Err(_) => None,
     };
     if count.is_some() {
-        let Some(second) = next(&mut lines)? else {
+        let Some(second) = lines.next_row()? else {
             return Err(Problem::of_file(path, "no points in this file", ROWS_HINT).into());
         };
         line = second;
@@ -84,7 +84,7 @@ pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measure
             }
             Err(wrong) => problems.extend(wrong),
         }
-        row = next(&mut lines).unwrap_or_else(|wrong| {
+        row = lines.next_row().unwrap_or_else(|wrong| {
             problems.extend(wrong);
             None
         });

@@ -17,47 +17,36 @@
 //!
 //! Source: QIF 2.1 and 3.0, Part 3, Features (ANSI/DMSC) as used in the samples of the standard.
 
-use std::io::{BufRead, Read};
+use std::collections::BTreeMap;
+use std::io::Read;
 
 use roxmltree::{Document, Node};
 
-use super::Measured;
 use crate::document::{Problem, Problems, Source};
-use crate::xml;
+use crate::xml::{self, children};
 
 /// A circle that a machine found. m.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ActualCircle {
+struct ActualCircle {
     /// What the file calls the feature.
-    pub name: String,
+    name: String,
     /// Its centre, or a point of its axis.
-    pub centre: Option<[f64; 3]>,
+    centre: Option<[f64; 3]>,
     /// m
-    pub diameter: Option<f64>,
+    diameter: Option<f64>,
     /// Form error, m.
-    pub form: Option<f64>,
+    form: Option<f64>,
 }
 
-/// A file is no larger, in bytes.
-const LARGEST: u64 = 64 << 20;
 /// Circles that a refusal lists.
 const MOST_LISTED: usize = 20;
 
-/// Refuses the file as a profile, and tells the circles in it.
-///
-/// # Errors
-/// Always: what is wrong with the file, or what it holds in place of points.
-pub fn read(path: &str, reader: impl BufRead) -> Result<Measured, Problems> {
-    let mut bytes = Vec::new();
-    let whole = reader.take(LARGEST + 1).read_to_end(&mut bytes);
-    whole
-        .map_err(|error| Problem::of_file(path, format!("cannot read it: {error}"), "is the disk there?"))?;
-    if bytes.len() as u64 > LARGEST {
-        let message = format!("a QIF file of more than {} MB", LARGEST >> 20);
-        return Err(Problem::of_file(path, message, "export one feature alone, as a table").into());
-    }
-    let text = String::from_utf8_lossy(&bytes);
-    let found = circles(path, &text)?;
+/// What is wrong with the file, or what it holds in place of the points of a profile: its circles.
+pub(super) fn refusal(path: &str, reader: impl Read) -> Problems {
+    let found = match xml::text_of(path, reader).and_then(|text| circles(path, &text)) {
+        Ok(found) => found,
+        Err(wrong) => return wrong,
+    };
     let message = match found.len() {
         0 => "this QIF file holds neither points nor circles".to_owned(),
         1 => format!(
@@ -69,19 +58,19 @@ pub fn read(path: &str, reader: impl BufRead) -> Result<Measured, Problems> {
             told(&found)
         ),
     };
-    Err(Problem::of_file(
+    Problem::of_file(
         path,
         message,
         "roundness needs the points that were touched: export them as a table with `x_mm,y_mm,z_mm`",
     )
-    .into())
+    .into()
 }
 
 /// The circles of a QIF text.
 ///
 /// # Errors
 /// What is not XML, or not QIF; a unit that is none.
-pub fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
+fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
     let source = Source::new(path, text);
     let document = xml::parse(&source)?;
     let root = document.root_element();
@@ -97,11 +86,15 @@ pub fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
             "CircleFeatureActual" | "CylinderFeatureActual"
         )
     };
+    let names = names(&document);
     let circle = |node: Node<'_, '_>| {
-        let length = |name| Some(numbers::<1>(inside(node, name)?)?[0] * factor);
-        let place = inside(node, "Location").or_else(|| inside(inside(node, "Axis")?, "AxisPoint"));
+        let length = |name| Some(numbers::<1>(children(node, name).next()?)?[0] * factor);
+        let axis = || children(children(node, "Axis").next()?, "AxisPoint").next();
+        let place = children(node, "Location").next().or_else(axis);
+        let item = children(node, "FeatureItemId").next().and_then(|id| id.text());
+        let name = item.and_then(|id| names.get(id.trim())).copied();
         ActualCircle {
-            name: name(&document, node),
+            name: name.unwrap_or("without name").to_owned(),
             centre: place.and_then(numbers::<3>).map(|at| at.map(|x| x * factor)),
             diameter: length("Diameter"),
             form: length("Form"),
@@ -114,10 +107,10 @@ pub fn circles(path: &str, text: &str) -> Result<Vec<ActualCircle>, Problems> {
 fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
     let units = document
         .descendants()
-        .find(|node| node.has_tag_name_of("LinearUnit"));
+        .find(|node| node.tag_name().name() == "LinearUnit");
     let factor = units
-        .and_then(|units| inside(units, "UnitConversion"))
-        .and_then(|conversion| inside(conversion, "Factor"));
+        .and_then(|units| children(units, "UnitConversion").next())
+        .and_then(|conversion| children(conversion, "Factor").next());
     let Some(factor) = factor else { return Ok(1.0) };
     match numbers::<1>(factor) {
         Some([told]) if told > 0.0 => Ok(told),
@@ -129,20 +122,17 @@ fn unit(source: &Source, document: &Document<'_>) -> Result<f64, Problems> {
     }
 }
 
-/// What the item of an actual feature is called.
-fn name(document: &Document<'_>, actual: Node<'_, '_>) -> String {
-    let id = inside(actual, "FeatureItemId").and_then(|id| id.text());
-    let item = id.and_then(|id| {
-        document
-            .descendants()
-            .find(|node| node.attribute("id") == Some(id.trim()) && inside(*node, "FeatureName").is_some())
+/// What the items of features are called, by their ids.
+fn names<'a>(document: &'a Document<'_>) -> BTreeMap<&'a str, &'a str> {
+    let items = document.descendants().filter_map(|node| {
+        let name = children(node, "FeatureName").next()?.text()?;
+        Some((node.attribute("id")?, name.trim()))
     });
-    let name = item.and_then(|item| inside(item, "FeatureName")?.text());
-    name.map_or_else(|| "without name".to_owned(), |name| name.trim().to_owned())
-}
-
-fn inside<'a, 'input>(node: Node<'a, 'input>, name: &str) -> Option<Node<'a, 'input>> {
-    node.children().find(|child| child.has_tag_name_of(name))
+    let mut names = BTreeMap::new();
+    for (id, name) in items {
+        names.entry(id).or_insert(name);
+    }
+    names
 }
 
 /// The `N` finite numbers in an element, and no more.
@@ -153,17 +143,6 @@ fn numbers<const N: usize>(node: Node<'_, '_>) -> Option<[f64; N]> {
         .map(|word| word.parse().ok().filter(|number: &f64| number.is_finite()))
         .collect();
     words?.try_into().ok()
-}
-
-/// Names of elements, whatever their namespace.
-trait Tagged {
-    fn has_tag_name_of(&self, name: &str) -> bool;
-}
-
-impl Tagged for Node<'_, '_> {
-    fn has_tag_name_of(&self, name: &str) -> bool {
-        self.is_element() && self.tag_name().name() == name
-    }
 }
 
 /// Circles in words.
@@ -218,12 +197,10 @@ mod tests {
 
     #[test]
     fn results_without_points_are_refused_with_what_they_hold() {
-        let told = read("r.qif", RESULTS.as_bytes()).unwrap_err().to_string();
+        let told = refusal("r.qif", RESULTS.as_bytes()).to_string();
         assert!(told.contains("2 circles, but no points of them: BORE diameter 19.0070 mm at (1.0000, 2.5000, -3.0000) mm form 12.00 um"), "{told}");
         assert!(told.contains("export them as a table"));
-        let told = read("r.qif", "<QIFDocument/>".as_bytes())
-            .unwrap_err()
-            .to_string();
+        let told = refusal("r.qif", "<QIFDocument/>".as_bytes()).to_string();
         assert!(told.contains("neither points nor circles"));
     }
 
@@ -234,7 +211,7 @@ mod tests {
             ("<QIFDocument>", "not XML"),
             (&RESULTS.replace(">0.001<", ">-1<"), "no number above 0"),
         ] {
-            let told = read("r.qif", text.as_bytes()).unwrap_err().to_string();
+            let told = refusal("r.qif", text.as_bytes()).to_string();
             assert!(told.contains(part), "{told}");
         }
     }

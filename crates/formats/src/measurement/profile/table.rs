@@ -15,18 +15,18 @@ use super::columns::{COLUMNS_HINT, Column, Layout, Quantity, named};
 use super::{Format, MOST_POINTS, Measured, Points, Wanted};
 use crate::document::lines::{Line, Lines};
 use crate::document::{MOST_PROBLEMS, Problem, Problems};
-use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+use crate::table::sheet::{cells, is_blank_row, number, separator_of};
 
-/// Reads the table in `reader`; `path` is what problems show.
+/// Reads the table under the line of names `first`.
 ///
 /// # Errors
 /// Every problem of the file, at most 200: columns that make no points, double ones, units that are missing or unknown,
 /// cells that are no numbers, rows of another length, points that no profile has.
-pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measured, Problems> {
-    let mut lines = Lines::new(path, reader);
-    let Some(first) = next(&mut lines)? else {
-        return Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into());
-    };
+pub(super) fn read(
+    (first, mut lines): (Line, Lines<impl BufRead>),
+    wanted: &Wanted,
+) -> Result<Measured, Problems> {
+    let path = &lines.name().to_owned();
     let table = Table::of(path, &first, wanted)?;
     let mut measured = Measured {
         format: Format::Table,
@@ -39,7 +39,7 @@ pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measure
     };
     let mut problems = Vec::new();
     while problems.len() < MOST_PROBLEMS {
-        match next(&mut lines) {
+        match lines.next_row() {
             Ok(None) => break,
             Err(wrong) => {
                 problems.extend(wrong);
@@ -64,16 +64,6 @@ pub fn read(path: &str, reader: impl BufRead, wanted: &Wanted) -> Result<Measure
         return Err(Problem::of_file(path, "no points in this file", COLUMNS_HINT).into());
     }
     Ok(measured)
-}
-
-/// The next line that is neither empty nor a remark.
-pub(super) fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
-    loop {
-        match lines.next()? {
-            Some(line) if is_remark(&line.text) => {}
-            other => return Ok(other),
-        }
-    }
 }
 
 /// A line beyond the last that is read.
@@ -309,7 +299,7 @@ mod tests {
             else_radius_mm: None,
             unit: Some(super::super::LengthUnit::Inch),
         };
-        let told = read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
+        let told = super::super::read("f", "x_mm,y_mm\n1,2\n".as_bytes(), &unit)
             .unwrap_err()
             .to_string();
         assert!(told.contains("the unit in was told"), "{told}");

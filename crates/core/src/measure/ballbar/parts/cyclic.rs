@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::super::profile::Profile;
 use super::super::run::{CircularTest, Direction};
 use super::fit::{Asked, rest_without_cyclic};
 use super::term::{Axis, Term, Wave};
@@ -19,13 +20,26 @@ const TRIALS_A_TURN: f64 = 4.0;
 /// Finer trials round the best one, to each side.
 const FINER: i32 = 20;
 
+/// The periods that a test can tell, m: that of four samples where they are densest, and the radius. A shorter one is seen
+/// as another, a longer one is not seen to repeat.
+pub fn periods(test: &CircularTest) -> [f64; 2] {
+    let densest = test
+        .runs()
+        .iter()
+        .map(Profile::of)
+        .filter(|profile| profile.arc() > 0.0);
+    let densest = densest.map(|profile| profile.samples().count() as f64 / profile.arc());
+    let least = 4.0 * test.radius() / densest.fold(f64::MIN_POSITIVE, f64::max);
+    [least, test.radius()]
+}
+
 /// The period of the strongest cyclic error along either axis, m; `None` where none stands out.
 pub fn strongest_period(test: &CircularTest, asked: &Asked) -> Option<f64> {
     let (samples, rows, rest) = rest_without_cyclic(test, asked)?;
     let base = rows.clone().qr().q();
-    let densest = samples.begins.windows(2).map(|ends| ends[1] - ends[0]).max()?;
+    let [shortest, longest] = periods(test);
     // Turns along a radius: of a period as long as the radius to one of four samples.
-    let [least, most] = [1.0, densest as f64 / (4.0 * TAU)];
+    let [least, most] = [longest, shortest].map(|period| test.radius() / period);
     let explained = |turns: f64| explained(&samples.at, (&base, &rest), turns);
     let trials = ((most - least).max(0.0) * 2.0 * TRIALS_A_TURN) as usize;
     let coarse = (0..=trials).map(|k| least + k as f64 / (2.0 * TRIALS_A_TURN));

@@ -17,8 +17,8 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use super::super::centre::least_squares_centre;
 use super::super::profile::Profile;
 use super::super::run::{CircularTest, Direction};
-use super::term::{Axis, Reversal, Term, Wave};
-use super::trust::standard_uncertainties;
+use super::term::{Axis, ON_STEP, Reversal, Term, Wave};
+use super::trust::covariance;
 use crate::identify::Spread;
 
 /// Which parts are looked for.
@@ -51,7 +51,9 @@ pub struct Parts {
     /// Sets of terms of which only a sum is known, or a single one that nothing is known of; the last of each is not
     /// among the parts.
     pub together: Vec<Vec<Term>>,
-    /// Root mean square of the radial deviation about the least-squares circle, m.
+    /// Covariance of radius and scale mismatch, m^2: over an arc they hang together. 0 where one is not among the parts.
+    pub scale_covariance: f64,
+    /// Root mean square of the radial deviation without the radius and the offset of the fit, m.
     pub rms_before: f64,
     /// And of what no part explains, m.
     pub rms_after: f64,
@@ -64,26 +66,39 @@ impl Parts {
     pub fn of(&self, term: Term) -> Option<&Part> {
         self.parts.iter().find(|part| part.term == term)
     }
+
+    /// The part of a term, if it was told apart from all others: no sum.
+    pub fn alone(&self, term: Term) -> Option<&Part> {
+        let in_sum = self.together.iter().any(|set| set.contains(&term));
+        self.of(term).filter(|_| !in_sum)
+    }
 }
 
 /// The samples of all profiles that are used, run by run.
-pub(super) struct Samples {
+pub(in super::super) struct Samples {
     /// Angle (rad) and direction.
     pub at: Vec<(f64, Direction)>,
     /// Radial deviation without what is of second order in the offset, m.
     pub deviation: DVector<f64>,
     /// Where each run begins, and where the last one ends.
     pub begins: Vec<usize>,
+    /// How many runs each circle has; one circle, of one test.
+    pub runs: Vec<usize>,
 }
 
-/// What `asked` makes of the test; `None` where there are fewer samples than terms.
+/// What `asked` makes of the test; `None` where there are fewer samples than terms, or of a period of no length.
 pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
     let samples = Samples::of(test, &asked.reversals);
     let mut terms = all_terms(asked);
     let (rows, spread, together) = told_apart(&samples, &mut terms, asked, test.radius())?;
     let values = solved(&rows, &samples.deviation, &spread);
     let rest = &samples.deviation - &rows * &values;
-    let u = standard_uncertainties(&samples, (&rows, &rest), &spread.covariance);
+    let freedom = rows.nrows() - rows.ncols();
+    let covariance = covariance(&samples, (&rows, &rest), (&spread.covariance, freedom));
+    let u: Vec<f64> = covariance.diagonal().iter().map(|v| v.sqrt()).collect();
+    let place = |term: Term| terms.iter().position(|of| *of == term);
+    let scales = place(Term::Radius).zip(place(Term::ScaleMismatch));
+    let scale_covariance = scales.map_or(0.0, |both| covariance[both]);
     // A step that no sample stands beside is a guess of its shape: it counts in the fit and is not told.
     let unseen = unseen(test, &asked.reversals);
     let found = terms
@@ -101,6 +116,7 @@ pub fn parts(test: &CircularTest, asked: &Asked) -> Option<Parts> {
             })
             .collect(),
         together: together.collect(),
+        scale_covariance,
         rms_before: rms(about_circle(&samples, &terms, &rows, &values)),
         rms_after: rms(rest.norm_squared()),
         samples: samples.at.len(),
@@ -125,7 +141,7 @@ pub(super) fn rest_without_cyclic(
 }
 
 impl Samples {
-    fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
+    pub(in super::super) fn of(test: &CircularTest, reversals: &[Reversal]) -> Samples {
         let offset = least_squares_centre(test).map_or_else(Vector2::zeros, |centre| centre.offset);
         let radius = test.radius();
         // What is left of |R n + e| without R and e . n.
@@ -148,15 +164,37 @@ impl Samples {
         Samples {
             at,
             deviation: deviation.into(),
+            runs: vec![begins.len() - 1],
             begins,
+        }
+    }
+
+    /// Those of several circles, one behind the other.
+    pub(in super::super) fn joined(circles: &[Samples]) -> Samples {
+        let (mut at, mut deviation, mut begins) = (Vec::new(), Vec::new(), vec![0]);
+        for circle in circles {
+            begins.extend(circle.begins[1..].iter().map(|begin| at.len() + begin));
+            at.extend_from_slice(&circle.at);
+            deviation.extend_from_slice(circle.deviation.as_slice());
+        }
+        Samples {
+            at,
+            deviation: deviation.into(),
+            begins,
+            runs: circles.iter().flat_map(|circle| circle.runs.clone()).collect(),
         }
     }
 }
 
-/// Reversals whose every step lies in a gap of all runs.
+/// Reversals with no step that a run has samples on both sides of.
 fn unseen(test: &CircularTest, reversals: &[Reversal]) -> Vec<Term> {
     let profiles: Vec<Profile> = test.runs().iter().map(Profile::of).collect();
-    let is_seen = |angle: f64| profiles.iter().any(|profile| profile.at(angle).is_some());
+    // At a sample a profile is known even where a gap begins.
+    let beside = |angle: f64| [angle - 2.0 * ON_STEP, angle + 2.0 * ON_STEP];
+    let is_seen = |angle: f64| {
+        let both = |profile: &Profile| beside(angle).iter().all(|side| profile.at(*side).is_some());
+        profiles.iter().any(both)
+    };
     let reversals = reversals.iter().enumerate();
     reversals
         .filter(|(_, reversal)| !reversal.steps.iter().any(|step| is_seen(step.angle)))
@@ -196,6 +234,9 @@ fn told_apart(
     let turns = asked
         .period
         .map_or(0.0, |period| std::f64::consts::TAU * radius / period);
+    if !turns.is_finite() {
+        return None;
+    }
     let mut sets = Vec::new();
     // Each round takes a term out.
     loop {

@@ -6,8 +6,8 @@
 pub mod cyclic;
 pub mod fit;
 pub mod term;
-mod trust;
+pub(super) mod trust;
 
-pub use cyclic::strongest_period;
+pub use cyclic::{periods, strongest_period};
 pub use fit::{Asked, Part, Parts, parts};
 pub use term::{Axis, Reversal, Step, Term, Wave, of_axes};

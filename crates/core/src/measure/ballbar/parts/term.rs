@@ -121,7 +121,7 @@ impl Step {
 }
 
 /// Nearer than this an angle is that of a step, rad.
-const ON_STEP: f64 = 1e-6;
+pub(super) const ON_STEP: f64 = 1e-6;
 
 impl Axis {
     /// Along the radius at an angle.

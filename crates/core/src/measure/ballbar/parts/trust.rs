@@ -14,26 +14,32 @@ use nalgebra::{DMatrix, DVector};
 use super::super::run::Direction;
 use super::fit::Samples;
 
-/// One a column of `rows`, m.
-pub(super) fn standard_uncertainties(
+/// Covariance of the values of the columns of `rows`, from what they leave and the inverse of their normal matrix; so many
+/// samples count beside all that was fitted.
+pub(in super::super) fn covariance(
     samples: &Samples,
     (rows, rest): (&DMatrix<f64>, &DVector<f64>),
-    inverse: &DMatrix<f64>,
-) -> Vec<f64> {
-    let freedom = (rows.nrows() - rows.ncols()) as f64;
-    let variance = rest.norm_squared() / freedom * hanging_together(samples, rest);
-    let of_rest: Vec<f64> = inverse.diagonal().iter().map(|c| c * variance).collect();
+    (inverse, freedom): (&DMatrix<f64>, usize),
+) -> DMatrix<f64> {
+    let variance = rest.norm_squared() / freedom as f64 * hanging_together(samples, rest);
+    let of_rest = inverse * variance;
     let Some(of_runs) = between_runs(samples, (rows, rest), inverse) else {
-        return of_rest.into_iter().map(f64::sqrt).collect();
+        return of_rest;
     };
-    let ratios = of_runs.iter().zip(&of_rest);
+    let known = of_rest.diagonal();
+    let ratios = of_runs.iter().zip(&known);
     let ratio: f64 = ratios
         .map(|(runs, rest)| if *rest > 0.0 { runs / rest } else { 0.0 })
         .sum();
-    let wider = (ratio / of_rest.len() as f64).max(1.0);
-    let both = of_rest.iter().zip(&of_runs);
-    both.map(|(rest, runs)| (rest * wider).max(*runs).sqrt())
-        .collect()
+    let wider = (ratio / known.len() as f64).max(1.0);
+    // What hangs together goes on doing so: each grows as its own uncertainty does.
+    let grown = |k: usize| match known[k] > 0.0 {
+        true => (known[k] * wider).max(of_runs[k]).sqrt() / known[k].sqrt(),
+        false => 1.0,
+    };
+    DMatrix::from_fn(known.len(), known.len(), |i, k| {
+        of_rest[(i, k)] * grown(i) * grown(k)
+    })
 }
 
 /// `tau`: the variance of a sum of residuals over what it would be if they did not hang together.
@@ -56,22 +62,37 @@ fn hanging_together(samples: &Samples, rest: &DVector<f64>) -> f64 {
     1.0 + 2.0 * correlations.take_while(|rho| *rho > 0.0).sum::<f64>()
 }
 
-/// Variance of each value by the scatter among runs of one direction; `None` where no direction has two.
+/// Variance of each value by the scatter among runs of one direction, of all circles; `None` where a circle has no
+/// direction with two.
 fn between_runs(
     samples: &Samples,
     (rows, rest): (&DMatrix<f64>, &DVector<f64>),
     inverse: &DMatrix<f64>,
 ) -> Option<Vec<f64>> {
-    let added: Vec<(Direction, DVector<f64>)> = samples
-        .begins
-        .windows(2)
-        .filter(|ends| ends[1] > ends[0])
-        .map(|ends| {
-            let count = ends[1] - ends[0];
-            let of_run = rows.rows(ends[0], count).tr_mul(&rest.rows(ends[0], count));
-            (samples.at[ends[0]].1, inverse * of_run)
-        })
-        .collect();
+    let mut sum = vec![0.0; rows.ncols()];
+    let mut first = 0;
+    for runs in &samples.runs {
+        let begins = &samples.begins[first..=first + runs];
+        let added: Vec<(Direction, DVector<f64>)> = begins
+            .windows(2)
+            .filter(|ends| ends[1] > ends[0])
+            .map(|ends| {
+                let count = ends[1] - ends[0];
+                let of_run = rows.rows(ends[0], count).tr_mul(&rest.rows(ends[0], count));
+                (samples.at[ends[0]].1, inverse * of_run)
+            })
+            .collect();
+        let variances = between_runs_of_one_circle(&added, rows.ncols())?;
+        for (sum, variance) in sum.iter_mut().zip(variances) {
+            *sum += variance;
+        }
+        first += runs;
+    }
+    Some(sum)
+}
+
+/// The same of one circle, from what each run adds.
+fn between_runs_of_one_circle(added: &[(Direction, DVector<f64>)], values: usize) -> Option<Vec<f64>> {
     let of = |direction: Direction| -> Vec<&DVector<f64>> {
         let runs = added.iter().filter(|(of, _)| *of == direction);
         runs.map(|(_, added)| added).collect()
@@ -91,5 +112,5 @@ fn between_runs(
         };
         sides.into_iter().filter(|(own, _)| !own.is_empty()).map(of).sum()
     };
-    (clockwise.len().max(anticlockwise.len()) > 1).then(|| (0..rows.ncols()).map(variance).collect())
+    (clockwise.len().max(anticlockwise.len()) > 1).then(|| (0..values).map(variance).collect())
 }

@@ -1,0 +1,31 @@
+//! What can be typed behind `armill path-accuracy`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Files have one row a point (x_mm, y_mm, z_mm), in the order of time and in the same axes; a column `run` parts several runs
+of one file. The guide: docs/guide/calibrate.md
+
+Examples:
+  armill path-accuracy tracker.csv --commanded path.csv
+  armill path-accuracy run1.csv run2.csv run3.csv --commanded path.csv --points points.csv --drawing path.svg")]
+pub(crate) struct PathAccuracyArguments {
+    /// Measured runs (CSV)
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// The commanded path (CSV)
+    #[arg(long, value_name = "FILE")]
+    pub commanded: PathBuf,
+    /// Write what was found at every commanded point to this file (CSV)
+    #[arg(long, value_name = "FILE")]
+    pub points: Option<PathBuf>,
+    /// Draw both along the path to this file (.svg, .png)
+    #[arg(long, value_name = "FILE")]
+    pub drawing: Option<PathBuf>,
+    /// Print as JSON on stdout
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,295 @@
+//! `armill backlash`: how much play each joint has, from circular tests; which circles to drive; made-up tests.
+//!
+//! Stdout holds a [`BacklashAnswer`] (or a [`PlanAnswer`], or what was written), in words or as JSON.
+//!
+//! ```text
+//! circle groove: radius 100 mm about (1000, 0, 800) mm; files           one a circle
+//! joint   turns back at deg   step um   crossed CW deg   CCW deg        both ways at the same place
+//! joint   backlash   +-   inflation   robot file                        of all circles together
+//! ```
+
+use armill_study::StudyError;
+use armill_study::backlash::answer::{CircleAnswer, JointAnswer, ReversalAnswer};
+use armill_study::backlash::plan::{ExpectedAnswer, KnownAnswer, ProposedAnswer, candidate_count};
+use armill_study::backlash::{
+    BacklashAnswer, PlanAnswer, PlanWanted, Simulated, SimulationWanted, Wanted, estimate, output, plan,
+    simulate,
+};
+use armill_study::{Study, studies};
+
+use super::numbers::{above_zero, finite};
+use crate::Outcome;
+use crate::arguments::BacklashArguments;
+use crate::progress::Progress;
+use crate::terminal::{Align, columns, print, say};
+
+/// Most lobes, circles, runs and radii.
+const MOST: usize = 100;
+/// Noise that is taken for a plan where none is told, um.
+const PLAN_NOISE_UM: f64 = 1.0;
+
+/// Reads the study, does what was asked for, and prints.
+///
+/// # Errors
+/// No study there, or its problems; options that cannot be; nothing measured; a folder or stdout that takes no more.
+pub(crate) fn run(arguments: &BacklashArguments) -> Result<Outcome, StudyError> {
+    for (flag, value, least) in [
+        ("--lobes", arguments.lobes, 0),
+        ("--circles", arguments.circles.unwrap_or(1), 1),
+        ("--runs", arguments.runs, 1),
+    ] {
+        if !(least..=MOST).contains(&value) {
+            let message = format!("{flag}: {value} is outside {least} to {MOST}");
+            return Err(StudyError::value(message, "see `armill backlash --help`"));
+        }
+    }
+    let noise = arguments
+        .noise_um
+        .map(|um| above_zero("--noise-um", um))
+        .transpose()?;
+    let noise = noise.map(|um| um * 1e-6);
+    let study = studies::find(&arguments.study)?.read()?;
+    print(&match (&arguments.simulate, arguments.circles) {
+        (Some(_), _) => simulated(arguments, &study, noise)?,
+        (None, Some(count)) => planned(arguments, &study, (count, noise))?,
+        (None, None) => estimated(arguments, &study, noise)?,
+    })?;
+    Ok(Outcome::Fine)
+}
+
+/// The gaps.
+fn estimated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
+    let wanted = Wanted {
+        most_lobes: arguments.lobes,
+        noise,
+    };
+    let progress = Progress::new(estimate::point_count(study)?);
+    let (found, told) = progress.watch(|watch| estimate(study, &wanted, watch))?;
+    if let Some(out) = &arguments.out {
+        output::write(&told, &found, out)?;
+        say(&format!("answer, table and pictures in {}", out.display()));
+    }
+    for warning in &told.warnings {
+        say(&format!("warning: {warning}"));
+    }
+    Ok(match arguments.json {
+        true => serde_json::to_string_pretty(&told)?,
+        false => as_text(&told),
+    })
+}
+
+/// Circles to drive.
+fn planned(
+    arguments: &BacklashArguments,
+    study: &Study,
+    (count, noise): (usize, Option<f64>),
+) -> Result<String, StudyError> {
+    let half = match arguments.within_mm[..] {
+        [x, y, z] => [x, y, z],
+        _ => {
+            let message = format!("--within-mm: {} numbers are no box", arguments.within_mm.len());
+            return Err(StudyError::value(
+                message,
+                "half of its sides, such as 200,200,200",
+            ));
+        }
+    };
+    finite("--within-mm", &half)?;
+    if let Some(negative) = half.iter().find(|half| **half < 0.0) {
+        let message = format!("--within-mm: {negative} is below 0");
+        return Err(StudyError::value(message, "half of the sides of a box"));
+    }
+    if arguments.radii_mm.len() > MOST {
+        let message = format!("--radii-mm: {} are more than {MOST}", arguments.radii_mm.len());
+        return Err(StudyError::value(message, "the lengths of your bar"));
+    }
+    let radii = arguments.radii_mm.iter().map(|mm| above_zero("--radii-mm", *mm));
+    let wanted = PlanWanted {
+        asks: arguments.ask.clone(),
+        count,
+        half: half.map(|mm| mm * 1e-3),
+        radii: radii
+            .map(|mm| Ok(mm? * 1e-3))
+            .collect::<Result<_, StudyError>>()?,
+        most_lobes: arguments.lobes,
+        noise: noise.unwrap_or(PLAN_NOISE_UM * 1e-6),
+    };
+    let progress = Progress::of("circles", candidate_count(study, &wanted)?);
+    let told = progress.watch(|watch| plan(study, &wanted, watch))?;
+    Ok(match arguments.json {
+        true => serde_json::to_string_pretty(&told)?,
+        false => plan_as_text(&told),
+    })
+}
+
+/// Files of a bar.
+fn simulated(arguments: &BacklashArguments, study: &Study, noise: Option<f64>) -> Result<String, StudyError> {
+    let wanted = SimulationWanted {
+        asks: arguments.ask.clone(),
+        runs: arguments.runs,
+        noise: noise.unwrap_or(0.0),
+        seed: arguments.seed,
+    };
+    let folder = arguments.simulate.as_deref().unwrap_or(".".as_ref());
+    let points = simulate::point_count(study, &wanted.asks)?;
+    let told = Progress::new(points).watch(|watch| simulate(study, (&wanted, folder), watch))?;
+    let line = |one: &Simulated| format!("{}: {} um at most, in {}", one.ask, um(one.largest_um), one.file);
+    Ok(match arguments.json {
+        true => serde_json::to_string_pretty(&told)?,
+        false => told.iter().map(line).collect::<Vec<_>>().join("\n"),
+    })
+}
+
+fn um(value: f64) -> String {
+    format!("{value:.1}")
+}
+
+/// The gaps as a person reads them, see the head of this file.
+fn as_text(told: &BacklashAnswer) -> String {
+    let mut lines = Vec::new();
+    for circle in &told.circles {
+        lines.extend(circle_as_text(circle));
+        lines.push(String::new());
+    }
+    let head = ["joint", "backlash", "", "inflation", "robot file"];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    rows.extend(told.joints.iter().map(joint_as_row));
+    lines.extend(columns(&rows, &[Align::Left]));
+    lines.push(String::new());
+    lines.push(format!(
+        "{} samples: {:.2} um rms beside place, size and lobes, {:.2} um beside the gaps too",
+        told.samples, told.rms_before_um, told.rms_after_um
+    ));
+    lines.join("\n")
+}
+
+fn circle_as_text(circle: &CircleAnswer) -> Vec<String> {
+    let [x, y, z] = circle.centre_mm;
+    let mut lines = vec![format!(
+        "circle {}: radius {} mm about ({x:.1}, {y:.1}, {z:.1}) mm; {}",
+        circle.ask,
+        circle.radius_mm,
+        circle.files.join(", ")
+    )];
+    let head = [
+        "joint",
+        "turns back at deg",
+        "step um",
+        "crossed CW deg",
+        "CCW deg",
+    ];
+    let mut rows = vec![head.map(str::to_owned).to_vec()];
+    let deg = |value: Option<f64>| value.map_or("-".to_owned(), |deg| format!("{deg:.1}"));
+    rows.extend(circle.reversals.iter().map(|at: &ReversalAnswer| {
+        vec![
+            at.joint.clone(),
+            format!("{:.1}", at.at_deg),
+            at.step_um.map_or("-".to_owned(), |um| format!("{um:+.1}")),
+            deg(at.crossed_cw_deg),
+            deg(at.crossed_ccw_deg),
+        ]
+    }));
+    lines.extend(columns(&rows, &[Align::Left]));
+    lines
+}
+
+fn joint_as_row(joint: &JointAnswer) -> Vec<String> {
+    let told = match (
+        joint.backlash_deg.zip(joint.backlash_u_deg),
+        joint.backlash_mm.zip(joint.backlash_u_mm),
+    ) {
+        (Some((gap, u)), _) => [format!("{gap:.5}"), format!("+- {:.5} deg", 2.0 * u)],
+        (None, Some((gap, u))) => [format!("{gap:.5}"), format!("+- {:.5} mm", 2.0 * u)],
+        (None, None) => ["-".to_owned(), joint.state.to_owned()],
+    };
+    let file = match (joint.robot_file_deg, joint.robot_file_mm) {
+        (Some(deg), _) => format!("{deg:.5} deg"),
+        (None, Some(mm)) => format!("{mm:.5} mm"),
+        (None, None) => "-".to_owned(),
+    };
+    let [gap, u] = told;
+    let inflation = joint
+        .inflation_ratio
+        .map_or("-".to_owned(), |ratio| format!("{ratio:.1}"));
+    vec![joint.joint.clone(), gap, u, inflation, file]
+}
+
+/// Circles to drive, as a person reads them.
+fn plan_as_text(told: &PlanAnswer) -> String {
+    let list = |numbers: &[f64]| {
+        let words: Vec<String> = numbers.iter().map(|mm| format!("{mm:.0}")).collect();
+        words.join(", ")
+    };
+    let [low, high] = &told.box_mm;
+    let mut lines = vec![
+        format!(
+            "looked at {} circles, {} followed: {} centres a side from ({}) to ({}) mm, planes {}, radii {} mm",
+            told.candidates,
+            told.followed,
+            told.along,
+            list(low),
+            list(high),
+            told.planes.join(" "),
+            list(&told.radii_mm)
+        ),
+        format!("tool against the normal of the plane; noise {} um", told.noise_um),
+        String::new(),
+        format!("{:<10} {}", "study", told.begun.join(", ")),
+        format!("{:<10} {}", "", known_as_text(&told.known)),
+    ];
+    for (index, circle) in told.circles.iter().enumerate() {
+        lines.extend(proposed_as_text(index + 1, circle));
+    }
+    if let Some(last) = told.circles.last().map(|circle| &circle.known) {
+        lines.push(String::new());
+        lines.push("standard uncertainty to expect with all of them".to_owned());
+        let row = |joint: &ExpectedAnswer| {
+            let u = match (joint.backlash_u_deg, joint.backlash_u_mm) {
+                (Some(deg), _) => format!("{deg:.6} deg"),
+                (None, Some(mm)) => format!("{mm:.6} mm"),
+                (None, None) => "-".to_owned(),
+            };
+            vec![format!("  {}", joint.joint), u]
+        };
+        lines.extend(columns(
+            &last.joints.iter().map(row).collect::<Vec<_>>(),
+            &[Align::Left],
+        ));
+    }
+    lines.join("\n")
+}
+
+fn proposed_as_text(number: usize, circle: &ProposedAnswer) -> [String; 3] {
+    let [x, y, z] = circle.centre_mm;
+    let [a, b, c] = circle.rotation_deg;
+    let turns: Vec<String> = (circle.reversals.iter())
+        .map(|turns| format!("{} {}", turns.joint, turns.times))
+        .collect();
+    [
+        format!(
+            "{number:<10} {}, centre ({x:.0}, {y:.0}, {z:.0}) mm, radius {:.0} mm; rotation_deg = [{a:.0}, {b:.0}, {c:.0}]",
+            circle.plane, circle.radius_mm
+        ),
+        format!("{:<10} turn back: {}", "", turns.join(", ")),
+        format!("{:<10} {}", "", known_as_text(&circle.known)),
+    ]
+}
+
+fn known_as_text(known: &KnownAnswer) -> String {
+    let names: Vec<&str> = known.joints.iter().map(|joint| joint.joint.as_str()).collect();
+    let mut parts = vec![match &names[..] {
+        [] => "tells no joint apart".to_owned(),
+        names => format!("tells {}", names.join(", ")),
+    }];
+    parts.extend(
+        known
+            .not_told_apart
+            .iter()
+            .map(|set| format!("not apart {}", set.join(", "))),
+    );
+    if !known.unseen.is_empty() {
+        parts.push(format!("does not show {}", known.unseen.join(", ")));
+    }
+    parts.extend(known.inflation_ratio.map(|ratio| format!("inflation {ratio:.1}")));
+    parts.join("; ")
+}

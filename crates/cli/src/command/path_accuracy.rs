@@ -1,0 +1,67 @@
+//! `armill path-accuracy`: how near the tip keeps to its path, and how alike from run to run.
+//!
+//! ```text
+//! path: file, points, runs
+//! AT     largest and mean, where
+//! RT     largest, where
+//! ```
+
+use armill_formats::file::write_atomically;
+use armill_study::StudyError;
+use armill_study::path_accuracy::{PathAccuracyAnswer, PlaceAnswer, answer, drawing, points, read};
+
+use crate::Outcome;
+use crate::arguments::PathAccuracyArguments;
+use crate::terminal::{print, say};
+
+/// Reads, writes what was asked for and prints.
+///
+/// # Errors
+/// Files that cannot be read, or their problems; runs that tell nothing of the path; a place where nothing can be written.
+pub(crate) fn run(arguments: &PathAccuracyArguments) -> Result<Outcome, StudyError> {
+    let measured = read(&arguments.commanded, &arguments.files)?;
+    let (found, answer) = answer(&measured)?;
+    if let Some(file) = &arguments.points {
+        write_atomically(file, &points(&measured, &found)?)?;
+        say(&format!("points in {}", file.display()));
+    }
+    if let Some(file) = &arguments.drawing {
+        super::drawing::write(file, &drawing(&answer, &found))?;
+    }
+    print(&match arguments.json {
+        true => serde_json::to_string_pretty(&answer)?,
+        false => as_text(&answer),
+    })?;
+    Ok(Outcome::Fine)
+}
+
+fn as_text(answer: &PathAccuracyAnswer) -> String {
+    let at = |place: &PlaceAnswer| {
+        let [x, y, z] = place.commanded_mm;
+        format!("at line {}, ({x:.3}, {y:.3}, {z:.3}) mm", place.line)
+    };
+    let runs = if answer.cycles == 1 { "run" } else { "runs" };
+    let mut lines = vec![format!(
+        "{}: {} points, {} {runs} in {}",
+        answer.commanded,
+        answer.points + answer.not_passed,
+        answer.cycles,
+        answer.files.join(", ")
+    )];
+    if !answer.unused.is_empty() {
+        lines.push(format!("passed over: {}", answer.unused.join(", ")));
+    }
+    lines.push(String::new());
+    lines.push(format!(
+        "AT   {:.4} mm {}; mean of all points {:.4} mm",
+        answer.at_mm,
+        at(&answer.at_worst),
+        answer.at_mean_mm
+    ));
+    let both = answer.rt_mm.zip(answer.rt_worst.as_ref());
+    lines.extend(both.map(|(rt, place)| format!("RT   {rt:.4} mm {}", at(place))));
+    lines.push(String::new());
+    lines.extend(answer.notes.iter().map(|note| format!("note: {note}")));
+    lines.extend(answer.sources.iter().map(|source| format!("source: {source}")));
+    lines.join("\n")
+}

@@ -1,0 +1,83 @@
+//! Options of a program of the robot in SI, for `compensate` and `ballbar`; and its files, written.
+
+use std::path::PathBuf;
+
+use armill_formats::file::{create_folder, write_atomically};
+use armill_formats::robot_program::{Language, Written};
+use armill_study::StudyError;
+use armill_study::program_out::ProgramWanted;
+
+use crate::arguments::ProgramOptions;
+use crate::terminal::say;
+
+/// The program that is asked for, and its folder; `feed_mm_per_min` is the speed where the path tells none.
+///
+/// # Errors
+/// An ending of no language; numbers that cannot be.
+pub(super) fn wanted(
+    options: &ProgramOptions,
+    feed_mm_per_min: Option<f64>,
+) -> Result<Option<(PathBuf, ProgramWanted)>, StudyError> {
+    let Some(file) = &options.program else {
+        return Ok(None);
+    };
+    let ending = file
+        .extension()
+        .and_then(|ending| ending.to_str())
+        .map(str::to_lowercase);
+    let language = ending.as_deref().and_then(Language::of_ending);
+    let language = language.ok_or_else(|| {
+        let message = format!(
+            "--program: the ending of {} is that of no language",
+            file.display()
+        );
+        StudyError::value(message, ".src, .mod, .jbi, .ls, .script or .pjx")
+    })?;
+    let wanted = ProgramWanted {
+        language,
+        name: file
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned(),
+        frame_number: options.frame,
+        tool_number: options.tool,
+        within: within("--within-um", options.within_um, [0.1, 1e6])? * 1e-6,
+        retract: within("--retract-mm", options.retract_mm, [0.0, 1e4])? * 1e-3,
+        blend: within("--blend-mm", options.blend_mm, [0.0, 1e3])? * 1e-3,
+        feed: match feed_mm_per_min {
+            Some(feed) => Some(within("--feed-mm-per-min", feed, [1.0, 1e6])? / 60e3),
+            None => None,
+        },
+    };
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    Ok(Some((folder.unwrap_or(".".as_ref()).to_path_buf(), wanted)))
+}
+
+/// `value`, where it is from `least` to `most`.
+fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, StudyError> {
+    match value >= least && value <= most {
+        true => Ok(value),
+        false => Err(StudyError::value(
+            format!("{option}: {value} is outside {least} to {most}"),
+            "see --help",
+        )),
+    }
+}
+
+/// Writes the files of a program into `folder`, and says so.
+///
+/// # Errors
+/// A folder or file that cannot be written.
+pub(super) fn save(folder: &std::path::Path, written: &Written) -> Result<(), StudyError> {
+    create_folder(folder)?;
+    for (name, bytes) in &written.files {
+        write_atomically(folder.join(name), bytes)?;
+        say(&format!("program {}", folder.join(name).display()));
+    }
+    written
+        .notes
+        .iter()
+        .for_each(|note| say(&format!("note: {note}")));
+    Ok(())
+}

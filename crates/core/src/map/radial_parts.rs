@@ -1,0 +1,187 @@
+//! Of a circle's radial deviation: what it has without any load, and how far each unknown moves what the load makes.
+//!
+//! ```text
+//! dr(a) = without(a) + load(a)                     without: the same path in the same postures, no wrench
+//! d_m(a) = sum over k of L_mk e . (s_k(w) - s_k(0))        S = L^T L
+//! u^2(a) = sum over m of d_m^2(a)
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `without` | gravity, backlash, geometry: what a ball-bar sees | m |
+//! | `d_m` | change of the load's part by one independent unknown, off by its standard uncertainty | m |
+//! | `s_k(w)` | displacement per unit of compliance k under the wrench `w` | m/(rad/(N m)) |
+//! | `S` | covariance of the compliances | |
+//! | `e` | unit vector outwards | 1 |
+//!
+//! An unknown is the same all round the circle: its curve keeps its sign, and loses its centre and radius as any other.
+
+use nalgebra::{Point2, SymmetricEigen, Vector3};
+
+use super::along::{AlongPath, along_postures};
+use super::radial::radial_deviations;
+use crate::kernel::Question;
+use crate::load::{LoadCases, LoadFrame, PathLoad};
+use crate::path::Track;
+use crate::robot::forward::{Frames, forward_into};
+use crate::source::standing::AsItStands;
+use crate::source::{Arm, Standing, Unstable};
+use crate::spatial::Wrench;
+use crate::watch::{Cancelled, Watch};
+
+/// Outward deviation (m) of the circle about `centre` (path x and y, m) where nothing pushes, in the postures of `along`;
+/// `None` where nothing but the load moves the tool, or a point is not reached.
+///
+/// # Errors
+/// [`Cancelled`] if the watch says so.
+pub fn radial_without_load(
+    question: &Question<'_>,
+    (track, along): (&Track, &AlongPath),
+    centre: Point2<f64>,
+    watch: Watch<'_>,
+) -> Result<Option<Vec<f64>>, Cancelled> {
+    let model = question.arm.model;
+    if !model.moves_unloaded() && model.gravity.is_none() {
+        return Ok(None);
+    }
+    let nothing = PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: vec![Wrench::ZERO],
+    });
+    let quiet = Watch {
+        finished: &|_| (),
+        ..watch
+    };
+    let found = along_postures(question, (track, nothing), along.choices.clone(), quiet)?;
+    let told = radial_deviations(track, &found.answers, centre);
+    Ok(told.into_iter().next().map(|case| case.outward))
+}
+
+/// How far (m) each independent unknown of compliances, load and tool, off by its standard uncertainty, moves the outward
+/// deviation under load, point by point: a curve an unknown. Of the first `cases` load cases the mean; unknowns that move
+/// nothing are left out, all of them where a point is not reached.
+pub fn radial_doubts(
+    question: &Question<'_>,
+    (track, along): (&Track, &AlongPath),
+    centre: Point2<f64>,
+    cases: usize,
+) -> Vec<Vec<f64>> {
+    let answers = &along.answers;
+    if answers.points.iter().any(Result::is_err) || cases == 0 {
+        return Vec::new();
+    }
+    let mut room = Room::new(question);
+    let mut wrenches = vec![Wrench::ZERO; along.load.case_count()];
+    let mut curves: Vec<Vec<f64>> = Vec::new();
+    for index in 0..answers.points.len() {
+        track.wrenches(&along.load, index, &mut wrenches);
+        let at = track.path.points[index].at.xy() - centre;
+        let outward = track.placing.base_from_path.rotation * at.push(0.0).normalize();
+        let of_case = |wrench| room.moves((track, along), index, (wrench, &outward));
+        let moved: Result<Vec<Vec<f64>>, Unstable> = wrenches.iter().take(cases).map(of_case).collect();
+        // Where it was held the arm found its rest under the load; off by an unknown it may not.
+        let Ok(moved) = moved else {
+            return Vec::new();
+        };
+        let count = moved.len() as f64;
+        curves.resize(moved[0].len(), Vec::new());
+        for (unknown, curve) in curves.iter_mut().enumerate() {
+            curve.push(moved.iter().map(|case| case[unknown]).sum::<f64>() / count);
+        }
+    }
+    curves.retain(|curve| curve.iter().any(|by| *by != 0.0));
+    curves
+}
+
+/// An arm that stands at one point after the other.
+struct Room<'q> {
+    question: Question<'q>,
+    standing: Standing<'q>,
+    frames: Frames,
+    /// Rows of `L`: compliances by one independent unknown each.
+    unknowns: Vec<Vec<f64>>,
+}
+
+impl<'q> Room<'q> {
+    fn new(question: &Question<'q>) -> Room<'q> {
+        Room {
+            question: *question,
+            standing: Standing::new(question.arm),
+            frames: Frames::for_robot(question.arm.robot),
+            unknowns: unknowns(&question.arm),
+        }
+    }
+
+    /// What each unknown moves the tool by along `outward`, m.
+    fn moves(
+        &mut self,
+        (track, along): (&Track, &AlongPath),
+        index: usize,
+        (wrench, outward): (&Wrench, &Vector3<f64>),
+    ) -> Result<Vec<f64>, Unstable> {
+        let Room {
+            question,
+            standing,
+            frames,
+            unknowns,
+        } = self;
+        let joints = along.answers.joints_at(index);
+        let base_from_tool = track.stop(index).base_from_tool;
+        forward_into(question.arm.robot, joints, frames);
+        standing.stand_in(joints, frames, &base_from_tool.translation.vector.into());
+        let size = standing.screws().len();
+        let mut sensitive = |wrench: &Wrench| -> Result<Vec<f64>, Unstable> {
+            standing.elastic(wrench)?;
+            Ok((0..size).map(|k| standing.sensitivity(k).dot(outward)).collect())
+        };
+        let without = sensitive(&Wrench::ZERO)?;
+        let mut by_load = sensitive(wrench)?;
+        by_load
+            .iter_mut()
+            .zip(&without)
+            .for_each(|(with, without)| *with -= without);
+        let along_row = |row: &Vec<f64>| row.iter().zip(&by_load).map(|(l, s)| l * s).sum();
+        let mut moves: Vec<f64> = unknowns.iter().map(along_row).collect();
+        let stands = AsItStands {
+            joints,
+            frames,
+            tcp: base_from_tool.translation.vector.into(),
+            tool_axis: base_from_tool.rotation * Vector3::z(),
+            wrench,
+        };
+        standing.moves_of_doubt(&question.doubt, (&stands, outward), |by| moves.push(by))?;
+        Ok(moves)
+    }
+}
+
+/// Compliances by independent unknowns: one each where they are independent, and the axes of their covariance where one is
+/// known.
+fn unknowns(arm: &Arm<'_>) -> Vec<Vec<f64>> {
+    let compliances = arm.compliances();
+    let row = |of: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..compliances.len()).map(of).collect() };
+    let known = arm.model.structure.covariance.as_ref();
+    let size = known.map_or(0, nalgebra::DMatrix::nrows);
+    let axes = known.map(|covariance| SymmetricEigen::new(covariance.clone()));
+    let together = axes.iter().flat_map(|axes| {
+        (0..size).map(|m| {
+            let length = axes.eigenvalues[m].max(0.0).sqrt();
+            row(&|k| {
+                if k < size {
+                    length * axes.eigenvectors[(k, m)]
+                } else {
+                    0.0
+                }
+            })
+        })
+    });
+    let alone = (size..compliances.len())
+        .map(|own| {
+            let u = compliances[own].standard_uncertainty;
+            row(&|k| if k == own { u } else { 0.0 })
+        })
+        .collect::<Vec<_>>();
+    together.chain(alone).collect()
+}
+
+#[cfg(test)]
+mod tests;

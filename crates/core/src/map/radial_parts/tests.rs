@@ -1,0 +1,212 @@
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, Point3};
+
+use super::*;
+use crate::arms;
+use crate::kernel::BranchChoice;
+use crate::load::Doubt;
+use crate::map::along_path;
+use crate::path::{Placing, Shape, Spin};
+use crate::robot::{Amount, Backlash, Flank, JointCompliance, Motion, Robot};
+use crate::source::StiffnessModel;
+use crate::workpiece::Plane;
+
+/// A circle of 0.1 m off the middle of a tilted plate, so that all joints move.
+fn track() -> Track {
+    let plane = Plane::tilted(Point3::new(0.9, 0.15, 0.5), 0.6);
+    Track {
+        path: Shape::Circle {
+            centre: Point2::origin(),
+            radius: 0.1,
+        }
+        .sampled(5e-3),
+        placing: Placing {
+            spin: Spin::Fixed(0.3),
+            ..Placing::on_plane(&plane)
+        },
+        base_from_part: plane.base_from_part,
+        spins: None,
+    }
+}
+
+fn push(forces: &[[f64; 3]]) -> PathLoad {
+    PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: forces
+            .iter()
+            .map(|force| Wrench::from_force((*force).into()))
+            .collect(),
+    })
+}
+
+/// Uncertain by a tenth.
+fn compliance(robot: &Robot) -> Vec<JointCompliance> {
+    let uncertain = |c: &JointCompliance| JointCompliance {
+        standard_uncertainty: 0.1 * c.value,
+        ..*c
+    };
+    robot.compliance().unwrap().iter().map(uncertain).collect()
+}
+
+/// The outward deviation of the first case, what it has without load, and the curves of its unknowns.
+fn told(
+    robot: &Robot,
+    (compliance, model, doubt): (&[JointCompliance], &StiffnessModel, Doubt),
+    load: &PathLoad,
+) -> (Vec<f64>, Option<Vec<f64>>, Vec<Vec<f64>>) {
+    let tool = arms::bent_tool();
+    let arm = Arm {
+        robot,
+        compliance,
+        model,
+        flange_from_tool: &tool,
+    };
+    let question = Question {
+        choice: BranchChoice::Of(robot.nominal_branch()),
+        doubt,
+        ..Question::unloaded(arm, None)
+    };
+    let track = track();
+    let along = along_path(&question, &track, load.clone(), Watch::NONE).unwrap();
+    let centre = Point2::origin();
+    let outward = radial_deviations(&track, &along.answers, centre)[0]
+        .outward
+        .clone();
+    let without = radial_without_load(&question, (&track, &along), centre, Watch::NONE).unwrap();
+    let doubts = radial_doubts(&question, (&track, &along), centre, load.case_count());
+    (outward, without, doubts)
+}
+
+fn farthest_apart(one: &[f64], other: &[f64]) -> f64 {
+    assert_eq!(one.len(), other.len());
+    one.iter()
+        .zip(other)
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f64::max)
+}
+
+const FORCE: [f64; 3] = [40.0, 25.0, -60.0];
+
+#[test]
+fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
+    let robot = arms::mh12();
+    let springs = compliance(&robot);
+    let plain = told(
+        &robot,
+        (&springs, StiffnessModel::DRIVES, Doubt::NONE),
+        &push(&[FORCE]),
+    );
+    assert_eq!(plain.1, None);
+    let mut motions = robot.chain().motions().to_vec();
+    for motion in &mut motions {
+        if let Motion::Along(_, Amount::Constant(length)) = motion {
+            *length += 2e-4;
+        }
+    }
+    let mut model = StiffnessModel::DRIVES.clone();
+    model.actual = Some(Arc::new(
+        Robot::new("actual", motions, robot.joints().to_vec()).unwrap(),
+    ));
+    let gap = Backlash {
+        gap: 2e-4,
+        standard_uncertainty: 0.0,
+        flank: Flank::Motion,
+    };
+    model.structure.backlash = vec![Some(gap); 6];
+    let (loaded, without, _) = told(&robot, (&springs, &model, Doubt::NONE), &push(&[FORCE]));
+    let without = without.unwrap();
+    let load: Vec<f64> = loaded.iter().zip(&without).map(|(all, own)| all - own).collect();
+    assert!(farthest_apart(&load, &plain.0) < 1e-15);
+    // They are no little thing: a good part of what the load does, and more.
+    assert!(farthest_apart(&loaded, &plain.0) > 5e-5);
+    // The load does not matter to them.
+    let other = told(
+        &robot,
+        (&springs, &model, Doubt::NONE),
+        &push(&[[-9.0, 70.0, 5.0]]),
+    );
+    assert!(farthest_apart(&other.1.unwrap(), &without) < 1e-15);
+}
+
+#[test]
+fn a_curve_is_the_change_when_its_compliance_is_off_by_its_uncertainty() {
+    let robot = arms::mh12();
+    let springs = compliance(&robot);
+    let load = push(&[FORCE]);
+    let of =
+        |springs: &[JointCompliance]| told(&robot, (springs, StiffnessModel::DRIVES, Doubt::NONE), &load).0;
+    let as_is = of(&springs);
+    let curves = told(&robot, (&springs, StiffnessModel::DRIVES, Doubt::NONE), &load).2;
+    assert_eq!(curves.len(), 6);
+    for (joint, curve) in curves.iter().enumerate() {
+        let mut off = springs.clone();
+        off[joint].value += off[joint].standard_uncertainty;
+        let change: Vec<f64> = of(&off).iter().zip(&as_is).map(|(off, is)| off - is).collect();
+        // The deviation is linear in a compliance.
+        assert!(farthest_apart(curve, &change) < 1e-15, "{joint}");
+    }
+}
+
+#[test]
+fn of_several_cases_the_mean_counts_and_opposite_ones_leave_nothing() {
+    let robot = arms::mh12();
+    let springs = compliance(&robot);
+    let of = |forces: &[[f64; 3]]| {
+        told(
+            &robot,
+            (&springs, StiffnessModel::DRIVES, Doubt::NONE),
+            &push(forces),
+        )
+        .2
+    };
+    let opposite = of(&[FORCE, FORCE.map(|f| -f)]);
+    let one = of(&[FORCE]);
+    for (curve, of_one) in opposite.iter().zip(&one) {
+        let least = curve.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+        let most = of_one.iter().fold(0.0_f64, |most, by| most.max(by.abs()));
+        assert!(least < 1e-12 * most.max(1e-9), "{least} {most}");
+    }
+}
+
+#[test]
+fn compliances_that_go_together_move_the_circle_as_their_covariance_says() {
+    let robot = arms::mh12();
+    let springs = compliance(&robot);
+    let load = push(&[FORCE]);
+    let alone = told(&robot, (&springs, StiffnessModel::DRIVES, Doubt::NONE), &load).2;
+    // All six off together by their uncertainties: one unknown, the sum of the curves.
+    let u: Vec<f64> = springs.iter().map(|c| c.standard_uncertainty).collect();
+    let mut model = StiffnessModel::DRIVES.clone();
+    model.structure.covariance = Some(DMatrix::from_fn(6, 6, |i, j| u[i] * u[j]));
+    let together = told(&robot, (&springs, &model, Doubt::NONE), &load).2;
+    for k in 0..alone[0].len() {
+        let sum: f64 = alone.iter().map(|curve| curve[k]).sum();
+        let found = together
+            .iter()
+            .map(|curve| curve[k] * curve[k])
+            .sum::<f64>()
+            .sqrt();
+        assert!((found - sum.abs()).abs() < 1e-9 * 1e-4, "{k}: {found} {sum}");
+    }
+}
+
+#[test]
+fn a_load_of_uncertain_size_scales_the_whole_curve() {
+    let robot = arms::mh12();
+    let sure: Vec<JointCompliance> = compliance(&robot)
+        .iter()
+        .map(|c| JointCompliance {
+            standard_uncertainty: 0.0,
+            ..*c
+        })
+        .collect();
+    let doubt = Doubt {
+        relative: 0.05,
+        ..Doubt::NONE
+    };
+    let (outward, _, curves) = told(&robot, (&sure, StiffnessModel::DRIVES, doubt), &push(&[FORCE]));
+    assert_eq!(curves.len(), 1);
+    let scaled: Vec<f64> = outward.iter().map(|by| 0.05 * by).collect();
+    assert!(farthest_apart(&curves[0], &scaled) < 1e-16);
+}

@@ -1,0 +1,229 @@
+//! The arm as it is and as its controller has it; where it cuts, and where the ball-bar stands.
+
+use std::sync::Arc;
+
+use armill_core::calibrate::{
+    Asked, Calibrated, MeasuredPose, Place, Question as CalibrationQuestion, Unknown, fit,
+};
+use armill_core::frame::Isometry;
+use armill_core::kernel::{BranchChoice, Question};
+use armill_core::measure::ballbar::joints::Circle;
+use armill_core::nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
+use armill_core::path::{Placing, Shape, Track};
+use armill_core::robot::forward::forward;
+use armill_core::robot::{Amount, Backlash, BranchPattern, Flank, JointCompliance, Motion, Robot};
+use armill_core::source::{Arm, StiffnessModel};
+use armill_core::workpiece::Plane;
+
+use crate::arms::{self, Stream};
+
+/// Radius of ring and circles, m.
+pub const RADIUS: f64 = 0.1;
+/// Points of the ring.
+const POINTS: f64 = 360.0;
+/// Poses that the tracker sees.
+pub const POSES: usize = 60;
+
+/// What is true in one experiment.
+pub struct Truth {
+    /// As the controller has it.
+    pub believed: Robot,
+    /// As it is.
+    pub actual: Robot,
+    /// Of the geometry: each small motion that poses can tell apart, by its name.
+    pub geometry: Vec<(String, f64)>,
+    /// rad/(N m)
+    pub compliance: Vec<f64>,
+    /// rad
+    pub gaps: Vec<f64>,
+    /// Mean cutting force on the tool, N, base.
+    pub force: Vector3<f64>,
+}
+
+impl Truth {
+    pub fn of(seed: u64) -> Truth {
+        let mut random = Stream(7_000 + seed);
+        let believed = arms::mh12();
+        let nominal: Vec<f64> = believed.compliance().unwrap().iter().map(|c| c.value).collect();
+        let compliance = nominal.iter().map(|c| c * random.between(0.6, 1.6)).collect();
+        let gaps = (0..6).map(|_| random.between(0.5e-4, 3e-4)).collect();
+        let (actual, geometry) = bent(&believed, &mut random);
+        Truth {
+            believed,
+            actual,
+            geometry,
+            compliance,
+            gaps,
+            force: Vector3::new(40.0, -60.0, 25.0) + random.vector(20.0),
+        }
+    }
+
+    /// How the true arm moves its tool.
+    pub fn model(&self) -> StiffnessModel {
+        model(&self.gaps, &[0.0; 6], self.actual.clone())
+    }
+}
+
+/// An arm with this geometry and these gaps, beside its drives.
+pub fn model(gaps: &[f64], u: &[f64], actual: Robot) -> StiffnessModel {
+    let mut model = StiffnessModel::DRIVES.clone();
+    let with = |(gap, u): (&f64, &f64)| {
+        Some(Backlash {
+            gap: *gap,
+            standard_uncertainty: *u,
+            flank: Flank::Motion,
+        })
+    };
+    model.structure.backlash = gaps.iter().zip(u).map(with).collect();
+    model.actual = Some(Arc::new(actual));
+    model
+}
+
+/// Drives that yield so, known so well.
+pub fn drives(values: &[f64], u: &[f64]) -> Vec<JointCompliance> {
+    let drive = |(value, u): (&f64, &f64)| JointCompliance {
+        value: *value,
+        standard_uncertainty: *u,
+    };
+    values.iter().zip(u).map(drive).collect()
+}
+
+pub fn tool() -> Isometry {
+    Isometry::translation(0.03, -0.02, 0.15)
+}
+
+/// A question to the arm that the controller believes in.
+pub fn question<'a>(
+    believed: &'a Robot,
+    (compliance, model): (&'a [JointCompliance], &'a StiffnessModel),
+    tool: &'a Isometry,
+) -> Question<'a> {
+    let arm = Arm {
+        robot: believed,
+        compliance,
+        model,
+        flange_from_tool: tool,
+    };
+    Question {
+        choice: BranchChoice::Of(BranchPattern::default()),
+        ..Question::unloaded(arm, None)
+    }
+}
+
+fn circle(centre: [f64; 3], tilt_deg: f64) -> Circle {
+    let plane = Plane::tilted(Point3::from(centre), f64::to_radians(tilt_deg));
+    Circle {
+        placing: Placing::on_plane(&plane),
+        centre: Point2::origin(),
+        radius: RADIUS,
+    }
+}
+
+/// Circles that tell all six joints of the MH12 apart, and no two of them alike.
+pub fn circles() -> [Circle; 3] {
+    [
+        circle([0.85, 0.25, 0.45], 90.0),
+        circle([0.75, -0.35, 0.75], 0.0),
+        circle([0.7, 0.45, 0.55], 40.0),
+    ]
+}
+
+/// The ring that is milled.
+pub fn ring() -> Track {
+    let circle = circle([0.9, 0.1, 0.5], 90.0);
+    let shape = Shape::Circle {
+        centre: circle.centre,
+        radius: circle.radius,
+    };
+    Track {
+        path: shape.sampled(std::f64::consts::TAU * RADIUS / POINTS),
+        placing: circle.placing,
+        base_from_part: circle.placing.base_from_path,
+        spins: None,
+    }
+}
+
+/// Where the tracker and its reflector are.
+pub fn frames() -> [Isometry; 2] {
+    [
+        Isometry::new(Vector3::new(2.0, -3.0, 0.4), Vector3::new(0.3, -1.2, 2.0)),
+        Isometry::translation(0.03, -0.02, 0.11),
+    ]
+}
+
+/// What a tracker sees of `robot` in random poses, with noise of this standard deviation in each direction.
+pub fn tracked(robot: &Robot, noise: f64, random: &mut Stream) -> Vec<MeasuredPose> {
+    let [tracker_from_base, flange_from_point] = frames();
+    (0..POSES)
+        .map(|_| {
+            let joints = random.joints(robot);
+            let flange = forward(robot, &joints).base_from_flange;
+            let turned = UnitQuaternion::from_rotation_matrix(&flange.rotation);
+            let point =
+                tracker_from_base * Isometry::from_parts(flange.translation, turned) * flange_from_point;
+            let off = Vector3::from_fn(|_, _| noise * random.normal());
+            MeasuredPose {
+                joints,
+                position: point.translation.vector + off,
+                rotation: None,
+            }
+        })
+        .collect()
+}
+
+/// The geometry of `robot` from these poses.
+pub fn calibrated(robot: &Robot, poses: &[MeasuredPose]) -> Calibrated {
+    let question = CalibrationQuestion {
+        asked: Asked::Geometry,
+        flange_from_point: frames()[1],
+        turn_length: 0.3,
+        prior: None,
+    };
+    fit(robot, poses, &question).unwrap()
+}
+
+/// Small motions of the chain that poses of this arm tell apart.
+fn told_apart(believed: &Robot) -> Vec<Unknown> {
+    let poses = tracked(believed, 0.0, &mut Stream(1));
+    let estimates = calibrated(believed, &poses).estimates;
+    let unknowns = estimates.into_iter().map(|estimate| estimate.unknown);
+    unknowns
+        .filter(|unknown| matches!(unknown.place, Place::After(_)))
+        .collect()
+}
+
+/// What an unknown is called here.
+pub fn name_of(unknown: &Unknown) -> String {
+    format!("geometry {:?} {}", unknown.place, unknown.component)
+}
+
+/// The arm with an error in each small motion that poses tell apart, up to 0.3 mm and 0.5 mrad.
+fn bent(believed: &Robot, random: &mut Stream) -> (Robot, Vec<(String, f64)>) {
+    let unknowns = told_apart(believed);
+    let errors: Vec<f64> = unknowns
+        .iter()
+        .map(|unknown| if unknown.turns() { 5e-4 } else { 3e-4 } * random.between(-1.0, 1.0))
+        .collect();
+    let mut motions = Vec::new();
+    for motion in believed.chain().motions() {
+        motions.push(*motion);
+        let Amount::Joint(joint) = motion.amount() else {
+            continue;
+        };
+        let mut here: Vec<(&Unknown, &f64)> = unknowns
+            .iter()
+            .zip(&errors)
+            .filter(|(unknown, _)| unknown.place == Place::After(joint))
+            .collect();
+        here.sort_by_key(|(unknown, _)| unknown.component);
+        motions.extend(here.into_iter().map(|(unknown, error)| {
+            let amount = Amount::Constant(*error);
+            match unknown.turns() {
+                true => Motion::About(unknown.axis(), amount),
+                false => Motion::Along(unknown.axis(), amount),
+            }
+        }));
+    }
+    let robot = Robot::new("bent", motions, believed.joints().to_vec()).unwrap();
+    (robot, unknowns.iter().map(name_of).zip(errors).collect())
+}

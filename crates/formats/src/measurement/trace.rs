@@ -1,0 +1,296 @@
+//! Where did the tip go? Measured points of one or several runs along a path, and the points that were commanded.
+//!
+//! | column | meaning | units |
+//! |---|---|---|
+//! | `x_mm`, `y_mm`, `z_mm` | a point, any axes | `_mm`, `_um`, `_m`, `_in` |
+//! | `run` | name of the run, any text; without it the file is one run | |
+//!
+//! One row a point, in the order of time. Names and units in any case; other columns are passed over and listed. Cells are
+//! separated by `;`, tab or `,`; with the first two a decimal comma is read too. Lines that begin with `#` and empty ones are
+//! passed over. All lengths come out in m.
+//!
+//! ```text
+//! run,x_mm,y_mm,z_mm              x_mm;y_mm;z_mm
+//! 1,0.012,-0.003,0.001            12,5013;-3,2;100
+//! ```
+
+use std::io::BufRead;
+
+use armill_core::nalgebra::Vector3;
+
+use super::profile::LengthUnit;
+use crate::document::lines::{Line, Lines};
+use crate::document::{MOST_PROBLEMS, Problem, Problems};
+use crate::table::sheet::{cells, is_blank_row, is_remark, number, separator_of};
+
+/// No tracker measures farther, m.
+const FARTHEST: f64 = 1e4;
+/// No file has more points.
+const MOST_POINTS: usize = 5_000_000;
+const HINT: &str = "one row a point, `x_mm,y_mm,z_mm`, and `run` where a file holds several";
+
+/// Points of one run, in their order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trace {
+    /// Its name; empty where the file names none.
+    pub run: String,
+    /// m
+    pub points: Vec<Vector3<f64>>,
+    /// Line of each, from 1.
+    pub lines: Vec<usize>,
+}
+
+/// What a file held.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Traces {
+    /// In the order in which the file begins them; each has a point at least.
+    pub runs: Vec<Trace>,
+    /// Columns that were passed over.
+    pub unused: Vec<String>,
+}
+
+/// What a column holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Column {
+    /// Along x, y, z: 0, 1, 2; and the factor of its unit to m.
+    Along(usize, f64),
+    Run,
+}
+
+/// Reads the points in `reader`; `path` is what problems show.
+///
+/// # Errors
+/// Every problem of the file, at most 200: columns that are missing or double, units that are missing or unknown, cells
+/// that are no numbers, rows of another length, places that no tracker measures.
+pub fn read(path: &str, reader: impl BufRead) -> Result<Traces, Problems> {
+    let mut lines = Lines::new(path, reader);
+    let Some(first) = next(&mut lines)? else {
+        return Err(Problem::of_file(path, "no points in this file", HINT).into());
+    };
+    let mut found = Traces::default();
+    let table = Table::of(path, &first, &mut found.unused)?;
+    let (mut problems, mut count) = (Vec::new(), 0);
+    while problems.len() < MOST_PROBLEMS {
+        match next(&mut lines) {
+            Ok(None) => break,
+            Err(wrong) => {
+                problems.extend(wrong);
+                break;
+            }
+            Ok(Some(line)) if is_blank_row(&line.text, table.separator) => {}
+            Ok(Some(line)) if count == MOST_POINTS => {
+                let message = format!("more than {MOST_POINTS} points");
+                problems.push(line.problem(path, 0..line.text.len(), message, "every tenth or so will do"));
+                break;
+            }
+            Ok(Some(line)) => match table.row(&line) {
+                Ok((run, point)) => {
+                    count += 1;
+                    found.take(run, point, line.number);
+                }
+                Err(wrong) => problems.extend(wrong),
+            },
+        }
+    }
+    Problems::from(problems).into_result()?;
+    match found.runs.is_empty() {
+        true => Err(Problem::of_file(path, "no points in this file", HINT).into()),
+        false => Ok(found),
+    }
+}
+
+impl Traces {
+    fn take(&mut self, run: String, point: Vector3<f64>, line: usize) {
+        // Runs mostly follow each other.
+        let place = self.runs.iter().rposition(|trace| trace.run == run);
+        let place = place.unwrap_or_else(|| {
+            self.runs.push(Trace {
+                run,
+                ..Trace::default()
+            });
+            self.runs.len() - 1
+        });
+        self.runs[place].points.push(point);
+        self.runs[place].lines.push(line);
+    }
+}
+
+/// The next line that is neither empty nor a remark.
+fn next(lines: &mut Lines<impl BufRead>) -> Result<Option<Line>, Problems> {
+    loop {
+        match lines.next()? {
+            Some(line) if is_remark(&line.text) => {}
+            other => return Ok(other),
+        }
+    }
+}
+
+/// The column of a name; `None` for one that means nothing here.
+fn named(name: &str) -> Result<Option<Column>, (String, String)> {
+    let lower = name.trim().to_lowercase();
+    let axis = |letter: &str| ["x", "y", "z"].iter().position(|own| *own == letter);
+    if lower == "run" {
+        return Ok(Some(Column::Run));
+    }
+    let units = "understood are mm, um, m or in";
+    if axis(&lower).is_some() {
+        return Err((
+            format!("nothing tells the unit of `{name}`"),
+            format!("end the name with its unit: {units}"),
+        ));
+    }
+    let Some((plain, unit)) = lower.rsplit_once('_') else {
+        return Ok(None);
+    };
+    let Some(axis) = axis(plain) else {
+        return Ok(None);
+    };
+    match unit.parse::<LengthUnit>() {
+        Ok(unit) => Ok(Some(Column::Along(axis, unit.factor()))),
+        Err(_) => Err((format!("`{unit}` is no unit of `{plain}`"), units.to_owned())),
+    }
+}
+
+/// What the columns of a file are.
+struct Table<'a> {
+    path: &'a str,
+    separator: char,
+    /// `None` is passed over.
+    columns: Vec<Option<Column>>,
+}
+
+impl<'a> Table<'a> {
+    /// From the line of names; those that mean nothing go to `unused`.
+    fn of(path: &'a str, line: &Line, unused: &mut Vec<String>) -> Result<Table<'a>, Problems> {
+        let separator = separator_of(&line.text);
+        let (mut columns, mut problems) = (Vec::new(), Vec::new());
+        for cell in cells(&line.text, separator) {
+            let column = named(&cell.text).unwrap_or_else(|(message, hint)| {
+                problems.push(line.problem(path, cell.span.clone(), message, &hint));
+                None
+            });
+            let same = |before: &Option<Column>| match (column, before) {
+                (Some(Column::Along(own, _)), Some(Column::Along(other, _))) => own == *other,
+                (Some(Column::Run), Some(Column::Run)) => true,
+                _ => false,
+            };
+            if columns.iter().any(same) {
+                let message = format!("`{}` tells what a column before it tells", cell.text);
+                problems.push(line.problem(path, cell.span.clone(), message, "keep one of the two"));
+            }
+            if column.is_none() {
+                unused.push(cell.text.to_string());
+            }
+            columns.push(column);
+        }
+        // What is wrong with a name is missing, too.
+        Problems::from(problems).into_result()?;
+        let has = |axis: usize| {
+            let mut known = columns.iter().flatten();
+            known.any(|column| matches!(column, Column::Along(own, _) if *own == axis))
+        };
+        let missing: Vec<&str> = (0..3)
+            .filter(|axis| !has(*axis))
+            .map(|axis| ["`x_mm`", "`y_mm`", "`z_mm`"][axis])
+            .collect();
+        if !missing.is_empty() {
+            let message = format!("columns are missing: {}", missing.join(", "));
+            return Err(line.problem(path, 0..line.text.len(), message, HINT).into());
+        }
+        Ok(Table {
+            path,
+            separator,
+            columns,
+        })
+    }
+
+    /// Run and point of a row.
+    fn row(&self, line: &Line) -> Result<(String, Vector3<f64>), Problems> {
+        let found = cells(&line.text, self.separator);
+        if found.len() != self.columns.len() {
+            let message = format!(
+                "{} cells in a table of {} columns",
+                found.len(),
+                self.columns.len()
+            );
+            let hint = match self.separator {
+                ',' => "decimal commas need `;` or a tab between cells",
+                _ => "every row has a cell for each column",
+            };
+            return Err(line.problem(self.path, 0..line.text.len(), message, hint).into());
+        }
+        let (mut point, mut run, mut problems) = (Vector3::zeros(), String::new(), Vec::new());
+        for (cell, column) in found.iter().zip(&self.columns) {
+            let (axis, factor) = match column {
+                None => continue,
+                Some(Column::Run) => {
+                    run = cell.text.to_string();
+                    continue;
+                }
+                Some(Column::Along(axis, factor)) => (*axis, *factor),
+            };
+            let problem = |message, hint| line.problem(self.path, cell.span.clone(), message, hint);
+            match number(&cell.text, self.separator).filter(|number| number.is_finite()) {
+                None => problems.push(problem(
+                    format!("`{}` is not a number", cell.text),
+                    "units stand in the column's name; leave out rows that were not measured",
+                )),
+                Some(number) if (number * factor).abs() > FARTHEST => problems.push(problem(
+                    format!("a length of {} m is beyond {FARTHEST} m", number * factor),
+                    "is the unit in the column's name the one meant?",
+                )),
+                Some(number) => point[axis] = number * factor,
+            }
+        }
+        Problems::from(problems).into_result()?;
+        Ok((run, point))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        read("trace.csv", text.as_bytes()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn runs_come_apart_in_the_order_of_the_file_whatever_their_units() {
+        let text = "# tracker\nRun;X_um;y_m;z_in;time\n1;1000;0,5;1;7\n2;2000;0;0;7\n\n1;3000;0;0;8\n";
+        let found = read("trace.csv", text.as_bytes()).unwrap();
+        assert_eq!(found.unused, ["time"]);
+        let [one, two] = &found.runs[..] else {
+            panic!("{found:?}")
+        };
+        assert_eq!((one.run.as_str(), two.run.as_str()), ("1", "2"));
+        assert_eq!(one.lines, [3, 6]);
+        assert!((one.points[0] - Vector3::new(1e-3, 0.5, 0.0254)).norm() < 1e-15);
+        assert!((two.points[0] - Vector3::new(2e-3, 0.0, 0.0)).norm() < 1e-15);
+        let alone = read("trace.csv", "x_mm,y_mm,z_mm\n1,2,3\n4,5,6\n".as_bytes()).unwrap();
+        assert_eq!((alone.runs.len(), alone.runs[0].points.len()), (1, 2));
+    }
+
+    #[test]
+    fn all_problems_are_told_at_their_places() {
+        let text = "x_mm,y_mm,z_mm\n1,a,3\n1,2\n1e9,2,inf\n";
+        let problems = refused(text);
+        for said in [
+            "trace.csv:2:3",
+            "`a` is not a number",
+            "trace.csv:3:1",
+            "2 cells in a table of 3",
+            "trace.csv:4:1",
+            "beyond 10000 m",
+            "trace.csv:4:7",
+        ] {
+            assert!(problems.contains(said), "{said}: {problems}");
+        }
+        assert!(refused("x_mm,y_mm\n1,2\n").contains("columns are missing: `z_mm`"));
+        assert!(refused("x,y_mm,z_mm\n1,2,3\n").contains("nothing tells the unit of `x`"));
+        assert!(refused("x_mm,y_ft,z_mm\n1,2,3\n").contains("`ft` is no unit of `y`"));
+        assert!(refused("x_mm,x_um,y_mm,z_mm\n1,2,3,4\n").contains("tells what a column before it tells"));
+        assert!(refused("").contains("no points in this file"));
+        assert!(refused("x_mm,y_mm,z_mm\n").contains("no points in this file"));
+    }
+}

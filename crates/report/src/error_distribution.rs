@@ -1,0 +1,158 @@
+//! How many of the poses are met within how much? One step line a set, before and after.
+//!
+//! ```text
+//!  share of   │        ┌──────────   after: half of them within 0.2 mm
+//!  poses (%)  │      ┌─┘     ┌────   before (dashed)
+//!             │    ┌─┘   ┌───┘
+//!             └──────────────────
+//!               distance (mm)
+//! ```
+//!
+//! A set has one colour; before is dashed, after is drawn out. The mean of each line stands in the legend.
+
+use crate::chart::Chart;
+use crate::colour::category;
+use crate::legend::Entry;
+use crate::page::{BORDER_PX, Heading};
+use crate::plane::AxisLabels;
+use crate::svg::{Point, Style};
+
+/// Width and height of the chart.
+const AREA_PX: [f64; 2] = [540.0, 300.0];
+
+/// Poses of one kind.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ErrorSet {
+    /// Name for the legend.
+    pub name: String,
+    /// Distance of each pose before; a value that is not finite is left out.
+    pub before_mm: Vec<f64>,
+    /// And after.
+    pub after_mm: Vec<f64>,
+}
+
+/// What the picture shows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ErrorDistribution {
+    /// First line, bold.
+    pub title: String,
+    /// Second line.
+    pub subtitle: String,
+    /// Label of the horizontal axis with unit.
+    pub quantity: String,
+    /// The sets.
+    pub sets: Vec<ErrorSet>,
+}
+
+/// One step line.
+struct Steps {
+    /// Rising.
+    sizes: Vec<f64>,
+    style: Style,
+    label: String,
+}
+
+impl ErrorDistribution {
+    /// The picture as a complete SVG document; no poses gives a picture that says so.
+    pub fn to_svg(&self) -> String {
+        let heading = Heading::new(&self.title, &self.subtitle);
+        let all = self.steps();
+        let most = all
+            .iter()
+            .filter_map(|steps| steps.sizes.last())
+            .fold(0.0, |most: f64, size| most.max(*size));
+        if most <= 0.0 {
+            return heading.notice("There is nothing to draw: no pose is off.");
+        }
+        let chart = Chart::beside_axis(AREA_PX, [0.0, 1.03 * most], [0.0, 100.0]);
+        let mut page = heading.page(chart.area.right() + BORDER_PX + 8.0);
+        let chart = chart.lowered_to(page.top_px + 4.0);
+        let labels = AxisLabels {
+            horizontal: self.quantity.clone(),
+            vertical: "poses within it (%)".to_owned(),
+        };
+        chart.draw_axes(&mut page.svg, &labels);
+        page.svg.clipped(chart.area, |svg| {
+            for steps in &all {
+                svg.polyline(&corners(&steps.sizes, &chart), &steps.style);
+            }
+        });
+        let entries: Vec<Entry> = all
+            .iter()
+            .map(|steps| Entry::line(steps.style.clone(), steps.label.clone()))
+            .collect();
+        page.finish_with_legend(&entries, [chart.area.x, chart.area.bottom() + 50.0])
+    }
+
+    fn steps(&self) -> Vec<Steps> {
+        let of = |(k, set): (usize, &ErrorSet)| {
+            let colour = category(k);
+            let line = |what: &str, values: &[f64], style: Style| {
+                let mut sizes: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+                sizes.sort_by(f64::total_cmp);
+                let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
+                Steps {
+                    label: format!("{}, {what}: mean {mean:.3} mm", set.name),
+                    sizes,
+                    style,
+                }
+            };
+            [
+                line(
+                    "before",
+                    &set.before_mm,
+                    Style::line(colour, 1.6).dashed("5 4").opacity(0.8),
+                ),
+                line("after", &set.after_mm, Style::line(colour, 2.2)),
+            ]
+        };
+        let all = self.sets.iter().enumerate().flat_map(of);
+        all.filter(|steps| !steps.sizes.is_empty()).collect()
+    }
+}
+
+/// From zero up at every size, and on to the right edge.
+fn corners(sizes: &[f64], chart: &Chart) -> Vec<Point> {
+    let percent = |count: usize| 100.0 * count as f64 / sizes.len() as f64;
+    let mut corners = vec![chart.at([0.0, 0.0])];
+    for (k, size) in sizes.iter().enumerate() {
+        corners.push(chart.at([*size, percent(k)]));
+        corners.push(chart.at([*size, percent(k + 1)]));
+    }
+    corners.push(chart.at([chart.high[0], 100.0]));
+    corners
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_has_two_lines_that_end_at_all_poses() {
+        let picture = ErrorDistribution {
+            sets: vec![ErrorSet {
+                name: "held out".to_owned(),
+                before_mm: vec![0.5, f64::NAN, 1.0],
+                after_mm: vec![0.1, 0.2, 0.3],
+            }],
+            ..ErrorDistribution::default()
+        };
+        let svg = picture.to_svg();
+        assert_eq!(
+            svg.matches("<polyline").count(),
+            2 + 2,
+            "two lines and their keys"
+        );
+        assert!(svg.contains("held out, before: mean 0.750 mm") && svg.contains("after: mean 0.200 mm"));
+        assert!(!svg.contains("NaN"));
+        assert!(ErrorDistribution::default().to_svg().contains("no pose is off"));
+    }
+
+    #[test]
+    fn half_of_the_poses_stand_at_fifty_percent() {
+        let chart = Chart::beside_axis(AREA_PX, [0.0, 4.0], [0.0, 100.0]);
+        let line = corners(&[1.0, 3.0], &chart);
+        assert_eq!(line[2], chart.at([1.0, 50.0]));
+        assert_eq!(line.last().copied(), Some(chart.at([4.0, 100.0])));
+    }
+}

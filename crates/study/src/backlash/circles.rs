@@ -1,0 +1,105 @@
+//! The circles of a study, and the arm that follows them without load.
+
+use armill_core::kernel::Question;
+use armill_core::measure::ballbar::joints::circle::STATIONS;
+use armill_core::measure::ballbar::joints::{Circle, Followed, NotFollowed, follow};
+use armill_core::nalgebra::Point3;
+use armill_core::path::Shape;
+use armill_core::watch::Watch;
+
+use crate::error::StudyError;
+use crate::file::path::PathAsk;
+use crate::file::resolve::{Study, Subject};
+use crate::run::{Runner, runner};
+
+/// A circle of a study.
+#[derive(Clone, Copy, Debug)]
+pub struct CircleAsk<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The path.
+    pub path: &'a PathAsk,
+    /// The circle in the cell.
+    pub circle: Circle,
+}
+
+impl CircleAsk<'_> {
+    /// Its centre, m, base.
+    pub fn centre(&self) -> Point3<f64> {
+        let at = self.circle.centre;
+        self.circle.placing.base_from_path * Point3::new(at.x, at.y, 0.0)
+    }
+}
+
+/// The circles called so, in this order; all where none is named.
+///
+/// # Errors
+/// No circle, or none of that name; one whose posture is searched for.
+pub fn circles<'a>(study: &'a Study, names: &[String]) -> Result<Vec<CircleAsk<'a>>, StudyError> {
+    let all: Vec<CircleAsk<'a>> = (study.asks.iter())
+        .filter_map(|ask| match &ask.subject {
+            Subject::Path(path) => match path.shape()? {
+                Shape::Circle { centre, radius } => Some(CircleAsk {
+                    name: &ask.name,
+                    path,
+                    circle: Circle {
+                        placing: path.track.placing,
+                        centre: *centre,
+                        radius: *radius,
+                    },
+                }),
+                Shape::Polyline(_) => None,
+            },
+            _ => None,
+        })
+        .collect();
+    let hint = "an ask of kind = \"path\" with circle = { radius_mm = 100 }";
+    if all.is_empty() {
+        return Err(StudyError::value("the study has no circle", hint));
+    }
+    let named = |name: &String| {
+        let found = all.iter().find(|circle| circle.name == name);
+        found
+            .copied()
+            .ok_or_else(|| StudyError::value(format!("the study has no circle called `{name}`"), hint))
+    };
+    let found = match names {
+        [] => all.clone(),
+        names => names.iter().map(named).collect::<Result<_, _>>()?,
+    };
+    match found.iter().find(|circle| circle.path.setting.search.is_some()) {
+        Some(circle) => Err(StudyError::value(
+            format!("{}: a bar goes round with the tool held still", circle.name),
+            "take posture.search out of this ask",
+        )),
+        None => Ok(found),
+    }
+}
+
+/// A circle beside the arm that follows it.
+pub(super) fn followed(
+    study: &Study,
+    circle: &CircleAsk<'_>,
+    watch: Watch<'_>,
+) -> Result<Followed, StudyError> {
+    let runner = runner(study, watch)?;
+    // The branch is the one that the study follows the path in, under its load.
+    let (load, _) = runner.pushed(circle.path)?;
+    let along = runner.follow(circle.path, load)?.along;
+    let question = Question {
+        choice: along.choice_at(0),
+        ..question(&runner, circle)
+    };
+    follow(&question, (&circle.circle, STATIONS), Watch::NONE).map_err(|error| match error {
+        NotFollowed::Cancelled(cancelled) => StudyError::Cancelled(cancelled),
+        error => StudyError::value(
+            format!("{}: {error}", circle.name),
+            "another place of the circle, or another branch",
+        ),
+    })
+}
+
+/// What the core is asked on this circle.
+pub(super) fn question<'a>(runner: &'a Runner<'a>, circle: &CircleAsk<'a>) -> Question<'a> {
+    runner.question(&circle.path.setting)
+}

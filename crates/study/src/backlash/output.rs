@@ -1,0 +1,187 @@
+//! Tables and pictures of the backlash of joints.
+//!
+//! ```text
+//! result.json     the answer
+//! reversals.csv   ask, joint, at_deg, step_um, crossed_cw_deg, crossed_ccw_deg
+//! ASK.svg         the runs of a circle, what the gaps make of them, and rays where joints turn back; .png too
+//! ```
+
+use std::path::Path;
+
+use armill_core::measure::ballbar::joints::Followed;
+use armill_core::measure::ballbar::profile::{STATIONS, station};
+use armill_core::measure::ballbar::{Direction, Profile, Run, least_squares_centre};
+use armill_formats::file::write_atomically;
+use armill_formats::table::{Column, ColumnData, Table, csv};
+use armill_report::{BallbarPlot, BallbarTrace, Growth, RayMark, Sense};
+
+use super::answer::{BacklashAnswer, CircleAnswer, ReversalAnswer};
+use super::estimate::Estimated;
+use crate::StudyError;
+use crate::file::circles::MeasuredCircle;
+use crate::output::{Picture, prepare, slug, write_pictures};
+
+/// Writes the answer, its table and pictures into the folder `out`.
+///
+/// # Errors
+/// The folder or a file cannot be written.
+pub fn write(told: &BacklashAnswer, found: &Estimated<'_>, out: &Path) -> Result<(), StudyError> {
+    prepare(out)?;
+    write_atomically(out.join("reversals.csv"), &csv::write(&table(told)?))?;
+    let pictures: Vec<Picture> = (found.circles.iter().zip(&told.circles))
+        .map(|((measured, _, followed), circle)| picture(measured, followed, (circle, found)))
+        .collect();
+    write_pictures("", &pictures, out)?;
+    write_atomically(
+        out.join("result.json"),
+        serde_json::to_string_pretty(told)?.as_bytes(),
+    )?;
+    Ok(())
+}
+
+/// Every reversal of every circle.
+fn table(told: &BacklashAnswer) -> Result<Table, StudyError> {
+    let rows: Vec<(&CircleAnswer, &ReversalAnswer)> = (told.circles.iter())
+        .flat_map(|circle| circle.reversals.iter().map(move |reversal| (circle, reversal)))
+        .collect();
+    let text =
+        |name: &str, description: &str, of: &dyn Fn(&(&CircleAnswer, &ReversalAnswer)) -> String| Column {
+            name: name.to_owned(),
+            unit: None,
+            description: description.to_owned(),
+            decimals: None,
+            data: ColumnData::Text(rows.iter().map(of).collect()),
+        };
+    let number = |name: &str, description: &str, of: &dyn Fn(&ReversalAnswer) -> Option<f64>| Column {
+        name: name.to_owned(),
+        unit: name.rsplit('_').next().map(str::to_owned),
+        description: description.to_owned(),
+        decimals: Some(4),
+        data: ColumnData::OptionalFloat(rows.iter().map(|(_, reversal)| of(reversal)).collect()),
+    };
+    let columns = vec![
+        text("ask", "the circle", &|(circle, _)| circle.ask.clone()),
+        text("joint", "which joint turns back", &|(_, at)| at.joint.clone()),
+        number("at_deg", "where, from +y' towards z'", &|at| Some(at.at_deg)),
+        number("step_um", "step of the radius outwards", &|at| at.step_um),
+        number("crossed_cw_deg", "where the gap is crossed clockwise", &|at| {
+            at.crossed_cw_deg
+        }),
+        number(
+            "crossed_ccw_deg",
+            "where the gap is crossed anticlockwise",
+            &|at| at.crossed_ccw_deg,
+        ),
+    ];
+    Ok(Table::new("reversals", columns)?)
+}
+
+/// The runs of one circle about their centre, the smooth part and the steps as they were found, and where joints turn back.
+fn picture(
+    measured: &MeasuredCircle,
+    followed: &Followed,
+    (circle, found): (&CircleAnswer, &Estimated<'_>),
+) -> Picture {
+    let offset = least_squares_centre(&measured.test).map(|centre| centre.offset);
+    let about = |a: f64| offset.map_or(0.0, |e| e.x * a.cos() + e.y * a.sin());
+    let mut traces: Vec<BallbarTrace> = (measured.test.runs().iter().zip(&measured.runs))
+        .map(|(run, name)| {
+            let radii = Profile::of(run);
+            trace(name.clone(), run.direction(), |a| {
+                radii.at(a).map_or(f64::NAN, |dr| dr - about(a))
+            })
+        })
+        .collect();
+    // What both ways have in common is measured; what they differ by is that of the gaps.
+    let common = Common::of(measured, followed, &found.gaps.fitted);
+    for direction in Direction::BOTH {
+        if !measured.test.of(direction).any(|_| true) {
+            continue;
+        }
+        let angles: Vec<f64> = (0..=STATIONS).map(|k| station(k % STATIONS)).collect();
+        let made = gaps_alone(followed, &found.gaps.fitted, direction, &angles);
+        traces.push(BallbarTrace {
+            name: format!("{} by the gaps", direction.name()),
+            sense: sense(direction),
+            angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
+            radial_um: angles
+                .iter()
+                .zip(made)
+                .enumerate()
+                .map(|(k, (a, dr))| (common.0[k % STATIONS] + dr - about(*a)) * 1e6)
+                .collect(),
+            start_deg: None,
+        });
+    }
+    let picture = BallbarPlot {
+        title: format!("Where joints turn back: {}", circle.ask),
+        subtitle: format!("radius {} mm", crate::number::decimals(circle.radius_mm, 3)),
+        horizontal: "y'".to_owned(),
+        vertical: "z'".to_owned(),
+        growth: Growth::Left,
+        traces,
+        marks: (circle.reversals.iter())
+            .map(|reversal| RayMark {
+                angle_deg: reversal.at_deg,
+                name: reversal.joint.clone(),
+            })
+            .collect(),
+    };
+    Picture {
+        name: slug(&circle.ask),
+        caption: format!(
+            "{}: the runs, magnified; what the gaps make of them on what both ways have in common; rays where joints turn back.",
+            circle.ask
+        ),
+        svg: picture.to_svg(),
+    }
+}
+
+fn sense(direction: Direction) -> Sense {
+    match direction {
+        Direction::Clockwise => Sense::Clockwise,
+        Direction::Anticlockwise => Sense::Anticlockwise,
+    }
+}
+
+fn trace(name: String, direction: Direction, radius: impl Fn(f64) -> f64) -> BallbarTrace {
+    BallbarTrace {
+        name,
+        sense: sense(direction),
+        angle_deg: (0..=STATIONS).map(|k| station(k).to_degrees()).collect(),
+        radial_um: (0..=STATIONS)
+            .map(|k| radius(station(k % STATIONS)) * 1e6)
+            .collect(),
+        start_deg: None,
+    }
+}
+
+/// What the gaps of all joints make of the radius, m.
+fn gaps_alone(followed: &Followed, gaps: &[f64], direction: Direction, angles: &[f64]) -> Vec<f64> {
+    let mut sum = vec![0.0; angles.len()];
+    for (joint, gap) in gaps.iter().enumerate() {
+        let effect = followed.effect((joint, *gap), direction, angles);
+        sum.iter_mut().zip(effect).for_each(|(sum, one)| *sum += one);
+    }
+    sum
+}
+
+/// What all runs have in common without what the gaps make, at every station, m.
+struct Common(Vec<f64>);
+
+impl Common {
+    fn of(measured: &MeasuredCircle, followed: &Followed, gaps: &[f64]) -> Common {
+        let angles: Vec<f64> = (0..STATIONS).map(station).collect();
+        let mut sum = vec![0.0; STATIONS];
+        let runs: Vec<&Run> = measured.test.runs().iter().collect();
+        for run in &runs {
+            let profile = Profile::of(run);
+            let made = gaps_alone(followed, gaps, run.direction(), &angles);
+            for (k, sum) in sum.iter_mut().enumerate() {
+                let left = profile.at(angles[k]).map_or(f64::NAN, |dr| dr - made[k]);
+                *sum += left / runs.len() as f64;
+            }
+        }
+        Common(sum)
+    }
+}

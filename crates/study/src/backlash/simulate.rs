@@ -1,0 +1,134 @@
+//! What a ball-bar would show of the robot file: backlash, the arm as it was measured, gravity, and noise where it is asked for.
+//!
+//! ```text
+//! SLUG.csv     # radius_mm: 100
+//!              angle_deg,radius_dev_um,direction,run        CW 1, CCW 1, CW 2 ...
+//! ```
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use armill_core::measure::ballbar::Direction;
+use armill_core::measure::ballbar::joints::Followed;
+use armill_core::watch::Watch;
+use armill_formats::file::write_atomically;
+use serde::Serialize;
+
+use super::circles::{CircleAsk, circles, followed};
+use super::noise::Noise;
+use crate::error::StudyError;
+use crate::file::resolve::Study;
+use crate::number::decimals;
+use crate::output::{prepare, slug};
+
+/// How it is asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulationWanted {
+    /// Names of the circles; all where none is named.
+    pub asks: Vec<String>,
+    /// Runs each way.
+    pub runs: usize,
+    /// Standard deviation of a sample, m.
+    pub noise: f64,
+    /// Seed of the noise.
+    pub seed: u64,
+}
+
+/// A file that was made up.
+#[derive(Clone, Debug, Serialize)]
+pub struct Simulated {
+    /// Name of the circle.
+    pub ask: String,
+    /// Its file.
+    pub file: String,
+    /// Greatest deviation of the radius by size.
+    pub largest_um: f64,
+}
+
+/// Samples of a run: every half degree, a quarter beside whole ones, since a sample on a reversal is on neither side.
+const SAMPLES: u32 = 720;
+
+/// The points that the progress of [`simulate`] ends at.
+///
+/// # Errors
+/// See [`circles`].
+pub fn point_count(study: &Study, asks: &[String]) -> Result<usize, StudyError> {
+    let circles = circles(study, asks)?;
+    Ok(circles.iter().map(|circle| circle.path.track.len()).sum())
+}
+
+/// Writes a file for each circle into the folder `out`.
+///
+/// # Errors
+/// See [`circles`]; a circle that the arm does not follow; a folder that takes no more.
+pub fn simulate(
+    study: &Study,
+    (wanted, out): (&SimulationWanted, &Path),
+    watch: Watch<'_>,
+) -> Result<Vec<Simulated>, StudyError> {
+    let mut noise = Noise::seeded(wanted.seed);
+    let mut files: Vec<(PathBuf, String)> = Vec::new();
+    let mut told = Vec::new();
+    // Nothing is written before all circles are known to be followed.
+    for circle in circles(study, &wanted.asks)? {
+        let along = followed(study, &circle, watch)?;
+        let (text, largest) = table(&circle, &along, (wanted, &mut noise));
+        let path = out.join(format!("{}.csv", slug(circle.name)));
+        if files.iter().any(|(other, _)| *other == path) {
+            return Err(StudyError::value(
+                format!("two circles would be written to {}", path.display()),
+                "give them names that differ in letters or digits",
+            ));
+        }
+        told.push(Simulated {
+            ask: circle.name.to_owned(),
+            file: path.display().to_string(),
+            largest_um: largest,
+        });
+        files.push((path, text));
+    }
+    prepare(out)?;
+    for (path, text) in &files {
+        write_atomically(path, text.as_bytes())?;
+    }
+    Ok(told)
+}
+
+/// The file of one circle, and the greatest deviation in it, um.
+fn table(
+    circle: &CircleAsk<'_>,
+    along: &Followed,
+    (wanted, noise): (&SimulationWanted, &mut Noise),
+) -> (String, f64) {
+    let mut gaps = vec![0.0; along.joint_count()];
+    for (joint, gap) in circle.path.setting.model.structure.gaps() {
+        gaps[joint] = gap.gap;
+    }
+    let degrees: Vec<f64> = (0..SAMPLES)
+        .map(|k| (f64::from(k) + 0.5) * 360.0 / f64::from(SAMPLES))
+        .collect();
+    let angles: Vec<f64> = degrees.iter().map(|deg| deg.to_radians()).collect();
+    let mut text = format!(
+        "# made up by armill: backlash of {} joints, noise {} um, seed {}\n# radius_mm: {}\nangle_deg,radius_dev_um,direction,run\n",
+        gaps.iter().filter(|gap| **gap > 0.0).count(),
+        decimals(wanted.noise * 1e6, 6),
+        wanted.seed,
+        decimals(circle.circle.radius * 1e3, 9)
+    );
+    let mut largest: f64 = 0.0;
+    for run in 1..=wanted.runs {
+        for direction in Direction::BOTH {
+            let shown = along.deviation(&gaps, direction, &angles);
+            let mut rows: Vec<(f64, f64)> = degrees.iter().copied().zip(shown).collect();
+            if direction == Direction::Clockwise {
+                rows.reverse();
+            }
+            for (deg, dr) in rows {
+                let um = (dr + wanted.noise * noise.normal()) * 1e6;
+                largest = largest.max(um.abs());
+                let _ = writeln!(text, "{deg},{um:.4},{},{run}", direction.name());
+            }
+        }
+    }
+    (text, largest)
+}

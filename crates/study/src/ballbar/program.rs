@@ -1,0 +1,150 @@
+//! The taught circle as a program of the robot, on the circle that a study asks for.
+//!
+//! ```text
+//! a = zero + f   or, where the bar looks from the other side, a = zero - f
+//! p(a) = centre + (R + c(f)) (-cos a, sin a)        path axes: -x is y', y is z' of the plane
+//! straight moves between N points leave the circle by R (1 - cos(pi / N))
+//! ```
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `f`, `a` | angle in the files, and on the circle of the study: from its +y' towards z' | rad |
+//! | `c` | correction of the radius | m |
+//!
+//! The program passes every point of the table, and closes the circle. The arm keeps the branch of the study.
+
+use std::f64::consts::{PI, TAU};
+
+use armill_core::load::{LoadCases, LoadFrame, PathLoad};
+use armill_core::map::along_path;
+use armill_core::nalgebra::Vector2;
+use armill_core::path::{PathPoint, Shape, Track};
+use armill_core::spatial::Wrench;
+use armill_core::watch::Watch;
+use armill_formats::robot_program::Written;
+
+use super::teach::TaughtCircle;
+use crate::compensate::paths;
+use crate::error::StudyError;
+use crate::file::path::PathAsk;
+use crate::file::resolve::Study;
+use crate::program_out::{ProgramWanted, program};
+use crate::run::runner;
+
+/// Where the taught circle lies in the cell.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CircleWanted {
+    /// Name of the path, a circle; the only one if left out.
+    pub ask: Option<String>,
+    /// Where angle 0 of the files lies, from +y' towards z', rad.
+    pub zero: f64,
+    /// Whether angles of the files grow from z' towards y'.
+    pub mirrored: bool,
+}
+
+/// Radii that differ by more are of two circles, m.
+const SAME_RADIUS: f64 = 1e-6;
+/// No point of the table is left out, m.
+const ALL: f64 = 1e-9;
+
+/// The fewest points, a multiple of 12, between which straight moves leave a circle of `radius` (m) by `within` (m) at most.
+pub fn points_within(radius: f64, within: f64) -> usize {
+    let half = (1.0 - (within / radius).min(1.0)).acos();
+    let least = (PI / half.max(1e-6)).ceil() as usize;
+    least.div_ceil(12) * 12
+}
+
+/// How far straight moves between `points` even points leave a circle of `radius` (m), m.
+pub fn sagitta(radius: f64, points: usize) -> f64 {
+    radius * (1.0 - (PI / points as f64).cos())
+}
+
+/// The program of `taught` on a circle of `study`.
+///
+/// # Errors
+/// No such circle, or one of another radius; a posture that is searched for along the path; a point out of reach; what the
+/// language cannot hold.
+pub fn taught_program(
+    study: &Study,
+    taught: &TaughtCircle,
+    circle: &CircleWanted,
+    wanted: &ProgramWanted,
+) -> Result<Written, StudyError> {
+    let (ask, centre, radius) = asked(study, circle.ask.as_deref())?;
+    if (radius - taught.radius).abs() > SAME_RADIUS {
+        return Err(StudyError::value(
+            format!(
+                "the circle of the study has {} mm, that of the ball-bar {} mm",
+                crate::number::decimals(radius * 1e3, 6),
+                crate::number::decimals(taught.radius * 1e3, 6)
+            ),
+            "the same circle in both; --radius-mm, where the files do not tell it",
+        ));
+    }
+    if ask.setting.search.is_some() {
+        return Err(StudyError::value(
+            "posture.search turns the tool along the path: what the ball-bar saw was another circle",
+            "the study that the bar was measured in, with one turn and one branch",
+        ));
+    }
+    let sign = if circle.mirrored { -1.0 } else { 1.0 };
+    let count = taught.corrections.len();
+    let mut path = Shape::Circle { centre, radius }.sampled(TAU * radius / count as f64 * (1.0 + 1e-9));
+    for (k, point) in path.points.iter_mut().enumerate() {
+        // Angles of the study grow with the points; those of the files are looked up.
+        let a = TAU * k as f64 / count as f64;
+        let (sin, cos) = a.sin_cos();
+        let at = centre + Vector2::new(-cos, sin) * taught.radius_at(sign * (a - circle.zero));
+        (point.at.x, point.at.y) = (at.x, at.y);
+    }
+    let close = path.points.first().map(|first| PathPoint {
+        along: TAU * radius,
+        ..*first
+    });
+    path.points.extend(close);
+    let track = Track {
+        path,
+        ..ask.track.clone()
+    };
+    let nothing = PathLoad::Cases(LoadCases {
+        frame: LoadFrame::Base,
+        cases: vec![Wrench::ZERO],
+    });
+    let runner = runner(study, Watch::NONE)?;
+    let along = along_path(&runner.question(&ask.setting), &track, nothing, Watch::NONE)?;
+    let wanted = ProgramWanted {
+        within: ALL,
+        ..wanted.clone()
+    };
+    program(study, &ask.setting, (&track, &along.answers), &wanted)
+}
+
+/// The circle that is asked for, its centre and its radius.
+fn asked<'a>(
+    study: &'a Study,
+    name: Option<&str>,
+) -> Result<(&'a PathAsk, armill_core::nalgebra::Point2<f64>, f64), StudyError> {
+    let circles: Vec<_> = paths(study, name)
+        .filter_map(|(name, path)| match path.shape() {
+            Some(Shape::Circle { centre, radius }) => Some((name, (path, *centre, *radius))),
+            _ => None,
+        })
+        .collect();
+    let hint = "an ask of kind = \"path\" with circle = { radius_mm = 100 }";
+    match (&circles[..], name) {
+        ([(_, one)], _) => Ok(*one),
+        ([], Some(name)) => Err(StudyError::value(
+            format!("the study has no circle called `{name}`"),
+            hint,
+        )),
+        ([], None) => Err(StudyError::value("the study asks for no circle", hint)),
+        (several, _) => {
+            let names: Vec<&str> = several.iter().map(|(name, _)| *name).collect();
+            let message = format!("the study has {} circles: {}", several.len(), names.join(", "));
+            Err(StudyError::value(
+                message,
+                "name the one that was measured: --ask NAME",
+            ))
+        }
+    }
+}

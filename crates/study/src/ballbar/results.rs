@@ -1,0 +1,92 @@
+//! What the bar's own program made of a test, with ours beside where both tell the same kind of thing.
+
+use armill_core::measure::ballbar::parts::Term;
+use armill_formats::measurement::ballbar::Feature;
+use serde::Serialize;
+
+use super::analyse::Found;
+use super::answer::BallbarAnswer;
+use super::read::Measured;
+
+/// What the bar's own program made of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct ResultsAnswer {
+    /// Its file.
+    pub file: String,
+    /// What was planned.
+    pub test: Option<String>,
+    /// On which machine.
+    pub machine: Option<String>,
+    /// When.
+    pub date: Option<String>,
+    /// In which plane.
+    pub plane: Option<String>,
+    /// Each result as the file has it.
+    pub features: Vec<FeatureAnswer>,
+    /// Results whose text is no number, as they are called.
+    pub without_number: Vec<String>,
+}
+
+/// One result of the bar's own program, and ours of the same kind.
+#[derive(Clone, Debug, Serialize)]
+pub struct FeatureAnswer {
+    /// As the file calls it.
+    pub name: String,
+    /// As the file has it.
+    // unit: the field `unit` tells it
+    pub value: f64,
+    /// The unit of both.
+    pub unit: String,
+    /// Ours in that unit, where both tell the same kind of thing; definitions and signs may differ.
+    // unit: the field `unit` tells it
+    pub ours: Option<f64>,
+}
+
+/// All results that files hold, ours not yet beside them.
+pub(super) fn results(measured: &Measured) -> Vec<ResultsAnswer> {
+    let of = measured.results.iter().map(|(file, results)| {
+        let feature = |feature: &Feature| FeatureAnswer {
+            name: feature.name.clone(),
+            value: feature.value,
+            unit: feature.unit.clone(),
+            ours: None,
+        };
+        ResultsAnswer {
+            file: file.clone(),
+            test: results.test.clone(),
+            machine: results.machine.clone(),
+            date: results.date.clone(),
+            plane: results.plane.clone(),
+            features: results.features.iter().map(feature).collect(),
+            without_number: results.without_number.clone(),
+        }
+    });
+    of.collect()
+}
+
+/// Puts our numbers beside those of the bar's own program.
+pub(super) fn beside(told: &mut BallbarAnswer, found: &Found) {
+    let [a, b] = &told.axes;
+    // The reversal of that name: told ones may come with it, or in place of those of the axes.
+    let step = |axis: &str, side: &str| {
+        let name = format!("{axis}{side}");
+        let index = found.asked.reversals.iter().position(|of| of.name == name)?;
+        let part = found.parts.as_ref()?.alone(Term::Reversal(index))?;
+        Some(part.value * 1e6)
+    };
+    let squareness = told.parts.as_ref().and_then(|parts| parts.squareness_urad);
+    let ours = [
+        ("AF_CIRCULARITY", "um", told.circular_bidirectional_um),
+        ("AF_SQUARENESS", "um/m", squareness),
+        ("AF_BACKLASH_A_POS", "um", step(a, "+")),
+        ("AF_BACKLASH_A_NEG", "um", step(a, "-")),
+        ("AF_BACKLASH_B_POS", "um", step(b, "+")),
+        ("AF_BACKLASH_B_NEG", "um", step(b, "-")),
+    ];
+    for feature in told.results.iter_mut().flat_map(|results| &mut results.features) {
+        let of = ours
+            .iter()
+            .find(|(name, unit, _)| *name == feature.name && *unit == feature.unit);
+        feature.ours = of.and_then(|(.., value)| *value);
+    }
+}

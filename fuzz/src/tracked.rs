@@ -1,0 +1,50 @@
+//! What must hold of anything that a tracker measured: poses and paths.
+
+use std::sync::OnceLock;
+
+use armill_core::calibrate;
+use armill_core::frame::Isometry;
+use armill_core::measure::path_accuracy::path_accuracy;
+use armill_core::robot::Robot;
+use armill_formats::measurement::{poses, trace};
+use armill_study::library;
+
+use crate::verdicts::refused;
+
+/// Measured poses; what can be read is calibrated too.
+pub fn poses(bytes: &[u8]) {
+    static ROBOT: OnceLock<Robot> = OnceLock::new();
+    let robot = ROBOT.get_or_init(|| {
+        let found = library::robot("yaskawa/mh12").expect("it is in the library");
+        found.expect("every robot of the library reads").robot
+    });
+    let found = match poses::read("poses.csv", bytes, robot, &poses::Told::default()) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert_eq!(found.poses.len(), found.lines.len());
+    let question = calibrate::Question {
+        asked: calibrate::Asked::Geometry,
+        flange_from_point: Isometry::identity(),
+        turn_length: 0.25,
+        prior: None,
+    };
+    if let Ok(found) = calibrate::fit(robot, &found.poses, &question) {
+        assert!(found.standard_deviation.is_finite());
+        assert!(found.errors.position.iter().all(|error| error.norm().is_finite()));
+    }
+}
+
+/// Points along a path; the first run of what can be read is commanded to all of them.
+pub fn trace(bytes: &[u8]) {
+    let found = match trace::read("trace.csv", bytes) {
+        Err(problems) => return refused(&problems),
+        Ok(found) => found,
+    };
+    assert!(found.runs.iter().all(|run| run.points.len() == run.lines.len() && !run.points.is_empty()));
+    let runs: Vec<_> = found.runs.into_iter().map(|run| run.points).collect();
+    if let Ok(found) = path_accuracy(&runs[0], &runs) {
+        assert!(found.points.iter().all(|point| point.offset.norm().is_finite()));
+        assert!(found.points.iter().all(|point| point.repeatability.is_none_or(f64::is_finite)));
+    }
+}
