@@ -113,9 +113,10 @@ impl Cell {
         Ok(())
     }
 
-    /// Whether this is the file of the study itself.
-    pub(crate) fn is_study(&self, path: &Path) -> bool {
-        self.file.as_deref() == Some(path)
+    /// Whether a file of this name would be that of the study itself, also where case tells no names apart.
+    pub(crate) fn is_study(&self, name: &str) -> bool {
+        let own = self.file.as_deref().and_then(|file| file.file_name()?.to_str());
+        own.is_some_and(|own| own.to_lowercase() == name.to_lowercase())
     }
 
     /// A text of the page as a study of this folder.

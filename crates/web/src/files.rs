@@ -232,7 +232,7 @@ async fn take(
         return Err(ApiError::forbidden(message));
     }
     let path = state.cell.root.join(&name);
-    if state.cell.is_study(&path) {
+    if state.cell.is_study(&name) {
         return Err(ApiError::forbidden("the study is written by /api/study"));
     }
     let replaces = taking.replace.as_deref() == Some("1");

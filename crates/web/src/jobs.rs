@@ -11,7 +11,8 @@ use std::convert::Infallible;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Duration;
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use armill_study::live::outline;
 use axum::Router;
@@ -44,6 +45,8 @@ pub(crate) struct Jobs {
     /// To the thread that computes; it ends with the last of these.
     next: Mutex<Option<Sender<(Arc<Job>, String)>>>,
     count: std::sync::atomic::AtomicUsize,
+    /// That thread.
+    computing: JoinHandle<()>,
 }
 
 /// All jobs, newest first.
@@ -64,8 +67,8 @@ impl Jobs {
     /// None yet; results go into folders of `root`.
     pub(crate) fn start(root: PathBuf) -> Jobs {
         let (next, waiting) = channel();
-        std::thread::spawn(move || compute(&waiting, &root));
         Jobs {
+            computing: std::thread::spawn(move || compute(&waiting, &root)),
             all: Mutex::default(),
             next: Mutex::new(Some(next)),
             count: std::sync::atomic::AtomicUsize::new(0),
@@ -113,6 +116,14 @@ impl Jobs {
     fn find(&self, id: &str) -> Result<Arc<Job>, ApiError> {
         let found = self.with(|all| all.iter().find(|job| job.id == id).cloned());
         found.ok_or_else(|| ApiError::not_found("there is no such job"))
+    }
+
+    /// Waits until the one under way has heard that it is cancelled, so long at most.
+    pub(crate) fn wait(&self, longest: Duration) {
+        let begun = Instant::now();
+        while !self.computing.is_finished() && begun.elapsed() < longest {
+            std::thread::sleep(Duration::from_millis(10));
+        }
     }
 
     /// Cancels all, and takes no more.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | connections at a time | 128 |
 //! | head of a request | 10 s, 64 kB |
-//! | answers under way when it stops | 5 s |
+//! | answers under way when it stops, a job to hear of it | 5 s each |
 //!
 //! A job under way is cancelled when it stops; what it wrote is whole or not there.
 
@@ -36,7 +36,7 @@ const MOST_CONNECTIONS: usize = 128;
 const HEAD_TIME: Duration = Duration::from_secs(10);
 /// Bytes of the head of a request.
 const MOST_HEAD: usize = 64 * 1024;
-/// How long answers under way may take when it stops.
+/// How long answers under way may take when it stops, and then a job until it hears of it.
 const LAST_ANSWERS: Duration = Duration::from_secs(5);
 /// How long computing may take to hear that it is cancelled.
 const LAST_WORK: Duration = Duration::from_secs(2);
@@ -130,6 +130,7 @@ impl Server {
         // The other end goes with the task that listens.
         let _ = stop.send(true);
         let _ = runtime.block_on(listening);
+        state.jobs.wait(LAST_ANSWERS);
         runtime.shutdown_timeout(LAST_WORK);
     }
 }
