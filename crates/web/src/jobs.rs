@@ -27,8 +27,9 @@ use serde::Serialize;
 
 use crate::body::{Asked, check_text, json};
 use crate::error::{Answered, ApiError};
-use crate::job::{Job, JobAnswer, JobState, Task};
+use crate::job::{Job, JobAnswer, JobState};
 use crate::server::State;
+use crate::task::Task;
 
 /// Jobs that are remembered.
 const MOST_JOBS: usize = 50;
@@ -153,12 +154,8 @@ pub(crate) fn routes() -> Router<Arc<State>> {
 }
 
 async fn begin(Shared(state): Shared<Arc<State>>, Asked(task): Asked<Task>) -> Answered {
-    let (Task::Run { text, .. }
-    | Task::Posture { text, .. }
-    | Task::Place { text, .. }
-    | Task::Identify { text, .. }) = &task;
-    check_text(text)?;
-    let (shared, text) = (Arc::clone(&state), text.clone());
+    check_text(task.text())?;
+    let (shared, text) = (Arc::clone(&state), task.text().to_owned());
     // A study with problems becomes a job that fails, and tells them.
     let told = state
         .work

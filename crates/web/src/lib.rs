@@ -14,6 +14,7 @@
 //! | `body`, `error` | what of a request is read, and how is told what is wrong? |
 //! | `work` | where does computing happen, and who still waits for it? |
 //! | `study`, `answers`, `jobs`, `files` | what does each path under `/api` do? |
+//! | `job`, `task` | how far is one job, and what does each kind do? |
 //! | `page` | what is served to look at? |
 //! | `openapi` | how is all that told to a program? |
 //!
@@ -31,6 +32,7 @@ mod openapi;
 mod page;
 mod server;
 mod study;
+mod task;
 mod work;
 
 pub use openapi::document as openapi_document;

@@ -20,10 +20,11 @@ use serde_json::{Map, Value, json};
 use crate::answers::{OfAsk, OfPicture, OfPlace, OfTable};
 use crate::error::ErrorBody;
 use crate::files::{Files, TakenIn};
-use crate::job::{JobAnswer, Task};
+use crate::job::JobAnswer;
 use crate::jobs::{JobBegun, JobList};
 use crate::server::State;
 use crate::study::{Changes, Checked, StudyOnDisk, Written};
+use crate::task::Task;
 
 /// Where schemas stand in the document.
 const SCHEMAS: &str = "/components/schemas";

@@ -93,7 +93,7 @@ pub struct ContributionAnswer {
 }
 
 /// The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WithoutLoadAnswer {
     /// Largest predicted by size, from its datum.
     pub predicted_um: f64,
