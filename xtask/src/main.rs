@@ -19,9 +19,11 @@ mod bench;
 mod command;
 mod fuzz;
 mod scale;
+mod serve;
 mod test;
 mod tidy;
 mod validate;
+mod web;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -72,6 +74,16 @@ const CHORES: &[Chore] = &[
         name: "scale",
         about: scale::ABOUT,
         run: scale::run,
+    },
+    Chore {
+        name: "web",
+        about: web::ABOUT,
+        run: web::run,
+    },
+    Chore {
+        name: "serve",
+        about: serve::ABOUT,
+        run: serve::run,
     },
     Chore {
         name: "audit",

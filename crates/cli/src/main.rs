@@ -47,6 +47,7 @@ fn main() -> ExitCode {
         Command::Backlash(backlash) => command::backlash::run(backlash),
         Command::PathAccuracy(path_accuracy) => command::path_accuracy::run(path_accuracy),
         Command::Budget(budget) => command::budget::run(budget),
+        Command::Serve(serve) => command::serve::run(serve),
         Command::Completions(completions) => command::completions::run(completions),
     };
     match outcome {

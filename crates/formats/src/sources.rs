@@ -11,7 +11,7 @@ use serde::Deserialize;
 use crate::document::{Document, Problem, joined};
 
 /// Where numbers come from.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, JsonSchema)]
 pub struct Source {
     /// Key inside the file.
     pub key: String,

@@ -6,7 +6,8 @@
 //! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
 //! measured paths,
 //! [`budget`] puts what was measured beside what is predicted,
-//! [`place`] finds where a part may lie best, [`advise`] what to do about a path.
+//! [`place`] finds where a part may lie best, [`advise`] what to do about a path, [`live`] tells a page what it shows of a
+//! study while it is being written.
 //! The robot library and the example studies travel inside the program ([`library`]); [`compliance_class`] assumes
 //! joint compliances from it where none are known. [`robots`] and [`studies`] find what a user names,
 //! [`robot_answers`] and [`materials`] tell what is known of one, [`mod@new`] begins a study. [`joint_unit`] and
@@ -30,6 +31,7 @@ pub mod identify;
 pub mod in_place;
 pub mod joint_unit;
 pub mod library;
+pub mod live;
 pub mod materials;
 pub mod model_words;
 mod naming;

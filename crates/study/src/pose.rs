@@ -23,6 +23,7 @@ use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
 use armill_core::spatial::Wrench;
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::StudyError;
@@ -65,10 +66,12 @@ pub enum At {
         /// Turn about the axis, rad.
         spin: f64,
     },
+    /// The whole pose of the tool, in base.
+    Pose(Isometry),
 }
 
 /// Every posture of a pose. Positions in the frame `base`, everything else about the TCP in base axes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PoseAnswer {
     /// Name of the robot.
     pub robot: String,
@@ -95,7 +98,7 @@ pub struct PoseAnswer {
 }
 
 /// One posture.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PostureAnswer {
     /// Its name: words of a branch; without named branches the side of the middle on which each joint stands.
     pub branch: String,
@@ -137,7 +140,7 @@ pub struct PostureAnswer {
 }
 
 /// Where the tool is.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ToolAnswer {
     /// TCP in the frame that positions count from.
     pub xyz_mm: [f64; 3],
@@ -146,7 +149,7 @@ pub struct ToolAnswer {
 }
 
 /// What follows from the compliance of a posture.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StiffnessAnswer {
     /// 6 x 6, the (pseudo-)inverse of the compliance, SI. // unit: SI matrix
     pub stiffness: [[f64; 6]; 6],
@@ -163,7 +166,7 @@ pub struct StiffnessAnswer {
 }
 
 /// Why there is no posture, and by how much.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct UnreachableAnswer {
     /// One word.
     pub reason: String,
@@ -183,6 +186,18 @@ const WEIGHING_LENGTH: f64 = 1.0;
 /// # Errors
 /// A wrong number of joints, an unknown frame.
 pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<PoseAnswer, StudyError> {
+    answer_under(described, question, &stiffness_model(described, question)?)
+}
+
+/// [`answer`] with what yields and weighs as `model` has it, in place of what the question tells of it.
+///
+/// # Errors
+/// As of [`answer`].
+pub(crate) fn answer_under(
+    described: &RobotDescription,
+    question: &PoseQuestion,
+    model: &StiffnessModel,
+) -> Result<PoseAnswer, StudyError> {
     let robot = &described.robot;
     let base_from_counted = crate::base_from_counted(robot, &question.base).map_err(|known| {
         StudyError::value(
@@ -191,6 +206,20 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
         )
     })?;
     let mut unreachable = None;
+    let mut holding = |base_from_tool: &Isometry| -> Result<Vec<Posture>, StudyError> {
+        // Only where joints may be chosen does home count.
+        let home = question.home_deg.as_deref();
+        let home = home.map(|home| joint_positions(described, home)).transpose()?;
+        let tool = ToolAt {
+            flange_from_tool: &question.flange_from_tool,
+            near: None,
+            home: home.as_deref(),
+        };
+        Ok(postures(robot, base_from_tool, tool).unwrap_or_else(|miss| {
+            unreachable = Some(unreachable_answer(miss));
+            Vec::new()
+        }))
+    };
     let found = match &question.at {
         At::JointsDeg(joints) => vec![posture_at(
             robot,
@@ -198,30 +227,16 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             &question.flange_from_tool,
         )],
         At::Tool { tcp, axis, spin } => {
-            // Only where joints may be chosen does home count.
-            let home = question.home_deg.as_deref();
-            let home = home.map(|home| joint_positions(described, home)).transpose()?;
             let counted_from_tool = Isometry::from_parts(tcp.coords.into(), tool_orientation(*axis, *spin));
-            let tool = ToolAt {
-                flange_from_tool: &question.flange_from_tool,
-                near: None,
-                home: home.as_deref(),
-            };
-            match postures(robot, &(base_from_counted * counted_from_tool), tool) {
-                Ok(found) => found,
-                Err(miss) => {
-                    unreachable = Some(unreachable_answer(miss));
-                    Vec::new()
-                }
-            }
+            holding(&(base_from_counted * counted_from_tool))?
         }
+        At::Pose(base_from_tool) => holding(base_from_tool)?,
     };
-    let model = stiffness_model(described, question)?;
     let mut standing = robot.compliance().map(|compliance| {
         Standing::new(Arm {
             robot,
             compliance,
-            model: &model,
+            model,
             flange_from_tool: &question.flange_from_tool,
         })
     });
@@ -233,7 +248,7 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             .map(|joint| JointUnit::of(robot, joint).name)
             .collect(),
         compliance_assumed: question.caution.is_some(),
-        model: parts(robot, &model),
+        model: parts(robot, model),
         shares_of: model.sharer_names(robot.joints()),
         postures: found
             .iter()
@@ -245,7 +260,7 @@ pub fn answer(described: &RobotDescription, question: &PoseQuestion) -> Result<P
             })
             .collect(),
         unreachable,
-        notes: notes(described, question, &model),
+        notes: notes(described, question, model),
         sources: described.sources.clone(),
     })
 }

@@ -5,13 +5,16 @@
 use armill_core::robot::{Amount, Axis, Joint, Motion, Robot, Seat, TorqueCurve, reach};
 use armill_formats::robot::RobotDescription;
 use armill_formats::sources::Source;
+use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::error::StudyError;
 use crate::joint_unit::JointUnit;
 use crate::number::{decimals, without_rounding};
+use crate::{library, robots};
 
 /// A row of the list of robots.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RobotRow {
     /// Its name in the library.
     pub name: String,
@@ -42,8 +45,20 @@ impl RobotRow {
     }
 }
 
+/// The rows of the library; every robot of it is read for this.
+///
+/// # Errors
+/// Never in practice: what is built in reads.
+pub fn library_rows() -> Result<Vec<RobotRow>, StudyError> {
+    let row = |entry: &library::Embedded| {
+        let found = robots::find(entry.name, ".".as_ref())?;
+        Ok(RobotRow::of(entry.name, &found))
+    };
+    library::ROBOTS.iter().map(row).collect()
+}
+
 /// Everything that is known of one robot.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownRobot {
     /// Its name in the library, or of its file.
     pub name: String,
@@ -74,7 +89,7 @@ pub struct KnownRobot {
 }
 
 /// A joint as its controller counts it.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownJoint {
     /// The maker's name.
     pub name: String,
@@ -92,7 +107,7 @@ pub struct KnownJoint {
 }
 
 /// Numbers of a joint; none where they are not known.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum JointNumbers {
     /// It turns.
@@ -124,7 +139,7 @@ pub enum JointNumbers {
 }
 
 /// What yields and weighs beside the drives.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownStructure {
     /// Springs.
     pub springs: Vec<KnownSpring>,
@@ -139,7 +154,7 @@ pub struct KnownStructure {
 }
 
 /// A direction in which the arm yields.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownSpring {
     /// Its seat: `base`, a joint, `flange`, `tool`.
     pub at: String,
@@ -151,7 +166,7 @@ pub struct KnownSpring {
 }
 
 /// How much a spring yields.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum SpringCompliance {
     /// It turns.
@@ -171,7 +186,7 @@ pub enum SpringCompliance {
 }
 
 /// A mass.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownMass {
     /// Its seat.
     pub at: String,
@@ -182,7 +197,7 @@ pub struct KnownMass {
 }
 
 /// The torque curve of a joint.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownCurve {
     /// The joint.
     pub joint: String,
@@ -194,7 +209,7 @@ pub struct KnownCurve {
 }
 
 /// A gravity compensator; lengths and angle as in a robot file.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownCompensator {
     /// The joint that it holds.
     pub joint: String,
@@ -211,7 +226,7 @@ pub struct KnownCompensator {
 }
 
 /// A frame that positions may be counted from.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct KnownFrame {
     /// Its name.
     pub name: String,
@@ -220,7 +235,7 @@ pub struct KnownFrame {
 }
 
 /// What came of a robot file of another format.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ImportedRobot {
     /// The file that was made; none where it was printed.
     pub file: Option<String>,

@@ -1,7 +1,7 @@
-//! Which crate may depend on which: core <- formats <- study <- cli, report <- study; programs beside them.
+//! Which crate may depend on which: core <- formats <- study <- web <- cli, report <- study; programs beside them.
 //!
 //! ```text
-//! core <- formats <- study <- cli        report <- study        validation, bench, fuzz, xtask: on them nobody depends
+//! core <- formats <- study <- web <- cli        report <- study        validation, bench, fuzz, xtask: on them nobody depends
 //! ```
 //!
 //! Direct dependencies alone are read, in any table of a `Cargo.toml`, tests included: a test may not turn the
@@ -24,7 +24,8 @@ const USES: &[(&str, &[&str])] = &[
     ("formats", &["core"]),
     ("report", &[]),
     ("study", &["core", "formats", "report"]),
-    ("cli", &["core", "formats", "report", "study"]),
+    ("web", &["core", "formats", "study"]),
+    ("cli", &["core", "formats", "report", "study", "web"]),
 ];
 
 /// Programs of the repository, on which nothing depends.

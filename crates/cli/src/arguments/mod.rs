@@ -1,7 +1,7 @@
 //! What can be typed behind `armill`: a file here for each command of the same name in `command`.
 //!
 //! `run`, `check`, `compare`, `new`, `robots`, `materials`, `pose`, `posture`, `place`, `advise`, `compensate`,
-//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `completions`; `poses` and `program` are for two of them each.
+//! `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `backlash`, `budget`, `pose_accuracy`, `path_accuracy`, `serve`, `completions`; `poses` and `program` are for two of them each.
 //!
 //! Doc comments of fields and variants are the text of `--help`: one line without a full stop, the unit in the
 //! option's name. What a developer should know stands in `//` comments and in these heads. Names of options are
@@ -33,6 +33,7 @@ mod program;
 mod robots;
 mod roundness;
 mod run;
+mod serve;
 
 pub(crate) use advise::AdviseArguments;
 pub(crate) use backlash::BacklashArguments;
@@ -57,6 +58,7 @@ pub(crate) use program::ProgramOptions;
 pub(crate) use robots::{ImportArguments, RobotsAction, RobotsArguments, RobotsCheckArguments};
 pub(crate) use roundness::RoundnessArguments;
 pub(crate) use run::{RunArguments, RunOptions};
+pub(crate) use serve::ServeArguments;
 
 use clap::{Parser, Subcommand};
 
@@ -120,6 +122,8 @@ pub(crate) enum Command {
     PathAccuracy(PathAccuracyArguments),
     /// What the error of a measured circle is made of, and how much of it is predicted
     Budget(BudgetArguments),
+    /// The live page of a study in the browser, on this machine alone
+    Serve(ServeArguments),
     /// Print shell completions
     Completions(CompletionsArguments),
 }
@@ -152,7 +156,7 @@ impl Command {
             Command::PoseAccuracy(a) => a.json,
             Command::PathAccuracy(a) => a.json,
             Command::Budget(a) => a.json,
-            Command::Completions(_) => false,
+            Command::Serve(_) | Command::Completions(_) => false,
         }
     }
 }

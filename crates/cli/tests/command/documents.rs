@@ -104,6 +104,7 @@ fn guide_runs() {
         "ballbar",
         "calibrate",
         "budget",
+        "live-page",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -114,7 +115,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 17, "name the new page in `guide_runs`");
+    assert_eq!(pages, 18, "name the new page in `guide_runs`");
 }
 
 #[test]

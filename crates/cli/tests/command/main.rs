@@ -33,6 +33,7 @@ mod refused;
 mod robots_check;
 mod roundness;
 mod run;
+mod serve;
 mod springs;
 mod terminal;
 mod unloaded;

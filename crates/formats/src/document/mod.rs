@@ -6,8 +6,8 @@
 //!
 //! In reading order: `source` (the text), `problem` (what is told of it), `tree` (its values, each with its place),
 //! `path` (finds a value), `limits` (refuses what would nest too deep); `shape` and `merge` (what a schema wants),
-//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); `lines` (text that is
-//! no TOML, line by line).
+//! `check` (compares tree and shape), `unit` and `words` (units of names, and how both are said); [`edit`] (changes values of
+//! a text and leaves the rest); `lines` (text that is no TOML, line by line).
 //!
 //! ```
 //! use armill_formats::document::Document;
@@ -26,6 +26,7 @@
 //! ```
 
 mod check;
+pub mod edit;
 mod limits;
 pub(crate) mod lines;
 mod merge;
@@ -136,6 +137,16 @@ impl Document {
     /// Whether the file itself gives a value at `path`, rather than leaving it to a default.
     pub fn contains(&self, path: &str) -> bool {
         path::exists(&self.root, path)
+    }
+
+    /// The paths of all values at or below `path` that are no tables, such as `centre_mm` and `half_size_mm` below
+    /// `plane`; counted from there, in the order of the alphabet.
+    pub fn keys(&self, path: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        if let Some(node) = path::found(&self.root, path) {
+            tree::leaves(node, "", &mut found);
+        }
+        found
     }
 
     /// Every text in the document, with its path as [`Document::problem`] takes it.

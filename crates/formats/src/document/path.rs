@@ -15,7 +15,7 @@ use super::tree::{Node, Value};
 
 /// One part of a path.
 #[derive(Debug, PartialEq)]
-enum Step {
+pub(super) enum Step {
     /// A field of a table, as it is called once quotes are taken off.
     Key(String),
     /// An entry of a list, from 0.
@@ -30,6 +30,11 @@ pub(super) fn nearest_span(root: &Node, path: &str) -> Range<usize> {
 /// Whether there is a value at `path`.
 pub(super) fn exists(root: &Node, path: &str) -> bool {
     walk(root, &steps(path)).1
+}
+
+/// The value at `path`, if there is one.
+pub(super) fn found<'a>(root: &'a Node, path: &str) -> Option<&'a Node> {
+    steps(path).iter().try_fold(root, below)
 }
 
 /// A path longer by a key, which is quoted unless it is bare in TOML.
@@ -50,12 +55,7 @@ pub(crate) fn joined(path: &str, key: &str) -> String {
 fn walk(root: &Node, steps: &[Step]) -> (Range<usize>, bool) {
     let mut here = root;
     for step in steps {
-        let next = match (step, &here.value) {
-            (Step::Key(key), Value::Table(table)) => table.get(key).map(|entry| &entry.node),
-            (Step::Entry(index), Value::List(entries)) => entries.get(*index),
-            _ => None,
-        };
-        let Some(next) = next else {
+        let Some(next) = below(here, step) else {
             return (here.span.clone(), false);
         };
         here = next;
@@ -63,8 +63,17 @@ fn walk(root: &Node, steps: &[Step]) -> (Range<usize>, bool) {
     (here.span.clone(), true)
 }
 
+/// The value one step below `here`, if there is one.
+fn below<'a>(here: &'a Node, step: &Step) -> Option<&'a Node> {
+    match (step, &here.value) {
+        (Step::Key(key), Value::Table(table)) => table.get(key).map(|entry| &entry.node),
+        (Step::Entry(index), Value::List(entries)) => entries.get(*index),
+        _ => None,
+    }
+}
+
 /// The parts of a path; what cannot be understood is taken as a key that will not be found.
-fn steps(path: &str) -> Vec<Step> {
+pub(super) fn steps(path: &str) -> Vec<Step> {
     let mut steps = Vec::new();
     let mut rest = path;
     while !rest.is_empty() {

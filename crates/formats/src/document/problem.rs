@@ -17,6 +17,7 @@ use std::ops::Range;
 
 use annotate_snippets::renderer::DecorStyle;
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// More problems of one file than this are not looked for, where a file of any length is read.
@@ -32,13 +33,19 @@ const SHOWN_WIDTH: usize = 140;
 ///
 /// Serialised it has `file`, `line`, `column`, `span` (bytes), `message` and `hint`.
 /// `Display` gives one line: `path:line:column: message`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Problem {
+    /// The path of the file, as it was given.
     pub(super) file: String,
+    /// The line, from 1.
     pub(super) line: usize,
+    /// The column, from 1, in characters.
     pub(super) column: usize,
+    /// The offending bytes of the text.
     pub(super) span: Range<usize>,
+    /// The thing, its value, the limit and the unit.
     pub(super) message: String,
+    /// What to do about it, where that is known.
     pub(super) hint: Option<String>,
     /// `None` where there is no line to show: a file as a whole, or a line that is too long to be read on a screen.
     #[serde(skip)]
@@ -54,7 +61,7 @@ pub(super) struct Excerpt {
 
 impl Problem {
     /// A problem of the file `name` as a whole, of which no line can be shown.
-    pub(crate) fn of_file(name: &str, message: impl Into<String>, hint: &str) -> Problem {
+    pub fn of_file(name: &str, message: impl Into<String>, hint: &str) -> Problem {
         Problem {
             file: name.to_owned(),
             line: 1,

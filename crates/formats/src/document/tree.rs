@@ -71,6 +71,18 @@ pub(super) fn texts<'a>(node: &'a Node, path: &str, found: &mut Vec<(String, &'a
     }
 }
 
+/// Adds the path of every value at or below `node` that is no table; lists are values as a whole.
+pub(super) fn leaves(node: &Node, path: &str, found: &mut Vec<String>) {
+    match &node.value {
+        Value::Table(table) => {
+            for (key, entry) in table {
+                leaves(&entry.node, &joined(path, key), found);
+            }
+        }
+        _ => found.push(path.to_owned()),
+    }
+}
+
 /// The fields of a table with the places of their keys.
 fn fields(table: DeTable<'_>) -> Table {
     let entry = |(key, value): (Spanned<_>, _)| {

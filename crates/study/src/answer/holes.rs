@@ -15,6 +15,7 @@ use armill_core::nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use armill_core::optimize::HolesFound;
 use armill_core::robot::jacobian::wrist_bend;
 use armill_core::workpiece::Plane;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::map::CountsAnswer;
@@ -25,7 +26,7 @@ use crate::file::resolve::{Setting, Study};
 use crate::number::without_rounding;
 
 /// A set of holes.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct HolesAnswer {
     /// Its name.
     pub name: String,
@@ -64,7 +65,7 @@ pub struct HolesAnswer {
 }
 
 /// A hole where the deviation is large.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WorstHole {
     /// Its number, from 1.
     pub hole: usize,
@@ -73,7 +74,7 @@ pub struct WorstHole {
 }
 
 /// One hole.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct HoleAnswer {
     /// Its number in the order given, from 1.
     pub hole: usize,

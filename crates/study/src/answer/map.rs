@@ -5,6 +5,7 @@
 
 use armill_core::map::{COVERAGE, Certainty, Counts, PlaneMap, Region, probability_within};
 use armill_core::nalgebra::Point2;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer};
@@ -12,7 +13,7 @@ use crate::file::resolve::{Setting, Study};
 use crate::number::without_rounding;
 
 /// A map of one plane.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MapAnswer {
     /// Its name: of the ask, with the label of the section.
     pub name: String,
@@ -48,7 +49,7 @@ pub struct MapAnswer {
 }
 
 /// Points by reason; they add up to all points.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, Serialize, JsonSchema)]
 pub struct CountsAnswer {
     /// In-plane deviation within the limit.
     pub within: usize,
@@ -82,7 +83,7 @@ impl CountsAnswer {
 }
 
 /// The region within the limit. In-plane coordinates y', z' from the plane's centre.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RegionAnswer {
     /// Area, following the limit between points.
     pub area_mm2: f64,
@@ -97,7 +98,7 @@ pub struct RegionAnswer {
 }
 
 /// How sure the region is, from the standard uncertainties of the points.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CertaintyAnswer {
     /// Multiple of the standard uncertainty that counts as sure.
     pub coverage_factor: f64,
@@ -118,7 +119,7 @@ pub struct CertaintyAnswer {
 }
 
 /// The points of a map, row by row along z', in each row along y'.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct GridAnswer {
     /// How many.
     pub points: usize,
@@ -141,7 +142,7 @@ pub struct GridAnswer {
 }
 
 /// Something about some points.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Remark {
     /// One word.
     pub reason: String,

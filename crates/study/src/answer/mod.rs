@@ -43,6 +43,7 @@ use armill_core::load::CuttingLaw;
 use armill_formats::robot::OtherLimits;
 use armill_formats::sources::Source;
 use rayon::prelude::*;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::budget::{self, BudgetAnswer};
@@ -53,7 +54,7 @@ use crate::model_words::left_out;
 use crate::run::{Done, Found, Section};
 
 /// The whole answer.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StudyAnswer {
     /// Version of this format.
     pub format: u32,
@@ -86,7 +87,7 @@ pub struct StudyAnswer {
 }
 
 /// The robot and what its joints yield.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RobotAnswer {
     /// Name in the library, or of the file.
     pub name: String,
@@ -102,7 +103,7 @@ pub struct RobotAnswer {
 ///
 /// Of the two pairs of compliance and uncertainty the one of its kind has numbers, the other is `null`; both are where
 /// nothing is known.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct JointAnswer {
     /// Its name.
     pub name: String,

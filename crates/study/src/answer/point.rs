@@ -13,6 +13,7 @@ use armill_core::kernel::{Answers, Held};
 use armill_core::load::LoadFrame;
 use armill_core::nalgebra::{Point3, Unit};
 use armill_core::workpiece::Plane;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::resolve::{Setting, Study};
@@ -20,7 +21,7 @@ use crate::model_words::parts;
 use crate::number::without_rounding;
 
 /// What all points of an ask share. Positions count from the frame `base`.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SettingAnswer {
     /// Frame that positions count from.
     pub base: String,
@@ -86,7 +87,7 @@ impl SettingAnswer {
 }
 
 /// A point where the arm holds the tool.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
     /// TCP in the frame that positions count from.
     pub xyz_mm: [f64; 3],

@@ -3,6 +3,7 @@
 //! A reading is consistent where its largest in-plane deviation is at most the stated bound. A source may leave tool,
 //! plane or branch open: then several readings can be.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::map::MapAnswer;
@@ -10,7 +11,7 @@ use super::path::PathAnswer;
 use crate::file::resolve::Study;
 
 /// A statement and every reading of it.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StatementAnswer {
     /// The statement in words.
     pub text: String,
@@ -23,7 +24,7 @@ pub struct StatementAnswer {
 }
 
 /// One reading of a statement.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Reading {
     /// Name of the map or path.
     pub name: String,

@@ -4,6 +4,7 @@
 //! normal tells in-plane from normal deviation.
 
 use armill_core::map::VolumeMap;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::map::CountsAnswer;
@@ -11,7 +12,7 @@ use super::point::{PointAnswer, SettingAnswer};
 use crate::file::resolve::{Setting, Study};
 
 /// A box of points, the tool held as on the plane.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct VolumeAnswer {
     /// Its name.
     pub name: String,

@@ -5,6 +5,7 @@
 
 use armill_core::budget::turn::largest;
 use armill_core::budget::{Comparison, Contribution, Datum, Origin, Share, WavePair};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::combine::{Beside, Combined};
@@ -12,7 +13,7 @@ use crate::file::experiment::Experiment;
 use crate::file::path::PathAsk;
 
 /// What the error of a circle is made of.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct BudgetAnswer {
     /// Name of the path.
     pub ask: String,
@@ -49,7 +50,7 @@ pub struct BudgetAnswer {
 }
 
 /// A file that was measured.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FileAnswer {
     /// Its name, relative to the study.
     pub file: String,
@@ -58,7 +59,7 @@ pub struct FileAnswer {
 }
 
 /// What curves count from.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DatumAnswer {
     /// `least-squares` of each curve, or `as-measured`.
     pub centre: &'static str,
@@ -67,7 +68,7 @@ pub struct DatumAnswer {
 }
 
 /// One part of the error.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ContributionAnswer {
     /// What it is.
     pub name: String,
@@ -94,7 +95,7 @@ pub struct ContributionAnswer {
 }
 
 /// The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WithoutLoadAnswer {
     /// Largest predicted by size, from its datum.
     pub predicted_um: f64,
@@ -115,7 +116,7 @@ pub struct WithoutLoadAnswer {
 }
 
 /// What the parts make together.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SumsAnswer {
     /// Largest bias of what the load does.
     pub load_um: f64,
@@ -134,7 +135,7 @@ pub struct SumsAnswer {
 }
 
 /// The part beside its prediction.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PartAnswer {
     /// Points in its file.
     pub points: usize,
@@ -169,7 +170,7 @@ pub struct PartAnswer {
 }
 
 /// What is not explained.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ResidualAnswer {
     /// Root mean square.
     pub rms_um: f64,
@@ -182,7 +183,7 @@ pub struct ResidualAnswer {
 }
 
 /// One wave of the part and of its prediction.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WaveAnswer {
     /// A turn.
     pub waves: usize,

@@ -33,7 +33,7 @@ use super::stiffness;
 use crate::StudyError;
 
 /// The word for a kind of ask.
-pub(super) fn kind_name(kind: AskKind) -> &'static str {
+pub(crate) fn kind_name(kind: AskKind) -> &'static str {
     match kind {
         AskKind::Map => "map",
         AskKind::Sections => "sections",
@@ -49,6 +49,20 @@ pub(super) fn kind_noun(kind: AskKind) -> &'static str {
         AskKind::Holes => "set of holes",
         other => kind_name(other),
     }
+}
+
+/// The plane of the study with what the ask changes of it.
+pub(crate) fn plane_of(file: &StudyFile, ask: &AskTable) -> PlaneTable {
+    let mut plane = file.plane.clone();
+    if let Some(change) = &ask.plane {
+        plane.centre_mm = change.centre_mm.unwrap_or(plane.centre_mm);
+        if change.tilt_deg.is_some() || change.rotation_deg.is_some() {
+            (plane.tilt_deg, plane.rotation_deg) = (change.tilt_deg, change.rotation_deg);
+        }
+        plane.half_size_mm = change.half_size_mm.unwrap_or(plane.half_size_mm);
+        plane.step_mm = change.step_mm.unwrap_or(plane.step_mm);
+    }
+    plane
 }
 
 /// One ask against its study.
@@ -159,16 +173,7 @@ impl Resolver<'_> {
 
     /// The plane of the study with what the ask changes of it.
     fn plane_table(&self) -> PlaneTable {
-        let mut plane = self.file.plane.clone();
-        if let Some(change) = &self.table.plane {
-            plane.centre_mm = change.centre_mm.unwrap_or(plane.centre_mm);
-            if change.tilt_deg.is_some() || change.rotation_deg.is_some() {
-                (plane.tilt_deg, plane.rotation_deg) = (change.tilt_deg, change.rotation_deg);
-            }
-            plane.half_size_mm = change.half_size_mm.unwrap_or(plane.half_size_mm);
-            plane.step_mm = change.step_mm.unwrap_or(plane.step_mm);
-        }
-        plane
+        plane_of(self.file, self.table)
     }
 
     /// What all points of the ask share; `None` where something of it is wrong, told at its place. Forces that come

@@ -23,7 +23,7 @@ pub mod resolve;
 pub mod stiffness;
 
 mod actual;
-mod ask;
+pub(crate) mod ask;
 mod memory;
 mod names;
 pub(crate) mod other_robot;

@@ -3,6 +3,7 @@
 //! Everything of the file is looked at before anything is refused: a value that is wrong for one ask does not hide
 //! those of the next, and a value of the study that several asks take is told once.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use armill_core::frame::Isometry;
@@ -196,93 +197,153 @@ pub fn read_changed(
     bytes: &[u8],
     change: impl FnOnce(&mut StudyFile),
 ) -> Result<Study, StudyError> {
-    let document = Document::from_bytes(shown, bytes)?;
-    let mut file: StudyFile = document.read()?;
-    change(&mut file);
-    let mut places = Places::new(&document, None);
-    let robot = find_robot(&mut places, &file, folder)?;
-    let actual = match &robot {
-        Some(robot) => find_actual(&mut places, &file, (robot, folder))?,
-        None => None,
-    };
-    let mut problems = std::mem::take(&mut places.problems);
-    let mut asks = Vec::new();
-    let default_ask = [whole_plane()];
-    let tables = if file.ask.is_empty() {
-        &default_ask[..]
-    } else {
-        &file.ask
-    };
-    for (index, table) in tables.iter().enumerate() {
-        let own = (!file.ask.is_empty()).then_some(index);
-        let mut places = Places::new(&document, own);
-        let resolver = Resolver {
-            file: &file,
-            robot: robot.as_ref(),
-            actual: actual.as_ref().map(|actual| &actual.robot),
-            table,
-            folder,
-        };
-        let name = name_of(table, index);
-        if let Some(subject) = resolver.subject(&mut places)? {
-            asks.push(Ask { name, subject });
-        }
-        problems.append(&mut places.problems);
+    let mut parsed = Parsed::of(shown, bytes)?;
+    change(&mut parsed.file);
+    parsed.resolve(folder, None)
+}
+
+/// A study file whose fields are known, and not yet what they mean.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    document: Document,
+    /// The file as it stands.
+    pub file: StudyFile,
+}
+
+impl Parsed {
+    /// The file in this text; `shown` is what errors call it.
+    ///
+    /// # Errors
+    /// What is no TOML, or no field of a study.
+    pub fn of(shown: &str, bytes: &[u8]) -> Result<Parsed, StudyError> {
+        let document = Document::from_bytes(shown, bytes)?;
+        let file = document.read()?;
+        Ok(Parsed { document, file })
     }
-    if let Some(robot) = &robot {
-        memory::check_asks(&mut places, robot, &asks);
-    }
-    check_statements(&mut places, &file, &asks);
-    if let Some(place) = &file.place {
-        for (key, message, hint) in place.faults() {
-            places.problem(&format!("place.{key}"), message, hint);
+
+    /// The tables of its asks; of a study without any that of the map which it means.
+    pub fn ask_tables(&self) -> Cow<'_, [AskTable]> {
+        if self.file.ask.is_empty() {
+            Cow::Owned(vec![whole_plane()])
+        } else {
+            Cow::Borrowed(&self.file.ask)
         }
-        let is_it = |ask: &Ask, name: &String| {
-            ask.name == *name && matches!(ask.subject, Subject::Path(_) | Subject::Holes(_))
+    }
+
+    /// The names of its asks, in order.
+    pub fn ask_names(&self) -> Vec<String> {
+        let tables = self.ask_tables();
+        let names = tables
+            .iter()
+            .enumerate()
+            .map(|(index, table)| name_of(table, index));
+        names.collect()
+    }
+
+    /// The paths of the values that the file itself gives below this path, such as `plane.step_mm` below ``.
+    pub fn keys(&self, path: &str) -> Vec<String> {
+        self.document.keys(path)
+    }
+
+    /// What the file means; with `only` that ask alone is worked out, and problems of others are not looked for.
+    ///
+    /// # Errors
+    /// Every problem of the file, each with its place; no ask of that name.
+    pub fn resolve(&self, folder: &Path, only: Option<&str>) -> Result<Study, StudyError> {
+        let (document, file) = (&self.document, &self.file);
+        let tables = self.ask_tables();
+        let wanted = only.map(|name| self.index_of(name)).transpose()?;
+        let mut places = Places::new(document, None);
+        let robot = find_robot(&mut places, file, folder)?;
+        let actual = match &robot {
+            Some(robot) => find_actual(&mut places, file, (robot, folder))?,
+            None => None,
         };
+        let mut problems = std::mem::take(&mut places.problems);
+        let mut asks = Vec::new();
+        let chosen = tables.iter().enumerate();
+        for (index, table) in chosen.filter(|(index, _)| wanted.is_none_or(|wanted| wanted == *index)) {
+            let own = (!file.ask.is_empty()).then_some(index);
+            let mut places = Places::new(document, own);
+            let resolver = Resolver {
+                file,
+                robot: robot.as_ref(),
+                actual: actual.as_ref().map(|actual| &actual.robot),
+                table,
+                folder,
+            };
+            let name = name_of(table, index);
+            if let Some(subject) = resolver.subject(&mut places)? {
+                asks.push(Ask { name, subject });
+            }
+            problems.append(&mut places.problems);
+        }
+        if let Some(robot) = &robot {
+            memory::check_asks(&mut places, robot, &asks);
+        }
+        check_statements(&mut places, file, &asks);
         let all_read = asks.len() == tables.len();
-        if let Some(name) = place
-            .ask
+        check_place(&mut places, file, (&asks, all_read));
+        let experiment = file
+            .measured
             .as_ref()
-            .filter(|name| all_read && !asks.iter().any(|ask| is_it(ask, name)))
-        {
-            let message = format!("the study has no path called `{name}`");
-            places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
-        }
+            .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
+        let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
+            .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&asks, all_read)))
+            .collect();
+        problems.append(&mut places.problems);
+        problems.extend(unfit_names(document, file));
+        Problems::from(without_repeats(problems)).into_result()?;
+        let Some(mut robot) = robot else {
+            return Err(StudyError::value(
+                "the study names no robot",
+                "name one with `robot = ...`",
+            ));
+        };
+        robot
+            .sources
+            .extend(actual.into_iter().flat_map(|actual| actual.sources));
+        Ok(Study {
+            title: file
+                .title
+                .clone()
+                .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
+            question: file.question.clone(),
+            own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
+            robot,
+            asks,
+            place: file.place.clone(),
+            experiment,
+            circles,
+            statements: file.statement.clone(),
+        })
     }
-    let all_read = asks.len() == tables.len();
-    let experiment = file
-        .measured
-        .as_ref()
-        .and_then(|table| Experiment::read(&mut places, table, folder, (&asks, all_read)));
-    let circles: Vec<MeasuredCircle> = (file.ballbar.iter().enumerate())
-        .filter_map(|table| MeasuredCircle::read(&mut places, table, folder, (&asks, all_read)))
-        .collect();
-    problems.append(&mut places.problems);
-    problems.extend(unfit_names(&document, &file));
-    Problems::from(without_repeats(problems)).into_result()?;
-    let Some(mut robot) = robot else {
-        return Err(StudyError::value(
-            format!("{shown}: no robot"),
-            "name one with `robot = ...`",
-        ));
+
+    /// Which ask is called so.
+    pub(crate) fn index_of(&self, name: &str) -> Result<usize, StudyError> {
+        let names = self.ask_names();
+        names.iter().position(|own| own == name).ok_or_else(|| {
+            let all: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+            let hint = format!("its asks: {}", all.join(", "));
+            StudyError::value(format!("no ask is called `{name}`"), hint)
+        })
+    }
+}
+
+/// Problems of where the part may lie.
+fn check_place(places: &mut Places<'_>, file: &StudyFile, (asks, all_read): (&[Ask], bool)) {
+    let Some(place) = &file.place else { return };
+    for (key, message, hint) in place.faults() {
+        places.problem(&format!("place.{key}"), message, hint);
+    }
+    let is_it = |ask: &Ask, name: &String| {
+        ask.name == *name && matches!(ask.subject, Subject::Path(_) | Subject::Holes(_))
     };
-    robot
-        .sources
-        .extend(actual.into_iter().flat_map(|actual| actual.sources));
-    Ok(Study {
-        title: file
-            .title
-            .unwrap_or_else(|| format!("Deviation of {} under load", robot.title)),
-        question: file.question,
-        own_compliance: file.compliance.as_ref().map(OwnCompliance::of).transpose()?,
-        robot,
-        asks,
-        place: file.place,
-        experiment,
-        circles,
-        statements: file.statement,
-    })
+    let of_none = |name: &&String| all_read && !asks.iter().any(|ask| is_it(ask, name));
+    if let Some(name) = place.ask.as_ref().filter(of_none) {
+        let message = format!("the study has no path called `{name}`");
+        places.problem("place.ask", message, "the name of an ask of kind = \"path\"");
+    }
 }
 
 /// An ask for one map of the study's plane.

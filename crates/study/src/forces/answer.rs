@@ -6,12 +6,13 @@
 use armill_core::load::Record;
 use armill_core::load::record::drift::Drift;
 use armill_core::nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{Air, Measured, Treated, Treatment};
 
 /// A record in numbers.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ForcesAnswer {
     /// Its file.
     pub file: String,
@@ -46,7 +47,7 @@ pub struct ForcesAnswer {
 }
 
 /// Drift that was taken off.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct DriftAnswer {
     /// Of the force at the first instant.
     pub offset_n: [f64; 3],
@@ -61,7 +62,7 @@ pub struct DriftAnswer {
 }
 
 /// Each component of a force, and its size.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SummaryAnswer {
     /// Along x of the sensor.
     pub fx_n: RangeAnswer,
@@ -74,7 +75,7 @@ pub struct SummaryAnswer {
 }
 
 /// Mean and extremes.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct RangeAnswer {
     /// Over all samples.
     // unit: that of the name it stands under
@@ -88,7 +89,7 @@ pub struct RangeAnswer {
 }
 
 /// Turns of the spindle.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RevolutionsAnswer {
     /// Whole ones.
     pub count: usize,

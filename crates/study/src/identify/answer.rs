@@ -11,13 +11,14 @@ use armill_core::identify::{
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
 use armill_formats::measurement::load_tests::LoadTests;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::question::{PointsAsked, PriorAsked, Question, Units, seat_name, spring_name};
 use crate::StudyError;
 
 /// What load tests tell of an arm. The fields are those of the JSON answer.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct Answer {
     /// Library name or file stem.
     pub robot: String,
@@ -56,7 +57,7 @@ pub struct Answer {
 }
 
 /// One spring; compliance and stiffness in the unit that fits.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SpringAnswer {
     /// `A2 drive`, `A2 about x`.
     pub name: String,
@@ -79,7 +80,7 @@ pub struct SpringAnswer {
 }
 
 /// The gap in a drive.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LostMotionAnswer {
     /// Joint.
     pub joint: String,
@@ -94,7 +95,7 @@ pub struct LostMotionAnswer {
 }
 
 /// A point in the flange frame.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PointAnswer {
     /// Against the point that the tests tell.
     pub shift_mm: [f64; 3],
@@ -105,7 +106,7 @@ pub struct PointAnswer {
 }
 
 /// Lengths of displacement errors over all tests that measured a displacement.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ErrorsAnswer {
     /// Mean.
     pub mean_um: f64,
@@ -118,7 +119,7 @@ pub struct ErrorsAnswer {
 }
 
 /// One test.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct TestAnswer {
     /// Its `test` cell, or its line.
     pub name: String,

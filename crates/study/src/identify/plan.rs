@@ -10,13 +10,14 @@
 use armill_core::identify::{Floor, PlanQuestion, plan as core_plan};
 use armill_core::nalgebra::Vector3;
 use armill_core::robot::Robot;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::question::{Question, spring_name};
 use crate::StudyError;
 
 /// A plan, as JSON has it and as a table.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlanAnswer {
     /// Library name or file stem.
     pub robot: String,
@@ -32,7 +33,7 @@ pub struct PlanAnswer {
 }
 
 /// One test to do.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlannedTestAnswer {
     /// Joint positions (sliding joints in mm).
     pub joints_deg: Vec<f64>,
@@ -43,7 +44,7 @@ pub struct PlannedTestAnswer {
 }
 
 /// How well a spring will be known.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ExpectedSpring {
     /// `A2 drive`.
     pub name: String,

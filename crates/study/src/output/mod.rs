@@ -36,7 +36,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use armill_formats::file::{create_folder, remove_abandoned, write_atomically};
-use armill_formats::table::{Column, ColumnData};
+use armill_formats::table::{Column, ColumnData, Table, csv};
 use rayon::prelude::*;
 
 use crate::answer::StudyAnswer;
@@ -234,12 +234,39 @@ pub(crate) fn picture_files(picture: &Picture) -> impl Iterator<Item = String> {
 pub(crate) fn save_pictures(drawn: &[Picture], files: &folder::Folder<'_>) -> Result<(), StudyError> {
     drawn.par_iter().with_max_len(1).try_for_each(|picture| {
         #[cfg(feature = "png")]
-        files.save(
-            &format!("{}.png", picture.name),
-            &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
-        )?;
+        files.save(&format!("{}.png", picture.name), &png(&picture.svg)?)?;
         files.save(&format!("{}.svg", picture.name), picture.svg.as_bytes())
     })
+}
+
+/// The pictures of every ask, in the order of the report.
+pub fn pictures(study: &Study, done: &[Done<'_>], answer: &StudyAnswer) -> Vec<Picture> {
+    pictures::draw(study, done, answer)
+}
+
+/// A picture in pixels, as it is written beside its SVG.
+///
+/// # Errors
+/// A picture that cannot become pixels.
+#[cfg(feature = "png")]
+pub fn png(svg: &str) -> Result<Vec<u8>, StudyError> {
+    Ok(armill_report::raster::png(svg, PNG_SCALE)?)
+}
+
+/// The points of one ask with their columns.
+///
+/// # Errors
+/// A table that cannot be made, which would be a fault of armill.
+pub(crate) fn points_table(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
+    tables::rows_of(study, done)
+}
+
+/// The table of one ask as the CSV that is written of it.
+///
+/// # Errors
+/// As of [`points_table`].
+pub fn table_csv(study: &Study, done: &Done<'_>) -> Result<Vec<u8>, StudyError> {
+    Ok(csv::write(&points_table(study, done)?))
 }
 
 /// Writes pictures that are not those of an ask into `out`, in place of all there whose names begin with `begin`.
@@ -262,10 +289,7 @@ pub fn write_pictures(begin: &str, pictures: &[Picture], out: &Path) -> Result<(
     }
     for picture in pictures {
         #[cfg(feature = "png")]
-        write_atomically(
-            out.join(format!("{}.png", picture.name)),
-            &armill_report::raster::png(&picture.svg, PNG_SCALE)?,
-        )?;
+        write_atomically(out.join(format!("{}.png", picture.name)), &png(&picture.svg)?)?;
         write_atomically(out.join(format!("{}.svg", picture.name)), picture.svg.as_bytes())?;
     }
     Ok(())

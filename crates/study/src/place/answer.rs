@@ -1,6 +1,7 @@
 //! The place that was found, as values of a result.
 
 use armill_core::optimize::{Appraisal, Sure};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::certificate::CertificateAnswer;
@@ -8,7 +9,7 @@ use super::freedom::PlaceAnswer;
 use crate::answer::micrometres;
 
 /// Where a path deviates least.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PlacementAnswer {
     /// Version of this format.
     pub format: u32,
@@ -50,7 +51,7 @@ pub struct PlacementAnswer {
 }
 
 /// What a place comes to.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct OutcomeAnswer {
     /// What was to be least, of the points that are held.
     pub cost_um: f64,
@@ -65,7 +66,7 @@ pub struct OutcomeAnswer {
 }
 
 /// A degree that was free.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct FreeAnswer {
     /// Its key in the study, which tells the unit of the numbers.
     pub degree: &'static str,
@@ -83,7 +84,7 @@ pub struct FreeAnswer {
 }
 
 /// The best place for one margin.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct MarginAnswer {
     /// How far every joint stays from its limits, the elbow from stretched and the wrist from straight.
     pub margin_deg: f64,

@@ -7,13 +7,14 @@
 use armill_core::kernel::Lie;
 use armill_core::optimize::{Goal, Merit, Placeable, Sure};
 use armill_core::watch::{Cancelled, Watch};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::freedom::is_angle;
 use super::search::{Searched, Spot};
 
 /// What grids of places say of the one that was found.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct CertificateAnswer {
     /// Near it.
     pub near: GridAnswer,
@@ -22,7 +23,7 @@ pub struct CertificateAnswer {
 }
 
 /// One grid of places.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct GridAnswer {
     /// How many places.
     pub places: usize,

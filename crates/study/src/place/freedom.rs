@@ -4,6 +4,7 @@ use armill_core::frame::{Isometry, fixed_angles};
 use armill_core::kernel::Lie;
 use armill_core::nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 use armill_core::optimize::ToolTurn;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::answer::FreeAnswer;
@@ -31,7 +32,7 @@ pub(super) struct Freedom {
 }
 
 /// A place, in words of the study.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PlaceAnswer {
     /// `plane.centre_mm`.
     pub centre_mm: [f64; 3],

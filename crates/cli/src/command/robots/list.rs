@@ -1,7 +1,7 @@
 //! `armill robots` without a name: the library, one line a robot, or a list of [`RobotRow`].
 
-use armill_study::robot_answers::RobotRow;
-use armill_study::{StudyError, library, robots};
+use armill_study::StudyError;
+use armill_study::robot_answers::{RobotRow, library_rows};
 
 use crate::Outcome;
 use crate::arguments::RobotsArguments;
@@ -12,11 +12,7 @@ use crate::terminal::{Align, columns, print};
 /// # Errors
 /// Stdout takes no more.
 pub(super) fn run(arguments: &RobotsArguments) -> Result<Outcome, StudyError> {
-    let rows = library::ROBOTS.iter().map(|entry| {
-        let found = robots::find(entry.name, ".".as_ref())?;
-        Ok(RobotRow::of(entry.name, &found))
-    });
-    let rows: Vec<RobotRow> = rows.collect::<Result<_, StudyError>>()?;
+    let rows = library_rows()?;
     print(&if arguments.json {
         serde_json::to_string(&rows)?
     } else {

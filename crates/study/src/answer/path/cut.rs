@@ -5,6 +5,7 @@
 
 use armill_core::map::Rested;
 use armill_core::path::Met;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::PathAsk;
@@ -12,7 +13,7 @@ use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What cuts or drills along a path, and the forces of it.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CutAnswer {
     /// Material that the forces are those of.
     pub material: String,
@@ -29,7 +30,7 @@ pub struct CutAnswer {
 }
 
 /// What the tool met in the stock.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct StockAnswer {
     /// Points with nothing ahead of the tool.
     pub points_in_air: usize,
@@ -46,7 +47,7 @@ pub struct StockAnswer {
 }
 
 /// How the force gave way with the tool.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RestAnswer {
     /// Largest deviation across the tool if the force stayed as drawn.
     pub max_in_plane_if_drawn_um: f64,

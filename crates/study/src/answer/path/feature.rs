@@ -11,6 +11,7 @@
 
 use armill_core::nalgebra::Vector3;
 use armill_core::path::{Became, Strayed, became};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::{FeatureTable, PathAsk};
@@ -18,7 +19,7 @@ use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What became of a feature under one load case.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct FeatureAnswer {
     /// Its name.
     pub name: String,

@@ -4,6 +4,7 @@
 //! cuts. Lengths are in mm, forces in N, as told beside each value.
 
 use armill_core::map::{CutLimits, Permitted, PermittedForces, PointLimits};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::PathAsk;
@@ -11,7 +12,7 @@ use crate::number::without_rounding;
 use crate::run::PathFound;
 
 /// What keeps the tolerance on the whole of a program: the least of its points.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LimitsAnswer {
     /// Points that were asked: spread over the path, the worst among them.
     pub points: usize,
@@ -32,7 +33,7 @@ pub struct LimitsAnswer {
 }
 
 /// A limit, and where it comes from.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LimitAnswer {
     /// How much.
     // unit: the one told beside it

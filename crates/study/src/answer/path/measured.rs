@@ -1,5 +1,6 @@
 //! Measured forces in the answer: which record, what was taken off, and when the program begins in it.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::MeasuredForces;
@@ -7,7 +8,7 @@ use crate::file::path::measured::{ActsOnName, SynchroniseName};
 use crate::forces::DriftAnswer;
 
 /// The record that forces come from.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct MeasuredAnswer {
     /// Its file, as the study calls it.
     pub file: String,

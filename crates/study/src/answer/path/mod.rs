@@ -30,6 +30,7 @@ pub use worst::WorstPoint;
 
 use armill_core::kernel::Answers;
 use armill_core::map::AlongPath;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::point::{PointAnswer, SettingAnswer};
@@ -39,7 +40,7 @@ use crate::number::without_rounding;
 use crate::run::{MOST_JUMPS, PathFound};
 
 /// A path.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct PathAnswer {
     /// Its name.
     pub name: String,
@@ -103,7 +104,7 @@ pub struct PathAnswer {
 }
 
 /// What becomes of a circle under one load case.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct CircleCase {
     /// The case, from 1.
     pub case: usize,

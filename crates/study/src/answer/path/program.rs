@@ -1,13 +1,14 @@
 //! What only a path that a program tells has in the answer.
 
 use armill_core::path::Operation;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::{PathAsk, PathSource};
 use crate::run::PathFound;
 
 /// The program that tells a path.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct ProgramAnswer {
     /// Its file, as the study calls it.
     pub file: String,
@@ -22,7 +23,7 @@ pub struct ProgramAnswer {
 }
 
 /// A stretch with the same tool and spindle speed.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct OperationAnswer {
     /// What the program calls it.
     pub name: Option<String>,

@@ -6,6 +6,7 @@
 use armill_core::kernel::{Answers, Stand};
 use armill_core::optimize::{Counts, Goal, reversals};
 use armill_core::path::PathPoint;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::sentence::micrometres;
@@ -14,7 +15,7 @@ use crate::number::decimals;
 use crate::run::PathFound;
 
 /// Turns and branches that were searched for along a path.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct SearchAnswer {
     /// Which part of the deviation counted: `in-plane`, `cross-track`, `axial`.
     pub counts: &'static str,
@@ -35,7 +36,7 @@ pub struct SearchAnswer {
 }
 
 /// A path in some numbers.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct StatisticsAnswer {
     /// Largest in-plane deviation.
     pub max_in_plane_um: Option<f64>,
@@ -54,7 +55,7 @@ pub struct StatisticsAnswer {
 }
 
 /// Points that follow on each other without a posture that stands.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct LostAnswer {
     /// Line of the first.
     pub first_line: u32,

@@ -1,6 +1,7 @@
 //! What moves the tool along a path beside its load: backlash and geometry.
 
 use armill_core::optimize::reversals;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::file::path::PathAsk;
@@ -8,7 +9,7 @@ use crate::file::resolve::Study;
 use crate::run::PathFound;
 
 /// What moves the tool beside its load; the deviations of the path have it too.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct UnloadedAnswer {
     /// Largest displacement across the tool, all cases.
     pub max_in_plane_um: f64,
@@ -21,7 +22,7 @@ pub struct UnloadedAnswer {
 }
 
 /// The play of one joint.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct PlayAnswer {
     /// Its name.
     pub name: String,

@@ -5,6 +5,7 @@
 //! from the part towards the spindle.
 
 use armill_core::kernel::Held;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::super::point::PointAnswer;
@@ -13,7 +14,7 @@ use crate::file::resolve::Study;
 use crate::run::{InFull, PathFound};
 
 /// A point where the deviation is large, and why.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct WorstPoint {
     /// Line of the program, or piece of the shape.
     pub line: u32,

@@ -141,6 +141,14 @@ pub(super) fn files(
     of_table.and(of_field)
 }
 
+/// The points of one ask with their columns.
+///
+/// # Errors
+/// A table that cannot be made, which would be a fault of armill.
+pub(super) fn rows_of(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
+    table(study, done.name, &rows(&done.found))
+}
+
 /// What a Parquet file says of itself: version, study, ask, robot.
 #[cfg(feature = "parquet")]
 fn metadata(study: &Study, ask: &Ask) -> armill_formats::table::parquet::Metadata {

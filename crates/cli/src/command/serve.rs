@@ -1,0 +1,28 @@
+//! `armill serve`: the live page of a study, until it is interrupted.
+//!
+//! The first line on stdout is the address, with the token that it needs; all else is said on stderr.
+
+use armill_study::StudyError;
+use armill_web::{Options, Server, open_browser};
+
+use crate::Outcome;
+use crate::arguments::ServeArguments;
+use crate::terminal::{print, say};
+
+/// Serves until Ctrl-C.
+///
+/// # Errors
+/// No study there; a port that is taken; stdout takes no more.
+pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
+    let server = Server::start(&Options {
+        study: arguments.study.clone(),
+        port: arguments.port,
+    })?;
+    print(server.url())?;
+    say("the page is open on this machine alone; Ctrl-C ends it");
+    if !arguments.no_open {
+        open_browser(server.url());
+    }
+    server.run();
+    Ok(Outcome::Fine)
+}

@@ -1,0 +1,229 @@
+//! A TOML text with some of its values changed: comments, order and blanks stay as the user wrote them.
+//!
+//! ```
+//! use armill_formats::document::edit::{Change, changed};
+//!
+//! let text = "[plane] # the table of the mill\nstep_mm = 5 # coarse\n";
+//! let change = Change { path: "plane.step_mm".to_owned(), value: 2.5.into() };
+//! let finer = changed("study.toml", text, &[change])?;
+//! assert_eq!(finer, "[plane] # the table of the mill\nstep_mm = 2.5 # coarse\n");
+//! # Ok::<(), armill_formats::document::Problems>(())
+//! ```
+
+use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
+
+use super::path::{Step, steps};
+use super::{Document, Problem, Problems};
+
+/// One value that is to be another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Change {
+    /// Which, as [`Document::problem`] takes it: `plane.centre_mm`, `ask[1].plane.step_mm`.
+    pub path: String,
+    /// What it is to be; `null` takes it away.
+    pub value: serde_json::Value,
+}
+
+/// The text with these changes, one after the other; tables that are not there are made.
+///
+/// Not checked: whether it is still what anybody wants; reading it tells that.
+///
+/// # Errors
+/// A text that is not TOML; every change that cannot be made: an entry of a list that is not there, a key inside what is
+/// no table, a value that TOML cannot hold.
+pub fn changed(name: &str, text: &str, changes: &[Change]) -> Result<String, Problems> {
+    let checked = Document::parse(name, text)?;
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
+        Problems::from(vec![checked.problem("", error.message(), None)])
+    })?;
+    let mut refused: Vec<Problem> = Vec::new();
+    for Change { path, value } in changes {
+        let made = match value {
+            serde_json::Value::Null => remove(document.as_item_mut(), &steps(path)),
+            value => toml_value(value).and_then(|value| set(document.as_item_mut(), &steps(path), value)),
+        };
+        if let Err(reason) = made {
+            refused.push(checked.problem(path, format!("`{path}` cannot be changed: {reason}"), None));
+        }
+    }
+    Problems::from(refused).into_result()?;
+    Ok(document.to_string())
+}
+
+/// The value of TOML that says the same.
+fn toml_value(value: &serde_json::Value) -> Result<Value, String> {
+    use serde_json::Value as Json;
+    Ok(match value {
+        Json::Null => return Err("TOML knows no null inside a value".to_owned()),
+        Json::Bool(flag) => Value::from(*flag),
+        Json::Number(number) => match number.as_i64() {
+            Some(whole) => Value::from(whole),
+            None => {
+                let real = number.as_f64().filter(|real| real.is_finite());
+                Value::from(real.ok_or_else(|| format!("{number} is no number that can be held"))?)
+            }
+        },
+        Json::String(text) => Value::from(text.as_str()),
+        Json::Array(entries) => {
+            let entries: Result<Array, String> = entries.iter().map(toml_value).collect();
+            Value::from(entries?)
+        }
+        Json::Object(fields) => {
+            let field = |(key, value): (&String, &Json)| Ok((key.clone(), toml_value(value)?));
+            let table: Result<InlineTable, String> = fields.iter().map(field).collect();
+            Value::from(table?)
+        }
+    })
+}
+
+/// Sets the value at these steps below `here`.
+fn set(here: &mut Item, steps: &[Step], value: Value) -> Result<(), String> {
+    let Some((first, rest)) = steps.split_first() else {
+        return replace(here, value);
+    };
+    let next = match first {
+        Step::Entry(index) => here.get_mut(*index).ok_or(format!("there is no entry {index}"))?,
+        Step::Key(key) => {
+            // Below the root a table gets its header, inside of others it stands on a line of theirs.
+            let at_root = here.as_table().is_some_and(|table| table.position().is_none());
+            let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
+            table.entry(key).or_insert_with(|| match rest.is_empty() {
+                true => Item::Value(Value::from(false)),
+                false if at_root => Item::Table(Table::new()),
+                false => Item::Value(Value::InlineTable(InlineTable::new())),
+            })
+        }
+    };
+    set(next, rest, value)
+}
+
+/// Puts `value` in the place of this one; what stands around that stays.
+fn replace(here: &mut Item, mut value: Value) -> Result<(), String> {
+    match here {
+        Item::Value(old) => {
+            *value.decor_mut() = old.decor().clone();
+            *old = value;
+        }
+        Item::None => *here = Item::Value(value),
+        Item::Table(_) | Item::ArrayOfTables(_) => return Err("it is a table".to_owned()),
+    }
+    Ok(())
+}
+
+/// Takes the value at these steps away, and a table on a line that is then empty; what is not there is gone already.
+fn remove(here: &mut Item, steps: &[Step]) -> Result<(), String> {
+    match steps {
+        [] => Err("it is the whole file".to_owned()),
+        [Step::Key(key)] => {
+            let table = here.as_table_like_mut().ok_or("it stands in what is no table")?;
+            table.remove(key);
+            Ok(())
+        }
+        [Step::Entry(_)] => Err("entries of lists are not taken away".to_owned()),
+        [first, rest @ ..] => {
+            let next = match first {
+                Step::Key(key) => here.get_mut(key.as_str()),
+                Step::Entry(index) => here.get_mut(*index),
+            };
+            let Some(next) = next.filter(|next| !next.is_none()) else {
+                return Ok(());
+            };
+            remove(next, rest)?;
+            let emptied = next.as_inline_table().is_some_and(InlineTable::is_empty);
+            match (first, here.as_table_like_mut()) {
+                (Step::Key(key), Some(table)) if emptied => drop(table.remove(key)),
+                _ => (),
+            }
+            Ok(())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use serde_json::{Value as Json, json};
+
+    use super::*;
+
+    const STUDY: &str = "# my cell\nlimit_um = 100 # of the drawing\n\n[plane]\n# measured on Monday\ncentre_mm = [1000, 0, 500] # mm\nstep_mm = 5\n\n[[ask]]\nkind = \"map\"\n\n[[ask]]\nkind = \"path\" # the rim\nplane = { tilt_deg = 90 }\n";
+
+    fn with(path: &str, value: Json) -> Result<String, Problems> {
+        let change = Change {
+            path: path.to_owned(),
+            value,
+        };
+        changed("study.toml", STUDY, &[change])
+    }
+
+    #[test]
+    fn a_value_changes_and_nothing_else_does() {
+        let moved = with("plane.centre_mm", json!([900, 0.5, 500])).unwrap();
+        assert_eq!(moved, STUDY.replace("[1000, 0, 500]", "[900, 0.5, 500]"));
+        let tighter = with("limit_um", json!(42.5)).unwrap();
+        assert_eq!(tighter, STUDY.replace("100 #", "42.5 #"));
+        let tilted = with("ask[1].plane.tilt_deg", json!(45)).unwrap();
+        assert_eq!(tilted, STUDY.replace("tilt_deg = 90", "tilt_deg = 45"));
+        let entry = with("plane.centre_mm[2]", json!(600)).unwrap();
+        assert_eq!(entry, STUDY.replace("0, 500]", "0, 600]"));
+    }
+
+    #[test]
+    fn what_is_not_there_is_made_where_it_belongs() {
+        let finer = with("ask[0].plane.step_mm", json!(2)).unwrap();
+        assert!(
+            finer.contains("kind = \"map\"\nplane = { step_mm = 2 }\n"),
+            "{finer}"
+        );
+        let posture = with("posture.branch", json!("front")).unwrap();
+        assert!(posture.contains("[posture]\nbranch = \"front\"\n"), "{posture}");
+        let based = with("base", json!("controller")).unwrap();
+        assert!(
+            based.contains("of the drawing\nbase = \"controller\"\n"),
+            "{based}"
+        );
+        for text in [finer, posture, based] {
+            assert!(Document::parse("", &text).is_ok(), "{text}");
+        }
+    }
+
+    #[test]
+    fn null_takes_a_value_away_and_the_empty_table_around_it() {
+        let upright = with("ask[1].plane.tilt_deg", Json::Null).unwrap();
+        assert_eq!(upright, STUDY.replace("plane = { tilt_deg = 90 }\n", ""));
+        assert_eq!(with("ask[0].load.cases_n", Json::Null).unwrap(), STUDY);
+    }
+
+    #[test]
+    fn all_that_cannot_be_changed_is_told_with_its_place() {
+        let change = |path: &str, value: Json| Change {
+            path: path.to_owned(),
+            value,
+        };
+        let changes = [
+            change("ask[7].limit_um", json!(1)),
+            change("plane", json!(1)),
+            change("limit_um.deeper", json!(1)),
+            change("plane.step_mm", json!([null])),
+            change("", Json::Null),
+        ];
+        let problems = changed("study.toml", STUDY, &changes).unwrap_err();
+        assert_eq!(problems.as_slice().len(), changes.len());
+        let lines: Vec<usize> = problems.as_slice().iter().map(Problem::line).collect();
+        assert!(lines.contains(&2) && lines.contains(&7), "{lines:?}");
+    }
+
+    proptest! {
+        #[test]
+        fn no_change_panics_and_what_comes_out_is_toml(
+            path in "[a-z_.\\[\\]\"0-9]{0,12}|(plane|ask\\[[01]\\])(\\.[a-z]{1,4}){0,3}",
+            number in proptest::num::f64::ANY,
+        ) {
+            for value in [json!(number), json!({"a": [number, "x"]}), Json::Null] {
+                if let Ok(text) = with(&path, value) {
+                    prop_assert!(Document::parse("", &text).is_ok(), "{path}: {text}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! What `armill run` says of a text, in memory: the same bytes as its files have.
+
+use armill_core::watch::Watch;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Text;
+use crate::answer::answer;
+use crate::error::StudyError;
+use crate::output::{self, Picture};
+use crate::run::run;
+
+/// The pictures of an ask.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PicturesAnswer {
+    /// In the order of the report.
+    pub pictures: Vec<PictureAnswer>,
+}
+
+/// One picture.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PictureAnswer {
+    /// Its file name without extension.
+    pub name: String,
+    /// What it shows, in a sentence.
+    pub title: String,
+    /// The picture.
+    pub svg: String,
+}
+
+/// The answer to this ask, or to all, as `armill run --json` prints it.
+///
+/// # Errors
+/// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
+pub fn answer_json(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<String, StudyError> {
+    let study = text.study(ask)?;
+    let done = run(&study, watch)?;
+    output::json(&answer(&study, &done))
+}
+
+/// The table of this ask, or of the first, as the CSV that `armill run --csv` writes.
+///
+/// # Errors
+/// As of [`answer_json`].
+pub fn table_csv(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
+    let (_, _, study) = text.one_ask(ask)?;
+    let done = run(&study, watch)?;
+    output::table_csv(&study, done.first().ok_or_else(no_ask)?)
+}
+
+/// The pictures of this ask, or of all, as `armill run` draws them.
+///
+/// # Errors
+/// As of [`answer_json`].
+pub fn pictures(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<PicturesAnswer, StudyError> {
+    let told = |Picture { name, caption, svg }| PictureAnswer {
+        name,
+        title: caption,
+        svg,
+    };
+    let pictures = drawn(text, ask, watch)?.into_iter().map(told);
+    Ok(PicturesAnswer {
+        pictures: pictures.collect(),
+    })
+}
+
+/// The picture of that name among those of [`pictures`].
+///
+/// # Errors
+/// As of [`answer_json`]; no picture of that name.
+pub fn picture_svg(
+    text: Text<'_>,
+    ask: Option<&str>,
+    name: &str,
+    watch: Watch<'_>,
+) -> Result<String, StudyError> {
+    let pictures = drawn(text, ask, watch)?;
+    let names: Vec<String> = pictures
+        .iter()
+        .map(|picture| format!("`{}`", picture.name))
+        .collect();
+    let found = pictures.into_iter().find(|picture| picture.name == name);
+    found.map(|picture| picture.svg).ok_or_else(|| {
+        let hint = format!("there are: {}", names.join(", "));
+        StudyError::value(format!("no picture is called `{name}`"), hint)
+    })
+}
+
+fn drawn(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<Vec<Picture>, StudyError> {
+    let study = text.study(ask)?;
+    let done = run(&study, watch)?;
+    Ok(output::pictures(&study, &done, &answer(&study, &done)))
+}
+
+/// A study always has an ask, its own or the map that it means.
+fn no_ask() -> StudyError {
+    StudyError::value("the study asks for nothing", "add an [[ask]]")
+}

@@ -1,0 +1,127 @@
+//! What is in a text, and what is wrong with it.
+
+use armill_formats::document::Problem;
+use armill_formats::document::edit::{self, Change};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::Text;
+use crate::error::StudyError;
+use crate::file::ask::kind_name;
+use crate::file::resolve::Parsed;
+
+/// What is in a text; a text that is broken has problems, and as much of the rest as can be told.
+#[derive(Clone, Debug, Default, Serialize, JsonSchema)]
+pub struct OutlineAnswer {
+    /// Title of the study.
+    pub title: Option<String>,
+    /// The robot, as the study names it.
+    pub robot: Option<String>,
+    /// Its asks, in order; one map where it has none.
+    pub asks: Vec<OutlinedAsk>,
+    /// Everything that is wrong, as `armill check --json` tells it.
+    pub problems: Vec<Problem>,
+}
+
+/// One ask.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct OutlinedAsk {
+    /// Its name.
+    pub name: String,
+    /// `map`, `sections`, `volume`, `path` or `holes`.
+    pub kind: &'static str,
+    /// The paths of the values that it gives itself, such as `plane.step_mm`; all others come from the study.
+    pub keys: Vec<String>,
+}
+
+/// A text that was changed, and what is in it now.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ChangedAnswer {
+    /// The text.
+    pub text: String,
+    /// Its asks.
+    pub asks: Vec<OutlinedAsk>,
+    /// Everything that is wrong with it.
+    pub problems: Vec<Problem>,
+}
+
+/// What is in this text.
+pub fn outline(text: Text<'_>) -> OutlineAnswer {
+    let parsed = match Parsed::of(text.shown, text.bytes) {
+        Ok(parsed) => parsed,
+        Err(error) => {
+            return OutlineAnswer {
+                problems: problems(error),
+                ..OutlineAnswer::default()
+            };
+        }
+    };
+    let resolved = parsed.resolve(text.folder, None);
+    OutlineAnswer {
+        title: match &resolved {
+            Ok(study) => Some(study.title.clone()),
+            Err(_) => parsed.file.title.clone(),
+        },
+        robot: Some(parsed.file.robot.clone()),
+        asks: asks(&parsed),
+        problems: resolved.err().map_or_else(Vec::new, problems),
+    }
+}
+
+/// The text with these values changed in the ask of that name, or in the study where none is named; comments and order
+/// stay.
+///
+/// # Errors
+/// A text that is not TOML; no ask of that name; a change that cannot be made.
+pub fn changed(text: Text<'_>, ask: Option<&str>, changes: &[Change]) -> Result<ChangedAnswer, StudyError> {
+    let below = match ask {
+        Some(name) => {
+            let parsed = Parsed::of(text.shown, text.bytes)?;
+            // The map that a study without asks means stands in the study itself.
+            match (parsed.index_of(name)?, parsed.file.ask.is_empty()) {
+                (_, true) => String::new(),
+                (index, false) => format!("ask[{index}]."),
+            }
+        }
+        None => String::new(),
+    };
+    let changes = changes.iter().map(|change| Change {
+        path: format!("{below}{}", change.path),
+        value: change.value.clone(),
+    });
+    let changes: Vec<Change> = changes.collect();
+    let old = armill_formats::document::Document::text_of(text.shown, text.bytes)?;
+    let new = edit::changed(text.shown, old, &changes)?;
+    let OutlineAnswer { asks, problems, .. } = outline(Text {
+        bytes: new.as_bytes(),
+        ..text
+    });
+    Ok(ChangedAnswer {
+        text: new,
+        asks,
+        problems,
+    })
+}
+
+fn asks(parsed: &Parsed) -> Vec<OutlinedAsk> {
+    let tables = parsed.ask_tables();
+    let names = parsed.ask_names();
+    let one = |(index, (table, name)): (usize, (_, String))| {
+        let table: &crate::file::format::AskTable = table;
+        OutlinedAsk {
+            name,
+            kind: kind_name(table.kind),
+            keys: parsed.keys(&format!("ask[{index}]")),
+        }
+    };
+    tables.iter().zip(names).enumerate().map(one).collect()
+}
+
+/// What is wrong, one by one; what has no place in a file stands at the begin of the study.
+fn problems(error: StudyError) -> Vec<Problem> {
+    match error {
+        StudyError::Problems(problems) => problems.as_slice().to_vec(),
+        StudyError::Value { message, hint } => vec![Problem::of_file("study", message, &hint)],
+        other => vec![Problem::of_file("study", other.to_string(), "")],
+    }
+}

@@ -1,0 +1,269 @@
+//! What of an ask can be drawn in space: everything in base, mm.
+//!
+//! A map is drawn on its plate with the numbers of the answer's grid; along a path, at holes and in a box the points come
+//! with theirs.
+
+use armill_core::map::BoxGrid;
+use armill_core::nalgebra::{Point3, Vector3};
+use armill_core::watch::Watch;
+use armill_formats::table::ColumnData;
+use schemars::JsonSchema;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use super::Text;
+use crate::error::StudyError;
+use crate::file::ask::plane_of;
+use crate::file::format::{HalfSize, PlaneTable};
+use crate::file::resolve::{Setting, Sheet, Study, Subject};
+use crate::number::without_rounding;
+use crate::output;
+use crate::run::{Done, Found, run};
+
+/// What can be drawn of one ask, base.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SceneAnswer {
+    /// Name of the robot.
+    pub robot: String,
+    /// Where the frame stands that coordinates count from.
+    pub base_mm: [f64; 3],
+    /// The plane; of sections the first.
+    pub plate: PlateInScene,
+    /// Sections: each with its plane.
+    pub sections: Vec<SectionInScene>,
+    /// Points of a path, of holes or of a box.
+    pub points: Option<PointsInScene>,
+    /// The box of a volume.
+    #[serde(rename = "box")]
+    pub in_box: Option<BoxInScene>,
+}
+
+/// A plane with its sides.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PlateInScene {
+    /// Its corners, in order round it: least y' and z', greatest y', greatest both, greatest z'.
+    pub corners_mm: [[f64; 3]; 4],
+    /// Outward normal.
+    pub normal_axis: [f64; 3],
+    /// Axis y'.
+    pub y_axis: [f64; 3],
+    /// Axis z'.
+    pub z_axis: [f64; 3],
+    /// Where y' and z' count from.
+    pub centre_mm: [f64; 3],
+}
+
+/// One of several planes.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct SectionInScene {
+    /// What tells it from the others.
+    pub label: String,
+    /// Where it lies.
+    pub plate: PlateInScene,
+}
+
+/// Points with some columns of their table: of each as many as there are points, `null` where one has none.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PointsInScene {
+    /// Where they are.
+    pub xyz_mm: Vec<[f64; 3]>,
+    /// Deviation under the deciding case, base.
+    pub deviation_um: Vec<Option<[f64; 3]>>,
+    /// `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
+    /// `distance_mm`: see the table of the ask.
+    pub columns: Map<String, Value>,
+}
+
+/// A box.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct BoxInScene {
+    /// Its corner with the least coordinates.
+    pub corner_mm: [f64; 3],
+    /// Its sides from there.
+    pub sides_mm: [[f64; 3]; 3],
+    /// Points along each side.
+    pub counts: [usize; 3],
+}
+
+/// Columns that are drawn, of those that the table of the ask has.
+const COLUMNS: [&str; 11] = [
+    "state",
+    "branch",
+    "in_plane_um",
+    "normal_um",
+    "full_um",
+    "along_um",
+    "cross_um",
+    "axial_um",
+    "line",
+    "hole",
+    "distance_mm",
+];
+
+/// What can be drawn of this ask, or of the first; of a path, holes or a box it is run for that.
+///
+/// # Errors
+/// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
+pub fn scene(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<SceneAnswer, StudyError> {
+    let (parsed, name, study) = text.one_ask(ask)?;
+    let tables = parsed.ask_tables();
+    let plane = plane_of(&parsed.file, &tables[parsed.index_of(&name)?]);
+    let setting = super::setting(&study, 0)?;
+    let (mut sections, mut in_box) = (Vec::new(), None);
+    let of_sheet = |sheet: &Sheet| {
+        let half = |count: usize| 0.5 * (count as f64 - 1.0) * sheet.grid.step;
+        PlateInScene::of(&sheet.setting, [half(sheet.grid.columns), half(sheet.grid.rows)])
+    };
+    let mut plate = PlateInScene::of(setting, half_of(&plane));
+    let mut is_run = true;
+    match &study.asks[0].subject {
+        Subject::Map(sheet) => (plate, is_run) = (of_sheet(sheet), false),
+        Subject::Sections(all) => {
+            let section = |(label, sheet): &(String, Sheet)| SectionInScene {
+                label: label.clone(),
+                plate: of_sheet(sheet),
+            };
+            sections = all.iter().map(section).collect();
+            is_run = false;
+        }
+        Subject::Volume(_, grid) => in_box = Some(BoxInScene::of(grid)),
+        Subject::Path(_) | Subject::Holes(_) => {}
+    }
+    let points = match is_run {
+        true => Some(points(&study, &run(&study, watch)?[0])?),
+        false => None,
+    };
+    Ok(SceneAnswer {
+        robot: study.robot.robot.name().to_owned(),
+        base_mm: mm(&setting.base_from_counted.translation.vector),
+        plate,
+        sections,
+        points,
+        in_box,
+    })
+}
+
+/// Half the sides of a plane, m.
+pub(super) fn half_of(plane: &PlaneTable) -> [f64; 2] {
+    match plane.half_size_mm {
+        HalfSize::Square(half) => [half * 1e-3; 2],
+        HalfSize::Oblong(halves) => halves.map(|half| half * 1e-3),
+    }
+}
+
+impl PlateInScene {
+    /// The plane of this setting with half its sides (m) along y' and z'.
+    pub(super) fn of(setting: &Setting, [y, z]: [f64; 2]) -> PlateInScene {
+        let base_from_part = setting.plane.base_from_part;
+        // y' runs against x of the part.
+        let corner =
+            |along: f64, up: f64| mm(&(base_from_part * Point3::new(-along * y, up * z, 0.0)).coords);
+        PlateInScene {
+            corners_mm: [
+                corner(-1.0, -1.0),
+                corner(1.0, -1.0),
+                corner(1.0, 1.0),
+                corner(-1.0, 1.0),
+            ],
+            normal_axis: clean(setting.plane.normal().into_inner()),
+            y_axis: clean(base_from_part * -Vector3::x()),
+            z_axis: clean(base_from_part * Vector3::y()),
+            centre_mm: mm(&base_from_part.translation.vector),
+        }
+    }
+}
+
+impl BoxInScene {
+    fn of(grid: &BoxGrid) -> BoxInScene {
+        let side = |axis: Vector3<f64>, count: usize| {
+            mm(&(grid.base_from_box * axis * ((count as f64 - 1.0) * grid.step)))
+        };
+        let [x, y, z] = grid.counts;
+        BoxInScene {
+            corner_mm: mm(&grid.corner().coords),
+            sides_mm: [
+                side(Vector3::x(), x),
+                side(Vector3::y(), y),
+                side(Vector3::z(), z),
+            ],
+            counts: grid.counts,
+        }
+    }
+}
+
+/// The points of what was found, with what is drawn of their table.
+fn points(study: &Study, done: &Done<'_>) -> Result<PointsInScene, StudyError> {
+    let (setting, answers) = match &done.found {
+        Found::Volume(setting, volume) => (*setting, &volume.answers),
+        Found::Path(ask, found) => (&ask.setting, &found.along.answers),
+        Found::Holes(ask, found) => (&ask.path.setting, &found.answers),
+        Found::Map(..) | Found::Sections(_) => {
+            return Err(StudyError::value(
+                "a map has its points in the answer",
+                "ask for the answer",
+            ));
+        }
+    };
+    let table = output::points_table(study, done)?;
+    let place = |name: &str| match table.columns().iter().find(|column| column.name == name) {
+        Some(armill_formats::table::Column {
+            data: ColumnData::Float(values),
+            ..
+        }) => values.as_slice(),
+        _ => &[],
+    };
+    let counted = place("x_mm").iter().zip(place("y_mm")).zip(place("z_mm"));
+    let in_base =
+        counted.map(|((x, y), z)| mm(&(setting.base_from_counted * (Point3::new(*x, *y, *z) * 1e-3)).coords));
+    let deviation = |index: usize| {
+        let held = answers.points[index].as_ref().ok()?;
+        let deviation = answers.deviations_at(index)[held.deciding_case];
+        Some(deviation.map(|m| (m * 1e9).round() * 1e-3).into())
+    };
+    let drawn = table
+        .columns()
+        .iter()
+        .filter(|column| COLUMNS.contains(&column.name.as_str()));
+    Ok(PointsInScene {
+        xyz_mm: in_base.collect(),
+        deviation_um: (0..answers.points.len()).map(deviation).collect(),
+        columns: drawn
+            .map(|column| (column.name.clone(), column_values(&column.data)))
+            .collect(),
+    })
+}
+
+/// The values of a column, one a point.
+fn column_values(data: &ColumnData) -> Value {
+    match data {
+        ColumnData::Float(values) => values.iter().copied().map(number).collect(),
+        ColumnData::OptionalFloat(values) => {
+            let values = values.iter().copied();
+            values.map(|value| value.map_or(Value::Null, number)).collect()
+        }
+        ColumnData::Category { codes, labels } => {
+            let word = |code: &u32| labels.get(*code as usize).filter(|word| !word.is_empty());
+            codes
+                .iter()
+                .map(|code| word(code).cloned().map_or(Value::Null, Value::from))
+                .collect()
+        }
+        ColumnData::Integer(values) => values.iter().copied().collect(),
+        ColumnData::Flag(values) => values.iter().copied().collect(),
+        ColumnData::Text(values) => values.iter().map(String::as_str).collect(),
+    }
+}
+
+/// A number to a nanometre.
+fn number(value: f64) -> Value {
+    Value::from((value * 1e6).round() / 1e6)
+}
+
+/// Metres as mm, without what changes of frame leave behind.
+fn mm(v: &Vector3<f64>) -> [f64; 3] {
+    clean(v * 1e3)
+}
+
+fn clean(v: Vector3<f64>) -> [f64; 3] {
+    v.map(without_rounding).into()
+}

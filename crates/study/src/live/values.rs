@@ -1,0 +1,136 @@
+//! The settings that an ask resolves to: what controls of a page show before they are touched.
+//!
+//! Values are those of the file, of the ask where it gives them, else of the study; those that neither gives are what is
+//! then meant.
+
+use armill_core::robot::Branch;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::scene::{PlateInScene, half_of};
+use super::{Text, setting};
+use crate::error::StudyError;
+use crate::file::ask::{kind_name, plane_of};
+use crate::file::format::{AskTable, HalfSize, StudyFile};
+use crate::number::without_rounding;
+
+/// Every setting of one ask; `null` where there is none.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct ValuesAnswer {
+    /// Name of the ask.
+    pub ask: String,
+    /// `map`, `sections`, `volume`, `path` or `holes`.
+    pub kind: &'static str,
+    /// The robot, as the study names it.
+    pub robot: String,
+    /// Frame that coordinates count from.
+    pub base: String,
+    /// Frames that they may count from.
+    pub bases: Vec<String>,
+    /// Centre of the plane.
+    pub centre_mm: [f64; 3],
+    /// Its tilt; `null` where it is told by turns.
+    pub tilt_deg: Option<f64>,
+    /// Its turns; `null` where it is told by its tilt.
+    pub rotation_deg: Option<[f64; 3]>,
+    /// Half its sides along y' and z'.
+    pub half_size_mm: [f64; 2],
+    /// Pitch of its grid; of a path that of its points.
+    pub step_mm: f64,
+    /// Flange to tool centre point, as the file tells it.
+    pub flange_from_tool_mm_deg: [f64; 6],
+    /// Distance of the TCP from the flange.
+    pub tool_length_mm: f64,
+    /// Axes that forces are told in; `null` where they come with a cut.
+    pub load_frame: Option<&'static str>,
+    /// Forces on the tool, one a case.
+    pub cases_n: Vec<[f64; 3]>,
+    /// The tolerance.
+    pub limit_um: f64,
+    /// Posture as the file asks for it: words of a branch, `nominal` or `best`.
+    pub branch: String,
+    /// The branch that this means.
+    pub branch_meant: String,
+    /// Names of branches that the robot has; none where they have no names.
+    pub branches: Vec<String>,
+    /// Turn of the tool about its axis; of paths alone.
+    pub spin_deg: Option<f64>,
+    /// Sections: the x coordinate of the plane's centre, one a section.
+    pub distances_mm: Option<Vec<f64>>,
+    /// Sections: the tilt of the plane, one a section.
+    pub tilts_deg: Option<Vec<f64>>,
+    /// Volume: half the sides of the box.
+    pub box_half_size_mm: Option<[f64; 3]>,
+    /// Corners of the plane, base, in order round it.
+    pub plane_corners_mm: [[f64; 3]; 4],
+}
+
+/// The settings of this ask, or of the first.
+///
+/// # Errors
+/// Every problem of the text that concerns it; no ask of that name.
+pub fn values(text: Text<'_>, ask: Option<&str>) -> Result<ValuesAnswer, StudyError> {
+    let (parsed, name, study) = text.one_ask(ask)?;
+    let tables = parsed.ask_tables();
+    let table = &tables[parsed.index_of(&name)?];
+    let file = &parsed.file;
+    let setting = setting(&study, 0)?;
+    let robot = &study.robot.robot;
+    let plane = plane_of(file, table);
+    let half_size_mm = match plane.half_size_mm {
+        HalfSize::Square(half) => [half; 2],
+        HalfSize::Oblong(halves) => halves,
+    };
+    let tool = table.tool.as_ref().or(file.tool.as_ref());
+    let load = table.load.as_ref().or(file.load.as_ref());
+    let frames = robot.frames().iter().map(|frame| frame.name.clone());
+    let upright = plane.rotation_deg.is_none();
+    Ok(ValuesAnswer {
+        kind: kind_name(table.kind),
+        robot: file.robot.clone(),
+        base: setting.base_name.clone(),
+        bases: std::iter::once(crate::BASE_LINK.to_owned())
+            .chain(frames)
+            .collect(),
+        centre_mm: plane.centre_mm,
+        tilt_deg: upright.then(|| plane.tilt_deg.unwrap_or(0.0)),
+        rotation_deg: plane.rotation_deg,
+        half_size_mm,
+        step_mm: table.step_mm.unwrap_or(plane.step_mm),
+        flange_from_tool_mm_deg: tool.map_or([0.0; 6], |tool| tool.flange_from_tool_mm_deg),
+        tool_length_mm: without_rounding(setting.flange_from_tool.translation.vector.norm() * 1e3),
+        load_frame: load.map(|load| load.frame.map_or("base", |frame| frame.word())),
+        cases_n: load.map_or_else(Vec::new, |load| load.cases_n.clone()),
+        limit_um: table.limit_um.unwrap_or(file.limit_um),
+        branch: branch_words(file, table),
+        branch_meant: setting.branch(),
+        branches: match robot.inverse().has_branches() {
+            true => Branch::ALL.iter().map(Branch::to_string).collect(),
+            false => Vec::new(),
+        },
+        spin_deg: spin(table),
+        distances_mm: table.distances_mm.clone(),
+        tilts_deg: table.tilts_deg.clone(),
+        box_half_size_mm: table.in_box.as_ref().map(|of| of.half_size_mm),
+        plane_corners_mm: PlateInScene::of(setting, half_of(&plane)).corners_mm,
+        ask: name,
+    })
+}
+
+/// The posture in the words of the file.
+fn branch_words(file: &StudyFile, table: &AskTable) -> String {
+    let words = [&table.posture, &file.posture]
+        .into_iter()
+        .flatten()
+        .find_map(|posture| posture.branch.clone());
+    words.unwrap_or_else(|| "nominal".to_owned())
+}
+
+/// The turn of the tool on a path.
+fn spin(table: &AskTable) -> Option<f64> {
+    match (&table.program, table.kind) {
+        (Some(program), _) => Some(program.spin_deg.unwrap_or(0.0)),
+        (None, crate::file::format::AskKind::Path) => Some(table.spin_deg.unwrap_or(0.0)),
+        _ => None,
+    }
+}

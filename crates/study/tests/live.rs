@@ -1,0 +1,292 @@
+//! What a page is told of a study that is being written is what the whole run says of it.
+
+use std::path::Path;
+
+use armill_core::watch::Watch;
+use armill_formats::document::edit::Change;
+use armill_study::answer::answer;
+use armill_study::live::{
+    Place, PostureQuestion, Text, answer_json, changed, outline, pictures, postures, scene, table_csv, values,
+};
+use armill_study::output::{self, Wanted};
+use armill_study::run::run;
+use armill_study::studies::{self, FoundStudy};
+use serde_json::{Value, json};
+
+fn example(name: &str) -> FoundStudy {
+    studies::find(Path::new(name)).unwrap()
+}
+
+fn text(found: &FoundStudy) -> Text<'_> {
+    Text {
+        shown: &found.shown,
+        folder: &found.folder,
+        bytes: &found.bytes,
+    }
+}
+
+#[test]
+fn answer_table_and_pictures_are_the_files_of_a_run() {
+    let found = example("mh12-groove");
+    let study = found.read().unwrap();
+    let done = run(&study, Watch::NONE).unwrap();
+    let whole = answer(&study, &done);
+    let folder = tempfile::tempdir().unwrap();
+    output::write(&study, &done, &whole, (folder.path(), Wanted::USUAL), &|_| ()).unwrap();
+    let file = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+
+    assert_eq!(
+        answer_json(text(&found), None, Watch::NONE).unwrap(),
+        file("result.json")
+    );
+    let drawn = pictures(text(&found), None, Watch::NONE).unwrap().pictures;
+    assert!(!drawn.is_empty());
+    for picture in &drawn {
+        assert_eq!(picture.svg, file(&format!("{}.svg", picture.name)));
+    }
+    let map = study.asks.iter().find(|ask| {
+        folder
+            .path()
+            .join(format!("{}.csv", output::slug(&ask.name)))
+            .is_file()
+    });
+    let name = &map.unwrap().name;
+    let csv = table_csv(text(&found), Some(name), Watch::NONE).unwrap();
+    assert_eq!(
+        String::from_utf8(csv).unwrap(),
+        file(&format!("{}.csv", output::slug(name)))
+    );
+}
+
+#[test]
+fn one_ask_alone_answers_as_among_the_others() {
+    let found = example("mh12-groove");
+    let whole: Value = serde_json::from_str(&answer_json(text(&found), None, Watch::NONE).unwrap()).unwrap();
+    for kind in ["maps", "paths", "volumes", "holes"] {
+        for of_ask in whole[kind].as_array().unwrap() {
+            let name = of_ask["name"].as_str().unwrap();
+            // A section is no ask.
+            let ask = name
+                .split(": x = ")
+                .next()
+                .and_then(|name| name.split(": tilt").next())
+                .unwrap();
+            let alone = answer_json(text(&found), Some(ask), Watch::NONE).unwrap();
+            let alone: Value = serde_json::from_str(&alone).unwrap();
+            assert!(alone[kind].as_array().unwrap().contains(of_ask), "{name}");
+        }
+    }
+    let error = answer_json(text(&found), Some("nothing"), Watch::NONE).unwrap_err();
+    assert!(
+        error.to_string().contains("no ask is called `nothing`"),
+        "{error}"
+    );
+}
+
+const BROKEN: &str = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5]] }\nplane = { centre_mm = [1000, 0, 800], half_size_mm = 100, step_mm = 50 }\n[[ask]]\nkind = \"map\"\nname = \"good\"\n[[ask]]\nkind = \"map\"\nname = \"bad\"\nplane = { step_mm = -1 }\n";
+
+fn of(bytes: &str) -> Text<'_> {
+    Text {
+        shown: "study.toml",
+        folder: Path::new("."),
+        bytes: bytes.as_bytes(),
+    }
+}
+
+#[test]
+fn a_broken_ask_is_told_and_leaves_the_others_alone() {
+    let told = outline(of(BROKEN));
+    let names: Vec<&str> = told.asks.iter().map(|ask| ask.name.as_str()).collect();
+    assert_eq!(names, ["good", "bad"]);
+    assert_eq!(told.asks[1].keys, ["kind", "name", "plane.step_mm"]);
+    assert_eq!((told.problems.len(), told.problems[0].line()), (1, 12));
+    assert!(answer_json(of(BROKEN), Some("good"), Watch::NONE).is_ok());
+    assert!(answer_json(of(BROKEN), Some("bad"), Watch::NONE).is_err());
+    assert!(answer_json(of(BROKEN), None, Watch::NONE).is_err());
+
+    let no_toml = outline(of("robot = = 3\n"));
+    assert_eq!((no_toml.problems[0].line(), no_toml.asks.len()), (1, 0));
+}
+
+#[test]
+fn a_change_in_an_ask_mends_it_and_comments_stay() {
+    let commented = BROKEN.replace("limit_um = 100", "limit_um = 100 # of the drawing");
+    let change = Change {
+        path: "plane.step_mm".to_owned(),
+        value: json!(25),
+    };
+    let told = changed(of(&commented), Some("bad"), &[change]).unwrap();
+    assert_eq!(told.text, commented.replace("step_mm = -1", "step_mm = 25"));
+    assert!(told.problems.is_empty());
+}
+
+#[test]
+fn the_values_of_an_ask_are_its_own_or_those_of_the_study() {
+    let study = BROKEN.replace("step_mm = -1", "tilt_deg = 30");
+    let told = values(of(&study), Some("bad")).unwrap();
+    assert_eq!(
+        (told.tilt_deg, told.step_mm, told.limit_um),
+        (Some(30.0), 50.0, 100.0)
+    );
+    assert_eq!(
+        (told.kind, told.branch.as_str(), told.branches.len()),
+        ("map", "nominal", 8)
+    );
+    let [a, _, c, _] = told.plane_corners_mm;
+    let middle: Vec<f64> = (0..3).map(|k| 0.5 * (a[k] + c[k])).collect();
+    for (k, centre) in [1000.0, 0.0, 800.0].into_iter().enumerate() {
+        assert!((middle[k] - centre).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn a_posture_in_the_plane_deviates_as_the_map_says_there() {
+    let found = example("mh12-groove");
+    let map = found.read().unwrap().asks.iter().find_map(|ask| {
+        matches!(ask.subject, armill_study::file::resolve::Subject::Map(_)).then(|| ask.name.clone())
+    });
+    let map = map.unwrap();
+    let whole: Value =
+        serde_json::from_str(&answer_json(text(&found), Some(&map), Watch::NONE).unwrap()).unwrap();
+    let worst = &whole["maps"][0]["worst"];
+    let at = Place {
+        y_mm: worst["in_plane_mm"][0].as_f64(),
+        z_mm: worst["in_plane_mm"][1].as_f64(),
+        ..Place::default()
+    };
+    let case = worst["deciding_case"].as_u64().unwrap() as usize;
+    let question = PostureQuestion {
+        ask: Some(&map),
+        at,
+        case,
+    };
+    let told = postures(text(&found), &question, Watch::NONE).unwrap();
+    let held = told
+        .answer
+        .postures
+        .iter()
+        .position(|posture| posture.branch == worst["branch"])
+        .unwrap();
+    let here = told.in_plane[held][case - 1].as_ref().unwrap();
+    assert!((here.in_plane_um - worst["in_plane_um"].as_f64().unwrap()).abs() < 1e-6);
+    // So do its uncertainty, its shares and what may act.
+    let number = |key: &str| worst[key].as_f64().unwrap();
+    assert!((here.in_plane_u_um.unwrap() - number("in_plane_u_um")).abs() < 1e-6);
+    let shares = here.share_um.as_ref().unwrap();
+    for (k, share) in shares.iter().enumerate() {
+        assert!((share - worst["joint_share_um"][k].as_f64().unwrap()).abs() < 1e-6);
+    }
+    assert!((shares.iter().sum::<f64>() - here.in_plane_um).abs() < 1e-6);
+    for (told, key) in [
+        (here.permissible_along_load_n, "permissible_along_load_n"),
+        (here.permissible_any_direction_n, "permissible_any_direction_n"),
+    ] {
+        assert!((told.unwrap() / number(key) - 1.0).abs() < 1e-9, "{key}");
+    }
+    // The drawing ends where the tool is.
+    let tcp = told.drawings[held].tool_mm;
+    assert_eq!(told.drawings[held].links_mm.last(), Some(&tcp));
+    for (drawn, limits) in told.drawings[held].joints.iter().zip(&told.limits) {
+        assert_eq!(drawn.name, limits.name);
+    }
+}
+
+const CIRCLE: &str = "format = 1\nrobot = \"yaskawa/mh12\"\nlimit_um = 100\nload = { cases_n = [[3, 5, 5], [-40, 0, 20]] }\ntool = { flange_from_tool_mm_deg = [0, 0, 150, 0, 0, 0] }\nplane = { centre_mm = [1000, 50, 800], tilt_deg = 20, half_size_mm = [100, 60], step_mm = 20 }\n[[ask]]\nkind = \"path\"\nname = \"rim\"\ncircle = { radius_mm = 50 }\n[[ask]]\nkind = \"volume\"\nname = \"box\"\nbox = { half_size_mm = [100, 50, 50], step_mm = 50 }\n[[ask]]\nkind = \"sections\"\nname = \"far\"\ndistances_mm = [900, 1000]\n";
+
+#[test]
+fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
+    let told = scene(of(CIRCLE), Some("rim"), Watch::NONE).unwrap();
+    let points = told.points.unwrap();
+    assert_eq!(points.xyz_mm.len(), 360);
+    let dot = |a: [f64; 3], b: [f64; 3]| -> f64 { (0..3).map(|k| a[k] * b[k]).sum() };
+    let plate = &told.plate;
+    for (index, at) in points.xyz_mm.iter().enumerate() {
+        let from_centre = std::array::from_fn(|k| at[k] - plate.centre_mm[k]);
+        assert!(dot(from_centre, plate.normal_axis).abs() < 1e-5);
+        assert!((dot(from_centre, from_centre).sqrt() - 50.0).abs() < 1e-5);
+        let by = points.deviation_um[index].unwrap();
+        let normal = dot(by, plate.normal_axis);
+        let across = (dot(by, by) - normal * normal).sqrt();
+        let told = points.columns["in_plane_um"][index].as_f64().unwrap();
+        assert!((across - told).abs() < 0.01, "{index}: {across} {told}");
+    }
+    assert!(points.columns["branch"][0].is_string());
+    // The posture at a point of the path is the one of its table.
+    let question = PostureQuestion {
+        ask: Some("rim"),
+        at: Place {
+            point: Some(7),
+            ..Place::default()
+        },
+        case: 1,
+    };
+    let there = postures(of(CIRCLE), &question, Watch::NONE).unwrap();
+    for (k, mm) in points.xyz_mm[7].iter().enumerate() {
+        assert!((there.drawings[0].tool_mm[k] - mm).abs() < 1e-5);
+    }
+    let held = there
+        .answer
+        .postures
+        .iter()
+        .position(|posture| points.columns["branch"][7] == posture.branch);
+    let most = there.in_plane[held.unwrap()]
+        .iter()
+        .flatten()
+        .map(|case| case.in_plane_um)
+        .fold(0.0, f64::max);
+    assert!((most - points.columns["in_plane_um"][7].as_f64().unwrap()).abs() < 2e-3);
+}
+
+#[test]
+fn boxes_and_sections_have_theirs() {
+    let told = scene(of(CIRCLE), Some("box"), Watch::NONE).unwrap();
+    let counts = told.in_box.unwrap().counts;
+    assert_eq!(
+        counts.iter().product::<usize>(),
+        told.points.unwrap().xyz_mm.len()
+    );
+    let told = scene(of(CIRCLE), Some("far"), Watch::NONE).unwrap();
+    assert_eq!(told.sections.len(), 2);
+    assert!((told.sections[0].plate.centre_mm[0] - 900.0).abs() < 1e-9 && told.points.is_none());
+}
+
+#[test]
+fn places_that_are_none_are_refused_in_words() {
+    let refused = |at: Place, ask: &str| {
+        let question = PostureQuestion {
+            ask: Some(ask),
+            at,
+            case: 1,
+        };
+        postures(of(CIRCLE), &question, Watch::NONE)
+            .unwrap_err()
+            .to_string()
+    };
+    let far = Place {
+        xyz_mm: Some([1e10, 0.0, 0.0]),
+        ..Place::default()
+    };
+    assert!(refused(far, "rim").contains("beyond"));
+    let beyond = Place {
+        point: Some(360),
+        ..Place::default()
+    };
+    assert!(refused(beyond, "rim").contains("from 0 to 359"));
+    let half = Place {
+        y_mm: Some(0.0),
+        ..Place::default()
+    };
+    assert!(refused(half, "rim").contains("y_mm with z_mm"));
+    let section = Place {
+        y_mm: Some(0.0),
+        z_mm: Some(0.0),
+        section: Some(2),
+        ..Place::default()
+    };
+    assert!(refused(section, "far").contains("no section 2"));
+    let none = Place {
+        joints_deg: Some(vec![0.0; 5]),
+        ..Place::default()
+    };
+    assert!(refused(none, "rim").contains("5 joint positions"));
+}

@@ -1,0 +1,8 @@
+//! Prints how the server is told to a program; `cargo xtask web` makes the types of the page from it.
+
+// An example prints what it is asked for.
+#![allow(clippy::print_stdout)]
+
+fn main() {
+    println!("{}", armill_web::openapi_document());
+}

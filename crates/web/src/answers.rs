@@ -1,0 +1,211 @@
+//! Answers to a text that is sent: none of them reads or writes the study on disk.
+//!
+//! | path | answers |
+//! |---|---|
+//! | `POST /api/answer` | as `armill run --json` of one ask, or of all |
+//! | `POST /api/values` | the settings that an ask resolves to |
+//! | `POST /api/pose` | the arm at one place of an ask |
+//! | `POST /api/scene` | what of an ask can be drawn in space |
+//! | `POST /api/table` | the table of an ask |
+//! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
+//! | `GET /api/robots` | as `armill robots --json` |
+
+use std::sync::Arc;
+
+use armill_core::watch::Watch;
+use armill_study::live::{
+    Place, PostureQuestion, Text, answer_json, picture_svg, pictures, postures, scene, table_csv, values,
+};
+use armill_study::robot_answers::library_rows;
+use armill_study::{StudyError, output};
+use axum::Router;
+use axum::extract::State as Shared;
+use axum::http::HeaderMap;
+use axum::response::Response;
+use axum::routing::{get, post};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Asked, check_text, typed};
+use crate::error::{Answered, ApiError};
+use crate::server::State;
+
+const JSON: &str = "application/json";
+
+/// An ask of a text.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfAsk {
+    /// The text of the study.
+    pub text: String,
+    /// Its ask; all of them, or the first, where none is named.
+    pub ask: Option<String>,
+}
+
+/// A place of an ask.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfPlace {
+    /// The text of the study.
+    pub text: String,
+    /// Its ask; the first where none is named.
+    pub ask: Option<String>,
+    /// Where the tool is.
+    pub at: Place,
+    /// Load case, from 1.
+    #[serde(default = "first")]
+    pub case: usize,
+}
+
+fn first() -> usize {
+    1
+}
+
+/// The table of an ask.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfTable {
+    /// The text of the study.
+    pub text: String,
+    /// Its ask; the first where none is named.
+    pub ask: Option<String>,
+    /// How it is written.
+    #[serde(default)]
+    pub format: TableFormat,
+}
+
+/// How a table is written.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum TableFormat {
+    /// Comma-separated values.
+    #[default]
+    Csv,
+}
+
+/// One picture of an ask.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfPicture {
+    /// The text of the study.
+    pub text: String,
+    /// Its ask; all of them where none is named.
+    pub ask: Option<String>,
+    /// The name of the picture.
+    pub name: String,
+}
+
+pub(crate) fn routes() -> Router<Arc<State>> {
+    Router::new()
+        .route("/answer", post(answer))
+        .route("/values", post(of_values))
+        .route("/pose", post(pose))
+        .route("/scene", post(of_scene))
+        .route("/table", post(table))
+        .route("/pictures", post(of_pictures))
+        .route("/picture.png", post(picture_png))
+        .route("/robots", get(robots))
+}
+
+/// What `work` makes of this text, as an answer of this type.
+async fn answered<T: Into<axum::body::Body> + Send + 'static>(
+    state: Arc<State>,
+    (text, headers, kind): (String, HeaderMap, &'static str),
+    work: impl FnOnce(Text<'_>, Watch<'_>) -> Result<T, StudyError> + Send + 'static,
+) -> Answered {
+    check_text(&text)?;
+    let shared = Arc::clone(&state);
+    let bytes = state
+        .work
+        .done_in_tab(&headers, move |watch| work(shared.cell.text(&text), watch))
+        .await?;
+    Ok(typed(kind, bytes))
+}
+
+fn as_json(value: &impl Serialize) -> Result<Vec<u8>, StudyError> {
+    Ok(serde_json::to_vec(value)?)
+}
+
+async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfAsk>) -> Answered {
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        answer_json(text, of.ask.as_deref(), watch)
+    })
+    .await
+}
+
+async fn of_values(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfAsk>) -> Answered {
+    answered(state, (of.text, HeaderMap::new(), JSON), move |text, _| {
+        as_json(&values(text, of.ask.as_deref())?)
+    })
+    .await
+}
+
+async fn pose(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfPlace>) -> Answered {
+    let headers = for_itself(&headers, "pose");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        let question = PostureQuestion {
+            ask: of.ask.as_deref(),
+            at: of.at,
+            case: of.case,
+        };
+        as_json(&postures(text, &question, watch)?)
+    })
+    .await
+}
+
+async fn of_scene(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    Asked(of): Asked<OfAsk>,
+) -> Answered {
+    let headers = for_itself(&headers, "scene");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&scene(text, of.ask.as_deref(), watch)?)
+    })
+    .await
+}
+
+async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> Answered {
+    let TableFormat::Csv = of.format;
+    answered(
+        state,
+        (of.text, HeaderMap::new(), "text/csv; charset=utf-8"),
+        move |text, watch| table_csv(text, of.ask.as_deref(), watch),
+    )
+    .await
+}
+
+async fn of_pictures(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    Asked(of): Asked<OfAsk>,
+) -> Answered {
+    let headers = for_itself(&headers, "pictures");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&pictures(text, of.ask.as_deref(), watch)?)
+    })
+    .await
+}
+
+async fn picture_png(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfPicture>) -> Answered {
+    answered(
+        state,
+        (of.text, HeaderMap::new(), "image/png"),
+        move |text, watch| output::png(&picture_svg(text, of.ask.as_deref(), &of.name, watch)?),
+    )
+    .await
+}
+
+async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
+    let bytes = state.work.done(|_| as_json(&library_rows()?)).await?;
+    Ok(typed(JSON, bytes))
+}
+
+/// The headers of a question that supersedes only those of its own kind in the tab.
+fn for_itself(headers: &HeaderMap, kind: &str) -> HeaderMap {
+    let mut own = HeaderMap::new();
+    let name = headers.get("x-tab").and_then(|name| name.to_str().ok());
+    let name = name.and_then(|name| format!("{kind}:{name}").parse().ok());
+    own.extend(name.map(|name| (axum::http::HeaderName::from_static("x-tab"), name)));
+    own
+}

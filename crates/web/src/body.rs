@@ -1,0 +1,114 @@
+//! What of a request is read, and how an answer is written: bounded in size and time before anything is kept.
+
+use std::time::Duration;
+
+use axum::body::{Body, BodyDataStream};
+use axum::extract::{FromRequest, Request};
+use axum::http::header::{CONTENT_LENGTH, CONTENT_TYPE};
+use axum::http::{HeaderMap, StatusCode};
+use axum::response::{IntoResponse, Response};
+use futures_util::StreamExt;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use crate::error::ApiError;
+
+/// Bytes of a question.
+pub(crate) const MOST_JSON: u64 = 16 << 20;
+/// Bytes of a study in it.
+pub(crate) const MOST_TEXT: usize = 4 << 20;
+/// How long the next piece of a body may take.
+const PIECE_TIME: Duration = Duration::from_secs(10);
+/// How long a question may take altogether.
+const JSON_TIME: Duration = Duration::from_secs(60);
+
+/// A body that comes in pieces, as long as it is not too large and not too slow.
+pub(crate) struct Pieces {
+    stream: BodyDataStream,
+    read: u64,
+    most: u64,
+}
+
+impl Pieces {
+    /// # Errors
+    /// A body that says itself that it is too large.
+    pub(crate) fn of(headers: &HeaderMap, body: Body, most: u64) -> Result<Pieces, ApiError> {
+        let told = headers
+            .get(CONTENT_LENGTH)
+            .and_then(|length| length.to_str().ok()?.parse().ok());
+        if told.is_some_and(|length: u64| length > most) {
+            return Err(ApiError::too_large(most));
+        }
+        Ok(Pieces {
+            stream: body.into_data_stream(),
+            read: 0,
+            most,
+        })
+    }
+
+    /// The next piece; `None` at the end.
+    ///
+    /// # Errors
+    /// Too large, too slow, broken off.
+    pub(crate) async fn next(&mut self) -> Result<Option<axum::body::Bytes>, ApiError> {
+        let next = tokio::time::timeout(PIECE_TIME, self.stream.next()).await;
+        match next.map_err(|_| ApiError::too_slow())? {
+            None => Ok(None),
+            Some(Err(error)) => Err(ApiError::invalid(format!("the body broke off: {error}"))),
+            Some(Ok(piece)) => {
+                self.read += piece.len() as u64;
+                if self.read > self.most {
+                    return Err(ApiError::too_large(self.most));
+                }
+                Ok(Some(piece))
+            }
+        }
+    }
+}
+
+/// A question in JSON.
+pub(crate) struct Asked<T>(pub T);
+
+impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Asked<T> {
+    type Rejection = ApiError;
+
+    async fn from_request(request: Request, _: &S) -> Result<Asked<T>, ApiError> {
+        let (parts, body) = request.into_parts();
+        let mut pieces = Pieces::of(&parts.headers, body, MOST_JSON)?;
+        let read = async {
+            let mut bytes = Vec::new();
+            while let Some(piece) = pieces.next().await? {
+                bytes.extend_from_slice(&piece);
+            }
+            Ok::<_, ApiError>(bytes)
+        };
+        let bytes = tokio::time::timeout(JSON_TIME, read)
+            .await
+            .map_err(|_| ApiError::too_slow())??;
+        let asked = serde_json::from_slice(&bytes);
+        asked
+            .map(Asked)
+            .map_err(|error| ApiError::invalid(format!("the question: {error}")))
+    }
+}
+
+/// Refuses a text that is longer than any study.
+pub(crate) fn check_text(text: &str) -> Result<(), ApiError> {
+    match text.len() > MOST_TEXT {
+        true => Err(ApiError::too_large(MOST_TEXT as u64)),
+        false => Ok(()),
+    }
+}
+
+/// An answer in JSON.
+pub(crate) fn json(status: StatusCode, value: &impl Serialize) -> Response {
+    match serde_json::to_vec(value) {
+        Ok(bytes) => (status, typed("application/json", bytes)).into_response(),
+        Err(error) => ApiError::internal(error.to_string()).into_response(),
+    }
+}
+
+/// An answer of this type.
+pub(crate) fn typed(kind: &'static str, bytes: impl Into<Body>) -> Response {
+    ([(CONTENT_TYPE, kind)], bytes.into()).into_response()
+}

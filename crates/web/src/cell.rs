@@ -1,0 +1,137 @@
+//! Which study it is, and where its files lie.
+//!
+//! Of an example, and of a study in a folder that takes no files, results and uploads go into a folder that is made for
+//! this start and removed at its end.
+
+use std::collections::hash_map::DefaultHasher;
+use std::hash::{Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use armill_formats::file::write_atomically;
+use armill_study::live::Text;
+use armill_study::{StudyError, studies};
+use tempfile::TempDir;
+
+use crate::error::ApiError;
+
+/// The study that is served where none is named and none lies here.
+const EXAMPLE: &str = "mh12-groove";
+
+/// The study and its folder.
+pub(crate) struct Cell {
+    /// What problems call the file.
+    pub shown: String,
+    /// Where uploads and results go, and where files that the study names are looked for: a real path.
+    pub root: PathBuf,
+    /// The file on disk; none of an example.
+    file: Option<PathBuf>,
+    /// Its text where it is none.
+    example: Vec<u8>,
+    /// Whether the file may be written.
+    pub writable: bool,
+    /// One writer at a time.
+    writing: Mutex<()>,
+    /// Kept until the end.
+    _made: Option<TempDir>,
+}
+
+impl Cell {
+    /// The study at `given`; without, that of the current folder, else the example.
+    ///
+    /// # Errors
+    /// No study there; a folder for results that cannot be made.
+    pub(crate) fn find(given: Option<&Path>) -> Result<Cell, StudyError> {
+        let here = Path::new("study.toml").is_file();
+        let given = given.unwrap_or_else(|| Path::new(if here { "." } else { EXAMPLE }));
+        let found = studies::find(given)?;
+        let file = if given.is_dir() {
+            given.join("study.toml")
+        } else {
+            given.to_owned()
+        };
+        let file = file.canonicalize().ok().filter(|file| file.is_file());
+        let folder = file.as_deref().and_then(Path::parent).map(Path::to_owned);
+        let open = folder.filter(|folder| tempfile::tempfile_in(folder).is_ok());
+        let (made, root) = match open {
+            Some(folder) => (None, folder),
+            None => {
+                let made = tempfile::Builder::new().prefix("armill-").tempdir();
+                let made = made.map_err(|error| {
+                    StudyError::value(format!("cannot make a folder for results: {error}"), "set TMPDIR")
+                })?;
+                let root = made
+                    .path()
+                    .canonicalize()
+                    .unwrap_or_else(|_| made.path().to_owned());
+                (Some(made), root)
+            }
+        };
+        let locked = |file: &PathBuf| file.metadata().is_ok_and(|meta| meta.permissions().readonly());
+        Ok(Cell {
+            shown: found.shown,
+            writable: made.is_none() && file.as_ref().is_some_and(|file| !locked(file)),
+            root,
+            file,
+            example: found.bytes,
+            writing: Mutex::default(),
+            _made: made,
+        })
+    }
+
+    /// The bytes as they are now.
+    ///
+    /// # Errors
+    /// The file cannot be read any more.
+    pub(crate) fn bytes(&self) -> Result<Vec<u8>, StudyError> {
+        match &self.file {
+            None => Ok(self.example.clone()),
+            Some(file) => std::fs::read(file).map_err(|error| {
+                let message = format!("cannot read {}: {error}", self.shown);
+                StudyError::value(message, "has the file been moved?")
+            }),
+        }
+    }
+
+    /// Puts `text` in the place of what is on disk, if that is still what the page has seen.
+    ///
+    /// # Errors
+    /// An example; a file that was changed by somebody else; one that cannot be written.
+    pub(crate) fn write(&self, text: &str, seen: &str) -> Result<(), ApiError> {
+        let (true, Some(file)) = (self.writable, &self.file) else {
+            return Err(ApiError::forbidden(
+                "this study cannot be written: `armill new DIR` makes one that can",
+            ));
+        };
+        let _writing = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        if version(&self.bytes()?) != seen {
+            return Err(ApiError::conflict(
+                "the file on disk is no longer the one that was read",
+            ));
+        }
+        write_atomically(file, text.as_bytes()).map_err(StudyError::from)?;
+        Ok(())
+    }
+
+    /// Whether a file of this name would be that of the study itself, also where case tells no names apart.
+    pub(crate) fn is_study(&self, name: &str) -> bool {
+        let own = self.file.as_deref().and_then(|file| file.file_name()?.to_str());
+        own.is_some_and(|own| own.to_lowercase() == name.to_lowercase())
+    }
+
+    /// A text of the page as a study of this folder.
+    pub(crate) fn text<'a>(&'a self, text: &'a str) -> Text<'a> {
+        Text {
+            shown: &self.shown,
+            folder: &self.root,
+            bytes: text.as_bytes(),
+        }
+    }
+}
+
+/// What tells one state of the file from another.
+pub(crate) fn version(bytes: &[u8]) -> String {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    format!("{:016x}", hasher.finish())
+}

@@ -1,0 +1,150 @@
+//! How is told what is wrong: `{"error": {"kind", "message", "hint", "problems"}}`, and the status that goes with it.
+
+use armill_formats::document::Problem;
+use armill_study::{ErrorKind, StudyError};
+use axum::http::StatusCode;
+use axum::response::{IntoResponse, Response};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::body::json;
+
+/// What is wrong.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct ErrorBody {
+    /// What is wrong.
+    pub error: Wrong,
+}
+
+/// What is wrong.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct Wrong {
+    /// `invalid-input`, `cancelled`, `internal`, `unauthorised`, `forbidden`, `not-found`, `conflict`, `superseded` or
+    /// `too-large`.
+    pub kind: &'static str,
+    /// In words.
+    pub message: String,
+    /// What to do about it, where that is known.
+    pub hint: Option<String>,
+    /// Problems of the study, each with its place.
+    pub problems: Vec<Problem>,
+}
+
+/// An answer that says what is wrong.
+#[derive(Debug)]
+pub(crate) struct ApiError {
+    status: StatusCode,
+    wrong: Wrong,
+}
+
+/// What handlers give.
+pub(crate) type Answered = Result<Response, ApiError>;
+
+impl ApiError {
+    fn new(status: StatusCode, kind: &'static str, message: impl Into<String>) -> ApiError {
+        ApiError {
+            status,
+            wrong: Wrong {
+                kind,
+                message: message.into(),
+                hint: None,
+                problems: Vec::new(),
+            },
+        }
+    }
+
+    pub(crate) fn invalid(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::BAD_REQUEST, "invalid-input", message)
+    }
+
+    pub(crate) fn unauthorised() -> ApiError {
+        let message = "the token is missing or wrong: open the address that `armill serve` has printed";
+        ApiError::new(StatusCode::UNAUTHORIZED, "unauthorised", message)
+    }
+
+    pub(crate) fn forbidden(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::FORBIDDEN, "forbidden", message)
+    }
+
+    pub(crate) fn not_found(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::NOT_FOUND, "not-found", message)
+    }
+
+    pub(crate) fn conflict(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::CONFLICT, "conflict", message)
+    }
+
+    pub(crate) fn superseded() -> ApiError {
+        let message = "a later question of this tab took its place";
+        ApiError::new(StatusCode::CONFLICT, "superseded", message)
+    }
+
+    pub(crate) fn too_large(most: u64) -> ApiError {
+        let message = format!("more than {} MiB", most >> 20);
+        ApiError::new(StatusCode::PAYLOAD_TOO_LARGE, "too-large", message)
+    }
+
+    pub(crate) fn too_slow() -> ApiError {
+        ApiError::new(
+            StatusCode::REQUEST_TIMEOUT,
+            "invalid-input",
+            "the body came too slowly",
+        )
+    }
+
+    pub(crate) fn internal(message: impl Into<String>) -> ApiError {
+        ApiError::new(StatusCode::INTERNAL_SERVER_ERROR, "internal", message)
+    }
+
+    /// What is wrong, for a job that failed.
+    pub(crate) fn into_wrong(self) -> Wrong {
+        self.wrong
+    }
+}
+
+impl From<StudyError> for ApiError {
+    fn from(error: StudyError) -> ApiError {
+        let kind = error.kind();
+        match (error, kind) {
+            (StudyError::Problems(problems), _) => {
+                let mut told = ApiError::new(
+                    StatusCode::UNPROCESSABLE_ENTITY,
+                    "invalid-input",
+                    "the study has problems",
+                );
+                told.wrong.problems = problems.as_slice().to_vec();
+                told
+            }
+            (StudyError::Value { message, hint }, _) => {
+                let mut told = ApiError::invalid(message);
+                told.wrong.hint = Some(hint);
+                told
+            }
+            (error, ErrorKind::InvalidInput) => ApiError::invalid(error.to_string()),
+            (error, ErrorKind::Cancelled) => {
+                ApiError::new(StatusCode::CONFLICT, "cancelled", error.to_string())
+            }
+            (error, ErrorKind::Internal) => ApiError::internal(error.to_string()),
+        }
+    }
+}
+
+impl IntoResponse for ApiError {
+    fn into_response(self) -> Response {
+        json(self.status, &ErrorBody { error: self.wrong })
+    }
+}
+
+/// What an unknown path is answered.
+pub(crate) async fn no_such_path() -> ApiError {
+    ApiError::not_found("there is nothing at this path")
+}
+
+/// What a known path is answered with another method.
+pub(crate) async fn wrong_method() -> ApiError {
+    ApiError::new(
+        StatusCode::METHOD_NOT_ALLOWED,
+        "invalid-input",
+        "this path takes another method",
+    )
+}

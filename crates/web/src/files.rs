@@ -1,0 +1,287 @@
+//! Files of the study's folder: listed, read, taken in. Never one outside of it.
+//!
+//! | path | does |
+//! |---|---|
+//! | `GET /api/files` | what is there, two folders deep at most |
+//! | `GET /api/files/PATH` | one file; what a browser can show is shown without scripts, the rest is to be saved |
+//! | `PUT /api/files/NAME` | takes a file in, under a plain name |
+//!
+//! A name that begins with a point is none; a link that leads out of the folder is not followed.
+
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, SystemTime};
+
+use armill_study::StudyError;
+use armill_study::live::{FileKind, kind_of};
+use axum::Router;
+use axum::body::Body;
+use axum::extract::{Path as InPath, Query, Request, State as Shared};
+use axum::http::StatusCode;
+use axum::http::header::{CONTENT_DISPOSITION, CONTENT_LENGTH, CONTENT_SECURITY_POLICY, CONTENT_TYPE};
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use futures_util::stream;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
+
+use crate::body::{Pieces, json};
+use crate::error::{Answered, ApiError};
+use crate::page::kind;
+use crate::server::State;
+
+/// Bytes of a file that is taken in.
+const MOST_BYTES: u64 = 256 << 20;
+/// Files listed at most.
+const MOST_FILES: usize = 2000;
+/// Letters of a name.
+const LONGEST_NAME: usize = 100;
+/// Bytes read at a time.
+const PIECE: usize = 256 << 10;
+/// Endings that a browser shows.
+const SHOWN: [&str; 5] = ["svg", "png", "csv", "json", "html"];
+/// What a file may do that is shown: lie in a frame of the page, with its own styles and pictures, and no scripts.
+const SHOWN_POLICY: &str =
+    "sandbox; default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; frame-ancestors 'self'";
+
+/// What lies in the folder.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct Files {
+    /// By name; at most 2000.
+    pub files: Vec<FileRow>,
+}
+
+/// One file.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct FileRow {
+    /// Its path in the folder, such as `out/report.html`.
+    pub name: String,
+    /// Its size.
+    pub bytes: u64,
+    /// Since it was written.
+    pub modified_s_ago: f64,
+}
+
+/// A file that was taken in.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct TakenIn {
+    /// Its name in the folder.
+    pub name: String,
+    /// Its size.
+    pub bytes: u64,
+    /// What it seems to be.
+    pub kind: FileKind,
+    /// How a study names such a file.
+    pub hint: String,
+}
+
+/// How a file is taken in.
+#[derive(Clone, Debug, Default, Deserialize)]
+struct Taking {
+    /// `1`: in the place of one of that name.
+    replace: Option<String>,
+}
+
+pub(crate) fn routes() -> Router<Arc<State>> {
+    Router::new()
+        .route("/files", get(list))
+        .route("/files/{*path}", get(read).put(take))
+}
+
+async fn list(Shared(state): Shared<Arc<State>>) -> Answered {
+    let shared = Arc::clone(&state);
+    let files = state.work.done(move |_| Ok(listed(&shared.cell.root))).await?;
+    Ok(json(StatusCode::OK, &Files { files }))
+}
+
+/// The files of the folder and of its folders.
+fn listed(root: &Path) -> Vec<FileRow> {
+    let mut files = Vec::new();
+    add(root, "", &mut files, 2);
+    files.sort_by(|a, b| a.name.cmp(&b.name));
+    files
+}
+
+/// Adds what lies in `folder`, so many folders deep.
+fn add(folder: &Path, before: &str, files: &mut Vec<FileRow>, depth: usize) {
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let Ok(name) = entry.file_name().into_string() else {
+            continue;
+        };
+        // What a link leads to is not looked at here.
+        let (Ok(kind), true) = (entry.file_type(), is_plain(&name)) else {
+            continue;
+        };
+        if files.len() >= MOST_FILES {
+            return;
+        }
+        let name = format!("{before}{name}");
+        if kind.is_dir() && depth > 0 {
+            add(&entry.path(), &format!("{name}/"), files, depth - 1);
+        } else if let (true, Ok(meta)) = (kind.is_file(), entry.metadata()) {
+            let age = meta
+                .modified()
+                .ok()
+                .and_then(|at| SystemTime::now().duration_since(at).ok());
+            files.push(FileRow {
+                name,
+                bytes: meta.len(),
+                modified_s_ago: age.unwrap_or(Duration::ZERO).as_secs_f64(),
+            });
+        }
+    }
+}
+
+/// Whether a part of a path is a name, not hidden, and no trick.
+fn is_plain(name: &str) -> bool {
+    let odd = |c: char| c.is_control() || matches!(c, '/' | '\\' | ':');
+    !name.is_empty() && !name.starts_with('.') && !name.contains(odd)
+}
+
+/// The file at this path of the folder, where there is one in it.
+pub(crate) fn inside(root: &Path, path: &str) -> Result<PathBuf, ApiError> {
+    let none = || ApiError::not_found("there is no such file");
+    if !path.split('/').all(is_plain) {
+        return Err(none());
+    }
+    // Links are followed first: what counts is where they lead.
+    let real = root.join(path).canonicalize().map_err(|_| none())?;
+    let below = real.strip_prefix(root).map_err(|_| none())?;
+    let plain = below.components().all(|part| match part {
+        Component::Normal(name) => name.to_str().is_some_and(is_plain),
+        _ => false,
+    });
+    match plain && real.is_file() {
+        true => Ok(real),
+        false => Err(none()),
+    }
+}
+
+async fn read(Shared(state): Shared<Arc<State>>, InPath(path): InPath<String>) -> Answered {
+    let shared = Arc::clone(&state);
+    let asked = path.clone();
+    let real = state
+        .work
+        .done(move |_| Ok(inside(&shared.cell.root, &asked)))
+        .await??;
+    let none = |_| ApiError::not_found("there is no such file");
+    let file = tokio::fs::File::open(&real).await.map_err(none)?;
+    let length = file.metadata().await.map_err(none)?.len();
+    // No more than was told, should the file grow meanwhile.
+    let pieces = stream::unfold((file, length), |(mut file, left)| async move {
+        if left == 0 {
+            return None;
+        }
+        let mut piece = vec![0; PIECE.min(usize::try_from(left).unwrap_or(PIECE))];
+        match file.read(&mut piece).await {
+            Ok(0) => Some((
+                Err(std::io::Error::from(std::io::ErrorKind::UnexpectedEof)),
+                (file, 0),
+            )),
+            Ok(read) => {
+                piece.truncate(read);
+                Some((Ok(piece), (file, left - read as u64)))
+            }
+            Err(error) => Some((Err(error), (file, 0))),
+        }
+    });
+    let ending = real
+        .extension()
+        .and_then(|ending| ending.to_str())
+        .unwrap_or_default();
+    let shown = SHOWN.contains(&ending);
+    let headers = [
+        (
+            CONTENT_TYPE,
+            if shown {
+                kind(&path)
+            } else {
+                "application/octet-stream"
+            }
+            .to_owned(),
+        ),
+        (CONTENT_LENGTH, length.to_string()),
+        (
+            CONTENT_DISPOSITION,
+            if shown { "inline" } else { "attachment" }.to_owned(),
+        ),
+        (CONTENT_SECURITY_POLICY, SHOWN_POLICY.to_owned()),
+    ];
+    let body: Body = Body::from_stream(pieces);
+    Ok((headers, body).into_response())
+}
+
+async fn take(
+    Shared(state): Shared<Arc<State>>,
+    InPath(name): InPath<String>,
+    Query(taking): Query<Taking>,
+    request: Request,
+) -> Result<Response, ApiError> {
+    let letters = |c: char| c.is_alphanumeric() || matches!(c, '-' | '_' | '.' | ' ');
+    if !is_plain(&name)
+        || !name.chars().all(letters)
+        || name.chars().count() > LONGEST_NAME
+        || name.trim() != name
+    {
+        let message =
+            "a file is named by letters, digits, `-`, `_`, points and blanks, 100 at most, without a folder";
+        return Err(ApiError::forbidden(message));
+    }
+    let path = state.cell.root.join(&name);
+    if state.cell.is_study(&name) {
+        return Err(ApiError::forbidden("the study is written by /api/study"));
+    }
+    let replaces = taking.replace.as_deref() == Some("1");
+    let taken = || ApiError::conflict(format!("there is a file `{name}` already"));
+    // Also a link that leads nowhere is there.
+    if path
+        .symlink_metadata()
+        .is_ok_and(|meta| !replaces || !meta.is_file())
+    {
+        return Err(taken());
+    }
+    let (parts, body) = request.into_parts();
+    let mut pieces = Pieces::of(&parts.headers, body, MOST_BYTES)?;
+    let failed = |error: std::io::Error| {
+        ApiError::from(StudyError::value(
+            format!("cannot write {name}: {error}"),
+            "is there space?",
+        ))
+    };
+    // Beside its place and hidden until it is whole; gone if this ends early.
+    let part = tempfile::Builder::new()
+        .prefix(".armill-upload-")
+        .tempfile_in(&state.cell.root)
+        .map_err(failed)?;
+    let mut file = tokio::fs::File::from_std(part.reopen().map_err(failed)?);
+    let mut bytes = 0;
+    while let Some(piece) = pieces.next().await? {
+        file.write_all(&piece).await.map_err(failed)?;
+        bytes += piece.len() as u64;
+    }
+    file.flush().await.map_err(failed)?;
+    file.sync_all().await.map_err(failed)?;
+    let at = path.clone();
+    let placed = tokio::task::spawn_blocking(move || match replaces {
+        true => part.persist(&at),
+        false => part.persist_noclobber(&at),
+    });
+    match placed.await {
+        Ok(Ok(_)) => {}
+        Ok(Err(error)) if error.error.kind() == std::io::ErrorKind::AlreadyExists => return Err(taken()),
+        Ok(Err(error)) => return Err(failed(error.error)),
+        Err(_) => return Err(ApiError::internal("a fault of armill while a file was taken in")),
+    }
+    let (kind, hint) = kind_of(&path, &name);
+    let taken = TakenIn {
+        name,
+        bytes,
+        kind,
+        hint,
+    };
+    Ok(json(StatusCode::CREATED, &taken))
+}

@@ -1,0 +1,148 @@
+//! Who may ask, and what every answer carries.
+//!
+//! | asked with | refused with |
+//! |---|---|
+//! | a host that is not this server on loopback (another site's name that leads here) | 403 |
+//! | the origin of another site | 403 |
+//! | a path under `/api` without the token of this start | 401 |
+//!
+//! The token is 128 random bits, new at every start, and compared in a time that does not tell how much of it is right.
+
+use std::sync::Arc;
+
+use armill_study::StudyError;
+use axum::extract::{Request, State};
+use axum::http::header::{
+    AUTHORIZATION, CACHE_CONTROL, CONTENT_SECURITY_POLICY, HOST, ORIGIN, REFERRER_POLICY,
+    X_CONTENT_TYPE_OPTIONS,
+};
+use axum::http::{HeaderMap, HeaderName, HeaderValue};
+use axum::middleware::Next;
+use axum::response::{IntoResponse, Response};
+use subtle::ConstantTimeEq;
+
+use crate::error::ApiError;
+
+/// Bytes of a token: 128 bits.
+const TOKEN_BYTES: usize = 16;
+
+/// What the page may load and who may show it: itself alone. Pictures of answers are data, workers are its own.
+const POLICY: HeaderValue = HeaderValue::from_static(
+    "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; worker-src 'self' blob:; \
+     connect-src 'self'; frame-ancestors 'none'; base-uri 'none'",
+);
+
+/// What opens `/api`.
+pub(crate) struct Token(String);
+
+impl Token {
+    /// A new one.
+    ///
+    /// # Errors
+    /// The system gives no randomness.
+    pub(crate) fn random() -> Result<Token, StudyError> {
+        let mut bytes = [0; TOKEN_BYTES];
+        getrandom::fill(&mut bytes).map_err(|error| {
+            StudyError::value(
+                format!("no random numbers for a token: {error}"),
+                "see the system",
+            )
+        })?;
+        Ok(Token(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
+    }
+
+    /// In hexadecimal digits.
+    pub(crate) fn shown(&self) -> &str {
+        &self.0
+    }
+
+    fn is(&self, given: &str) -> bool {
+        self.0.as_bytes().ct_eq(given.as_bytes()).into()
+    }
+}
+
+/// What a request must show.
+pub(crate) struct Guard {
+    token: Token,
+    hosts: [String; 2],
+}
+
+impl Guard {
+    /// Of the server on this port.
+    pub(crate) fn new(port: u16, token: Token) -> Guard {
+        Guard {
+            token,
+            hosts: ["127.0.0.1", "localhost"].map(|name| format!("{name}:{port}")),
+        }
+    }
+
+    fn knows(&self, host: &str) -> bool {
+        self.hosts.iter().any(|known| known.eq_ignore_ascii_case(host))
+    }
+
+    /// Whether host and origin, where there is one, are ours.
+    fn is_for_us(&self, request: &Request) -> bool {
+        let hosts = all(request.headers(), &HOST);
+        let host = matches!(hosts[..], [Some(host)] if self.knows(host));
+        let authority = request.uri().authority().is_none_or(|to| self.knows(to.as_str()));
+        let of_us = |origin: &Option<&str>| {
+            let host = origin.and_then(|origin| origin.strip_prefix("http://"));
+            host.is_some_and(|host| self.knows(host))
+        };
+        host && authority && all(request.headers(), &ORIGIN).iter().all(of_us)
+    }
+
+    /// Whether the token is there, in the header or in the query.
+    fn has_token(&self, request: &Request) -> bool {
+        let headers = all(request.headers(), &AUTHORIZATION);
+        let mut borne = headers
+            .iter()
+            .filter_map(|header| (*header)?.strip_prefix("Bearer "));
+        let query = request.uri().query().unwrap_or_default();
+        let mut asked = query.split('&').filter_map(|pair| pair.strip_prefix("token="));
+        borne.any(|token| self.token.is(token)) || asked.any(|token| self.token.is(token))
+    }
+}
+
+/// Every value of a header; `None` for one that is no text.
+fn all<'a>(headers: &'a HeaderMap, name: &HeaderName) -> Vec<Option<&'a str>> {
+    headers
+        .get_all(name)
+        .iter()
+        .map(|value| value.to_str().ok())
+        .collect()
+}
+
+/// Lets through who may ask, and puts on every answer what browsers go by.
+pub(crate) async fn check(State(guard): State<Arc<Guard>>, request: Request, next: Next) -> Response {
+    let path = request.uri().path();
+    let is_api = path == "/api" || path.starts_with("/api/");
+    let mut response = if !guard.is_for_us(&request) {
+        ApiError::forbidden("this server answers its own page on this machine alone").into_response()
+    } else if is_api && !guard.has_token(&request) {
+        ApiError::unauthorised().into_response()
+    } else {
+        next.run(request).await
+    };
+    let headers = response.headers_mut();
+    headers.entry(CONTENT_SECURITY_POLICY).or_insert(POLICY);
+    headers.insert(X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
+    headers.insert(REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
+    let kept = if is_api { "no-store" } else { "no-cache" };
+    headers.insert(CACHE_CONTROL, HeaderValue::from_static(kept));
+    response
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tokens_are_128_bits_and_differ() {
+        let (a, b) = (Token::random().unwrap(), Token::random().unwrap());
+        assert_eq!(a.shown().len(), 32);
+        assert!(a.shown().chars().all(|digit| digit.is_ascii_hexdigit()));
+        assert_ne!(a.shown(), b.shown());
+        assert!(a.is(a.shown()) && !a.is(b.shown()) && !a.is("") && !a.is(&a.shown()[..31]));
+    }
+}

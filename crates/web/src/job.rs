@@ -1,0 +1,222 @@
+//! One piece of long work: how far it is, what came of it.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use armill_core::watch::Watch;
+use armill_study::{ErrorKind, StudyError};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::error::{ApiError, Wrong};
+use crate::task::Task;
+
+/// How a job stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum JobState {
+    /// Another one is computing.
+    Waiting,
+    /// Computing.
+    Running,
+    /// Its results are there.
+    Done,
+    /// It could not be done.
+    Failed,
+    /// The user stopped it.
+    Cancelled,
+}
+
+impl JobState {
+    /// Whether nothing more comes of it.
+    pub(crate) fn is_last(self) -> bool {
+        !matches!(self, JobState::Waiting | JobState::Running)
+    }
+}
+
+/// A job, as it is told.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct JobAnswer {
+    /// What it is called.
+    pub id: String,
+    /// `run`, `posture`, `place` or `identify`.
+    pub kind: &'static str,
+    /// Title of the study.
+    pub title: String,
+    /// How it stands.
+    pub state: JobState,
+    /// What is finished of `of`.
+    pub done: usize,
+    /// What there is to do; 0 while that is not known.
+    pub of: usize,
+    /// The best so far, or what is being written.
+    pub best: Option<String>,
+    /// Since it was asked for.
+    pub started_s_ago: f64,
+    /// How long it has computed.
+    pub seconds: f64,
+    /// Why it failed.
+    pub error: Option<Wrong>,
+    /// Its answer, as the command's JSON; only where one job is asked for.
+    #[schemars(with = "Option<serde_json::Value>")]
+    pub answer: Option<Box<serde_json::value::RawValue>>,
+    /// Files that it wrote, in the folder.
+    pub files: Vec<String>,
+}
+
+/// A job.
+pub(crate) struct Job {
+    pub id: String,
+    task: Task,
+    title: String,
+    asked: Instant,
+    pub cancel: AtomicBool,
+    finished: AtomicUsize,
+    all: AtomicUsize,
+    inner: Mutex<Inner>,
+}
+
+/// What changes of a job.
+struct Inner {
+    state: JobState,
+    best: Option<String>,
+    begun: Option<Instant>,
+    ended: Option<Instant>,
+    error: Option<Wrong>,
+    answer: Option<Box<serde_json::value::RawValue>>,
+    files: Vec<String>,
+}
+
+impl Job {
+    /// One that waits.
+    pub(crate) fn new(id: String, task: Task, title: String) -> Job {
+        Job {
+            id,
+            task,
+            title,
+            asked: Instant::now(),
+            cancel: AtomicBool::new(false),
+            finished: AtomicUsize::new(0),
+            all: AtomicUsize::new(0),
+            inner: Mutex::new(Inner {
+                state: JobState::Waiting,
+                best: None,
+                begun: None,
+                ended: None,
+                error: None,
+                answer: None,
+                files: Vec::new(),
+            }),
+        }
+    }
+
+    /// What it does.
+    pub(crate) fn task(&self) -> &Task {
+        &self.task
+    }
+
+    fn change<T>(&self, change: impl FnOnce(&mut Inner) -> T) -> T {
+        change(&mut self.inner.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// How it stands.
+    pub(crate) fn state(&self) -> JobState {
+        self.change(|inner| inner.state)
+    }
+
+    /// Stops it: at once where it waits, at the next block of points where it computes.
+    pub(crate) fn stop(&self) {
+        self.cancel.store(true, Ordering::Relaxed);
+        self.change(|inner| {
+            if inner.state == JobState::Waiting {
+                inner.state = JobState::Cancelled;
+            }
+        });
+    }
+
+    /// Forgets the answer, which its files still hold.
+    pub(crate) fn forget_answer(&self) {
+        self.change(|inner| inner.answer = None);
+    }
+
+    /// As it is told.
+    pub(crate) fn told(&self, with_answer: bool) -> JobAnswer {
+        self.change(|inner| {
+            let end = inner.ended.unwrap_or_else(Instant::now);
+            JobAnswer {
+                id: self.id.clone(),
+                kind: self.task.kind(),
+                title: self.title.clone(),
+                state: inner.state,
+                done: self.finished.load(Ordering::Relaxed),
+                of: self.all.load(Ordering::Relaxed),
+                best: inner.best.clone(),
+                started_s_ago: self.asked.elapsed().as_secs_f64(),
+                seconds: inner.begun.map_or(0.0, |begun| (end - begun).as_secs_f64()),
+                error: inner.error.clone(),
+                answer: inner.answer.clone().filter(|_| with_answer),
+                files: inner.files.clone(),
+            }
+        })
+    }
+
+    /// Does it, on the threads of the current pool; results go into folders of `root`.
+    pub(crate) fn work(&self, shown: &str, root: &Path) {
+        let begins = self.change(|inner| {
+            let waits = inner.state == JobState::Waiting;
+            if waits {
+                (inner.state, inner.begun) = (JobState::Running, Some(Instant::now()));
+            }
+            waits
+        });
+        if !begins {
+            return;
+        }
+        let tried = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| self.outcome(shown, root)));
+        let outcome =
+            tried.unwrap_or_else(|_| Err(StudyError::value("a fault of armill: the work broke off", "")));
+        self.change(|inner| {
+            inner.ended = Some(Instant::now());
+            inner.best = inner
+                .best
+                .take()
+                .filter(|_| matches!(self.task, Task::Place { .. }));
+            match outcome {
+                Ok((answer, files)) => {
+                    let below = |file: &PathBuf| {
+                        file.strip_prefix(root)
+                            .map(|file| file.display().to_string())
+                            .ok()
+                    };
+                    inner.files = files.iter().filter_map(below).collect();
+                    inner.answer = serde_json::value::RawValue::from_string(answer).ok();
+                    inner.state = JobState::Done;
+                }
+                Err(error) if error.kind() == ErrorKind::Cancelled => inner.state = JobState::Cancelled,
+                Err(error) => {
+                    inner.error = Some(ApiError::from(error).into_wrong());
+                    inner.state = JobState::Failed;
+                }
+            }
+        });
+    }
+
+    /// Runs `work` under a watch that counts up to `all`.
+    pub(crate) fn counted<T>(&self, all: usize, work: impl FnOnce(Watch<'_>) -> T) -> T {
+        self.finished.store(0, Ordering::Relaxed);
+        self.all.store(all, Ordering::Relaxed);
+        work(Watch {
+            finished: &|points| {
+                self.finished.fetch_add(points, Ordering::Relaxed);
+            },
+            cancel: &self.cancel,
+        })
+    }
+
+    /// Says what is best so far, or what is being done.
+    pub(crate) fn tell(&self, what: &str) {
+        self.change(|inner| inner.best = Some(what.to_owned()));
+    }
+}

@@ -1,0 +1,214 @@
+//! Long work on the server: it goes on when the page is closed or loaded again. One computes, the others wait.
+//!
+//! | path | does |
+//! |---|---|
+//! | `POST /api/jobs` | begins one, and says what it is called |
+//! | `GET /api/jobs`, `GET /api/jobs/ID` | all, newest first; one with its answer |
+//! | `GET /api/jobs/ID/events` | tells how it goes on, ten times a second at most, until it ends |
+//! | `DELETE /api/jobs/ID` | cancels it |
+
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use armill_study::live::outline;
+use axum::Router;
+use axum::extract::{Path as InPath, State as Shared};
+use axum::http::StatusCode;
+use axum::response::sse::{Event, KeepAlive};
+use axum::response::{IntoResponse, Response, Sse};
+use axum::routing::{get, post};
+use futures_util::stream;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::body::{Asked, check_text, json};
+use crate::error::{Answered, ApiError};
+use crate::job::{Job, JobAnswer, JobState};
+use crate::server::State;
+use crate::task::Task;
+
+/// Jobs that are remembered.
+const MOST_JOBS: usize = 50;
+/// Jobs that wait.
+const MOST_WAITING: usize = 20;
+/// Answers that are kept in memory; the files of older ones stay.
+const MOST_ANSWERS: usize = 10;
+/// Ten times a second.
+const EVENT_TIME: Duration = Duration::from_millis(100);
+
+/// All jobs of this start.
+pub(crate) struct Jobs {
+    all: Mutex<Vec<Arc<Job>>>,
+    /// To the thread that computes; it ends with the last of these.
+    next: Mutex<Option<Sender<(Arc<Job>, String)>>>,
+    count: std::sync::atomic::AtomicUsize,
+    /// That thread.
+    computing: JoinHandle<()>,
+}
+
+/// All jobs, newest first.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct JobList {
+    /// Without their answers.
+    pub jobs: Vec<JobAnswer>,
+}
+
+/// What a new job is called.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct JobBegun {
+    /// Behind `/api/jobs/`.
+    pub id: String,
+}
+
+impl Jobs {
+    /// None yet; results go into folders of `root`.
+    pub(crate) fn start(root: PathBuf) -> Jobs {
+        let (next, waiting) = channel();
+        Jobs {
+            computing: std::thread::spawn(move || compute(&waiting, &root)),
+            all: Mutex::default(),
+            next: Mutex::new(Some(next)),
+            count: std::sync::atomic::AtomicUsize::new(0),
+        }
+    }
+
+    fn with<T>(&self, look: impl FnOnce(&mut Vec<Arc<Job>>) -> T) -> T {
+        look(&mut self.all.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Begins a job, or puts it behind those that wait.
+    fn begin(&self, task: Task, title: String, shown: &str) -> Result<String, ApiError> {
+        let number = 1 + self.count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        let job = Arc::new(Job::new(number.to_string(), task, title));
+        self.with(|all| {
+            let waiting = all.iter().filter(|job| job.state() == JobState::Waiting).count();
+            if waiting >= MOST_WAITING {
+                return Err(ApiError::conflict(format!(
+                    "{waiting} jobs are waiting already: cancel some"
+                )));
+            }
+            all.push(Arc::clone(&job));
+            let mut ended = all.iter().filter(|job| job.state().is_last()).count();
+            all.retain(|job| {
+                let forgotten = ended > MOST_JOBS && job.state().is_last();
+                ended -= usize::from(forgotten);
+                !forgotten
+            });
+            all.iter()
+                .rev()
+                .skip(MOST_ANSWERS)
+                .for_each(|job| job.forget_answer());
+            Ok(())
+        })?;
+        let next = self.next.lock().unwrap_or_else(PoisonError::into_inner);
+        let sent = next
+            .as_ref()
+            .map(|next| next.send((Arc::clone(&job), shown.to_owned())));
+        match sent {
+            Some(Ok(())) => Ok(job.id.clone()),
+            _ => Err(ApiError::internal("the server is stopping")),
+        }
+    }
+
+    fn find(&self, id: &str) -> Result<Arc<Job>, ApiError> {
+        let found = self.with(|all| all.iter().find(|job| job.id == id).cloned());
+        found.ok_or_else(|| ApiError::not_found("there is no such job"))
+    }
+
+    /// Waits until the one under way has heard that it is cancelled, so long at most.
+    pub(crate) fn wait(&self, longest: Duration) {
+        let begun = Instant::now();
+        while !self.computing.is_finished() && begun.elapsed() < longest {
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    }
+
+    /// Cancels all, and takes no more.
+    pub(crate) fn stop(&self) {
+        self.next.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.with(|all| all.iter().for_each(|job| job.stop()));
+    }
+}
+
+/// Does jobs one after the other, on threads of their own, so that short questions do not wait for them.
+fn compute(waiting: &Receiver<(Arc<Job>, String)>, root: &std::path::Path) {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    for (job, shown) in waiting {
+        match &pool {
+            Ok(pool) => pool.install(|| job.work(&shown, root)),
+            Err(_) => job.work(&shown, root),
+        }
+    }
+}
+
+pub(crate) fn routes() -> Router<Arc<State>> {
+    Router::new()
+        .route("/jobs", post(begin).get(list))
+        .route("/jobs/{id}", get(one).delete(cancel))
+        .route("/jobs/{id}/events", get(events))
+}
+
+async fn begin(Shared(state): Shared<Arc<State>>, Asked(task): Asked<Task>) -> Answered {
+    check_text(task.text())?;
+    let (shared, text) = (Arc::clone(&state), task.text().to_owned());
+    // A study with problems becomes a job that fails, and tells them.
+    let told = state
+        .work
+        .done(move |_| Ok(outline(shared.cell.text(&text))))
+        .await?;
+    let id = state
+        .jobs
+        .begin(task, told.title.unwrap_or_default(), &state.cell.shown)?;
+    Ok(json(StatusCode::ACCEPTED, &JobBegun { id }))
+}
+
+async fn list(Shared(state): Shared<Arc<State>>) -> Response {
+    let jobs = state
+        .jobs
+        .with(|all| all.iter().rev().map(|job| job.told(false)).collect());
+    json(StatusCode::OK, &JobList { jobs })
+}
+
+async fn one(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
+    Ok(json(StatusCode::OK, &state.jobs.find(&id)?.told(true)))
+}
+
+async fn cancel(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
+    let job = state.jobs.find(&id)?;
+    job.stop();
+    Ok(json(StatusCode::OK, &job.told(false)))
+}
+
+async fn events(Shared(state): Shared<Arc<State>>, InPath(id): InPath<String>) -> Answered {
+    let job = state.jobs.find(&id)?;
+    let mut time = tokio::time::interval(EVENT_TIME);
+    time.set_missed_tick_behavior(tokio::time::MissedTickBehavior::Delay);
+    // What was told last, without what only time changes.
+    let last: Option<(JobState, usize, usize, Option<String>)> = None;
+    let told = stream::unfold(
+        (job, time, last, false),
+        |(job, mut time, mut last, ended)| async move {
+            if ended {
+                return None;
+            }
+            loop {
+                time.tick().await;
+                let now = job.told(false);
+                let key = Some((now.state, now.done, now.of, now.best.clone()));
+                if key == last {
+                    continue;
+                }
+                last = key;
+                let data = serde_json::to_string(&now).unwrap_or_default();
+                let event = Event::default().event("job").data(data);
+                return Some((Ok::<_, Infallible>(event), (job, time, last, now.state.is_last())));
+            }
+        },
+    );
+    Ok(Sse::new(told).keep_alive(KeepAlive::default()).into_response())
+}

@@ -1,0 +1,64 @@
+//! What is served to look at: the page, if it was built into the program, else a word on how to build it.
+//!
+//! Its files hold nothing of the study, so that they need no token.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use axum::Router;
+use axum::http::Uri;
+use axum::response::{IntoResponse, Response};
+use rust_embed::RustEmbed;
+
+use crate::body::typed;
+use crate::error::ApiError;
+use crate::server::State;
+
+/// The files of `web/dist`, which `cargo xtask web` makes.
+#[derive(RustEmbed)]
+#[folder = "$CARGO_MANIFEST_DIR/../../web/dist"]
+#[allow_missing = true]
+struct Built;
+
+/// What is served without it.
+const NOT_BUILT: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>armill</title>\
+<p>This armill was built without its page. In the sources, with Node installed: <code>cargo xtask web</code>, then build \
+again. Everything under <code>/api</code> works as it is.</p></html>";
+
+pub(crate) fn routes() -> Router<Arc<State>> {
+    Router::new()
+        .route("/", axum::routing::get(file))
+        .route("/{*path}", axum::routing::get(file))
+}
+
+async fn file(uri: Uri) -> Response {
+    let path = match uri.path().trim_start_matches('/') {
+        "" => "index.html",
+        path => path,
+    };
+    match Built::get(path) {
+        Some(file) => match file.data {
+            Cow::Borrowed(bytes) => typed(kind(path), bytes),
+            Cow::Owned(bytes) => typed(kind(path), bytes),
+        },
+        None if path == "index.html" => typed(kind(path), NOT_BUILT),
+        None => ApiError::not_found("there is nothing at this path").into_response(),
+    }
+}
+
+/// The type of a file, by its ending.
+pub(crate) fn kind(path: &str) -> &'static str {
+    match path.rsplit_once('.').map_or("", |(_, ending)| ending) {
+        "html" => "text/html; charset=utf-8",
+        "js" => "text/javascript; charset=utf-8",
+        "css" => "text/css; charset=utf-8",
+        "json" => "application/json",
+        "csv" => "text/csv; charset=utf-8",
+        "svg" => "image/svg+xml",
+        "png" => "image/png",
+        "ico" => "image/x-icon",
+        "woff2" => "font/woff2",
+        "wasm" => "application/wasm",
+        _ => "application/octet-stream",
+    }
+}

@@ -1,0 +1,215 @@
+//! Starts, listens on loopback, and stops.
+//!
+//! | bound | value |
+//! |---|---|
+//! | connections at a time | 128 |
+//! | head of a request | 10 s, 64 kB |
+//! | answers under way when it stops, a job to hear of it | 5 s each |
+//!
+//! A job under way is cancelled when it stops; what it wrote is whole or not there.
+
+use std::net::{Ipv4Addr, SocketAddr};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use armill_study::StudyError;
+use axum::Router;
+use hyper::server::conn::http1;
+use hyper_util::rt::{TokioIo, TokioTimer};
+use hyper_util::server::graceful::GracefulShutdown;
+use hyper_util::service::TowerToHyperService;
+use tokio::net::TcpListener;
+use tokio::runtime::Runtime;
+use tokio::sync::{Semaphore, watch};
+use tokio::task::JoinHandle;
+
+use crate::cell::Cell;
+use crate::guard::{Guard, Token};
+use crate::jobs::Jobs;
+use crate::work::Work;
+use crate::{answers, error, files, guard, jobs, openapi, page, study};
+
+/// Connections at a time; more wait.
+const MOST_CONNECTIONS: usize = 128;
+/// How long the head of a request may take.
+const HEAD_TIME: Duration = Duration::from_secs(10);
+/// Bytes of the head of a request.
+const MOST_HEAD: usize = 64 * 1024;
+/// How long answers under way may take when it stops, and then a job until it hears of it.
+const LAST_ANSWERS: Duration = Duration::from_secs(5);
+/// How long computing may take to hear that it is cancelled.
+const LAST_WORK: Duration = Duration::from_secs(2);
+
+/// What to serve.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Folder with a study, the file itself, or the name of an example; without, the current folder if it holds one, else
+    /// the example mh12-groove.
+    pub study: Option<PathBuf>,
+    /// Port on 127.0.0.1; 0 is chosen by the system.
+    pub port: u16,
+}
+
+/// What handlers share.
+pub(crate) struct State {
+    pub cell: Cell,
+    pub jobs: Jobs,
+    pub work: Work,
+}
+
+/// A server that listens.
+pub struct Server {
+    runtime: Runtime,
+    url: String,
+    stop: watch::Sender<bool>,
+    listening: JoinHandle<()>,
+    state: Arc<State>,
+}
+
+impl Server {
+    /// Listens; nothing is asked of the study yet, so that a broken one can be mended on the page.
+    ///
+    /// # Errors
+    /// No study there; a port that is taken; no randomness for the token.
+    pub fn start(options: &Options) -> Result<Server, StudyError> {
+        let cell = Cell::find(options.study.as_deref())?;
+        let token = Token::random()?;
+        let refused = |error: std::io::Error| {
+            let message = format!("cannot listen on 127.0.0.1:{}: {error}", options.port);
+            StudyError::value(message, "another --port, or none: the system then chooses one")
+        };
+        let runtime = tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(2)
+            .max_blocking_threads(64)
+            .enable_all()
+            .build()
+            .map_err(refused)?;
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, options.port));
+        let listener = runtime.block_on(TcpListener::bind(address)).map_err(refused)?;
+        let port = listener.local_addr().map_err(refused)?.port();
+        let url = format!("http://127.0.0.1:{port}/?token={}", token.shown());
+        let state = Arc::new(State {
+            jobs: Jobs::start(cell.root.clone()),
+            cell,
+            work: Work::new(),
+        });
+        let (stop, stopped) = watch::channel(false);
+        let app = router(&state, Guard::new(port, token));
+        let listening = runtime.spawn(listen(listener, app, stopped));
+        Ok(Server {
+            runtime,
+            url,
+            stop,
+            listening,
+            state,
+        })
+    }
+
+    /// Where the page is, with the token that it needs.
+    pub fn url(&self) -> &str {
+        &self.url
+    }
+
+    /// Serves until the user interrupts (Ctrl-C) or the system asks it to end, then stops.
+    pub fn run(self) {
+        self.runtime.block_on(interrupted());
+        self.stop();
+    }
+
+    /// Takes no more connections, lets answers under way end, and cancels jobs.
+    pub fn stop(self) {
+        let Server {
+            runtime,
+            stop,
+            listening,
+            state,
+            ..
+        } = self;
+        state.jobs.stop();
+        // The other end goes with the task that listens.
+        let _ = stop.send(true);
+        let _ = runtime.block_on(listening);
+        state.jobs.wait(LAST_ANSWERS);
+        runtime.shutdown_timeout(LAST_WORK);
+    }
+}
+
+/// Shows the page in the user's browser; that there is none is no error.
+pub fn open_browser(url: &str) {
+    let _ = open::that_detached(url);
+}
+
+/// All paths.
+fn router(state: &Arc<State>, guard: Guard) -> Router {
+    let api = Router::new()
+        .merge(study::routes())
+        .merge(answers::routes())
+        .merge(jobs::routes())
+        .merge(files::routes())
+        .merge(openapi::routes())
+        .fallback(error::no_such_path)
+        .method_not_allowed_fallback(error::wrong_method);
+    Router::new()
+        .nest("/api", api)
+        .merge(page::routes())
+        .method_not_allowed_fallback(error::wrong_method)
+        .layer(axum::middleware::from_fn_with_state(
+            Arc::new(guard),
+            guard::check,
+        ))
+        .with_state(Arc::clone(state))
+}
+
+/// Takes connections until it is stopped, then waits for answers under way.
+async fn listen(listener: TcpListener, app: Router, mut stopped: watch::Receiver<bool>) {
+    let open = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let graceful = GracefulShutdown::new();
+    loop {
+        let Ok(permit) = Arc::clone(&open).acquire_owned().await else {
+            break;
+        };
+        let is_stopped = async {
+            let _ = stopped.wait_for(|stopped| *stopped).await;
+        };
+        let accepted = tokio::select! {
+            accepted = listener.accept() => accepted,
+            () = is_stopped => break,
+        };
+        let Ok((stream, _)) = accepted else {
+            // Too many open files, say: others will close.
+            tokio::time::sleep(Duration::from_millis(100)).await;
+            continue;
+        };
+        let _ = stream.set_nodelay(true);
+        let connection = http1::Builder::new()
+            .timer(TokioTimer::new())
+            .header_read_timeout(HEAD_TIME)
+            .max_buf_size(MOST_HEAD)
+            .serve_connection(TokioIo::new(stream), TowerToHyperService::new(app.clone()));
+        let connection = graceful.watch(connection);
+        tokio::spawn(async move {
+            // A client that went away, or sent no HTTP, is nobody's fault here.
+            let _ = connection.await;
+            drop(permit);
+        });
+    }
+    drop(listener);
+    let _ = tokio::time::timeout(LAST_ANSWERS, graceful.shutdown()).await;
+}
+
+/// Ctrl-C, or the signal by which systems end programs.
+async fn interrupted() {
+    #[cfg(unix)]
+    {
+        use tokio::signal::unix::{SignalKind, signal};
+        if let Ok(mut ended) = signal(SignalKind::terminate()) {
+            tokio::select! {
+                _ = tokio::signal::ctrl_c() => (),
+                _ = ended.recv() => (),
+            }
+            return;
+        }
+    }
+    let _ = tokio::signal::ctrl_c().await;
+}

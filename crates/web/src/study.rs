@@ -1,0 +1,170 @@
+//! The study: read, written, checked, changed.
+//!
+//! | path | does |
+//! |---|---|
+//! | `GET /api/study` | text on disk, what is in it, what is wrong with it |
+//! | `PUT /api/study` | writes it, if nobody else has |
+//! | `POST /api/check` | what is in a text, what is wrong with it |
+//! | `POST /api/change` | a text with some values changed, its comments kept |
+
+use std::sync::Arc;
+
+use armill_formats::document::Problem;
+use armill_formats::document::edit::Change;
+use armill_study::live::{OutlineAnswer, OutlinedAsk, changed, outline};
+use axum::Router;
+use axum::extract::State as Shared;
+use axum::http::StatusCode;
+use axum::routing::{get, post};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Asked, check_text, json};
+use crate::cell::{Cell, version};
+use crate::error::Answered;
+use crate::server::State;
+
+/// The study as it is on disk.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub(crate) struct StudyOnDisk {
+    /// What problems call its file.
+    pub file: String,
+    /// The folder where its files lie.
+    pub folder: String,
+    /// Whether it may be written; an example may not.
+    pub writable: bool,
+    /// What tells this state of the file from another.
+    pub version: String,
+    /// Its text.
+    pub text: String,
+    /// Title of the study.
+    pub title: Option<String>,
+    /// The robot, as the study names it.
+    pub robot: Option<String>,
+    /// Its asks, in order.
+    pub asks: Vec<OutlinedAsk>,
+    /// Everything that is wrong.
+    pub problems: Vec<Problem>,
+    /// Version of armill.
+    pub armill: &'static str,
+}
+
+/// A text that is to be written.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Written {
+    /// The text.
+    pub text: String,
+    /// Which state of the file it comes from.
+    pub version: String,
+}
+
+/// A text that is to be looked at.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Checked {
+    /// The text.
+    pub text: String,
+}
+
+/// A text that is to be changed.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Changes {
+    /// The text.
+    pub text: String,
+    /// The ask whose values they are; those of the study where none is named.
+    pub ask: Option<String>,
+    /// What changes.
+    pub changes: Vec<ChangedValue>,
+}
+
+/// A value that is to be another.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct ChangedValue {
+    /// Which: `plane.centre_mm`.
+    pub key: String,
+    /// What it is to be; `null` takes it away.
+    pub value: serde_json::Value,
+}
+
+pub(crate) fn routes() -> Router<Arc<State>> {
+    Router::new()
+        .route("/study", get(read).put(write))
+        .route("/check", post(check))
+        .route("/change", post(change))
+}
+
+async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
+    let shared = Arc::clone(&state);
+    let study = state.work.done(move |_| Ok(on_disk(&shared.cell))).await?;
+    Ok(json(StatusCode::OK, &study))
+}
+
+async fn write(Shared(state): Shared<Arc<State>>, Asked(written): Asked<Written>) -> Answered {
+    check_text(&written.text)?;
+    let shared = Arc::clone(&state);
+    let work = move |_: armill_core::watch::Watch<'_>| {
+        Ok(shared
+            .cell
+            .write(&written.text, &written.version)
+            .map(|()| on_disk(&shared.cell)))
+    };
+    Ok(json(StatusCode::OK, &state.work.done(work).await??))
+}
+
+/// The study as it is now; a file that cannot be read any more is told as a problem.
+fn on_disk(cell: &Cell) -> StudyOnDisk {
+    let (bytes, gone) = match cell.bytes() {
+        Ok(bytes) => (bytes, None),
+        Err(error) => (Vec::new(), Some(error)),
+    };
+    let text = String::from_utf8_lossy(&bytes).into_owned();
+    let told = match gone {
+        Some(error) => OutlineAnswer {
+            problems: vec![Problem::of_file(&cell.shown, error.to_string(), "")],
+            ..OutlineAnswer::default()
+        },
+        None => outline(armill_study::live::Text {
+            bytes: &bytes,
+            ..cell.text(&text)
+        }),
+    };
+    StudyOnDisk {
+        file: cell.shown.clone(),
+        folder: cell.root.display().to_string(),
+        writable: cell.writable,
+        version: version(&bytes),
+        title: told.title,
+        robot: told.robot,
+        asks: told.asks,
+        problems: told.problems,
+        armill: env!("CARGO_PKG_VERSION"),
+        text,
+    }
+}
+
+async fn check(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Checked>) -> Answered {
+    check_text(&checked.text)?;
+    let shared = Arc::clone(&state);
+    let work = move |_: armill_core::watch::Watch<'_>| Ok(outline(shared.cell.text(&checked.text)));
+    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+}
+
+async fn change(Shared(state): Shared<Arc<State>>, Asked(asked): Asked<Changes>) -> Answered {
+    check_text(&asked.text)?;
+    let shared = Arc::clone(&state);
+    let work = move |_: armill_core::watch::Watch<'_>| {
+        let changes = asked.changes.into_iter().map(|change| Change {
+            path: change.key,
+            value: change.value,
+        });
+        changed(
+            shared.cell.text(&asked.text),
+            asked.ask.as_deref(),
+            &changes.collect::<Vec<_>>(),
+        )
+    };
+    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+}

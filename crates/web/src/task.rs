@@ -1,0 +1,285 @@
+//! What the kinds of jobs do, as the commands of their names.
+//!
+//! | kind | as the command | results in |
+//! |---|---|---|
+//! | `run` | `armill run` | `out` |
+//! | `posture` | `armill posture` | `posture` |
+//! | `place` | `armill place`; goes on where it was stopped | `place` |
+//! | `identify` | `armill identify` | `identify` |
+
+use std::path::{Path, PathBuf};
+
+use armill_core::nalgebra::Vector3;
+use armill_formats::file::write_atomically;
+use armill_formats::measurement::load_tests;
+use armill_study::answer::answer;
+use armill_study::file::placement::PlaceTable;
+use armill_study::file::posture_search::SearchTable;
+use armill_study::file::resolve::Parsed;
+use armill_study::identify::robot_file::robot_file;
+use armill_study::identify::{self, PointsAsked, PriorAsked, Question, Units};
+use armill_study::live::Text;
+use armill_study::output::{self, Wanted};
+use armill_study::place::{Journal, Placing};
+use armill_study::run::{point_count, run};
+use armill_study::studies::FoundStudy;
+use armill_study::{Study, StudyError, robots};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use crate::files::inside;
+use crate::job::Job;
+
+/// What a job does.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub(crate) enum Task {
+    /// Everything that the study asks for.
+    Run {
+        /// The text of the study.
+        text: String,
+        /// What of it.
+        #[serde(default)]
+        options: RunOptions,
+    },
+    /// The best turn of the tool and branch along its paths.
+    Posture {
+        /// The text of the study.
+        text: String,
+        /// What is tried; as the study says where nothing is told.
+        options: Option<SearchTable>,
+    },
+    /// Where the part should lie.
+    Place {
+        /// The text of the study.
+        text: String,
+        /// What may move.
+        #[serde(default)]
+        options: PlaceOptions,
+    },
+    /// Springs from load tests.
+    Identify {
+        /// The text of the study, whose robot was loaded.
+        text: String,
+        /// Which tests.
+        options: IdentifyOptions,
+    },
+}
+
+/// What of a study is run.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct RunOptions {
+    /// Only this ask.
+    pub ask: Option<String>,
+    /// Tables only: no pictures, no report.
+    #[serde(default)]
+    pub no_pictures: bool,
+}
+
+/// What may move.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct PlaceOptions {
+    /// As `[place]` of a study; what it leaves out the study says.
+    #[serde(default)]
+    pub place: PlaceTable,
+    /// Seed of the search; 1 if left out.
+    pub seed: Option<u32>,
+}
+
+/// Which tests springs are found from.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct IdentifyOptions {
+    /// The table of tests, a file of the folder.
+    pub tests: String,
+    /// Groups of unknowns with `+` between; `drives+bending+base` if left out.
+    pub unknowns: Option<String>,
+    /// What is known of the two points: `known`, `common` or `separate`; `known` if left out.
+    #[serde(default)]
+    pub points: PointsName,
+    /// Standard uncertainty of points that are not known.
+    pub point_u_mm: Option<f64>,
+    /// Where force and displacement are unless a test says otherwise, flange frame.
+    pub tool_mm: Option<[f64; 3]>,
+}
+
+/// What is known of the two points.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum PointsName {
+    /// Both, as told.
+    #[default]
+    Known,
+    /// Both are off by one and the same shift.
+    Common,
+    /// Each is off by itself.
+    Separate,
+}
+
+/// Standard uncertainty of points that are not known, mm, as the command has it.
+const USUAL_POINT_U_MM: f64 = 200.0;
+/// Groups of unknowns, likewise.
+const USUAL_UNKNOWNS: &str = "drives+bending+base";
+
+/// What came of a job: its answer as JSON, and its files.
+pub(crate) type Outcome = (String, Vec<PathBuf>);
+
+impl Task {
+    /// What it is called.
+    pub(crate) fn kind(&self) -> &'static str {
+        match self {
+            Task::Run { .. } => "run",
+            Task::Posture { .. } => "posture",
+            Task::Place { .. } => "place",
+            Task::Identify { .. } => "identify",
+        }
+    }
+
+    /// The text of its study.
+    pub(crate) fn text(&self) -> &str {
+        match self {
+            Task::Run { text, .. }
+            | Task::Posture { text, .. }
+            | Task::Place { text, .. }
+            | Task::Identify { text, .. } => text,
+        }
+    }
+}
+
+impl Job {
+    /// Does what the task says; results go into folders of `root`.
+    ///
+    /// # Errors
+    /// As the command of that name.
+    pub(crate) fn outcome(&self, shown: &str, root: &Path) -> Result<Outcome, StudyError> {
+        let found = |text: &str| FoundStudy {
+            shown: shown.to_owned(),
+            folder: root.to_owned(),
+            bytes: text.as_bytes().to_vec(),
+        };
+        match self.task() {
+            Task::Run { text, options } => {
+                let found = found(text);
+                let text = Text {
+                    shown,
+                    folder: root,
+                    bytes: &found.bytes,
+                };
+                let wanted = if options.no_pictures {
+                    Wanted::TABLES
+                } else {
+                    Wanted::USUAL
+                };
+                self.results(&text.study(options.ask.as_deref())?, &root.join("out"), wanted)
+            }
+            Task::Posture { text, options } => {
+                let mut study = found(text).read()?;
+                study.search_postures(options.as_ref())?;
+                self.results(&study, &root.join("posture"), Wanted::USUAL)
+            }
+            Task::Place { text, options } => self.place(&found(text), options, &root.join("place")),
+            Task::Identify { text, options } => self.identify(&found(text), options, root),
+        }
+    }
+
+    /// Runs a study and writes its results.
+    fn results(&self, study: &Study, out: &Path, wanted: Wanted) -> Result<Outcome, StudyError> {
+        output::prepare(out)?;
+        let done = self.counted(point_count(study), |watch| run(study, watch))?;
+        let answer = answer(study, &done);
+        let files = output::write(study, &done, &answer, (out, wanted), &|name| self.tell(name))?;
+        Ok((output::json(&answer)?, files))
+    }
+
+    /// Searches a place, and runs the path there.
+    fn place(&self, found: &FoundStudy, options: &PlaceOptions, out: &Path) -> Result<Outcome, StudyError> {
+        let study = found.read()?;
+        let placing = Placing::new(
+            &study,
+            options.place.clone(),
+            u64::from(options.seed.unwrap_or(1)),
+        )?;
+        output::prepare(out)?;
+        let mut journal = Journal::kept_in(out.join("place.rounds"));
+        let placed = self.counted(placing.place_count(), |watch| {
+            placing.search(&mut journal, watch, &|best| self.tell(best))
+        })?;
+        let json = serde_json::to_string_pretty(&placed.answer)? + "\n";
+        let placement = out.join("placement.json");
+        write_atomically(&placement, json.as_bytes())?;
+        output::write_pictures("placement-", &placed.pictures, out)?;
+        let (_, mut files) = self.results(&placed.study(found)?, out, Wanted::USUAL)?;
+        let pictures = placed
+            .pictures
+            .iter()
+            .map(|picture| out.join(format!("{}.svg", picture.name)));
+        files.extend(std::iter::once(placement).chain(pictures));
+        self.tell(&placed.answer.sentences().join(" "));
+        journal.done();
+        Ok((json, files))
+    }
+
+    /// Finds springs, and writes the robot that has them.
+    fn identify(
+        &self,
+        found: &FoundStudy,
+        options: &IdentifyOptions,
+        root: &Path,
+    ) -> Result<Outcome, StudyError> {
+        let name = Parsed::of(&found.shown, &found.bytes)?.file.robot;
+        let robot = robots::find(&name, root)?;
+        let point_u_mm = options.point_u_mm.unwrap_or(USUAL_POINT_U_MM);
+        let tool_mm = Vector3::from(options.tool_mm.unwrap_or_default());
+        if !(point_u_mm > 0.0 && point_u_mm < 1e6 && tool_mm.amax() < 1e6) {
+            return Err(StudyError::value(
+                "point_u_mm or tool_mm is none that a tool has",
+                "lengths in mm",
+            ));
+        }
+        let question = Question {
+            unknowns: options
+                .unknowns
+                .clone()
+                .unwrap_or_else(|| USUAL_UNKNOWNS.to_owned()),
+            points: match options.points {
+                PointsName::Known => PointsAsked::Known,
+                PointsName::Common => PointsAsked::Common,
+                PointsName::Separate => PointsAsked::Separate,
+            },
+            point_u: point_u_mm * 1e-3,
+            prior: PriorAsked::Typical,
+            tool_point: tool_mm * 1e-3,
+            units: Units::Checked,
+        };
+        let file = inside(root, &options.tests).map_err(|_| {
+            StudyError::value(format!("there is no file `{}`", options.tests), "upload it first")
+        })?;
+        let bytes = std::fs::read(file).map_err(|error| {
+            StudyError::value(
+                format!("cannot read {}: {error}", options.tests),
+                "a table of load tests, CSV",
+            )
+        })?;
+        let tests = load_tests::read(
+            &options.tests,
+            bytes.as_slice(),
+            &robot.robot,
+            question.tool_point,
+        )?;
+        let answer = identify::answer(&robot.robot, &tests, &question)?;
+        let named = if root.join(&name).is_file() {
+            root.join(&name).display().to_string()
+        } else {
+            name
+        };
+        let [path, text] = robots::text_of(&named, &robot)?;
+        let written = robot_file(&robot.robot, [&path, &text], &answer, &options.tests)?;
+        let out = root.join("identify");
+        output::prepare(&out)?;
+        let file = out.join("robot.toml");
+        write_atomically(&file, written.as_bytes())?;
+        Ok((serde_json::to_string_pretty(&answer)?, vec![file]))
+    }
+}

@@ -1,0 +1,135 @@
+//! Where computing happens, and who still waits for it.
+//!
+//! Handlers wait on few threads; what takes time runs on one of its own, and from there on all processors. Work whose
+//! client has gone is cancelled. Of the questions of one tab (header `X-Tab`) one is worked on and one waits; a newer one
+//! takes the place of that which waits, so that a slider that is drawn does not leave a queue behind.
+
+use std::collections::HashMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use armill_core::watch::Watch;
+use armill_study::StudyError;
+use axum::http::HeaderMap;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore, watch};
+
+use crate::error::ApiError;
+
+/// Questions worked on at a time, of all tabs together.
+const AT_ONCE: usize = 4;
+/// Tabs that are remembered; more than a user has.
+const MOST_TABS: usize = 64;
+/// Letters of the name of a tab.
+const MOST_NAME: usize = 64;
+
+/// What is being worked on.
+pub(crate) struct Work {
+    places: Arc<Semaphore>,
+    tabs: Mutex<HashMap<String, Arc<Tab>>>,
+}
+
+/// The questions of one tab.
+struct Tab {
+    place: Arc<Semaphore>,
+    /// How many have been asked.
+    asked: watch::Sender<u64>,
+}
+
+/// Cancels when nobody waits any more.
+struct Wanted(Arc<AtomicBool>);
+
+impl Drop for Wanted {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Work {
+    pub(crate) fn new() -> Work {
+        Work {
+            places: Arc::new(Semaphore::new(AT_ONCE)),
+            tabs: Mutex::default(),
+        }
+    }
+
+    /// What `work` gives, from a thread of its own; cancelled where nobody waits for it any more.
+    ///
+    /// # Errors
+    /// Those of `work`; a fault of armill where it panics.
+    pub(crate) async fn done<T: Send + 'static>(
+        &self,
+        work: impl FnOnce(Watch<'_>) -> Result<T, StudyError> + Send + 'static,
+    ) -> Result<T, ApiError> {
+        let place = Arc::clone(&self.places).acquire_owned().await;
+        let cancel = Arc::new(AtomicBool::new(false));
+        let wanted = Wanted(Arc::clone(&cancel));
+        let task = tokio::task::spawn_blocking(move || {
+            // Held until the work has really ended, also where nobody waits for it.
+            let _place = place;
+            work(Watch {
+                finished: &|_| (),
+                cancel: &cancel,
+            })
+        });
+        let result = task.await;
+        drop(wanted);
+        match result {
+            Ok(result) => Ok(result?),
+            Err(_) => Err(ApiError::internal("a fault of armill: the work broke off")),
+        }
+    }
+
+    /// [`Work::done`] as the only work of its tab, where the request names one.
+    ///
+    /// # Errors
+    /// Those of `done`; a newer question took its place.
+    pub(crate) async fn done_in_tab<T: Send + 'static>(
+        &self,
+        headers: &HeaderMap,
+        work: impl FnOnce(Watch<'_>) -> Result<T, StudyError> + Send + 'static,
+    ) -> Result<T, ApiError> {
+        let name = headers.get("x-tab").and_then(|name| name.to_str().ok());
+        let Some(name) = name.filter(|name| name.len() <= MOST_NAME) else {
+            return self.done(work).await;
+        };
+        let tab = self.tab(name);
+        let place = turn(&tab).await?;
+        self.done(move |watch| {
+            let _place = place;
+            work(watch)
+        })
+        .await
+    }
+
+    /// The tab of this name; those that ask nothing are forgotten where there are too many.
+    fn tab(&self, name: &str) -> Arc<Tab> {
+        let mut tabs = self.tabs.lock().unwrap_or_else(PoisonError::into_inner);
+        if tabs.len() >= MOST_TABS && !tabs.contains_key(name) {
+            tabs.retain(|_, tab| Arc::strong_count(tab) > 1);
+        }
+        let new = || {
+            Arc::new(Tab {
+                place: Arc::new(Semaphore::new(1)),
+                asked: watch::channel(0).0,
+            })
+        };
+        Arc::clone(tabs.entry(name.to_owned()).or_insert_with(new))
+    }
+}
+
+/// Waits until this question is the one to work on.
+async fn turn(tab: &Tab) -> Result<OwnedSemaphorePermit, ApiError> {
+    let mut ticket = 0;
+    tab.asked.send_modify(|asked| {
+        *asked += 1;
+        ticket = *asked;
+    });
+    let mut asked = tab.asked.subscribe();
+    tokio::select! {
+        biased;
+        _ = asked.wait_for(|asked| *asked > ticket) => Err(ApiError::superseded()),
+        place = Arc::clone(&tab.place).acquire_owned() => {
+            place.map_err(|_| ApiError::internal("the server is stopping"))
+        }
+    }
+}

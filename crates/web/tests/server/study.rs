@@ -1,0 +1,247 @@
+//! The study and its answers: the bytes of the command, the text of the user.
+
+use std::path::Path;
+
+use armill_core::watch::Watch;
+use armill_study::live::{Text, answer_json, scene, values};
+use armill_study::{output, studies};
+use serde_json::{Value, json};
+
+use crate::client::{STUDY, folder, serve};
+
+#[test]
+fn answers_are_the_bytes_of_the_command() {
+    let served = serve(Path::new("mh12-groove"));
+    let found = studies::find(Path::new("mh12-groove")).unwrap();
+    let study = found.read().unwrap();
+    let done = armill_study::run::run(&study, Watch::NONE).unwrap();
+    let command = output::json(&armill_study::answer::answer(&study, &done)).unwrap();
+    let on_disk = served.get("/api/study").json();
+    assert_eq!(on_disk["writable"], false);
+    assert_eq!(on_disk["text"].as_str().unwrap().as_bytes(), found.bytes);
+    let answer = served.post("/api/answer", json!({ "text": on_disk["text"], "ask": null }));
+    assert_eq!((answer.status, answer.text()), (200, command));
+
+    let rows = armill_study::robot_answers::library_rows().unwrap();
+    assert_eq!(
+        served.get("/api/robots").text(),
+        serde_json::to_string(&rows).unwrap()
+    );
+}
+
+#[test]
+fn values_scene_pose_table_and_pictures_are_those_of_the_study() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let text = Text {
+        shown: "study.toml",
+        folder: folder.path(),
+        bytes: STUDY.as_bytes(),
+    };
+    let of = |path: &str, ask: &str| served.post(path, json!({ "text": STUDY, "ask": ask }));
+    let same = |body: String, value: String| assert_eq!(body, value);
+    same(
+        of("/api/values", "rim").text(),
+        serde_json::to_string(&values(text, Some("rim")).unwrap()).unwrap(),
+    );
+    let told = scene(text, Some("rim"), Watch::NONE).unwrap();
+    same(
+        of("/api/scene", "rim").text(),
+        serde_json::to_string(&told).unwrap(),
+    );
+    same(
+        of("/api/answer", "plate").text(),
+        answer_json(text, Some("plate"), Watch::NONE).unwrap(),
+    );
+
+    let pose = served.post(
+        "/api/pose",
+        json!({ "text": STUDY, "ask": "plate", "at": { "y_mm": 0, "z_mm": 0 }, "case": 2 }),
+    );
+    let pose = pose.json();
+    let postures = pose["answer"]["postures"].as_array().unwrap().len();
+    assert!(postures > 1);
+    assert_eq!(pose["drawings"].as_array().unwrap().len(), postures);
+    assert_eq!(pose["in_plane"][0].as_array().unwrap().len(), 2);
+
+    let csv = of("/api/table", "rim");
+    assert_eq!(csv.header("content-type").unwrap(), "text/csv; charset=utf-8");
+    assert_eq!(csv.text().lines().count(), 361);
+    let pictures = of("/api/pictures", "rim").json();
+    let name = pictures["pictures"][0]["name"].as_str().unwrap();
+    let png = served.post(
+        "/api/picture.png",
+        json!({ "text": STUDY, "ask": "rim", "name": name }),
+    );
+    assert_eq!(&png.body[..8], b"\x89PNG\r\n\x1a\n");
+    let none = served.post(
+        "/api/picture.png",
+        json!({ "text": STUDY, "ask": "rim", "name": "none" }),
+    );
+    assert_eq!((none.status, none.kind().as_str()), (400, "invalid-input"));
+}
+
+#[test]
+fn a_broken_study_is_shown_with_its_problems_at_their_places() {
+    let broken = STUDY.replace("step_mm = 20", "step_mm = -20");
+    let folder = folder(&broken);
+    let served = serve(folder.path());
+    let told = served.get("/api/study");
+    assert_eq!(told.status, 200);
+    let problem = &told.json()["problems"][0];
+    assert_eq!(
+        (
+            problem["line"].as_u64(),
+            problem["file"].as_str().unwrap().ends_with("study.toml")
+        ),
+        (Some(7), true)
+    );
+    assert!(problem["column"].as_u64().unwrap() > 1 && problem["hint"].is_string());
+    let answer = served.post("/api/answer", json!({ "text": broken, "ask": "plate" }));
+    assert_eq!(
+        (
+            answer.status,
+            answer.json()["error"]["problems"][0]["line"].as_u64()
+        ),
+        (422, Some(7))
+    );
+    let no_toml = served.post("/api/check", json!({ "text": "limit_um = = 3" }));
+    assert_eq!(
+        (no_toml.status, no_toml.json()["problems"][0]["line"].as_u64()),
+        (200, Some(1))
+    );
+}
+
+#[test]
+fn the_study_is_written_only_over_what_was_read() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let file = folder.path().join("study.toml");
+    let put = |text: &str, version: &Value| {
+        served.ask(
+            "PUT",
+            "/api/study",
+            json!({ "text": text, "version": version }).to_string().as_bytes(),
+        )
+    };
+    let read = served.get("/api/study").json();
+    let new = STUDY.replace("100 #", "80 #");
+    let written = put(&new, &read["version"]);
+    assert_eq!(written.status, 200);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), new);
+    assert_ne!(written.json()["version"], read["version"]);
+    // The version that was read first is old now.
+    let old = put(STUDY, &read["version"]);
+    assert_eq!((old.status, old.kind().as_str()), (409, "conflict"));
+    // So is any, where an editor has been at the file.
+    std::fs::write(&file, STUDY).unwrap();
+    assert_eq!(put(&new, &written.json()["version"]).status, 409);
+    assert_eq!(std::fs::read_to_string(&file).unwrap(), STUDY);
+
+    let example = serve(Path::new("mh12-groove"));
+    let read = example.get("/api/study").json();
+    let refused = example.ask(
+        "PUT",
+        "/api/study",
+        json!({ "text": "", "version": read["version"] })
+            .to_string()
+            .as_bytes(),
+    );
+    assert_eq!(refused.status, 403);
+}
+
+#[test]
+fn a_change_keeps_the_comments() {
+    let served = serve(Path::new("mh12-groove"));
+    let changes =
+        json!([{ "key": "plane.centre_mm", "value": [900, 0, 700] }, { "key": "limit_um", "value": 50 }]);
+    let whole = served
+        .post(
+            "/api/change",
+            json!({ "text": STUDY, "ask": null, "changes": changes }),
+        )
+        .json();
+    let expected = STUDY
+        .replace("[1000, 0, 800]", "[900, 0, 700]")
+        .replace("100 #", "50 #");
+    assert_eq!(whole["text"], expected);
+    let changes = json!([{ "key": "posture.branch", "value": "front elbow-up no-flip" }]);
+    let own = served
+        .post(
+            "/api/change",
+            json!({ "text": STUDY, "ask": "rim", "changes": changes }),
+        )
+        .json();
+    let text = own["text"].as_str().unwrap();
+    assert!(
+        text.contains("# of the drawing")
+            && text.contains("posture = { branch = \"front elbow-up no-flip\" }"),
+        "{text}"
+    );
+    assert_eq!(
+        own["asks"][1]["keys"],
+        json!(["circle.radius_mm", "kind", "name", "posture.branch"])
+    );
+    assert_eq!(own["problems"], json!([]));
+}
+
+#[test]
+fn two_tabs_are_answered_at_once_and_a_later_question_takes_the_place_of_one_that_waits() {
+    let served = serve(Path::new("mh12-groove"));
+    // So large that what follows is asked meanwhile.
+    let large = STUDY.replace("step_mm = 20", "step_mm = 0.25");
+    let ask = |tab: &str, text: &str| {
+        let body = json!({ "text": text, "ask": "plate" }).to_string();
+        let head = format!(
+            "POST /api/answer HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nX-Tab: {tab}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
+            served.port,
+            served.token,
+            body.len()
+        );
+        served.raw(head.as_bytes())
+    };
+    std::thread::scope(|scope| {
+        let first = scope.spawn(|| ask("a", &large).status);
+        std::thread::sleep(std::time::Duration::from_millis(200));
+        let second = scope.spawn(|| ask("a", &large));
+        std::thread::sleep(std::time::Duration::from_millis(100));
+        let third = scope.spawn(|| ask("a", STUDY).status);
+        assert_eq!(ask("b", STUDY).status, 200);
+        let second = second.join().unwrap();
+        assert_eq!((second.status, second.kind().as_str()), (409, "superseded"));
+        assert_eq!((first.join().unwrap(), third.join().unwrap()), (200, 200));
+    });
+}
+
+#[test]
+fn every_documented_path_answers_by_its_method() {
+    let served = serve(Path::new("mh12-groove"));
+    let document = served.get("/api/openapi.json").json();
+    assert_eq!(document, armill_web::openapi_document());
+    for (path, methods) in document["paths"].as_object().unwrap() {
+        let path = path.replace("{id}", "no-such").replace("{path}", "no-such");
+        for method in methods.as_object().unwrap().keys() {
+            let answer = served.ask(&method.to_uppercase(), &path, b"");
+            assert_ne!(answer.status, 405, "{method} {path}");
+            assert!(
+                !answer.text().contains("there is nothing at this path"),
+                "{method} {path}"
+            );
+        }
+        assert_eq!(served.ask("PATCH", &path, b"").status, 405, "{path}");
+    }
+}
+
+#[test]
+fn the_page_knows_this_server() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/openapi.json");
+    // A checkout without the page has none.
+    let Ok(text) = std::fs::read_to_string(file) else {
+        return;
+    };
+    let known: Value = serde_json::from_str(&text).unwrap();
+    assert!(
+        known == armill_web::openapi_document(),
+        "stale: `cargo xtask web` makes web/openapi.json and the types anew"
+    );
+}

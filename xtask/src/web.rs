@@ -1,0 +1,97 @@
+//! The page of `armill serve`: built into `web/dist`, from where the next build of armill takes it.
+//!
+//! ```text
+//! npm ci -> types from the server's own description -> type check -> bundle
+//! ```
+//!
+//! Node and npm are needed; without them armill builds as well, and serves its answers without a page.
+
+use crate::COULD_NOT_RUN;
+use crate::command::{cargo, expect_no_arguments, printed, run_in_place};
+use std::fs;
+use std::path::Path;
+use std::process::{Command, ExitCode, Stdio};
+
+/// What `--help` says.
+pub const ABOUT: &str = "Builds the page of `armill serve` into web/dist; needs Node and npm.";
+
+/// Where the description of the server stands for the page.
+const DESCRIPTION: &str = "web/openapi.json";
+/// The source that embeds the page: Cargo sees by its time that it must be built again.
+const EMBEDS: &str = "crates/web/src/page.rs";
+
+/// Builds the page, or says what is missing.
+pub fn run(arguments: &[String]) -> ExitCode {
+    match expect_no_arguments("web", arguments) {
+        Ok(()) => build(),
+        Err(code) => code,
+    }
+}
+
+/// Builds the page.
+pub fn build() -> ExitCode {
+    if !Path::new("web/package.json").is_file() {
+        eprintln!("there is no web/package.json: this checkout has no page");
+        return ExitCode::from(COULD_NOT_RUN);
+    }
+    for program in ["node", "npm"] {
+        if !starts(program) {
+            eprintln!(
+                "{program} is not installed: the page is built with Node 20 or later, https://nodejs.org"
+            );
+            return ExitCode::from(COULD_NOT_RUN);
+        }
+    }
+    let described = printed(&mut cargo(&[
+        "run",
+        "--quiet",
+        "-p",
+        "armill-web",
+        "--example",
+        "openapi",
+    ]));
+    let written = described
+        .and_then(|text| fs::write(DESCRIPTION, text).map_err(|error| format!("{DESCRIPTION}: {error}")));
+    if let Err(problem) = written {
+        eprintln!("{problem}");
+        return ExitCode::from(COULD_NOT_RUN);
+    }
+    let steps: [&[&str]; 3] = [
+        &["ci", "--no-audit", "--no-fund"],
+        // What the page knows of the server.
+        &["run", "types"],
+        // Its types are checked first.
+        &["run", "build"],
+    ];
+    for step in steps {
+        let mut npm = Command::new(NPM);
+        npm.args(step).current_dir("web");
+        let code = run_in_place(npm);
+        if code != ExitCode::SUCCESS {
+            return code;
+        }
+    }
+    // A file that is new in web/dist is seen by nobody; a source with a new time is.
+    let touched = fs::read(EMBEDS).and_then(|text| fs::write(EMBEDS, text));
+    match touched {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{EMBEDS}: {error}");
+            ExitCode::from(COULD_NOT_RUN)
+        }
+    }
+}
+
+/// On Windows npm is a script.
+const NPM: &str = if cfg!(windows) { "npm.cmd" } else { "npm" };
+
+/// Whether a program is there.
+fn starts(program: &str) -> bool {
+    let name = if program == "npm" { NPM } else { program };
+    let mut command = Command::new(name);
+    command
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
