@@ -1,5 +1,8 @@
 //! What a page is told of a study that is being written is what the whole run says of it.
 
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
 use std::path::Path;
 
 use armill_core::watch::Watch;

@@ -40,11 +40,14 @@ const MOST_ANSWERS: usize = 10;
 /// Ten times a second.
 const EVENT_TIME: Duration = Duration::from_millis(100);
 
+/// A job to do, and what problems call its study.
+type Next = (Arc<Job>, String);
+
 /// All jobs of this start.
 pub(crate) struct Jobs {
     all: Mutex<Vec<Arc<Job>>>,
     /// To the thread that computes; it ends with the last of these.
-    next: Mutex<Option<Sender<(Arc<Job>, String)>>>,
+    next: Mutex<Option<Sender<Next>>>,
     count: std::sync::atomic::AtomicUsize,
     /// That thread.
     computing: JoinHandle<()>,
@@ -135,7 +138,7 @@ impl Jobs {
 }
 
 /// Does jobs one after the other, on threads of their own, so that short questions do not wait for them.
-fn compute(waiting: &Receiver<(Arc<Job>, String)>, root: &std::path::Path) {
+fn compute(waiting: &Receiver<Next>, root: &std::path::Path) {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     for (job, shown) in waiting {

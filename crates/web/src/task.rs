@@ -55,7 +55,7 @@ pub(crate) enum Task {
         text: String,
         /// What may move.
         #[serde(default)]
-        options: PlaceOptions,
+        options: Box<PlaceOptions>,
     },
     /// Springs from load tests.
     Identify {
