@@ -4,6 +4,8 @@
 //! |---|---|---|
 //! | `cargo test` | `test result: ok. 5 passed; 0 failed; 1 ignored; ...` | 5, 0, 1; one line for each program |
 //! | nextest | `Summary [   0.01s] 5 tests run: 5 passed, 1 skipped` | 5, 0, 1; one line in all |
+//! | vitest | `Tests  1 failed \| 5 passed \| 1 skipped (7)` | 5, 1, 1; one line in all |
+//! | node | `ℹ pass 5`, or `# pass 5`; likewise `fail`, `skipped` | a line each |
 //!
 //! Not checked: what the runners print elsewhere; a summary in other words counts nothing, and a run that
 //! counts nothing is told as one that could not run.
@@ -55,6 +57,23 @@ impl Count {
                 skipped,
             };
         }
+        let words: Vec<&str> = line.split_whitespace().collect();
+        if let ["Tests", ..] = words[..] {
+            return Self {
+                passed: number_before(line, "passed"),
+                failed: number_before(line, "failed"),
+                skipped: number_before(line, "skipped"),
+            };
+        }
+        if let ["ℹ" | "#", verdict, number] = words[..] {
+            let number = number.parse().unwrap_or(0);
+            let of = |name: &str| if verdict == name { number } else { 0 };
+            return Self {
+                passed: of("pass"),
+                failed: of("fail"),
+                skipped: of("skipped"),
+            };
+        }
         Self::default()
     }
 }
@@ -94,6 +113,20 @@ mod tests {
                 skipped: 1
             }
         );
+    }
+
+    #[test]
+    fn summaries_of_the_page_are_counted() {
+        let counted = |line| Count::in_line(line).to_string();
+        assert_eq!(
+            counted("      Tests  1 failed | 29 passed | 2 skipped (32)"),
+            "29 passed, 1 failed, 2 skipped"
+        );
+        assert_eq!(counted(" Test Files  5 passed (5)"), "0 passed, 0 failed, 0 skipped");
+        assert_eq!(counted("ℹ pass 37"), "37 passed, 0 failed, 0 skipped");
+        assert_eq!(counted("# fail 2"), "0 passed, 2 failed, 0 skipped");
+        assert_eq!(counted("ℹ skipped 1"), "0 passed, 0 failed, 1 skipped");
+        assert_eq!(counted("ℹ tests 40"), "0 passed, 0 failed, 0 skipped");
     }
 
     #[test]

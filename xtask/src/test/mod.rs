@@ -3,7 +3,7 @@
 //! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
 //! says that it was skipped.
 //!
-//! `step`: one of them; `count`: the tests in what it printed.
+//! `step`: one of them; `page`: those of the page of `armill serve`; `count`: the tests in what it printed.
 //!
 //! | step | fails where |
 //! |---|---|
@@ -11,10 +11,12 @@
 //! | documentation tests | an example in the documentation does not compile or run |
 //! | documentation | a link leads nowhere, or rustdoc has another warning |
 //! | the kernel for NEON | it does not compile; left out without the standard library for that target |
+//! | the page | see `page` |
 //!
 //! Exit codes as for any chore; a run without a single test is one that could not run.
 
 mod count;
+mod page;
 mod step;
 
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
@@ -25,7 +27,7 @@ use std::process::{Command, ExitCode};
 use step::{Outcome, Step};
 
 /// What `--help` says.
-pub const ABOUT: &str = "Passes all tests on a fresh machine: unit, integration, documentation.";
+pub const ABOUT: &str = "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser.";
 
 /// What makes up "all tests", in order. A new step, an installation included, is one line here.
 fn steps() -> Vec<Step> {
@@ -41,6 +43,7 @@ fn steps() -> Vec<Step> {
         let check = cargo(&["check", "-p", "armill-core", "--target", NEON]);
         steps.push(Step::new("the kernel for NEON, compiled only", check));
     }
+    steps.extend(page::steps());
     steps
 }
 

@@ -1,0 +1,69 @@
+//! The page of `armill serve`: its types, its parts without a browser, and all of it in a real one.
+//!
+//! | step | fails where |
+//! |---|---|
+//! | packages | npm cannot install what `package-lock.json` names |
+//! | types and bundle | a type is wrong, or nothing can be built |
+//! | parts | a test without a browser fails |
+//! | in Chromium | the page does not show what the server answers, or looks otherwise |
+//!
+//! Node, npm and Chromium are installed by `apt-get` where they are missing and it is there; without them the steps fail.
+
+use super::step::Step;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// The browser, as Debian has it.
+const CHROMIUM: &str = "/usr/bin/chromium";
+/// The command that unit and integration tests have built.
+const ARMILL: &str = "../target/debug/armill";
+
+/// Installs what is missing, and gives the steps.
+pub fn steps() -> Vec<Step> {
+    let missing: Vec<&str> = [("nodejs", starts("node")), ("npm", starts("npm"))]
+        .into_iter()
+        .chain([("chromium", Path::new(CHROMIUM).is_file())])
+        .filter_map(|(package, is_there)| (!is_there).then_some(package))
+        .collect();
+    if !missing.is_empty() {
+        install(&missing);
+    }
+    let mut in_chromium = npm(&["run", "e2e"]);
+    in_chromium.env("ARMILL_BIN", ARMILL).env("ARMILL_PAGE", "dist");
+    vec![
+        Step::new("the page: packages", npm(&["ci", "--no-audit", "--no-fund"])),
+        Step::new("the page: types and bundle", npm(&["run", "build"])),
+        Step::new("the page: parts", npm(&["test"])),
+        Step::new("the page: in Chromium", in_chromium),
+    ]
+}
+
+/// `npm` in the folder of the page.
+fn npm(arguments: &[&str]) -> Command {
+    let mut command = Command::new("npm");
+    command.args(arguments).current_dir("web");
+    command
+}
+
+/// Asks Debian for these packages, and says so.
+fn install(packages: &[&str]) {
+    eprintln!("installing for the tests of the page: {}", packages.join(", "));
+    for arguments in [vec!["update"], [vec!["install", "-y"], packages.to_vec()].concat()] {
+        let done = Command::new("apt-get").args(&arguments).stdout(Stdio::null()).status();
+        if !done.is_ok_and(|status| status.success()) {
+            eprintln!(
+                "apt-get {} failed: install {} by hand",
+                arguments.join(" "),
+                packages.join(", ")
+            );
+            return;
+        }
+    }
+}
+
+/// Whether a program is there.
+fn starts(program: &str) -> bool {
+    let mut command = Command::new(program);
+    command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
