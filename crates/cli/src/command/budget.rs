@@ -43,8 +43,14 @@ pub(crate) fn run(arguments: &BudgetArguments) -> Result<Outcome, StudyError> {
 /// The answer as a person reads it, see the head of this file.
 fn as_text(told: &BudgetAnswer) -> String {
     let mut lines = vec![format!(
-        "{}: radius {} mm, {} angles over {:.0} deg; centre {}, radius {}",
-        told.ask, told.radius_mm, told.angles, told.arc_deg, told.datum.centre, told.datum.radius
+        "{} ({}): radius {} mm, {} angles over {:.0} deg; centre {}, radius {}",
+        told.ask,
+        told.branch,
+        told.radius_mm,
+        told.angles,
+        told.arc_deg,
+        told.datum.centre,
+        told.datum.radius
     )];
     lines.extend(
         told.files

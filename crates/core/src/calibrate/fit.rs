@@ -194,14 +194,13 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         return Err(Refusal::TurnsMissing { with, poses });
     }
     let length = question.turn_length;
-    let start = start(robot, poses, &question.flange_from_point);
     let free = Data {
         poses,
         length,
         hold: Hold::NOTHING,
     };
     let rows = if with > 0 { 6 } else { 3 } * poses.len();
-    let enough = |unknowns: usize| match rows > unknowns {
+    let enough = |unknowns: usize| match rows > unknowns && poses.len() >= FEWEST_POSES {
         true => Ok(()),
         false => Err(Refusal::TooFew {
             poses: poses.len(),
@@ -210,6 +209,10 @@ pub fn fit(robot: &Robot, poses: &[MeasuredPose], question: &Question) -> Result
         }),
     };
     let frames = unknowns(robot, Asked::BaseAndTool, with > 0);
+    if poses.len() < FEWEST_POSES {
+        enough(frames.len())?;
+    }
+    let start = start(robot, poses, &question.flange_from_point);
     let (in_frames, _) = told_apart(&start, &frames, &free);
     let mut arm = settle(start, &in_frames, &free)?;
     enough(in_frames.len())?;
@@ -275,13 +278,6 @@ fn check(robot: &Robot, poses: &[MeasuredPose]) -> Result<(), Refusal> {
             continue;
         };
         return Err(Refusal::Pose { index, what });
-    }
-    if poses.len() < FEWEST_POSES {
-        return Err(Refusal::TooFew {
-            poses: poses.len(),
-            rows: 3 * poses.len(),
-            unknowns: 9,
-        });
     }
     Ok(())
 }
@@ -359,13 +355,14 @@ fn told_apart(arm: &Arm<'_>, unknowns: &[Unknown], free: &Data<'_>) -> (Vec<Unkn
     (kept.into_iter().map(|k| unknowns[k]).collect(), redundant)
 }
 
-/// The arm at the least sum of squares over the unknowns `kept`.
+/// The arm at the least sum of squares over the unknowns `kept`; an arm that never comes to rest is none.
 fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm<'a>, Refusal> {
     let mut least = cost(&arm, kept, data);
     let mut damping = DAMPING[0];
+    let mut settled = false;
     for _ in 0..MOST_STEPS {
         let (r, z) = triangle(&arm, kept, data).whole();
-        let mut settled = true;
+        settled = true;
         while damping < DAMPING[1] {
             let (step, _) = solve(&r, &z, damping).ok_or(Refusal::NotFound)?;
             let next = arm.changed(kept, step.as_slice());
@@ -382,7 +379,7 @@ fn settle<'a>(mut arm: Arm<'a>, kept: &[Unknown], data: &Data<'_>) -> Result<Arm
             break;
         }
     }
-    match least.is_finite() {
+    match settled && least.is_finite() {
         true => Ok(arm),
         false => Err(Refusal::NotFound),
     }

@@ -17,6 +17,8 @@ use crate::file::path::PathAsk;
 pub struct BudgetAnswer {
     /// Name of the path.
     pub ask: String,
+    /// Posture asked for: words of a branch, or `best`.
+    pub branch: String,
     /// Nominal radius of the circle.
     pub radius_mm: f64,
     /// The files that were measured, and what they are of.
@@ -228,6 +230,7 @@ pub fn answer(experiment: &Experiment, path: &PathAsk, combined: &Combined) -> B
     let [least, greatest] = &combined.envelope;
     let mut told = BudgetAnswer {
         ask: experiment.ask.clone(),
+        branch: path.setting.branch(),
         radius_mm: experiment.radius * 1e3,
         files: files(experiment, path),
         datum: DatumAnswer {
@@ -398,7 +401,7 @@ fn warnings(experiment: &Experiment, combined: &Combined, told: &BudgetAnswer) -
         Some(false) => warnings.push(
             "no ball-bar run goes the way that is cut: that of the other way stands for it, with its reversals".to_owned(),
         ),
-        Some(true) if combined.balance.contributions.iter().all(|one| one.name != "reversal") => warnings.push(
+        Some(true) if !combined.both_ways => warnings.push(
             "the ball-bar went one way alone: what turns with the way is not told apart".to_owned(),
         ),
         Some(true) => {}

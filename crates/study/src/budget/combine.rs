@@ -42,6 +42,8 @@ pub struct Combined {
     pub cases_are_given: bool,
     /// Whether the way that was cut was measured without load; `None` where nothing was.
     pub has_cut_way: Option<bool>,
+    /// Whether both ways were.
+    pub both_ways: bool,
     /// Standard deviation of runs the same way; none where no way has two.
     pub repeatability: Option<f64>,
     /// The path without load, predicted and measured the way it was cut; none where either is missing.
@@ -106,12 +108,13 @@ pub fn combine(
         u: uncertainty(&doubts, &turn, experiment),
         ..under_load(&cases[..biased])
     }];
-    let mut has_cut_way = None;
+    let (mut has_cut_way, mut both_ways) = (None, false);
     let mut repeatability = None;
     let mut without_load = None;
     if let Some(test) = test {
         let seen = of_test(test, &turn, experiment)?;
         has_cut_way = Some(seen.has_cut_way);
+        both_ways = seen.reversal.is_some();
         repeatability = seen.scatter;
         without_load = without.and_then(|predicted| beside(&turn, (&predicted, &seen), experiment));
         contributions.extend(contributions_of(seen, turn.angle().len()));
@@ -137,6 +140,7 @@ pub fn combine(
         cases: cases.len(),
         cases_are_given,
         has_cut_way,
+        both_ways,
         repeatability,
         without_load,
         balance: balance(

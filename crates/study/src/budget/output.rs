@@ -71,10 +71,10 @@ pub(crate) fn pictures(told: &BudgetAnswer, combined: &Combined) -> Vec<Picture>
 
 /// What all curves count from, in a line.
 fn subtitle(told: &BudgetAnswer) -> String {
-    let mut parts = vec![format!(
-        "circle of {} mm",
-        crate::number::decimals(told.radius_mm, 3)
-    )];
+    let mut parts = vec![
+        format!("circle of {} mm", crate::number::decimals(told.radius_mm, 3)),
+        told.branch.clone(),
+    ];
     for (what, from) in [("centre", told.datum.centre), ("radius", told.datum.radius)] {
         parts.push(format!("{what} {from}"));
     }

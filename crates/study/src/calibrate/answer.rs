@@ -119,6 +119,10 @@ pub struct ParameterAnswer {
     pub value_deg: Option<f64>,
     /// Standard uncertainty.
     pub u_deg: Option<f64>,
+    /// Of the zero of a joint that turns: how much farther it stands than its controller counts, in the controller's sense.
+    pub beyond_counted_deg: Option<f64>,
+    /// Of the zero of a joint that slides.
+    pub beyond_counted_mm: Option<f64>,
 }
 
 /// A motion that cannot be told.
@@ -289,6 +293,12 @@ pub(crate) fn frame_answer(estimates: &[Estimate], place: Place, isometry: &Isom
 fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
     let (value, u) = (estimate.value, estimate.standard_uncertainty);
     let turns = estimate.unknown.turns();
+    let counted = match estimate.unknown.place {
+        Place::After(joint) if estimate.unknown.is_zero_of(robot) => {
+            Some(robot.joints()[joint].sign.factor() * value)
+        }
+        _ => None,
+    };
     let length = |length: f64| (!turns).then(|| told(length * 1e3));
     let angle = |angle: f64| turns.then(|| told(angle.to_degrees()));
     ParameterAnswer {
@@ -298,6 +308,8 @@ fn parameter(robot: &Robot, estimate: &Estimate) -> ParameterAnswer {
         u_mm: length(u),
         value_deg: angle(value),
         u_deg: angle(u),
+        beyond_counted_deg: counted.and_then(angle),
+        beyond_counted_mm: counted.and_then(length),
     }
 }
 

@@ -1,0 +1,133 @@
+// What can be turned: where the part lies, tool and load, tolerance and grid, posture, robot. Every change is answered.
+
+import { api, type Refused } from "../server";
+import { h } from "../dom";
+import type { Live } from "../live";
+import type { RobotRow, Vec3 } from "../types";
+import { Choice } from "./choice";
+import { NumberField } from "./field";
+import { Forces } from "./forces";
+
+interface Control {
+  readonly id: string;
+  readonly root: HTMLElement;
+  refuse(message: string, hint: string | null): void;
+  clear(): void;
+}
+
+export function controls(live: Live): HTMLElement {
+  let robots: RobotRow[] = [];
+  let last: Control | null = null;
+  const touch = (control: () => Control, key: string, value: unknown, whole = false) => {
+    last = control();
+    live.change(key, value, whole);
+  };
+
+  const ofProgram = () => live.asks.find((a) => a.name === live.ask)?.keys?.some((key) => key.startsWith("program")) ?? false;
+
+  const ask = new Choice("field-ask", "What is asked", (name) => live.choose(name));
+  const section = new Choice("field-section", "Plane shown", (index) => live.chooseSection(Number(index)));
+  const centre = (axis: number, value: number): Vec3 => live.values!.centre_mm!.map((v, i) => (i === axis ? value : v)) as Vec3;
+  const place = (axis: number) => (value: number) => {
+    const now = centre(axis, value);
+    live.values!.centre_mm = now;
+    touch(() => [x, y, z][axis]!, "plane.centre_mm", now);
+  };
+  const x = new NumberField({ id: "field-x", label: "Distance x", unit: "mm", range: [300, 1600], step: 10, input: place(0), hint: "From the robot's first axis to the middle of the plate" });
+  const y = new NumberField({ id: "field-y", label: "Sideways y", unit: "mm", range: [-800, 800], step: 10, input: place(1) });
+  const z = new NumberField({ id: "field-z", label: "Height z", unit: "mm", range: [-200, 1800], step: 10, input: place(2) });
+  const tilt = new NumberField({ id: "field-tilt", label: "Tilt", unit: "°", range: [-90, 90], step: 5, input: (v) => touch(() => tilt, "plane.tilt_deg", v), hint: "0 faces the robot, 90 faces up" });
+  const tool = new NumberField({
+    id: "field-tool",
+    label: "Tool length",
+    unit: "mm",
+    range: [0, 400],
+    step: 5,
+    input: (v) => {
+      const now: [number, number, number, number, number, number] = [...live.values!.flange_from_tool_mm_deg];
+      now[2] = v;
+      live.values!.flange_from_tool_mm_deg = now;
+      touch(() => tool, "tool.flange_from_tool_mm_deg", now);
+    },
+    hint: "From the flange to the tip, along the flange's z axis",
+  });
+  const forces = new Forces((cases) => touch(() => forces, "load.cases_n", cases));
+  const limit = new NumberField({ id: "field-limit", label: "Tolerance", unit: "µm", range: [5, 300], step: 5, input: (v) => touch(() => limit, "limit_um", v), hint: "Greatest deviation in the plane that is tolerated" });
+  const half = new NumberField({ id: "field-half", label: "Half size", unit: "mm", range: [50, 800], step: 50, input: (v) => touch(() => half, "plane.half_size_mm", v) });
+  const step = new NumberField({ id: "field-step", label: "Grid step", unit: "mm", range: [5, 100], step: 5, input: (v) => touch(() => step, "plane.step_mm", v) });
+  const branch = new Choice("field-branch", "Branch", (v) => touch(() => branch, "posture.branch", v));
+  const spin = new NumberField({ id: "field-spin", label: "Tool spin", unit: "°", range: [-180, 180], step: 5, input: (v) => touch(() => spin, ofProgram() ? "program.spin_deg" : "spin_deg", v), hint: "Turn of the tool about its own axis" });
+  const robot = new Choice("field-robot", "Robot", (v) => touch(() => robot, "robot", v, true));
+  const all: Control[] = [ask, section, x, y, z, tilt, tool, forces, limit, half, step, branch, spin, robot];
+
+  const group = (title: string, ...children: Node[]) => h("fieldset", {}, h("legend", {}, title), children);
+  const root = h(
+    "form",
+    { class: "controls", "aria-label": "Settings", onsubmit: (e: Event) => e.preventDefault() },
+    group("Question", ask.root, section.root),
+    group("Where the part lies", x.root, y.root, z.root, tilt.root),
+    group("Tool and load", tool.root, forces.root),
+    group("Tolerance and grid", limit.root, half.root, step.root),
+    group("How the arm stands", branch.root, spin.root, robot.root),
+  );
+
+  const fill = () => {
+    ask.set(live.ask, live.asks.map((a) => ({ value: a.name, text: a.name })));
+    const maps = live.answer?.maps ?? [];
+    section.set(maps.length > 1 ? String(live.section) : null, maps.map((m, i) => ({ value: String(i), text: m.name.replace(`${live.ask}: `, "") })));
+    const v = live.values;
+    // While newer values are on their way, what the user has set stands.
+    if (!v || !live.settled) return;
+    const plane = v.kind === "map" || v.kind === "path" || v.kind === "sections";
+    // Sections have many distances or tilts: the plane's own one would change nothing.
+    [x, y, z].forEach((field, i) => field.set(i === 0 && v.distances_mm ? null : v.centre_mm[i]!));
+    tilt.set(v.tilts_deg ? null : v.tilt_deg);
+    tool.set(v.flange_from_tool_mm_deg?.[2] ?? v.tool_length_mm);
+    forces.set(v.cases_n && v.cases_n.length > 0 ? v.cases_n : null);
+    limit.set(v.limit_um);
+    half.set(plane && v.kind !== "path" ? (Array.isArray(v.half_size_mm) ? v.half_size_mm[0] : v.half_size_mm) : null);
+    step.set(plane && v.kind !== "path" ? v.step_mm : null);
+    branch.set(v.branch, ["nominal", "best", ...v.branches].map((b) => ({ value: b, text: b === "nominal" && v.branch === "nominal" ? `nominal: ${v.branch_meant}` : b })));
+    spin.set(v.kind === "path" ? v.spin_deg : null);
+    robot.set(v.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
+  };
+  live.listen((topic) => {
+    if (topic === "answer" || topic === "study") fill();
+    if (topic === "error") {
+      for (const control of all) control.clear();
+      if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
+        told(live.error, all, last);
+        live.error_at_field = true;
+      }
+    }
+  });
+  void api.robots().then((rows) => {
+    robots = rows;
+    fill();
+  }, () => undefined);
+  return root;
+}
+
+// The keys of the study that each control sets, to find the one that a message is about.
+const KEYS: Record<string, string[]> = {
+  "field-x": ["centre_mm"],
+  "field-tilt": ["tilt_deg"],
+  "field-tool": ["flange_from_tool_mm_deg", "[tool]"],
+  "field-forces": ["cases_n", "[load]"],
+  "field-limit": ["limit_um"],
+  "field-half": ["half_size_mm"],
+  "field-step": ["step_mm"],
+  "field-branch": ["branch"],
+  "field-spin": ["spin_deg"],
+  "field-robot": ["robot", "compliance"],
+};
+
+/** Each problem at the control whose key it names; at the one touched last where it names none. */
+function told({ problems, message, hint }: Refused, all: Control[], last: Control): void {
+  const list = problems.length > 0 ? problems : [{ message, hint }];
+  for (const problem of list.slice(0, 3)) {
+    const named = all.find((c) => KEYS[c.id]?.some((key) => problem.message.includes(key)));
+    const lasts = KEYS[last.id]?.some((key) => problem.message.includes(key)) ?? false;
+    (lasts ? last : (named ?? last)).refuse(problem.message, problem.hint);
+  }
+}

@@ -1,0 +1,290 @@
+// What is on the screen: one study text, one ask, its answer, and where the robot stands. Panels and scene listen.
+//
+// A change of a control goes /api/change -> /api/answer, values, scene -> /api/pose; newest wins. The text that comes
+// back becomes the text of the next change, so that comments and order stay as the user wrote them.
+
+import { api, Refused } from "./server";
+import { Newest } from "./newest";
+import { choosePosture, decidingCase } from "./posture";
+import type { Answer, Ask, At, Change, MapAnswer, Point, Pose, Problem, Scene, Setting, Study, Values } from "./types";
+
+export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
+/** Where the robot stands: the worst or best point of what is shown, or a place that the user chose. */
+export type Follow = "worst" | "best" | "place";
+
+interface Job {
+  text: string;
+  ask: string | null;
+  since: number;
+}
+interface Result {
+  text: string;
+  problems: Problem[];
+  sent: Map<string, unknown>;
+  answer: Answer;
+  values: Values;
+  scene: Scene;
+}
+
+export class Live {
+  study: Study | null = null;
+  text = "";
+  asks: Ask[] = [];
+  ask: string | null = null;
+  answer: Answer | null = null;
+  values: Values | null = null;
+  scene: Scene | null = null;
+  pose: Pose | null = null;
+  posture = 0;
+  load_case = 1;
+  follow: Follow = "worst";
+  at: At | null = null;
+  section = 0;
+  busy = false;
+  /** The robot is on its way: what is told of the point is of where it was. */
+  moving = false;
+  error: Refused | null = null;
+  /** True where a control shows what is wrong. */
+  error_at_field = false;
+  pose_error: string | null = null;
+  /** From the last input to the picture. */
+  took_ms: number | null = null;
+
+  private pending = new Map<string, unknown>();
+  private listeners: ((topic: Topic) => void)[] = [];
+  private wanted_branch: string | null = null;
+  private fixed_case: number | null = null;
+  private input_at = 0;
+
+  private readonly answers = new Newest<Job, Result>({
+    work: (job, signal) => this.ask_server(job, signal),
+    done: (result, job) => this.take(result, job),
+    failed: (error) => this.fail(error),
+    busy: (busy) => {
+      this.busy = busy;
+      this.tell("busy");
+    },
+  });
+  private readonly poses = new Newest<{ at: At; load_case: number }, Pose>({
+    work: ({ at, load_case }, signal) => api.pose(this.text, this.ask, at, load_case, signal),
+    done: (pose, { at, load_case }) => this.takePose(pose, at, load_case),
+    failed: (error) => {
+      if (error instanceof Refused && error.kind === "superseded") return;
+      this.pose_error = error instanceof Error ? error.message : String(error);
+      this.pose = null;
+      this.tell("pose");
+    },
+    busy: (moving) => {
+      this.moving = moving;
+      this.tell("moving");
+    },
+  });
+
+  listen(listener: (topic: Topic) => void): void {
+    this.listeners.push(listener);
+  }
+  tell(topic: Topic): void {
+    for (const listener of this.listeners) listener(topic);
+  }
+
+  // ---- What the user does ----
+
+  open(study: Study): void {
+    this.study = study;
+    this.use(study.text, study.asks);
+  }
+
+  /** The text as it stands, into the file. */
+  async save(): Promise<void> {
+    this.study = await api.save(this.text, this.study!.version);
+    this.tell("study");
+  }
+
+  /** Another text: from the file, from the editor. */
+  use(text: string, asks: Ask[]): void {
+    this.text = text;
+    this.asks = asks;
+    this.pending.clear();
+    if (!asks.some((a) => a.name === this.ask)) this.ask = asks[0]?.name ?? null;
+    this.tell("study");
+    this.refresh();
+  }
+
+  choose(ask: string): void {
+    this.ask = ask;
+    this.section = 0;
+    this.follow = "worst";
+    this.at = null;
+    this.wanted_branch = null;
+    this.pending.clear();
+    this.tell("study");
+    this.refresh();
+  }
+
+  /** A control: value null removes the key. `whole`: a key of the study, not of the ask. */
+  change(key: string, value: unknown, whole = false): void {
+    this.pending.set(whole ? `\n${key}` : key, value);
+    if (key === "posture.branch") this.wanted_branch = null;
+    this.refresh();
+  }
+
+  refresh(): void {
+    this.input_at = performance.now();
+    if (this.text !== "") this.answers.submit({ text: this.text, ask: this.ask, since: this.input_at });
+  }
+
+  goTo(at: At): void {
+    this.follow = "place";
+    this.at = at;
+    this.input_at = performance.now();
+    this.stand();
+  }
+
+  followPoint(which: "worst" | "best"): void {
+    this.follow = which;
+    this.wanted_branch = null;
+    this.input_at = performance.now();
+    this.stand();
+  }
+
+  choosePosture(index: number): void {
+    this.posture = index;
+    this.wanted_branch = this.pose?.answer.postures[index]?.branch ?? null;
+    this.tell("pose");
+  }
+
+  /** Null: the case that decides. */
+  chooseCase(load_case: number | null): void {
+    this.fixed_case = load_case;
+    this.stand();
+  }
+  get case_is_fixed(): boolean {
+    return this.fixed_case !== null;
+  }
+
+  chooseSection(index: number): void {
+    this.section = index;
+    if (this.at && "y_mm" in this.at) this.at = { ...this.at, section: index };
+    this.tell("answer");
+    this.stand();
+  }
+
+  // ---- What is shown ----
+
+  get map(): MapAnswer | null {
+    return this.answer?.maps[this.section] ?? this.answer?.maps[0] ?? null;
+  }
+  get setting(): Setting | null {
+    return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? null;
+  }
+  get worst(): Point | null {
+    const a = this.answer;
+    return this.map?.worst ?? a?.paths[0]?.worst ?? a?.volumes[0]?.worst ?? a?.holes[0]?.worst_holes[0]?.point ?? null;
+  }
+  get best(): Point | null {
+    return this.map?.best ?? this.answer?.volumes[0]?.best ?? null;
+  }
+
+  /** The point of the answer that the robot stands at, where it shows that posture and case. */
+  get told(): Point | null {
+    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+    const same = point?.branch === (this.pose?.answer.postures[this.posture]?.branch ?? null) && point?.deciding_case === this.load_case;
+    return same ? point : null;
+  }
+
+  /** No change waits for its answer. */
+  get settled(): boolean {
+    return this.pending.size === 0;
+  }
+
+  // ---- Talking to the server ----
+
+  private async ask_server(job: Job, signal: AbortSignal): Promise<Result> {
+    const sent = new Map(this.pending);
+    let text = job.text === this.text ? job.text : this.text;
+    let problems: Problem[] = [];
+    for (const whole of [true, false]) {
+      const changes: Change[] = [...sent].filter(([key]) => key.startsWith("\n") === whole).map(([key, value]) => ({ key: key.trimStart(), value }));
+      if (changes.length === 0) continue;
+      const changed = await api.change(text, whole ? null : job.ask, changes, signal);
+      text = changed.text;
+      problems = changed.problems;
+    }
+    if (problems.length > 0) throw new Refused(422, "invalid-input", problems[0]!.message, problems);
+    const [answer, values, scene] = await Promise.all([api.answer(text, job.ask, signal), api.values(text, job.ask, signal), api.scene(text, job.ask, signal)]);
+    return { text, problems, sent, answer, values, scene };
+  }
+
+  private take(result: Result, job: Job): void {
+    if (job.ask !== this.ask) return;
+    for (const [key, value] of result.sent) if (this.pending.get(key) === value) this.pending.delete(key);
+    this.text = result.text;
+    this.answer = result.answer;
+    if (this.settled) this.values = result.values;
+    this.scene = result.scene;
+    this.error = null;
+    if (this.section >= Math.max(1, result.answer.maps.length)) this.section = 0;
+    this.tell("answer");
+    requestAnimationFrame(() =>
+      setTimeout(() => {
+        this.took_ms = performance.now() - job.since;
+        this.tell("busy");
+      }),
+    );
+    this.tell("error");
+    this.stand();
+  }
+
+  private fail(error: unknown): void {
+    if (error instanceof Refused && error.kind === "superseded") return;
+    this.error = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
+    this.pending.clear();
+    this.error_at_field = false;
+    this.tell("error");
+  }
+
+  private stand(): void {
+    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+    if (this.follow !== "place") {
+      if (!point) {
+        this.pose = null;
+        this.tell("pose");
+        return;
+      }
+      this.at = this.placeOf(point);
+    }
+    if (this.at) this.poses.submit({ at: this.at, load_case: this.fixed_case ?? point?.deciding_case ?? this.load_case });
+  }
+
+  /** A point of the answer as a place to stand: of a path by its number, so that attitude and load are its own. */
+  private placeOf(point: Point): At {
+    const points = this.scene?.points;
+    if (points) {
+      // Points of the scene lie in base, those of the answer in the frame that coordinates count from.
+      const shift = this.scene!.base_mm;
+      const off = points.xyz_mm.map((p, i) => Math.hypot(...p.map((x, k) => x - shift[k]! - point.xyz_mm[k]!)) + Math.abs((points.columns.in_plane_um[i] ?? 1e9) - point.in_plane_um));
+      return { point: off.reduce((best, v, i) => (v < off[best]! ? i : best), 0) };
+    }
+    return this.onPlate(point.in_plane_mm[0], point.in_plane_mm[1]);
+  }
+
+  /** A place on the plate that is shown. */
+  onPlate(y_mm: number, z_mm: number): At {
+    return this.answer!.maps.length > 1 ? { y_mm, z_mm, section: this.section } : { y_mm, z_mm };
+  }
+
+  private takePose(pose: Pose, at: At, load_case: number): void {
+    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+    this.pose_error = pose.answer.postures.length === 0 ? (pose.answer.unreachable?.message ?? "The robot has no posture there.") : null;
+    this.posture = choosePosture(pose, this.wanted_branch ?? point?.branch ?? null, this.values?.branch_meant ?? null);
+    const decides = decidingCase(pose.in_plane[this.posture] ?? []);
+    if (this.fixed_case === null && decides !== null && decides !== load_case) {
+      this.load_case = decides;
+      this.poses.submit({ at, load_case: decides });
+      return;
+    }
+    this.load_case = load_case;
+    this.pose = pose;
+    this.tell("pose");
+  }
+}

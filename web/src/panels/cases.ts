@@ -1,0 +1,50 @@
+// The load cases: what each does where the robot stands. The one that decides is shown, unless another is chosen.
+
+import { h } from "../dom";
+import { newton, um } from "../format";
+import type { Live } from "../live";
+import { decidingCase } from "../posture";
+import { panel } from "./panel";
+
+export function cases(live: Live): HTMLElement {
+  const { root, show } = panel("cases", "Load cases");
+  const draw = () => {
+    const values = live.pose?.in_plane[live.posture];
+    const forces = live.setting?.cases_n;
+    if (!values || !forces) return show(h("p", { class: "note" }, "Where the robot stands, each load case will be listed here."));
+    const decides = decidingCase(values);
+    show(
+      h(
+        "table",
+        { class: "numbers choose" },
+        h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "Force x, y, z / N"), ...["In plane", "Normal", "Full"].map((t) => h("th", { scope: "col" }, t, h("small", {}, " µm"))))),
+        h(
+          "tbody",
+          {},
+          values.map((v, i) =>
+            h(
+              "tr",
+              { class: live.load_case === i + 1 ? "chosen" : "" },
+              h(
+                "th",
+                { scope: "row" },
+                h(
+                  "button",
+                  { type: "button", class: "row-button", "data-key": `case ${i}`, "aria-pressed": String(live.load_case === i + 1), title: "Show this load case", onclick: () => live.chooseCase(i + 1) },
+                  forces[i] ? forces[i]!.map(newton).join(", ") : `Case ${i + 1}`,
+                ),
+              ),
+              h("td", { class: decides === i + 1 ? "strong" : "" }, um(v?.in_plane_um)),
+              h("td", {}, um(v?.normal_um)),
+              h("td", {}, um(v?.full_um)),
+            ),
+          ),
+        ),
+      ),
+      h("p", { class: "note" }, `Case ${decides ?? 1} decides here. `, live.case_is_fixed ? h("button", { type: "button", class: "link", onclick: () => live.chooseCase(null) }, "Show the deciding case") : null),
+    );
+  };
+  live.listen((topic) => topic === "pose" && draw());
+  draw();
+  return root;
+}

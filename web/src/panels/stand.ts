@@ -1,0 +1,51 @@
+// Where the robot stands, by number: what a click in the scene does, for the keyboard, and to walk along a path.
+
+import { NumberField } from "../controls/field";
+import type { Live } from "../live";
+import { panel } from "./panel";
+
+export function stand(live: Live): HTMLElement {
+  const { root, show } = panel("stand", "Send the robot");
+  let fields: NumberField[] = [];
+  let made = "";
+
+  const onMap = (): NumberField[] => {
+    const { y_mm, z_mm } = live.map!.grid;
+    const span = (list: number[]): [number, number] => [Math.min(...list), Math.max(...list)];
+    const pitch = (list: number[]) => Math.abs((list[1] ?? 10) - (list[0] ?? 0)) || 10;
+    let place = { y_mm: 0, z_mm: 0 };
+    const go = (part: Partial<typeof place>) => {
+      if (typeof live.at?.y_mm === "number" && typeof live.at.z_mm === "number") place = { y_mm: live.at.y_mm, z_mm: live.at.z_mm };
+      place = { ...place, ...part };
+      live.goTo(live.onPlate(place.y_mm, place.z_mm));
+    };
+    return [
+      new NumberField({ id: "stand-y", label: "y′ on the plate", unit: "mm", range: span(y_mm), step: pitch(y_mm), input: (v) => go({ y_mm: v }) }),
+      new NumberField({ id: "stand-z", label: "z′ on the plate", unit: "mm", range: span(z_mm), step: pitch(z_mm), input: (v) => go({ z_mm: v }) }),
+    ];
+  };
+  const onPath = (): NumberField[] => {
+    const n = live.scene!.points!.xyz_mm.length;
+    return [new NumberField({ id: "stand-point", label: live.answer!.holes.length > 0 ? "Hole" : "Point of the path", unit: "", range: [1, n], step: 1, input: (v) => live.goTo({ point: Math.min(n, Math.max(1, Math.round(v))) - 1 }) })];
+  };
+  const draw = () => {
+    const { answer, scene, at } = live;
+    if (!answer) return;
+    const kind = answer.maps.length > 0 ? "map" : scene?.points && answer.volumes.length === 0 ? "path" : "none";
+    const key = `${kind} ${live.ask} ${live.map?.grid.points} ${live.map?.grid.y_mm[0]} ${scene?.points?.xyz_mm.length}`;
+    root.hidden = kind === "none";
+    if (key !== made) {
+      made = key;
+      fields = kind === "map" ? onMap() : kind === "path" ? onPath() : [];
+      show(...fields.map((f) => f.root));
+    }
+    if (!at) return;
+    if (typeof at.y_mm === "number" && kind === "map") {
+      fields[0]!.set(at.y_mm);
+      fields[1]!.set(at.z_mm ?? 0);
+    }
+    if (typeof at.point === "number" && kind === "path") fields[0]!.set(at.point + 1);
+  };
+  live.listen((topic) => (topic === "answer" || topic === "pose") && draw());
+  return root;
+}

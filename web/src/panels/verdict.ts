@@ -1,0 +1,86 @@
+// What must be seen at a glance: where the tolerance holds, how far the tool goes, which joint does it.
+
+import { fill, h, type Child } from "../dom";
+import { DASH, percent, trimmed, um } from "../format";
+import type { Live } from "../live";
+import type { Point } from "../types";
+
+export function verdict(live: Live): HTMLElement {
+  const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" });
+  const draw = () => {
+    const { answer, setting } = live;
+    if (!answer || !setting) return fill(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
+    const limit = `${trimmed(setting.limit_um, 1)}\u00a0µm`;
+    const { share, what, extra } = held(live);
+    const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
+    fill(
+      root,
+      h(
+        "div",
+        { class: "verdict-main" },
+        h("p", { class: `verdict-line ${state}` }, h("span", { class: "verdict-mark", "aria-hidden": "true" }, state === "good" ? "✓" : state === "part" ? "◐" : "✕"), sentence(share, what, limit)),
+        h("div", { class: "meter", role: "img", "aria-label": `${percent(share)} hold the limit` }, h("span", { style: `width:${(100 * share).toFixed(2)}%` })),
+      ),
+      h("div", { class: "verdict-points" }, extreme(live, "worst", live.worst), extreme(live, "best", live.best), blame(live)),
+      h("p", { class: "verdict-extra" }, extra || "\u00a0"),
+    );
+  };
+  live.listen((topic) => {
+    if (topic === "answer") draw();
+    if (topic === "pose") root.querySelectorAll("button[data-follow]").forEach((b) => b.setAttribute("aria-pressed", String((b as HTMLElement).dataset.follow === live.follow)));
+  });
+  draw();
+  return root;
+}
+
+function held(live: Live): { share: number; what: string; extra: Child } {
+  const map = live.map;
+  if (map) {
+    const sure = map.certainty ? `surely ${percent(map.certainty.fraction_surely_within)}, possibly ${percent(map.certainty.fraction_possibly_within)}` : null;
+    const unreached = map.grid.points - (map.counts.within ?? 0) - (map.counts.over_limit ?? 0);
+    const parts = [
+      sure,
+      map.outside_joint_limits > 0 ? `${map.outside_joint_limits} of ${map.grid.points} points outside joint limits` : null,
+      unreached > 0 ? `${unreached} points without posture` : null,
+    ].filter(Boolean);
+    return { share: map.fraction_within, what: "plate", extra: parts.join(" · ") };
+  }
+  const path = live.answer!.paths[0];
+  if (path) {
+    const parts = [`${path.points} points`, path.unreached > 0 ? `${path.unreached} not reached` : null, path.outside_joint_limits > 0 ? `${path.outside_joint_limits} outside joint limits` : null, path.roundness_um !== null ? `roundness ${um(path.roundness_um)} µm` : null];
+    return { share: path.fraction_within, what: "path", extra: parts.filter(Boolean).join(" · ") };
+  }
+  const volume = live.answer!.volumes[0];
+  if (volume) return { share: volume.fraction_within, what: "box", extra: `${(volume.volume_within_mm3 / 1e6).toFixed(1)} litres (dm³) of it` };
+  const holes = live.answer!.holes[0];
+  return { share: holes?.fraction_within ?? 0, what: "holes", extra: holes ? `${holes.holes} holes, ${holes.unreached} not reached` : null };
+}
+
+function sentence(share: number, what: string, limit: string): string {
+  if (share <= 0) return what === "holes" ? `None of the holes holds ${limit}` : `No point of the ${what} holds ${limit}`;
+  if (share >= 1) return what === "holes" ? `All holes hold ${limit}` : `The whole ${what} holds ${limit}`;
+  return `${percent(share)} of the ${what} ${what === "holes" ? "hold" : "holds"} ${limit}`;
+}
+
+function extreme(live: Live, which: "worst" | "best", point: Point | null): Child {
+  if (!point) return null;
+  return h(
+    "button",
+    { type: "button", class: "extreme", "data-follow": which, "data-key": which, "aria-pressed": String(live.follow === which), title: `Send the robot to the ${which} point`, onclick: () => live.followPoint(which) },
+    h("span", { class: "extreme-name" }, which === "worst" ? "Worst" : "Best"),
+    h("span", { class: "extreme-value" }, um(point.in_plane_um), h("small", {}, ` ± ${um(point.in_plane_u_um)} µm`)),
+  );
+}
+
+function blame(live: Live): Child {
+  const point = live.worst;
+  const names = live.setting?.shares_of ?? [];
+  if (!point || point.in_plane_um <= 0) return null;
+  const most = point.joint_share_um.reduce((best, v, i, all) => (v > all[best]! ? i : best), 0);
+  return h(
+    "div",
+    { class: "extreme still" },
+    h("span", { class: "extreme-name" }, "Worst mostly by"),
+    h("span", { class: "extreme-value" }, names[most] ?? DASH, h("small", {}, ` ${percent(point.joint_share_um[most]! / point.in_plane_um)}`)),
+  );
+}

@@ -1,0 +1,144 @@
+// The arm, drawn from its joints: links as tapered limbs with round knuckles, joints as housings along their axes with
+// a ring whose colour tells the joint's share of the deviation, then flange and tool.
+
+import * as THREE from "three";
+import type { ArmDrawing, Vec3 } from "../types";
+
+const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
+const BODY = new THREE.MeshStandardMaterial({ color: 0xd5dbe3, roughness: 0.42, metalness: 0.15 });
+const HOUSING = new THREE.MeshStandardMaterial({ color: 0x39434f, roughness: 0.5, metalness: 0.35 });
+const STEEL = new THREE.MeshStandardMaterial({ color: 0x9aa5b1, roughness: 0.3, metalness: 0.7 });
+const TIP = new THREE.MeshStandardMaterial({ color: 0xe8792b, roughness: 0.4, metalness: 0.1 });
+
+export class Arm {
+  readonly group = new THREE.Group();
+  /** Of each joint: its name and where its housing sits. */
+  knuckles: { name: string; at: THREE.Vector3 }[] = [];
+
+  /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
+  draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
+    this.clear();
+    // The line ends at the tip; the arm itself ends at the flange.
+    const tip = vector(drawing.tool_mm);
+    const line = drawing.links_mm.map(vector).filter((p, i, all) => i < all.length - 1 || p.distanceTo(tip) > 0.5);
+    const base = line[0] ?? new THREE.Vector3();
+    const knots = [...line, vector(drawing.flange_mm)].filter((p, i, all) => i === 0 || p.distanceTo(all[i - 1]!) > 0.5);
+    const lengths = knots.slice(1).map((p, i) => p.distanceTo(knots[i]!));
+    const total = lengths.reduce((sum, l) => sum + l, 0) || 1;
+    const thick = total * 0.044;
+    const radius = (along: number) => thick * (1 - 0.66 * Math.min(1, along / total));
+
+    let along = 0;
+    knots.slice(1).forEach((to, i) => {
+      const from = knots[i]!;
+      this.add(limb(from, to, radius(along), radius(along + lengths[i]!)), BODY);
+      along += lengths[i]!;
+      if (i + 2 < knots.length) this.add(ball(to, radius(along)), BODY);
+    });
+    this.pedestal(base, thick);
+
+    this.knuckles = drawing.joints.map((joint, i) => {
+      const axis = vector(joint.axis).normalize();
+      const { at, size, on_link } = this.seat(vector(joint.origin_mm), axis, knots, lengths, radius);
+      const long = on_link ? size * 0.55 : size * 1.28;
+      const wide = on_link ? size * 1.13 : size * 1.16;
+      this.add(drum(at, axis, wide, long), HOUSING);
+      const share = Math.min(1, Math.max(0, shares[i] ?? 0));
+      const ring = new THREE.MeshStandardMaterial({ color: quiet.clone().lerp(accent, Math.sqrt(share)), roughness: 0.45, emissive: accent, emissiveIntensity: 0.35 * share });
+      for (const side of on_link ? [0] : [-1, 1]) {
+        const torus = new THREE.TorusGeometry(wide * (on_link ? 1 : 0.8), wide * 0.11, 14, 48);
+        torus.applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), axis));
+        const centre = at.clone().addScaledVector(axis, side * long * 0.97);
+        torus.translate(centre.x, centre.y, centre.z);
+        this.add(torus, ring);
+      }
+      return { name: joint.name, at: at.clone() };
+    });
+    this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total));
+  }
+
+  /** See-through, where what lies behind matters more. */
+  ghost(on: boolean): void {
+    for (const child of this.group.children) {
+      const material = (child as THREE.Mesh).material as THREE.MeshStandardMaterial;
+      material.transparent = on;
+      material.opacity = on ? 0.12 : 1;
+      material.depthWrite = !on;
+      material.needsUpdate = true;
+    }
+  }
+
+  private clear(): void {
+    for (const child of this.group.children) (child as THREE.Mesh).geometry.dispose();
+    this.group.clear();
+  }
+
+  private add(geometry: THREE.BufferGeometry, material: THREE.Material): void {
+    this.group.add(new THREE.Mesh(geometry, material));
+  }
+
+  /** A joint whose axis runs along a link sits as a collar on that link, else at its origin. */
+  private seat(origin: THREE.Vector3, axis: THREE.Vector3, knots: THREE.Vector3[], lengths: number[], radius: (along: number) => number) {
+    let along = 0;
+    let near = { distance: Infinity, along: 0 };
+    let collar: { at: THREE.Vector3; along: number; gap: number } | null = null;
+    lengths.forEach((length, i) => {
+      const from = knots[i]!;
+      const to = knots[i + 1]!;
+      const way = to.clone().sub(from).divideScalar(length);
+      for (const [end, here] of [[from, along], [to, along + length]] as const) {
+        const distance = end.distanceTo(origin);
+        if (distance < near.distance) near = { distance, along: here };
+      }
+      const off = origin.clone().sub(from);
+      const reach = off.dot(way);
+      const gap = off.clone().addScaledVector(way, -reach).length();
+      if (Math.abs(way.dot(axis)) > 0.999 && gap < 1 && reach > -1 && reach < length + 1) {
+        const t = Math.min(0.5 * length, radius(along) * 2.1);
+        if (collar === null) collar = { at: from.clone().addScaledVector(way, t), along: along + t, gap };
+      }
+      along += length;
+    });
+    const found = collar as { at: THREE.Vector3; along: number } | null;
+    return found ? { at: found.at, size: radius(found.along), on_link: true } : { at: origin, size: radius(near.along), on_link: false };
+  }
+
+  private pedestal(base: THREE.Vector3, thick: number): void {
+    const profile = [[0, 0], [1.9, 0], [1.9, 0.22], [1.75, 0.3], [1.35, 0.36], [1.22, 1.1], [1.1, 1.25], [0, 1.25]].map(([r, z]) => new THREE.Vector2(r! * thick, z! * thick));
+    const lathe = new THREE.LatheGeometry(profile, 56).rotateX(Math.PI / 2).translate(base.x, base.y, base.z);
+    this.add(lathe, HOUSING);
+  }
+
+  private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number): void {
+    this.add(drum(flange.clone().addScaledVector(axis, -thick * 0.25), axis, thick * 1.05, thick * 0.28), STEEL);
+    const length = tip.distanceTo(flange);
+    if (length > 2) {
+      const way = tip.clone().sub(flange).normalize();
+      const neck = Math.min(length * 0.75, Math.max(0, length - thick * 1.2));
+      const shoulder = flange.clone().addScaledVector(way, neck);
+      this.add(limb(flange, shoulder, thick * 0.72, thick * 0.62), STEEL);
+      this.add(limb(shoulder, tip, thick * 0.3, thick * 0.14), TIP);
+    }
+    this.add(ball(tip, Math.max(6, thick * 0.24)), TIP);
+  }
+}
+
+function limb(from: THREE.Vector3, to: THREE.Vector3, r0: number, r1: number): THREE.BufferGeometry {
+  const way = to.clone().sub(from);
+  const length = Math.max(way.length(), 0.01);
+  return new THREE.CylinderGeometry(r1, r0, length, 40)
+    .translate(0, length / 2, 0)
+    .applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.divideScalar(length)))
+    .translate(from.x, from.y, from.z);
+}
+
+const ball = (at: THREE.Vector3, radius: number): THREE.BufferGeometry => new THREE.SphereGeometry(radius, 36, 24).translate(at.x, at.y, at.z);
+
+/** A cylinder along an axis with bevelled edges; `half` its half length. */
+function drum(at: THREE.Vector3, axis: THREE.Vector3, radius: number, half: number): THREE.BufferGeometry {
+  const bevel = Math.min(radius, half) * 0.2;
+  const profile = [[0, -half], [radius - bevel, -half], [radius, -half + bevel], [radius, half - bevel], [radius - bevel, half], [0, half]].map(([r, y]) => new THREE.Vector2(r, y));
+  return new THREE.LatheGeometry(profile, 48)
+    .applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), axis))
+    .translate(at.x, at.y, at.z);
+}

@@ -1,0 +1,47 @@
+// Deviation to colour: viridis (Smith & van der Walt 2015), even in lightness and safe for the colour-blind, the same
+// as in the pictures of the command. Ten anchors of the published table, linear between.
+
+import { niceStep } from "../format";
+
+export type Rgb = [number, number, number];
+
+const ANCHORS = [0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725];
+
+/** Components 0 to 1 in sRGB, at 0 to 1 along the map. */
+export function viridis(at: number): Rgb {
+  const x = Math.min(1, Math.max(0, at)) * (ANCHORS.length - 1);
+  const low = Math.min(Math.floor(x), ANCHORS.length - 2);
+  const t = x - low;
+  const a = ANCHORS[low]!;
+  const b = ANCHORS[low + 1]!;
+  const mix = (shift: number) => (((a >> shift) & 255) * (1 - t) + ((b >> shift) & 255) * t) / 255;
+  return [mix(16), mix(8), mix(0)];
+}
+
+export const css = ([r, g, b]: Rgb): string => `rgb(${Math.round(r * 255)} ${Math.round(g * 255)} ${Math.round(b * 255)})`;
+
+export interface Scale {
+  low: number;
+  high: number;
+  /** Where lines and ticks stand. */
+  levels: number[];
+}
+
+/** A scale of round numbers about the values; it reaches to the limit where that costs less than half the colours. */
+export function scaleOf(least: number, largest: number, limit: number): Scale {
+  let low = least;
+  let high = Math.max(largest, least + 1e-9);
+  const span = high - low || Math.abs(high) || 1;
+  if (limit < low && low - limit < span) low = limit;
+  if (limit > high && limit - high < span) high = limit;
+  const step = niceStep(high - low || span, 8);
+  const first = Math.floor(low / step + 1e-9) * step;
+  const last = Math.ceil(high / step - 1e-9) * step;
+  const count = Math.max(1, Math.round((last - first) / step));
+  const levels = Array.from({ length: count + 1 }, (_, i) => tidy(first + i * step));
+  return { low: levels[0]!, high: levels[count]!, levels };
+}
+
+export const along = (scale: Scale, value: number): number => (value - scale.low) / (scale.high - scale.low || 1);
+
+const tidy = (x: number): number => Number(x.toPrecision(12));

@@ -1,0 +1,141 @@
+// The stage: camera, light, ground, axes in mm, standard views. x forward, z up, lengths in mm. Draws on demand only.
+
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { niceStep } from "../format";
+import { Labels } from "./labels";
+
+export type View = "overview" | "front" | "side" | "top" | "plate";
+/** What a view looks at, and the outward normal of the plate. */
+export interface Subject {
+  box: THREE.Box3;
+  plate: { centre: THREE.Vector3; normal: THREE.Vector3; up: THREE.Vector3; size: number } | null;
+}
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(32, 1, 10, 60000);
+  readonly renderer: THREE.WebGLRenderer;
+  readonly controls: OrbitControls;
+  readonly labels: Labels;
+  readonly size = new THREE.Vector2(1, 1);
+  private readonly ground = new THREE.Group();
+  private ground_key = "";
+  private asked = false;
+
+  constructor(readonly host: HTMLElement) {
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setClearAlpha(0);
+    host.append(this.renderer.domElement);
+    this.renderer.domElement.setAttribute("aria-hidden", "true");
+    this.labels = new Labels(host);
+    this.camera.up.set(0, 0, 1);
+    this.camera.position.set(-1400, -3000, 2100);
+    this.controls = new OrbitControls(this.camera, this.renderer.domElement);
+    this.controls.target.set(500, 0, 700);
+    this.controls.minDistance = 150;
+    this.controls.maxDistance = 30000;
+    this.controls.addEventListener("change", () => this.draw());
+    this.light();
+    this.scene.add(this.ground);
+    new ResizeObserver(() => this.resize()).observe(host);
+    this.resize();
+  }
+
+  /** Draws before the next frame, once however often it is asked. */
+  draw(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.renderer.render(this.scene, this.camera);
+      this.labels.place(this.camera, this.size);
+    });
+  }
+
+  /** The ground grid under what is shown: 100 mm fine, 500 mm strong, labelled along x and y. */
+  floor(height: number, reach: number): void {
+    const half = Math.max(1000, Math.ceil(reach / 500) * 500);
+    const key = `${height} ${half} ${document.documentElement.dataset.theme}`;
+    if (key === this.ground_key) return;
+    this.ground_key = key;
+    this.ground.clear();
+    const style = getComputedStyle(document.documentElement);
+    const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
+    const step = niceStep(half, 10);
+    const lines = (every: number, skip: number, shade: string, opacity: number) => {
+      const points: number[] = [];
+      for (let x = -half; x <= half + 1; x += every) {
+        if (skip && Math.round(x) % skip === 0) continue;
+        points.push(x, -half, 0, x, half, 0, -half, x, 0, half, x, 0);
+      }
+      const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+      return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour(shade), transparent: true, opacity }));
+    };
+    this.ground.add(lines(step / 2, step * 2.5, "--scene-grid", 0.45), lines(step * 2.5, 0, "--scene-grid-strong", 0.9));
+    for (const [axis, direction] of [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]] as const) {
+      const to = new THREE.Vector3(...direction).multiplyScalar(axis === "z" ? half * 0.9 : half);
+      const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), to]);
+      this.ground.add(new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour(`--axis-${axis}`) })));
+    }
+    this.ground.position.z = height;
+    this.labels.group("ground");
+    for (let at = 500; at <= half; at += half > 2500 ? 1000 : 500) {
+      const last = at + 500 > half;
+      this.labels.add("ground", new THREE.Vector3(at, 0, height), last ? `x ${at} mm` : String(at), "tick");
+      this.labels.add("ground", new THREE.Vector3(0, at, height), last ? `y ${at} mm` : String(at), "tick");
+      if (at <= half * 0.9) this.labels.add("ground", new THREE.Vector3(0, 0, height + at), `z ${at}`, "tick");
+    }
+    this.draw();
+  }
+
+  /** Ground and axes, or none where they would stand before the plate. */
+  axes(on: boolean): void {
+    this.ground.visible = on;
+    this.labels.visible("ground", on);
+  }
+
+  look(view: View, subject: Subject): void {
+    const { box, plate } = subject;
+    const target = view === "plate" && plate ? plate.centre.clone() : box.getCenter(new THREE.Vector3());
+    const radius = view === "plate" && plate ? plate.size * 0.46 : box.getBoundingSphere(new THREE.Sphere()).radius;
+    const from: Record<View, THREE.Vector3> = {
+      overview: new THREE.Vector3(-0.62, -1, 0.42),
+      front: new THREE.Vector3(1, 0, 0.0001),
+      side: new THREE.Vector3(0, -1, 0.0001),
+      top: new THREE.Vector3(-0.0001, 0, 1),
+      plate: plate ? plate.normal.clone().addScaledVector(plate.up, 0.0001) : new THREE.Vector3(-1, 0, 0.0001),
+    };
+    const fov = (this.camera.fov * Math.PI) / 180;
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = (radius * 1.08) / Math.sin(fov / 2) / narrow;
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(from[view].normalize(), distance);
+    this.camera.near = Math.max(5, distance / 200);
+    this.camera.far = distance * 12 + 20000;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  private light(): void {
+    const sky = new THREE.HemisphereLight(0xffffff, 0x8d97a5, 1.7);
+    sky.position.set(0, 0, 1);
+    const key = new THREE.DirectionalLight(0xffffff, 2.1);
+    key.position.set(-900, -1600, 2600);
+    const rim = new THREE.DirectionalLight(0xdde8ff, 0.8);
+    rim.position.set(1800, 1500, 900);
+    this.scene.add(sky, key, rim);
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (width === 0 || height === 0) return;
+    this.size.set(width, height);
+    this.renderer.setSize(width, height);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+}

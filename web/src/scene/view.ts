@@ -1,0 +1,266 @@
+// The scene of the live page: what the answer holds, drawn on the stage; the pointer's values; a click sends the robot.
+
+import * as THREE from "three";
+import { niceStep } from "../format";
+import type { Live } from "../live";
+import { sharesOf } from "../shares";
+import type { At, Plate } from "../types";
+import { Arm } from "./arm";
+import { Arrow } from "./arrows";
+import { scaleOf, type Scale } from "./colour";
+import { Ellipsoid } from "./ellipsoid";
+import { Part } from "./part";
+import { PathView } from "./path";
+import { PlateView } from "./plate";
+import { Stage, type Subject, type View } from "./stage";
+import { VolumeView } from "./volume";
+
+export interface Show {
+  arm: boolean;
+  forces: boolean;
+  deviation: boolean;
+  /** Its parts in the plane and along the normal. */
+  parts: boolean;
+  ellipsoid: boolean;
+  lines: boolean;
+  certainty: boolean;
+  /** The largest rectangle that holds the limit. */
+  rectangle: boolean;
+  /** Times by which the deviation is drawn larger than it is. */
+  magnified: number;
+  magnified_by_hand: boolean;
+  mm_per_n: number;
+  hold_scale: boolean;
+}
+
+/** What lies under the pointer. */
+export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } | { kind: "point"; index: number } | null;
+
+/** mm in the picture for 1 µm/N. */
+export const ELLIPSOID = 8;
+
+export class SceneView {
+  readonly stage: Stage;
+  scale: Scale | null = null;
+  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, hold_scale: false };
+  onHover: (under: Under, x: number, y: number) => void = () => {};
+  onScale: () => void = () => {};
+  private readonly arm = new Arm();
+  private readonly force = new Arrow(0xd55e00);
+  private readonly deviation = new Arrow(0xcc3fa0);
+  private readonly in_plane = new Arrow(0x009e9a);
+  private readonly normal = new Arrow(0x4a6fd6);
+  private readonly ellipsoid = new Ellipsoid();
+  private readonly path = new PathView();
+  private readonly volume = new VolumeView();
+  private readonly part = new Part();
+  private readonly plates: PlateView[] = [];
+  private readonly caster = new THREE.Raycaster();
+  private looked = "";
+  private ghost = false;
+  /** Until the arm has come too, the view is not final. */
+  private new_subject = false;
+
+  constructor(private readonly host: HTMLElement, private readonly live: Live) {
+    this.stage = new Stage(host);
+    this.stage.scene.add(this.arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
+    live.listen((topic) => {
+      if (topic === "answer") this.drawAnswer();
+      if (topic === "pose") this.drawPose();
+      if (topic === "view") this.redraw();
+    });
+    this.point();
+  }
+
+  redraw(): void {
+    this.drawAnswer();
+    this.drawPose();
+  }
+
+  look(view: View): void {
+    this.ghost = view === "plate";
+    this.arm.ghost(this.ghost);
+    this.stage.axes(!this.ghost);
+    this.stage.look(view, this.subject());
+  }
+
+  // ---- The answer: plates, path, volume ----
+
+  private drawAnswer(): void {
+    const { answer, scene, setting } = this.live;
+    if (!answer || !scene || !setting) return;
+    const range = this.range();
+    if (range && !(this.show.hold_scale && this.scale)) this.scale = scaleOf(range[0], range[1], setting.limit_um);
+    const scale = this.scale;
+    const plates = answer.maps.length > 0 ? this.platesOf() : [];
+    while (this.plates.length < plates.length) {
+      const plate = new PlateView(this.stage.labels, `plate ${this.plates.length}`);
+      this.plates.push(plate);
+      this.stage.scene.add(plate.group);
+    }
+    this.plates.forEach((view, i) => {
+      const map = answer.maps[i];
+      const plate = plates[i];
+      if (!map || !plate || !scale) return view.hide();
+      if (answer.maps.length > 1 && i !== this.live.section) return view.outline(map, plate);
+      view.draw(map, plate, scale, { lines: this.show.lines, certainty: this.show.certainty, rectangle: this.show.rectangle });
+    });
+    if (scene.points && scale && !scene.box) this.path.draw(scene.points, scale, answer.paths.length > 0, this.show.deviation ? this.show.magnified / 1000 : 0);
+    else this.path.clear();
+    this.volume.draw(scene, setting.limit_um);
+    this.part.draw(answer.paths.length + answer.holes.length > 0 ? scene.plate : null);
+    this.stage.floor(0, this.reach());
+    const key = `${this.live.ask} ${scene.robot} ${answer.maps.length}`;
+    if (key !== this.looked) {
+      this.looked = key;
+      this.new_subject = true;
+      this.look("overview");
+    }
+    this.onScale();
+    this.stage.draw();
+  }
+
+  private range(): [number, number] | null {
+    const { answer, scene } = this.live;
+    const spans = answer!.maps.flatMap((m) => [m.min_in_plane_um, m.max_in_plane_um]).concat(answer!.volumes.flatMap((v) => [v.best?.in_plane_um ?? null, v.worst?.in_plane_um ?? null]));
+    const values = spans.length > 0 ? spans : (scene!.points?.columns.in_plane_um ?? []);
+    const known = values.filter((v): v is number => v !== null && v !== undefined);
+    return known.length > 0 ? [known.reduce((a, b) => Math.min(a, b)), known.reduce((a, b) => Math.max(a, b))] : null;
+  }
+
+  /** One plate a map. */
+  private platesOf(): Plate[] {
+    const scene = this.live.scene;
+    if (!scene) return [];
+    return scene.sections.length > 0 ? scene.sections.map((s) => s.plate) : [scene.plate];
+  }
+
+  // ---- The pose: arm, arrows, ellipsoid ----
+
+  private drawPose(): void {
+    const { pose, posture, load_case, setting } = this.live;
+    const drawing = pose?.drawings[posture];
+    const answer = pose?.answer.postures[posture];
+    this.stage.labels.group("arm");
+    this.arm.group.visible = this.show.arm;
+    // Where it cannot stand, it waits faintly where it stood.
+    if (!drawing) this.arm.ghost(true);
+    for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
+    if (drawing && this.new_subject) {
+      this.new_subject = false;
+      this.look("overview");
+      this.magnify();
+    }
+    if (drawing && answer && setting) {
+      const style = getComputedStyle(document.documentElement);
+      const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
+      const shares = this.shares();
+      this.arm.draw(drawing, shares, colour("--joint-quiet"), colour("--joint-loud"));
+      this.arm.ghost(this.ghost);
+      const most = shares.indexOf(Math.max(...shares));
+      if (this.show.arm)
+        this.arm.knuckles.forEach(({ name, at }, i) => {
+          const told = shares[i]! >= 0.1;
+          this.stage.labels.add("arm", at, told ? `${name} ${Math.round(100 * shares[i]!)} %` : name, i === most && told ? "joint loud" : "joint");
+        });
+      const tip = drawing.tool_mm;
+      const size = Math.max(7, this.reach() * 0.008);
+      const force = setting.cases_n[load_case - 1];
+      if (this.show.forces && force) {
+        this.force.draw(tip, new THREE.Vector3(...force).multiplyScalar(this.show.mm_per_n), size, true);
+        if (this.force.group.visible) this.stage.labels.add("arm", this.force.start, `force ${Math.hypot(...force).toFixed(1)} N`, "force");
+      }
+      const moved = answer.deviation_um;
+      if (this.show.deviation && moved) {
+        this.deviation.draw(tip, new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000), size);
+        // The tool stands against the part: its axis is the normal, everywhere.
+        const normal = new THREE.Vector3(...drawing.tool_axis);
+        const drawn = new THREE.Vector3(...moved).multiplyScalar(this.show.magnified / 1000);
+        const out = normal.clone().multiplyScalar(drawn.dot(normal));
+        if (this.show.parts) {
+          this.in_plane.draw(tip, drawn.clone().sub(out), size * 0.7);
+          this.normal.draw(tip, out, size * 0.7);
+        }
+        if (this.deviation.group.visible) this.stage.labels.add("arm", this.deviation.end, `${Math.hypot(...moved).toFixed(0)} µm`, "moved");
+      }
+      if (this.show.ellipsoid) this.ellipsoid.draw(tip, answer.stiffness, ELLIPSOID);
+    }
+    this.stage.draw();
+  }
+
+  /** Draws deviations so large that they are seen, by a round number, until the user says how large. */
+  private magnify(): void {
+    const worst = this.live.worst;
+    if (this.show.magnified_by_hand || !worst || !(worst.full_um > 0)) return;
+    this.show.magnified = Math.min(1e5, Math.max(100, niceStep((0.16 * this.reach()) / (worst.full_um / 1000), 1)));
+    this.onScale();
+  }
+
+  /** Shares of the joints in the deviation that is shown, as fractions. */
+  private shares(): number[] {
+    const { pose, posture, load_case } = this.live;
+    const shown = pose?.in_plane[posture]?.[load_case - 1];
+    const parts = sharesOf(this.live) ?? [];
+    return (pose?.answer.joint_names ?? []).map((_, i) => (shown && shown.in_plane_um > 0 ? Math.max(0, (parts[i] ?? 0) / shown.in_plane_um) : 0));
+  }
+
+  // ---- Sizes and pointer ----
+
+  private reach(): number {
+    const size = this.subject().box.getSize(new THREE.Vector3());
+    return Math.max(size.x, size.y, size.z);
+  }
+
+  private subject(): Subject {
+    const { scene, pose, posture } = this.live;
+    const box = new THREE.Box3();
+    const drawing = pose?.drawings[posture];
+    box.expandByPoint(new THREE.Vector3());
+    drawing?.links_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
+    scene?.points?.xyz_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
+    if (scene?.box) box.union(this.volume.extent(scene.box));
+    const plates = this.platesOf();
+    for (const plate of plates) plate.corners_mm.forEach((p) => box.expandByPoint(new THREE.Vector3(...p)));
+    const plate = plates[this.live.section] ?? null;
+    if (!plate) return { box, plate: null };
+    const [a, b] = [new THREE.Vector3(...plate.corners_mm[0]!), new THREE.Vector3(...plate.corners_mm[2]!)];
+    return { box, plate: { centre: new THREE.Vector3(...plate.centre_mm), normal: new THREE.Vector3(...plate.normal_axis), up: new THREE.Vector3(...plate.z_axis), size: a.distanceTo(b) } };
+  }
+
+  private point(): void {
+    const canvas = this.stage.renderer.domElement;
+    let down: [number, number] | null = null;
+    canvas.addEventListener("pointerdown", (e) => (down = [e.clientX, e.clientY]));
+    canvas.addEventListener("pointermove", (e) => this.onHover(e.buttons ? null : this.under(e), e.clientX, e.clientY));
+    canvas.addEventListener("pointerleave", () => this.onHover(null, 0, 0));
+    canvas.addEventListener("pointerup", (e) => {
+      if (!down || Math.hypot(e.clientX - down[0], e.clientY - down[1]) > 4) return;
+      const under = this.under(e);
+      const at = under && this.placeOf(under);
+      if (at) this.live.goTo(at);
+    });
+  }
+
+  private placeOf(under: NonNullable<Under>): At | null {
+    if (under.kind === "point") return { point: under.index };
+    return this.live.onPlate(under.y_mm, under.z_mm);
+  }
+
+  private under(event: PointerEvent): Under {
+    const box = this.host.getBoundingClientRect();
+    this.caster.setFromCamera(new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.stage.camera);
+    if (this.path.beads) {
+      const hit = this.caster.intersectObject(this.path.beads)[0];
+      if (hit?.instanceId !== undefined) return { kind: "point", index: hit.instanceId };
+    }
+    for (const plate of this.plates) {
+      if (!plate.group.visible || !plate.surface.visible) continue;
+      const hit = this.caster.intersectObject(plate.surface)[0];
+      if (!hit) continue;
+      const index = plate.nearest(...plate.place(hit.point));
+      const grid = this.live.map!.grid;
+      return { kind: "map", index, y_mm: grid.y_mm[index % grid.y_mm.length]!, z_mm: grid.z_mm[Math.floor(index / grid.y_mm.length)]! };
+    }
+    return null;
+  }
+}

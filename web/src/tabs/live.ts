@@ -1,0 +1,33 @@
+// The live view: settings on the left, the scene in the middle under its verdict, what is known of the point on the right.
+
+import { controls } from "../controls/controls";
+import { h } from "../dom";
+import type { Live } from "../live";
+import { branches } from "../panels/branches";
+import { cases } from "../panels/cases";
+import { joints } from "../panels/joints";
+import { matrix } from "../panels/matrix";
+import { notes } from "../panels/notes";
+import { point } from "../panels/point";
+import { stand } from "../panels/stand";
+import { shares } from "../panels/shares";
+import { verdict } from "../panels/verdict";
+import { overlay } from "../scene/overlay";
+import { SceneView } from "../scene/view";
+import type { Tab } from "./tab";
+
+export function liveTab(live: Live): Tab & { view: SceneView } {
+  const host = h("div", { class: "stage", tabindex: "0", role: "group", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
+  const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), stand(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
+  live.listen((topic) => topic === "moving" && right.setAttribute("aria-busy", String(live.moving)));
+  const root = h(
+    "div",
+    { class: "live" },
+    h("aside", { class: "left", "aria-label": "Settings" }, controls(live)),
+    h("div", { class: "middle" }, verdict(live), host),
+    right,
+  );
+  const view = new SceneView(host, live);
+  host.append(overlay(view, live));
+  return { id: "live", title: "Live", root, view, shown: () => view.redraw() };
+}

@@ -1,0 +1,124 @@
+// The study as text: checked while it is typed, saved as it stands, comments and all.
+
+import { api, Refused } from "../server";
+import { fill, h } from "../dom";
+import type { Live } from "../live";
+import { Newest } from "../newest";
+import type { Checked, Problem } from "../types";
+import type { Tab } from "./tab";
+
+export function studyTab(live: Live): Tab {
+  const lines = h("div", { class: "lines", "aria-hidden": "true" });
+  const text = h("textarea", { id: "study-text", spellcheck: "false", wrap: "off", "aria-label": "Study file, TOML", "aria-describedby": "study-problems" });
+  const problems = h("div", { class: "problems", id: "study-problems", role: "status" });
+  const save = h("button", { type: "button", class: "primary" }, "Save");
+  const undo = h("button", { type: "button", class: "quiet" }, "Back to the file");
+  const name = h("h1", {});
+  const message = h("p", { class: "note", role: "status" });
+  let checked: Checked | null = null;
+
+  const number = (marked: Problem[]) => {
+    const count = text.value.split("\n").length;
+    const at = new Map(marked.filter((p) => p.line !== null).map((p) => [p.line!, p.message]));
+    fill(lines, ...Array.from({ length: count }, (_, i) => (at.has(i + 1) ? h("b", { title: at.get(i + 1)! }, i + 1) : h("span", {}, i + 1))));
+    lines.scrollTop = text.scrollTop;
+  };
+  const told = (list: Problem[]) => {
+    number(list);
+    fill(
+      problems,
+      list.length === 0
+        ? h("p", { class: "fine" }, "✓ The study is sound.")
+        : [
+            h("p", { class: "wrong" }, list.length === 1 ? "1 problem" : `${list.length} problems`),
+            h("ul", {}, list.map((p) => h("li", {}, h("button", { type: "button", class: "link", onclick: () => jump(p) }, p.line === null ? "study" : `line ${p.line}${p.column === null ? "" : `, column ${p.column}`}`), " ", p.message, p.hint ? h("span", { class: "hint" }, p.hint) : null))),
+          ],
+    );
+  };
+  const jump = (p: Problem) => {
+    if (p.line === null) return;
+    const rows = text.value.split("\n");
+    const from = rows.slice(0, p.line - 1).reduce((sum, row) => sum + row.length + 1, 0);
+    text.focus();
+    text.setSelectionRange(from + (p.column ?? 1) - 1, from + rows[p.line - 1]!.length);
+    text.scrollTop = Math.max(0, (p.line - 8) * 20);
+  };
+  const checks = new Newest<string, Checked>({
+    work: (value, signal) => api.check(value, signal),
+    done: (answer, _, settled) => {
+      if (!settled) return;
+      checked = answer;
+      told(answer.problems);
+    },
+    failed: (error) => void (message.textContent = error instanceof Error ? error.message : String(error)),
+  });
+  const edited = () => {
+    checked = null;
+    buttons();
+    number([]);
+    checks.submit(text.value);
+  };
+  const buttons = () => {
+    const study = live.study;
+    name.textContent = study ? study.file.split("/").at(-1)! : "Study";
+    const same = text.value === study?.text;
+    save.disabled = !study?.writable || same;
+    undo.disabled = same;
+    message.textContent = study && !study.writable ? "An example study: it can be changed and answered here, not saved. Start `armill serve` in your own folder to save." : same ? "" : "Changed, not saved.";
+  };
+  const store = async () => {
+    try {
+      const study = await api.save(text.value, live.study!.version);
+      live.study = study;
+      live.use(study.text, study.asks);
+      buttons();
+      message.textContent = "Saved.";
+    } catch (error) {
+      if (error instanceof Refused && error.kind === "conflict") return conflict(error.message);
+      if (error instanceof Refused && error.problems.length > 0) told(error.problems);
+      message.textContent = error instanceof Error ? error.message : String(error);
+    }
+  };
+  const conflict = (why: string) => {
+    const theirs = h("button", { type: "button", class: "link", onclick: () => void reload() }, "Take the file's text");
+    const mine = h("button", { type: "button", class: "link", onclick: () => void overwrite() }, "Save mine over it");
+    fill(message, `${why} `, theirs, " or ", mine);
+  };
+  const reload = async () => {
+    live.open(await api.study());
+    text.value = live.text;
+    edited();
+  };
+  const overwrite = async () => {
+    live.study = { ...live.study!, version: (await api.study()).version };
+    await store();
+  };
+
+  text.addEventListener("input", edited);
+  text.addEventListener("scroll", () => void (lines.scrollTop = text.scrollTop));
+  text.addEventListener("keydown", (e) => {
+    if (e.key === "s" && (e.ctrlKey || e.metaKey)) {
+      e.preventDefault();
+      if (!save.disabled) void store();
+    }
+  });
+  save.addEventListener("click", () => void store());
+  undo.addEventListener("click", () => {
+    text.value = live.study?.text ?? "";
+    edited();
+  });
+  const root = h("div", { class: "page study-page" }, h("header", { class: "page-head" }, name, message, undo, save), h("div", { class: "editor" }, lines, text), problems);
+  return {
+    id: "study",
+    title: "Study",
+    root,
+    shown: () => {
+      if (text.value !== live.text) text.value = live.text;
+      edited();
+    },
+    // What is sound goes to the live view by itself.
+    left: () => {
+      if (text.value !== live.text && checked && checked.problems.length === 0) live.use(text.value, checked.asks);
+    },
+  };
+}

@@ -1,0 +1,32 @@
+// Which table of load tests the compliances are to be found from: one of the folder's.
+
+import { api } from "../server";
+import { fill, h } from "../dom";
+
+export function testsDialog(chosen: (name: string) => void): { root: HTMLDialogElement; ask: () => Promise<void> } {
+  const select = h("select", { id: "tests-file" });
+  const go = h("button", { type: "submit", class: "primary" }, "Start");
+  const none = h("p", { class: "note" }, "There is no .csv in the study's folder yet: drop the table of tests in Files first.");
+  const root: HTMLDialogElement = h(
+    "dialog",
+    { class: "ask", "aria-labelledby": "tests-name" },
+    h(
+      "form",
+      { method: "dialog", onsubmit: () => chosen(select.value) },
+      h("h2", { id: "tests-name" }, "Table of load tests"),
+      h("label", { for: "tests-file", class: "visually-hidden" }, "File"),
+      select,
+      none,
+      h("div", { class: "ask-buttons" }, h("button", { type: "button", class: "quiet", onclick: () => root.close() }, "Cancel"), go),
+    ),
+  );
+  const ask = async () => {
+    const { files } = await api.files();
+    const tables = files.filter((f) => f.name.endsWith(".csv") && !f.name.includes("/"));
+    fill(select, ...tables.map((f) => h("option", { value: f.name }, f.name)));
+    select.hidden = go.disabled = tables.length === 0;
+    none.hidden = tables.length > 0;
+    root.showModal();
+  };
+  return { root, ask };
+}

@@ -1,0 +1,69 @@
+// What the server answers, by the names that the page uses. The shapes are the server's own: `api.d.ts` is made from
+// its OpenAPI description (`npm run types`). Typed here is only what that leaves open.
+
+import type { components } from "./api";
+
+type Schemas = components["schemas"];
+
+export type Vec3 = [number, number, number];
+
+export type Problem = Schemas["Problem"];
+export type Wrong = Schemas["Wrong"];
+export type Study = Schemas["StudyOnDisk"];
+export type Ask = Schemas["OutlinedAsk"];
+export type Checked = Schemas["OutlineAnswer"];
+export type Changed = Schemas["ChangedAnswer"];
+export type Change = Schemas["ChangedValue"];
+
+// openapi-typescript gets lists of fixed length within such lists wrong: these few are set right by hand.
+type Region = Omit<Schemas["RegionAnswer"], "rectangle_mm"> & { rectangle_mm: [[number, number], [number, number]] | null };
+export type MapAnswer = Omit<Schemas["MapAnswer"], "region"> & { region: Region };
+export type Plate = Omit<Schemas["PlateInScene"], "corners_mm"> & { corners_mm: [Vec3, Vec3, Vec3, Vec3] };
+type Box = Omit<Schemas["BoxInScene"], "sides_mm"> & { sides_mm: [Vec3, Vec3, Vec3] };
+type Stiffness = Omit<Schemas["StiffnessAnswer"], "principal_direction" | "stiffness"> & { principal_direction: [Vec3, Vec3, Vec3] };
+export type Posture = Omit<Schemas["PostureAnswer"], "compliance" | "stiffness" | "jacobian" | "loaded_compliance"> & { compliance: number[][] | null; stiffness: Stiffness | null };
+
+export type Answer = Omit<Schemas["StudyAnswer"], "maps"> & { maps: MapAnswer[] };
+export type Point = Schemas["PointAnswer"];
+export type Setting = Schemas["SettingAnswer"];
+export type Values = Schemas["ValuesAnswer"];
+/** A map comes with its grid wherever it is asked for alone. */
+export type MapGrid = Schemas["GridAnswer"];
+
+export type At = Schemas["Place"];
+export type ArmDrawing = Schemas["DrawnPosture"];
+/** Uncertainty, shares and permissible forces come where the posture has a named branch. */
+export type CaseValues = Schemas["CaseAnswer"] & {
+  in_plane_u_um?: number | null;
+  share_um?: number[] | null;
+  permissible_along_load_n?: number | null;
+  permissible_any_direction_n?: number | null;
+};
+export type Pose = Omit<Schemas["PosturesAnswer"], "in_plane" | "answer"> & {
+  answer: Omit<Schemas["PoseAnswer"], "postures"> & { postures: Posture[] };
+  /** Of each posture, of each case; null where the arm finds no rest. */
+  in_plane: (CaseValues | null)[][];
+};
+
+export type ScenePoints = Omit<Schemas["PointsInScene"], "columns"> & {
+  /** Of the table of the ask; a path has all of these. */
+  columns: {
+    in_plane_um: (number | null)[];
+    normal_um?: (number | null)[];
+    full_um?: (number | null)[];
+    along_um?: (number | null)[];
+    cross_um?: (number | null)[];
+  };
+};
+export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections" | "box"> & {
+  plate: Plate;
+  sections: { label: string; plate: Plate }[];
+  points: ScenePoints | null;
+  box: Box | null;
+};
+
+export type RobotRow = Schemas["RobotRow"];
+export type Picture = Schemas["PictureAnswer"];
+export type Job = Schemas["JobAnswer"];
+export type StoredFile = Schemas["FileRow"];
+export type TakenIn = Schemas["TakenIn"];

@@ -1,0 +1,92 @@
+// A real Chromium against a real server: `armill serve` on a copy of the paper's study, in a folder of its own.
+// Env ARMILL_BIN: the armill binary. Env CHROMIUM: the browser, Debian's if left out. Env ARMILL_PAGE=dist: the page of
+// this folder in place of the one that the binary holds.
+
+import { spawn } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { chromium } from "playwright-core";
+import { before } from "../../dev/server.mjs";
+
+export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
+const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+
+/** `edit`: what the study is to be instead. */
+export async function serve(edit = (text) => text) {
+  const binary = process.env.ARMILL_BIN;
+  if (!binary) throw new Error("ARMILL_BIN names no armill binary");
+  const folder = mkdtempSync(join(tmpdir(), "armill-e2e-"));
+  writeFileSync(join(folder, "study.toml"), edit(readFileSync(STUDY, "utf8")));
+  const child = spawn(binary, ["serve", folder, "--no-open"], { stdio: ["ignore", "pipe", "inherit"] });
+  const url = await new Promise((done, fail) => {
+    createInterface({ input: child.stdout }).once("line", done);
+    child.once("exit", (code) => fail(new Error(`armill serve ended with ${code}`)));
+  });
+  const page = process.env.ARMILL_PAGE === "dist" ? await before(url) : null;
+  const stop = () =>
+    new Promise((done) => {
+      page?.stop();
+      child.removeAllListeners("exit");
+      child.once("exit", (code) => {
+        rmSync(folder, { recursive: true, force: true });
+        done(code);
+      });
+      child.kill("SIGTERM");
+    });
+  return { url: page?.url ?? url, folder, stop };
+}
+
+export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+
+/** The server as a program asks it. */
+export function client(url) {
+  const at = new URL(url);
+  const token = at.searchParams.get("token");
+  return async (method, path, body) => {
+    const response = await fetch(new URL(path, at), {
+      method,
+      headers: { Authorization: `Bearer ${token}`, "Content-Type": "application/json" },
+      ...(body === undefined ? {} : { body: JSON.stringify(body) }),
+    });
+    if (!response.ok) throw new Error(`${method} ${path}: ${response.status} ${await response.text()}`);
+    return response.json();
+  };
+}
+
+/** A page on the server, with whatever the browser complained about. */
+export async function open(browser, url, { width = 1280, height = 800, dark = false, scale = 1, answers = true } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", deviceScaleFactor: scale });
+  const page = await context.newPage();
+  page.complaints = [];
+  page.on("pageerror", (error) => page.complaints.push(String(error)));
+  page.on("console", (message) => {
+    const expected = /GPU stall|status of 4\d\d|GL Driver/.test(message.text());
+    if (message.type() === "error" && !expected) page.complaints.push(message.text());
+  });
+  page.on("request", (request) => {
+    const to = new URL(request.url());
+    if (to.protocol.startsWith("http") && to.host !== new URL(url).host) page.complaints.push(`asked ${to.href}`);
+  });
+  await page.goto(url);
+  if (answers) await settled(page);
+  return page;
+}
+
+/** The newest answer and the pose are on the screen. */
+export async function settled(page) {
+  await page.waitForTimeout(60);
+  await page.waitForFunction(
+    () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && !document.querySelector(".pace.busy") && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
+    null,
+    { timeout: 60_000 },
+  );
+  await page.waitForTimeout(60);
+}
+
+/** A micrometre value as the page writes it. */
+export function um(value) {
+  const text = Math.abs(value).toFixed(Math.abs(value) < 99.95 ? 1 : 0);
+  return (value < 0 && Number(text) !== 0 ? "−" : "") + text;
+}

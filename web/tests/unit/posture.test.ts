@@ -1,0 +1,31 @@
+import { expect, test } from "vitest";
+import { choosePosture, decidingCase, envelope, fits } from "../../src/posture";
+import type { CaseValues, Pose } from "../../src/types";
+
+const values = (...in_plane: number[]): CaseValues[] => in_plane.map((in_plane_um) => ({ in_plane_um, normal_um: 0, full_um: in_plane_um }));
+const pose = (...rows: [string, boolean, number][]): Pose =>
+  ({
+    answer: { postures: rows.map(([branch, within_limits]) => ({ branch, within_limits })) },
+    in_plane: rows.map(([, , um]) => values(um)),
+  }) as unknown as Pose;
+
+test("the largest case decides, counted from 1", () => {
+  expect(decidingCase(values(3, 9, 9, 1))).toBe(2);
+  expect(envelope([])).toBeNull();
+  expect(decidingCase([])).toBeNull();
+});
+
+test("a branch fits where all its words are there", () => {
+  expect(fits("front elbow-up flip", "front elbow-up")).toBe(true);
+  expect(fits("front elbow-up no-flip", "front flip")).toBe(false);
+  expect(fits(null, "front")).toBe(false);
+});
+
+test("wanted by name, else asked by the study, else the best; inside limits before outside", () => {
+  const here = pose(["front elbow-up flip", true, 159], ["front elbow-down flip", false, 63], ["back elbow-up flip", true, 120]);
+  expect(choosePosture(here, "front elbow-down flip", "front elbow-up")).toBe(1);
+  expect(choosePosture(here, null, "front elbow-up")).toBe(0);
+  expect(choosePosture(here, "gone", "back")).toBe(2);
+  expect(choosePosture(here, null, "best")).toBe(2);
+  expect(choosePosture(pose(), null, "best")).toBe(0);
+});
