@@ -2566,6 +2566,8 @@ export interface components {
         BudgetAnswer: {
             /** @description Name of the path. */
             ask: string;
+            /** @description Posture asked for: words of a branch, or `best`. */
+            branch: string;
             /**
              * Format: double
              * @description Nominal radius of the circle.
@@ -2592,7 +2594,7 @@ export interface components {
              * @description Load cases that the deviation under load was predicted for.
              */
             load_cases: number;
-            /** @description Least and greatest deviation under load of all of them, from the nominal circle. */
+            /** @description Least and greatest deviation that the load makes of all of them, from the nominal circle. */
             load_envelope_um: [
                 number,
                 number
@@ -2604,6 +2606,8 @@ export interface components {
             repeatability_um: number | null;
             /** @description What they make together. */
             sums: components["schemas"]["SumsAnswer"];
+            /** @description What is predicted of the path without load beside what the ball-bar saw; none where either is missing. */
+            without_load: components["schemas"]["WithoutLoadAnswer"] | null;
             /** @description The part beside them; none where it was not measured. */
             part: components["schemas"]["PartAnswer"] | null;
             /** @description What a user must know, each a sentence. */
@@ -2648,7 +2652,7 @@ export interface components {
             rms_um: number;
             /**
              * Format: double
-             * @description Standard uncertainty of the bias, where it is known.
+             * @description Standard uncertainty of the bias, root mean square round the circle, where it is known.
              */
             bias_u_um: number | null;
             /**
@@ -2701,6 +2705,11 @@ export interface components {
             with_scatter_um: number;
             /**
              * Format: double
+             * @description Standard uncertainty of the biases together, root mean square round the circle, as far as it is known.
+             */
+            u_um: number;
+            /**
+             * Format: double
              * @description Root of the squares of `load_um` and `unloaded_um`.
              */
             root_sum_square_um: number;
@@ -2709,6 +2718,49 @@ export interface components {
              * @description `load_um` and `unloaded_um` added plainly, as the paper does.
              */
             plain_um: number;
+        };
+        /** @description The path without load, predicted (gravity, backlash, geometry) and measured the way it was cut. */
+        WithoutLoadAnswer: {
+            /**
+             * Format: double
+             * @description Largest predicted by size, from its datum.
+             */
+            predicted_um: number;
+            /**
+             * Format: double
+             * @description Where.
+             */
+            predicted_at_deg: number;
+            /**
+             * Format: double
+             * @description Root mean square.
+             */
+            predicted_rms_um: number;
+            /**
+             * Format: double
+             * @description Largest measured by size, from its datum.
+             */
+            measured_um: number;
+            /**
+             * Format: double
+             * @description Where.
+             */
+            measured_at_deg: number;
+            /**
+             * Format: double
+             * @description Root mean square.
+             */
+            measured_rms_um: number;
+            /**
+             * Format: double
+             * @description How much of the measured mean square is predicted.
+             */
+            explained_percent: number;
+            /**
+             * Format: double
+             * @description How alike the shapes are.
+             */
+            likeness_percent: number | null;
         };
         /** @description The part beside its prediction. */
         PartAnswer: {
@@ -2774,6 +2826,11 @@ export interface components {
             turns_as_good_percent: number | null;
             /** @description What is not explained. */
             residual: components["schemas"]["ResidualAnswer"];
+            /**
+             * Format: double
+             * @description Waves of less amplitude are none: they have no phase, and no share.
+             */
+            least_wave_um: number;
             /** @description Wave by wave. */
             waves: components["schemas"]["WaveAnswer"][];
         };
@@ -2796,9 +2853,9 @@ export interface components {
             largest_at_deg: number;
             /**
              * Format: double
-             * @description Root mean square beyond all known scatter: what has another cause.
+             * @description Root mean square beyond all known scatter and uncertainty: what has another cause.
              */
-            beyond_scatter_um: number;
+            beyond_known_um: number;
         };
         /** @description One wave of the part and of its prediction. */
         WaveAnswer: {
@@ -2814,9 +2871,9 @@ export interface components {
             measured_um: number;
             /**
              * Format: double
-             * @description Its phase: a crest lies at this over `waves`.
+             * @description Its phase: a crest lies at this over `waves`; none where there is no wave.
              */
-            measured_phase_deg: number;
+            measured_phase_deg: number | null;
             /**
              * Format: double
              * @description Amplitude of the prediction.
@@ -2824,14 +2881,14 @@ export interface components {
             predicted_um: number;
             /**
              * Format: double
-             * @description Its phase.
+             * @description Its phase, likewise.
              */
-            predicted_phase_deg: number;
+            predicted_phase_deg: number | null;
             /**
              * Format: double
-             * @description Phase of the prediction beyond that of the part.
+             * @description Phase of the prediction beyond that of the part, where both are there.
              */
-            phase_difference_deg: number;
+            phase_difference_deg: number | null;
             /**
              * Format: double
              * @description How much of this wave of the part is explained; none where there is no wave.
@@ -3349,13 +3406,18 @@ export interface components {
             /** @description `deg` or `mm`. */
             unit: string;
         };
-        /** @description A deviation seen from the plane. */
+        /** @description A deviation seen from the plane; what is not told of such a posture is `null`. */
         CaseAnswer: {
             /**
              * Format: double
              * @description Length of its part in the plane.
              */
             in_plane_um: number;
+            /**
+             * Format: double
+             * @description Its standard uncertainty, from compliances, load and tool length; of postures with a name.
+             */
+            in_plane_u_um: number | null;
             /**
              * Format: double
              * @description Along the outward normal.
@@ -3366,6 +3428,18 @@ export interface components {
              * @description Its length.
              */
             full_um: number;
+            /** @description Share of each of `answer.shares_of` in the in-plane deviation; they add up to it. Of postures with a name. */
+            share_um: number[] | null;
+            /**
+             * Format: double
+             * @description Force that keeps the limit in the direction of this case; none where it has no force or moves nothing in the plane.
+             */
+            permissible_along_load_n: number | null;
+            /**
+             * Format: double
+             * @description Force that keeps the limit whatever its direction.
+             */
+            permissible_any_direction_n: number | null;
         };
         /** @description What can be drawn of one ask, base. */
         SceneAnswer: {

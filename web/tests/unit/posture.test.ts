@@ -2,7 +2,16 @@ import { expect, test } from "vitest";
 import { choosePosture, decidingCase, envelope, fits } from "../../src/posture";
 import type { CaseValues, Pose } from "../../src/types";
 
-const values = (...in_plane: number[]): CaseValues[] => in_plane.map((in_plane_um) => ({ in_plane_um, normal_um: 0, full_um: in_plane_um }));
+const values = (...in_plane: number[]): CaseValues[] =>
+  in_plane.map((in_plane_um) => ({
+    in_plane_um,
+    in_plane_u_um: null,
+    normal_um: 0,
+    full_um: in_plane_um,
+    share_um: null,
+    permissible_along_load_n: null,
+    permissible_any_direction_n: null,
+  }));
 const pose = (...rows: [string, boolean, number][]): Pose =>
   ({
     answer: { postures: rows.map(([branch, within_limits]) => ({ branch, within_limits })) },
