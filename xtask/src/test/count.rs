@@ -122,7 +122,10 @@ mod tests {
             counted("      Tests  1 failed | 29 passed | 2 skipped (32)"),
             "29 passed, 1 failed, 2 skipped"
         );
-        assert_eq!(counted(" Test Files  5 passed (5)"), "0 passed, 0 failed, 0 skipped");
+        assert_eq!(
+            counted(" Test Files  5 passed (5)"),
+            "0 passed, 0 failed, 0 skipped"
+        );
         assert_eq!(counted("ℹ pass 37"), "37 passed, 0 failed, 0 skipped");
         assert_eq!(counted("# fail 2"), "0 passed, 2 failed, 0 skipped");
         assert_eq!(counted("ℹ skipped 1"), "0 passed, 0 failed, 1 skipped");

@@ -27,7 +27,8 @@ use std::process::{Command, ExitCode};
 use step::{Outcome, Step};
 
 /// What `--help` says.
-pub const ABOUT: &str = "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser.";
+pub const ABOUT: &str =
+    "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser.";
 
 /// What makes up "all tests", in order. A new step, an installation included, is one line here.
 fn steps() -> Vec<Step> {

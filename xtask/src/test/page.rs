@@ -48,8 +48,14 @@ fn npm(arguments: &[&str]) -> Command {
 /// Asks Debian for these packages, and says so.
 fn install(packages: &[&str]) {
     eprintln!("installing for the tests of the page: {}", packages.join(", "));
-    for arguments in [vec!["update"], [vec!["install", "-y"], packages.to_vec()].concat()] {
-        let done = Command::new("apt-get").args(&arguments).stdout(Stdio::null()).status();
+    for arguments in [
+        vec!["update"],
+        [vec!["install", "-y"], packages.to_vec()].concat(),
+    ] {
+        let done = Command::new("apt-get")
+            .args(&arguments)
+            .stdout(Stdio::null())
+            .status();
         if !done.is_ok_and(|status| status.success()) {
             eprintln!(
                 "apt-get {} failed: install {} by hand",
@@ -64,6 +70,9 @@ fn install(packages: &[&str]) {
 /// Whether a program is there.
 fn starts(program: &str) -> bool {
     let mut command = Command::new(program);
-    command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
+    command
+        .arg("--version")
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())
 }
