@@ -41,7 +41,8 @@ pub fn steps() -> Vec<Step> {
 /// `npm` in the folder of the page.
 fn npm(arguments: &[&str]) -> Command {
     let mut command = Command::new("npm");
-    command.args(arguments).current_dir("web");
+    // Summaries are read: without colours.
+    command.args(arguments).current_dir("web").env("NO_COLOR", "1");
     command
 }
 

@@ -8,7 +8,7 @@
 //! `cell`: the arm, its ring and its circles; `found`: one experiment, from noise to estimates.
 
 // A panic is how a test says that its claim is false; helper functions too.
-#![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 
 #[path = "../arms/mod.rs"]
 mod arms;
