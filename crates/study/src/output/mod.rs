@@ -264,7 +264,7 @@ pub(crate) fn points_table(study: &Study, done: &Done<'_>) -> Result<Table, Stud
 /// The table of one ask as the CSV that is written of it.
 ///
 /// # Errors
-/// As of [`points_table`].
+/// A table that cannot be made, which would be a fault of armill.
 pub fn table_csv(study: &Study, done: &Done<'_>) -> Result<Vec<u8>, StudyError> {
     Ok(csv::write(&points_table(study, done)?))
 }
