@@ -41,10 +41,20 @@ pub fn trace(bytes: &[u8]) {
         Err(problems) => return refused(&problems),
         Ok(found) => found,
     };
-    assert!(found.runs.iter().all(|run| run.points.len() == run.lines.len() && !run.points.is_empty()));
+    assert!(
+        found
+            .runs
+            .iter()
+            .all(|run| run.points.len() == run.lines.len() && !run.points.is_empty())
+    );
     let runs: Vec<_> = found.runs.into_iter().map(|run| run.points).collect();
     if let Ok(found) = path_accuracy(&runs[0], &runs) {
         assert!(found.points.iter().all(|point| point.offset.norm().is_finite()));
-        assert!(found.points.iter().all(|point| point.repeatability.is_none_or(f64::is_finite)));
+        assert!(
+            found
+                .points
+                .iter()
+                .all(|point| point.repeatability.is_none_or(f64::is_finite))
+        );
     }
 }

@@ -331,11 +331,11 @@ pub fn forces(bytes: &[u8]) {
 pub fn profile(bytes: &[u8]) {
     let plain = profile::Wanted {
         unit: Some(profile::LengthUnit::Millimetre),
-        radius_mm: None,
+        ..profile::Wanted::default()
     };
     let by_deviation = profile::Wanted {
-        unit: None,
         radius_mm: Some(25.0),
+        ..profile::Wanted::default()
     };
     for wanted in [profile::Wanted::default(), plain, by_deviation] {
         let found = match profile::read("bore", bytes, &wanted) {
