@@ -1,6 +1,7 @@
 //! Arms for tests and benches, typed from their sources.
 #![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
+pub mod circles;
 pub mod other;
 
 use std::sync::LazyLock;

@@ -4,62 +4,30 @@
 use std::f64::consts::TAU;
 
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question, evaluate};
+use armill_core::kernel::{Question, evaluate};
 use armill_core::load::{LoadCases, LoadFrame, PathLoad};
 use armill_core::map::{along_path, radial_deviations};
 use armill_core::measure::ballbar::joints::{
     Asked, Circle, Domain, Followed, Gaps, Normal, Observed, PlanAsked, follow, gaps, propose,
 };
 use armill_core::measure::ballbar::{CircularTest, Direction, Run};
-use armill_core::nalgebra::{Point2, Point3, Translation3, UnitQuaternion, Vector3};
-use armill_core::path::{Placing, Shape, Track};
+use armill_core::nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use armill_core::path::{Shape, Track};
 use armill_core::robot::forward::forward;
 use armill_core::robot::inverse::tool_on;
-use armill_core::robot::{Amount, Backlash, BranchPattern, Flank, Motion, Robot};
-use armill_core::source::{Arm, StiffnessModel};
+use armill_core::robot::{Amount, Backlash, Flank, Motion, Robot};
+use armill_core::source::StiffnessModel;
 use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
-use armill_core::workpiece::Plane;
 
 use crate::arms;
+use crate::arms::circles::{self, RADIUS, circle, three, tool};
 use crate::machine::Random;
 
-const RADIUS: f64 = 0.1;
 const GAPS: [f64; 6] = [1.2e-4, 0.8e-4, 1.5e-4, 2.5e-4, 2e-4, 3e-4];
 
-fn tool() -> Isometry {
-    Isometry::translation(0.03, -0.02, 0.15)
-}
-
 fn question<'a>(robot: &'a Robot, model: &'a StiffnessModel, tool: &'a Isometry) -> Question<'a> {
-    let arm = Arm {
-        robot,
-        compliance: robot.compliance().unwrap(),
-        model,
-        flange_from_tool: tool,
-    };
-    Question {
-        choice: BranchChoice::Of(BranchPattern::default()),
-        ..Question::unloaded(arm, None)
-    }
-}
-
-fn circle(centre: [f64; 3], tilt_deg: f64) -> Circle {
-    let plane = Plane::tilted(Point3::from(centre), f64::to_radians(tilt_deg));
-    Circle {
-        placing: Placing::on_plane(&plane),
-        centre: Point2::origin(),
-        radius: RADIUS,
-    }
-}
-
-/// Three circles off the middle of the MH12, in planes of different tilt.
-fn three() -> [Circle; 3] {
-    [
-        circle([0.85, 0.25, 0.45], 90.0),
-        circle([0.75, -0.35, 0.75], 0.0),
-        circle([0.7, 0.45, 0.55], 40.0),
-    ]
+    circles::question(robot, (robot.compliance().unwrap(), model), tool)
 }
 
 fn followed(robot: &Robot, circle: &Circle) -> Followed {

@@ -6,19 +6,15 @@ use armill_core::calibrate::{
     Asked, Calibrated, MeasuredPose, Place, Question as CalibrationQuestion, Unknown, fit,
 };
 use armill_core::frame::Isometry;
-use armill_core::kernel::{BranchChoice, Question};
-use armill_core::measure::ballbar::joints::Circle;
-use armill_core::nalgebra::{Point2, Point3, UnitQuaternion, Vector3};
-use armill_core::path::{Placing, Shape, Track};
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
+use armill_core::path::{Shape, Track};
 use armill_core::robot::forward::forward;
-use armill_core::robot::{Amount, Backlash, BranchPattern, Flank, JointCompliance, Motion, Robot};
-use armill_core::source::{Arm, StiffnessModel};
-use armill_core::workpiece::Plane;
+use armill_core::robot::{Amount, Backlash, Flank, JointCompliance, Motion, Robot};
+use armill_core::source::StiffnessModel;
 
+use crate::arms::circles::{RADIUS, circle};
 use crate::arms::{self, Stream};
 
-/// Radius of ring and circles, m.
-pub const RADIUS: f64 = 0.1;
 /// Points of the ring.
 const POINTS: f64 = 360.0;
 /// Poses that the tracker sees.
@@ -86,46 +82,6 @@ pub fn drives(values: &[f64], u: &[f64]) -> Vec<JointCompliance> {
         standard_uncertainty: *u,
     };
     values.iter().zip(u).map(drive).collect()
-}
-
-pub fn tool() -> Isometry {
-    Isometry::translation(0.03, -0.02, 0.15)
-}
-
-/// A question to the arm that the controller believes in.
-pub fn question<'a>(
-    believed: &'a Robot,
-    (compliance, model): (&'a [JointCompliance], &'a StiffnessModel),
-    tool: &'a Isometry,
-) -> Question<'a> {
-    let arm = Arm {
-        robot: believed,
-        compliance,
-        model,
-        flange_from_tool: tool,
-    };
-    Question {
-        choice: BranchChoice::Of(BranchPattern::default()),
-        ..Question::unloaded(arm, None)
-    }
-}
-
-fn circle(centre: [f64; 3], tilt_deg: f64) -> Circle {
-    let plane = Plane::tilted(Point3::from(centre), f64::to_radians(tilt_deg));
-    Circle {
-        placing: Placing::on_plane(&plane),
-        centre: Point2::origin(),
-        radius: RADIUS,
-    }
-}
-
-/// Circles that tell all six joints of the MH12 apart, and no two of them alike.
-pub fn circles() -> [Circle; 3] {
-    [
-        circle([0.85, 0.25, 0.45], 90.0),
-        circle([0.75, -0.35, 0.75], 0.0),
-        circle([0.7, 0.45, 0.55], 40.0),
-    ]
 }
 
 /// The ring that is milled.

@@ -18,9 +18,8 @@ use armill_core::spatial::Wrench;
 use armill_core::watch::Watch;
 
 use crate::arms::Stream;
-use crate::cell::{
-    RADIUS, Truth, calibrated, circles, drives, model, name_of, question, ring, tool, tracked,
-};
+use crate::arms::circles::{RADIUS, question, three, tool};
+use crate::cell::{Truth, calibrated, drives, model, name_of, ring, tracked};
 
 /// Standard deviations of the instruments.
 mod noise {
@@ -194,7 +193,7 @@ fn play(truth: &Truth, as_measured: &Robot, random: &mut Stream) -> (Vec<f64>, V
     let angles: Vec<f64> = (0..720)
         .map(|k| (0.5 * f64::from(k) + 0.1).to_radians())
         .collect();
-    let circles = circles();
+    let circles = three();
     let tests: Vec<CircularTest> = circles
         .iter()
         .map(|circle| {
