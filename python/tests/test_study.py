@@ -40,15 +40,18 @@ def test_the_answer_reads_as_values(result):
     assert result.asks == armill.Study.load(GROOVE).asks
 
 
-def test_what_is_written_is_what_the_command_writes(result, command, tmp_path):
+def test_what_is_written_is_what_the_command_writes(command, tmp_path):
+    cell = tmp_path / "cell"
+    subprocess.run([command, "new", cell], capture_output=True, check=True)
+    result = armill.Study.load(cell).run()
     files = result.write(tmp_path / "here")
-    subprocess.run([command, "run", GROOVE, "--out", tmp_path / "there"], capture_output=True, check=True)
+    subprocess.run([command, "run", cell, "--out", tmp_path / "there"], capture_output=True, check=True)
     names = sorted(path.name for path in (tmp_path / "there").iterdir())
     assert sorted(path.name for path in (tmp_path / "here").iterdir()) == names
     assert {path.name for path in files} == set(names) - {".armill-files"}
     for name in names:
         assert (tmp_path / "here" / name).read_bytes() == (tmp_path / "there" / name).read_bytes(), name
-    written = armill.Study.load(GROOVE).run(tmp_path / "run", pictures=False)
+    written = armill.Study.load(cell).run(tmp_path / "run", pictures=False)
     assert (tmp_path / "run/result.json").read_text() == written.json
     assert not list((tmp_path / "run").glob("*.svg"))
     for name, svg in result.pictures.items():

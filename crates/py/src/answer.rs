@@ -85,9 +85,12 @@ fn told(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     Ok(Some(Told::List(all)))
 }
 
+/// Name, whether it is an operand, help.
+type OptionOf = (String, bool, String);
+
 /// command name -> (help, [(name, is_operand, help)]): what a command says of itself and of its options.
 #[pyfunction]
-pub(crate) fn options(py: Python<'_>, name: &str) -> PyResult<(String, Vec<(String, bool, String)>)> {
+pub(crate) fn options(py: Python<'_>, name: &str) -> PyResult<(String, Vec<OptionOf>)> {
     let Some((about, options)) = armill_cli::options_of(name) else {
         return Err(usage(py, format!("no command `{name}` answers in JSON")));
     };

@@ -13,6 +13,9 @@
 //!
 //! It computes nothing: no mechanics, no units but SI on both sides.
 
+// Options of Python are arguments by keyword.
+#![allow(clippy::too_many_arguments)]
+
 mod answer;
 mod arrays;
 mod errors;

@@ -144,7 +144,6 @@ impl Robot {
     /// keeps it.
     #[staticmethod]
     #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=[0.0; 6], signs=[1; 6], name="robot"))]
-    #[allow(clippy::too_many_arguments)]
     fn from_opw(
         py: Python<'_>,
         a1: f64,
@@ -355,7 +354,6 @@ impl Robot {
     /// with the least deviation. `normal` (3,) is the outward normal of the plane that deviations are split on; without,
     /// the plane across the tool, which must then point the same way everywhere.
     #[pyo3(signature = (poses, forces, tool=None, *, branch="nominal", normal=None, home=None, threads=None))]
-    #[allow(clippy::too_many_arguments)]
     fn hold(
         &self,
         poses: &Bound<'_, PyAny>,
