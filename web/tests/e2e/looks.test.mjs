@@ -113,6 +113,11 @@ const VIEWS = {
     await settled(page);
   },
   study: (page) => page.click("#tab-study"),
+  fields: async (page) => {
+    await page.click("#tab-study");
+    await page.waitForSelector(".problems .fine");
+    for (const table of ["place", "posture", "posture.search"]) await page.locator(`[data-table="${table}"] > summary`).click();
+  },
   jobs: (page) => page.click("#tab-jobs"),
 };
 for (const dark of [false, true])
