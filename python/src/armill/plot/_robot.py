@@ -1,0 +1,118 @@
+"""The arm as a line from base to tool."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike, NDArray
+
+from armill.plot._style import BLUE, GREEN, GREY, INK, LIMIT, legend_below, one, picture, title
+
+Floats = NDArray[np.float64]
+
+# Sines of angles below this are those of axes that lie parallel.
+_PARALLEL = 1e-6
+
+
+@picture
+def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any = None) -> Axes:
+    """Robot, (dof,) or (n, dof) joints -> 3-D axes: the arm in each posture, mm, counted from base.
+
+    Dots are where one axis passes nearest to the next, which need not be where the castings bend. The last posture is drawn
+    bold, those before it faintly. `tool` (4, 4) is flange_from_tool; red, green and blue are its axes x, y, z.
+    """
+    if not callable(getattr(arm, "jacobian", None)):
+        raise TypeError(f"robot: expected an armill.Robot, given {type(arm).__name__}")
+    postures = np.atleast_2d(np.asarray(joints, dtype=float))
+    ax = one(ax, (6.4, 6.4), "3d")
+    every = [np.zeros((1, 3))]
+    for i, posture in enumerate(postures):
+        last = i == len(postures) - 1
+        line, pose = 1e3 * skeleton(arm, posture, tool), np.asarray(arm.forward(posture, tool))
+        every.append(line)
+        colour = BLUE if last else GREY
+        ax.plot(
+            *line.T, color=colour, linewidth=4.0 if last else 2.0, alpha=1.0 if last else 0.5, marker="o",
+            markersize=6 if last else 3, markerfacecolor="white", markeredgecolor=colour, solid_joinstyle="round",
+            label=("posture" if len(postures) == 1 else "last posture") if last else ("others" if i == 0 else None),
+        )
+        if last:
+            _axes_of_tool(ax, pose, 0.12 * float(np.ptp(np.vstack(every), axis=0).max()))
+    _shadow(ax, every[-1])
+    _box(ax, np.vstack(every))
+    title(ax, arm.name, f"TCP at {_place(every[-1][-1])} mm")
+    legend_below(ax, columns=5, drop=0.02)
+    return ax
+
+
+def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats:
+    """(m, 3) points from base to TCP, m: feet of the shortest lines between one axis and the next.
+
+    An axis passes through TCP + v x a for its direction a and the velocity v that it gives the TCP. Joints that slide have a
+    direction but no place, and are passed over.
+    """
+    tip = np.asarray(arm.forward(posture, tool))[:3, 3]
+    columns = np.asarray(arm.jacobian(posture, tool)).T
+    turning = [(column[:3], column[3:]) for column in columns if np.linalg.norm(column[3:]) > _PARALLEL]
+    points = [np.zeros(3)]
+    for i, (v, a) in enumerate(turning):
+        # The twist of an axis, however its joint counts: |a| = 1 but of coupled joints.
+        size = np.linalg.norm(a)
+        v, a = v / size, a / size
+        at = tip - np.cross(a, v)
+        here = at + a * ((points[-1] - at) @ a)
+        if i == 0:
+            points.append(here)
+        else:
+            points.extend(_feet(points_on=(before_at, before_a), other=(at, a), near=points[-1]))
+        before_at, before_a = at, a
+    points.append(tip)
+    return np.array(points)
+
+
+def _feet(points_on: tuple[Floats, Floats], other: tuple[Floats, Floats], near: Floats) -> list[Floats]:
+    """The foot on the one axis and that on the other; of parallel axes those nearest to `near`."""
+    (p, a), (q, b) = points_on, other
+    across = np.cross(a, b)
+    size = across @ across
+    if size < _PARALLEL**2:
+        foot = p + a * ((near - p) @ a)
+        return [foot, q + b * ((foot - q) @ b)]
+    between = q - p
+    s = np.linalg.det(np.array([between, b, across])) / size
+    t = np.linalg.det(np.array([between, a, across])) / size
+    return [p + s * a, q + t * b]
+
+
+def _axes_of_tool(ax: Axes, pose: Floats, length: float) -> None:
+    at = 1e3 * pose[:3, 3]
+    for i, (colour, name) in enumerate(((LIMIT, "x"), (GREEN, "y"), (INK, "z"))):
+        end = at + length * pose[:3, i]
+        label = f"tool {name}"
+        ax.plot(*np.array([at, end]).T, color=colour, linewidth=2.2, label=label)
+
+
+def _shadow(ax: Axes, line: Floats) -> None:
+    floor = line.copy()
+    floor[:, 2] = min(0.0, float(line[:, 2].min()))
+    ax.plot(*floor.T, color=GREY, linewidth=1.2, alpha=0.6)
+
+
+def _box(ax: Any, points: Floats) -> None:
+    """The same scale along all three axes, and room about the arm."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle, half = (low + high) / 2, 0.58 * float((high - low).max())
+    for name, centre in zip("xyz", middle):
+        getattr(ax, f"set_{name}lim")(centre - half, centre + half)
+        getattr(ax, f"set_{name}label")(f"{name} (mm)", labelpad=6)
+        ax.tick_params(axis=name, labelsize=8)
+    ax.set_box_aspect((1, 1, 1))
+    ax.view_init(elev=22, azim=-62)
+
+
+def _place(point: Floats) -> str:
+    return "(" + ", ".join(f"{part + 0.0:.0f}" for part in np.round(point)) + ")"
+
+
