@@ -48,7 +48,7 @@ def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | 
     ax.set_xlabel("along the path (mm)")
     ax.set_ylabel("deviation (µm)")
     title(ax, f"{answer['name']}: deviation along the path", words(answer))
-    legend_below(ax, drop=-0.15)
+    legend_below(ax, columns=2, drop=-0.15)
     return ax
 
 

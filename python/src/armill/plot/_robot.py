@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, NDArray
 
-from armill.plot._style import BLUE, GREEN, GREY, INK, LIMIT, legend_below, one, picture, title
+from armill.plot._style import BLUE, GREEN, GREY, INK, ORANGE, legend_below, one, picture, title
 
 Floats = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
     """Robot, (dof,) or (n, dof) joints -> 3-D axes: the arm in each posture, mm, counted from base.
 
     Dots are where one axis passes nearest to the next, which need not be where the castings bend. The last posture is drawn
-    bold, those before it faintly. `tool` (4, 4) is flange_from_tool; red, green and blue are its axes x, y, z.
+    bold, those before it faintly. `tool` (4, 4) is flange_from_tool; orange, green and black are its axes x, y, z.
     """
     if not callable(getattr(arm, "jacobian", None)):
         raise TypeError(f"robot: expected an armill.Robot, given {type(arm).__name__}")
@@ -43,38 +43,36 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
     _shadow(ax, every[-1])
     _box(ax, np.vstack(every))
     title(ax, arm.name, f"TCP at {_place(every[-1][-1])} mm")
-    legend_below(ax, columns=5, drop=0.02)
+    legend_below(ax, columns=5, drop=-0.03)
     return ax
 
 
 def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats:
     """(m, 3) points from base to TCP, m: feet of the shortest lines between one axis and the next.
 
-    An axis passes through TCP + v x a for its direction a and the velocity v that it gives the TCP. Joints that slide have a
+    An axis of direction a that gives the TCP the velocity v passes through TCP + a x v. Joints that slide have a
     direction but no place, and are passed over.
     """
     tip = np.asarray(arm.forward(posture, tool))[:3, 3]
     columns = np.asarray(arm.jacobian(posture, tool)).T
     turning = [(column[:3], column[3:]) for column in columns if np.linalg.norm(column[3:]) > _PARALLEL]
     points = [np.zeros(3)]
-    for i, (v, a) in enumerate(turning):
+    before: tuple[Floats, Floats] | None = None
+    for v, a in turning:
         # The twist of an axis, however its joint counts: |a| = 1 but of coupled joints.
         size = np.linalg.norm(a)
         v, a = v / size, a / size
-        at = tip - np.cross(a, v)
+        at = tip + np.cross(a, v)
         here = at + a * ((points[-1] - at) @ a)
-        if i == 0:
-            points.append(here)
-        else:
-            points.extend(_feet(points_on=(before_at, before_a), other=(at, a), near=points[-1]))
-        before_at, before_a = at, a
+        points.extend([here] if before is None else _feet(before, (at, a), points[-1]))
+        before = (at, a)
     points.append(tip)
     return np.array(points)
 
 
-def _feet(points_on: tuple[Floats, Floats], other: tuple[Floats, Floats], near: Floats) -> list[Floats]:
+def _feet(one_axis: tuple[Floats, Floats], other: tuple[Floats, Floats], near: Floats) -> list[Floats]:
     """The foot on the one axis and that on the other; of parallel axes those nearest to `near`."""
-    (p, a), (q, b) = points_on, other
+    (p, a), (q, b) = one_axis, other
     across = np.cross(a, b)
     size = across @ across
     if size < _PARALLEL**2:
@@ -88,7 +86,7 @@ def _feet(points_on: tuple[Floats, Floats], other: tuple[Floats, Floats], near: 
 
 def _axes_of_tool(ax: Axes, pose: Floats, length: float) -> None:
     at = 1e3 * pose[:3, 3]
-    for i, (colour, name) in enumerate(((LIMIT, "x"), (GREEN, "y"), (INK, "z"))):
+    for i, (colour, name) in enumerate(((ORANGE, "x"), (GREEN, "y"), (INK, "z"))):
         end = at + length * pose[:3, i]
         label = f"tool {name}"
         ax.plot(*np.array([at, end]).T, color=colour, linewidth=2.2, label=label)

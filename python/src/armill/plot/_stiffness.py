@@ -43,7 +43,7 @@ def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax:
         ax.tick_params(axis=axis_name, labelsize=8)
     ax.set_box_aspect((1, 1, 1))
     ax.view_init(elev=22, azim=-62)
-    place = ", ".join(f"{1e3 * part + 0.0:.0f}" for part in np.asarray(arm.forward(posture, tool))[:3, 3])
+    place = ", ".join(f"{part + 0.0:.0f}" for part in np.round(1e3 * np.asarray(arm.forward(posture, tool))[:3, 3]))
     title(ax, f"{arm.name}: compliance at the tool", f"TCP at ({place}) mm; deviation under 1 N, base axes")
-    legend_below(ax, columns=1, drop=0.02)
+    legend_below(ax, columns=1, drop=-0.03)
     return ax
