@@ -141,6 +141,16 @@ def test_no_words_lie_over_others_or_beyond_the_edge(name):
         assert box.x0 > -2 and box.y0 > -2 and box.x1 < width + 2 and box.y1 < height + 2, f"{text!r} is cut off"
 
 
+def test_titles_side_by_side_do_not_meet():
+    figure = plt.figure(figsize=(11, 6.4), layout="constrained")
+    axes = [figure.add_subplot(1, 2, i + 1, projection="polar") for i in range(2)]
+    for ax, ask in zip(axes, ("groove", "turned")):
+        plot.polar(answers.paths(), ask, ax=ax)
+    figure.canvas.draw()
+    left, right = (ax.texts[-1].get_window_extent() for ax in axes)
+    assert left.x1 < right.x0 and right.x1 < figure.bbox.width
+
+
 # ---- planes
 
 

@@ -59,7 +59,7 @@ def map(
     handles += _plane.reason_handles([answer])
     if handles:
         ax.legend(
-            handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2 if len(handles) != 3 else 3,
+            handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2,
             borderaxespad=0.0, columnspacing=1.4, handlelength=2.4,
         )
     # Last, when the axes have their size: labels are kept apart in it.

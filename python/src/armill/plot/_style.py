@@ -50,12 +50,19 @@ T = TypeVar("T")
 
 
 def picture(draw: Callable[P, T]) -> Callable[P, T]:
-    """A function that draws under the settings above."""
+    """A function that draws under the settings above, and puts back those that it changed.
+
+    All others stay as they are, so that a backend that wakes up with its first figure may set its own.
+    """
 
     @functools.wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> T:
-        with mpl.rc_context(_RULES):
+        before = {key: mpl.rcParams[key] for key in _RULES}
+        mpl.rcParams.update(_RULES)
+        try:
             return draw(*args, **kwargs)
+        finally:
+            mpl.rcParams.update(before)
 
     return drawn
 
@@ -103,10 +110,9 @@ def _settled(ax: Axes) -> Axes:
 
 def title(ax: Axes, text: str, subtitle: str = "", lift: float = 0.0) -> None:
     """A bold title on the left, what the picture holds for below it; `lift` points higher, where labels stand above the axes."""
-    width = ax.figure.get_size_inches()[0] if ax.figure is not None else 6.4
-    share = ax.get_position().width if len(ax.figure.axes) > 2 else 1.0
-    lines = textwrap.wrap(subtitle, max(30, int(13.0 * width * share)))
-    heading = textwrap.fill(text, max(24, int(9.0 * width * share)))
+    width = _room(ax)
+    lines = textwrap.wrap(subtitle, max(24, int(13.0 * width)))
+    heading = textwrap.fill(text, max(18, int(9.0 * width)))
     # With `y` told, matplotlib leaves the title where it is.
     ax.set_title(heading, loc="left", fontweight="bold", y=1.0, pad=7 + lift + 11.5 * len(lines))
     if lines:
@@ -115,6 +121,16 @@ def title(ax: Axes, text: str, subtitle: str = "", lift: float = 0.0) -> None:
             color=SOFT, fontsize=8.5, va="bottom", annotation_clip=False,
         )
         note.set_in_layout(False)
+
+
+def _room(ax: Axes) -> float:
+    """The width that a title has, in inches: that of the column of the axes."""
+    figure = ax.get_figure(root=True)
+    width = float(figure.get_size_inches()[0]) if figure is not None else 6.4
+    cell = ax.get_subplotspec()
+    if cell is None:
+        return width * ax.get_position().width
+    return width * len(cell.colspan) / cell.get_gridspec().ncols
 
 
 def legend_below(ax: Axes, columns: int = 3, drop: float = -0.13) -> None:
