@@ -101,7 +101,7 @@ def _jacobian(pin: Any, where: tuple[Any, Any, str], q: Any) -> Any:
 
 def _package() -> Any:
     try:
-        import pinocchio
+        import pinocchio  # type: ignore[import-untyped]
     except ImportError as error:
         raise ImportError("this needs pinocchio: pip install 'armill[interop]', or its wheel `pin`") from error
     return pinocchio

@@ -22,10 +22,10 @@ deviations in µm.
 ================  ===========================================================================
 """
 
-try:
-    import matplotlib as _matplotlib  # noqa: F401
-except ImportError as error:  # pragma: no cover
-    raise ImportError("armill.plot needs matplotlib: pip install 'armill[plot]'") from error
+from importlib.util import find_spec
+
+if find_spec("matplotlib") is None:
+    raise ImportError("armill.plot needs matplotlib: pip install 'armill[plot]'")
 
 from armill.plot._along import along
 from armill.plot._answers import Missing

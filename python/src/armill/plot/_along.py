@@ -27,10 +27,10 @@ def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | 
     """
     found = Source(source, "along", table)
     answer = found.one("paths", ask)
-    columns = found.columns(answer["name"], ["distance_mm", *(name for name, *_ in _PARTS)])
+    columns = found.columns(answer["name"], ["x_mm", "y_mm", "z_mm", "distance_mm", *(name for name, *_ in _PARTS)])
     ax = one(ax, (7.6, 4.6))
     # Cuts that lie apart are not joined by a line.
-    gaps = breaks(columns) if "x_mm" in columns else []
+    gaps = breaks(columns)
     distance = np.insert(columns["distance_mm"].astype(float), gaps, np.nan)
     for name, label, colour, dashes, width in _PARTS:
         values = np.insert(columns[name].astype(float), gaps, np.nan)

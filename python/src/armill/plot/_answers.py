@@ -111,7 +111,7 @@ def read_table(table: Any, picture: str) -> Columns:
         return {str(name): np.asarray(table[name]) for name in table.keys()}
     if hasattr(table, "__arrow_c_stream__"):
         try:
-            import pyarrow
+            import pyarrow  # type: ignore[import-untyped]
         except ImportError as error:
             raise ImportError(f"{picture}: reading a table needs pyarrow: pip install 'armill[plot]'") from error
         arrow = pyarrow.table(table)

@@ -30,7 +30,7 @@ def map(
     of the grid: in_plane_um, in_plane_u_um, normal_um, full_um. The plane is seen from the tool side, so y' grows to the left.
     """
     answer = Source(source, "map").one("maps", ask)
-    y, _, values = _plane.grid(answer, value)
+    _, _, values = _plane.grid(answer, value)
     reached = bool(np.isfinite(values).any())
     told = rounded(*((np.nanmin(values), np.nanmax(values)) if reached else (0.0, 1.0)))
     steps = np.unique(np.asarray(levels, dtype=float)) if levels is not None else told
@@ -39,9 +39,8 @@ def map(
     _plane.name_axes(ax)
     title(ax, answer["name"], words(answer))
     handles: list[Any] = []
-    if reached:
-        bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8)
-    if reached and value == "in_plane_um":
+    bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8) if reached else None
+    if bar is not None and value == "in_plane_um":
         limit = answer["setting"]["limit_um"]
         _plane.mark_limit(bar.ax, limit)
         beyond = "" if _plane.limit_line(ax, answer) else ", nowhere crossed"

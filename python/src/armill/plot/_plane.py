@@ -12,7 +12,7 @@ from matplotlib.colors import BoundaryNorm
 from matplotlib.contour import QuadContourSet
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
-from matplotlib.patheffects import withStroke
+from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
@@ -90,7 +90,7 @@ def limit_line(ax: Axes, answer: Json) -> bool:
     limit = answer["setting"]["limit_um"]
     if not crossed(values, [limit]):
         return False
-    halo = [withStroke(linewidth=4.6, foreground="white")]
+    halo: list[AbstractPathEffect] = [withStroke(linewidth=4.6, foreground="white")]
     ax.contour(
         y, z, np.ma.masked_invalid(values), levels=[limit], colors=LIMIT, linewidths=2.6, zorder=3
     ).set_path_effects(halo)
@@ -141,7 +141,9 @@ def reason_handles(answers: Iterable[Json]) -> list[Any]:
 
 def thin(ax: Axes, texts: Iterable[Text], marked: Iterable[Any]) -> None:
     """Takes away labels that lie over others, over points that are marked, or across the edge of the axes."""
-    ax.figure.draw_without_rendering()
+    figure = ax.get_figure(root=True)
+    if figure is not None:
+        figure.draw_without_rendering()
     kept: list[Any] = [Bbox.from_bounds(x - 8, y - 8, 16, 16) for x, y in (ax.transData.transform(place) for place in marked)]
     frame = ax.get_window_extent()
     for text in texts:

@@ -50,8 +50,8 @@ def region(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
     if found["circle_centre_mm"] is not None:
         radius = found["circle_radius_mm"]
         label = f"circle of radius {radius:.0f} mm"
-        shape = Circle(found["circle_centre_mm"], radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=3, label=label)
-        handles.append(ax.add_patch(shape))
+        ring = Circle(found["circle_centre_mm"], radius, fill=False, edgecolor=ORANGE, linewidth=1.6, zorder=3, label=label)
+        handles.append(ax.add_patch(ring))
     ax.set_xlim(y.max(), y.min())
     ax.set_ylim(z.min(), z.max())
     ax.set_aspect("equal")

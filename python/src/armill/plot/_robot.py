@@ -26,7 +26,8 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
     if not callable(getattr(arm, "jacobian", None)):
         raise TypeError(f"robot: expected an armill.Robot, given {type(arm).__name__}")
     postures = np.atleast_2d(np.asarray(joints, dtype=float))
-    ax = one(ax, (6.4, 6.4), "3d")
+    drawn = one(ax, (6.4, 6.4), "3d")
+    ax = drawn
     every = [np.zeros((1, 3))]
     for i, posture in enumerate(postures):
         last = i == len(postures) - 1
@@ -44,7 +45,7 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
     _box(ax, np.vstack(every))
     title(ax, arm.name, f"TCP at {_place(every[-1][-1])} mm")
     legend_below(ax, columns=5, drop=-0.03)
-    return ax
+    return drawn
 
 
 def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats:

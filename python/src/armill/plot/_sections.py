@@ -38,10 +38,10 @@ def sections(
     rows = -(-len(planes) // columns)
     size = (2.35 * columns + 1.2, 2.45 * rows + 1.3)
     axes = several(ax, len(planes), size, columns, sharex=True, sharey=True)
-    filled = None
+    bands: list[Any] = []
     for i, (each, plane) in enumerate(zip(axes, planes)):
         drawn = _plane.fill(each, plane, "in_plane_um", steps)
-        filled = drawn if np.isfinite(values[i]).any() else filled
+        bands += [drawn] if np.isfinite(values[i]).any() else []
         _plane.lines(each, plane, "in_plane_um", steps, labelled=False)
         _plane.limit_line(each, plane)
         label = plane["name"].removeprefix(f"{name}: ")
@@ -56,7 +56,7 @@ def sections(
             each.set_xlabel("y′ (mm)")
             each.tick_params(labelbottom=True)
     limit = planes[0]["setting"]["limit_um"]
-    bar = figure.colorbar(filled, ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
+    bar = figure.colorbar(bands[0], ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
     _plane.mark_limit(bar.ax, limit)
     handles = [Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm"), *_plane.reason_handles(planes)]
     if ax is None:

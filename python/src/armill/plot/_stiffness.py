@@ -26,7 +26,8 @@ def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax:
     # µm/N: translations under forces stand first in a compliance.
     c = 1e6 * np.asarray(arm.compliance(posture, tool))[:3, :3]
     sizes, axes = np.linalg.eigh((c + c.T) / 2)
-    ax = one(ax, (6.4, 6.4), "3d")
+    drawn = one(ax, (6.4, 6.4), "3d")
+    ax = drawn
     u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 61), np.linspace(0, np.pi, 31))
     forces = np.stack([np.cos(u) * np.sin(v), np.sin(u) * np.sin(v), np.cos(v)])
     x, y, z = np.einsum("ij,jkl->ikl", c, forces)
@@ -46,4 +47,4 @@ def stiffness(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax:
     place = ", ".join(f"{part + 0.0:.0f}" for part in np.round(1e3 * np.asarray(arm.forward(posture, tool))[:3, 3]))
     title(ax, f"{arm.name}: compliance at the tool", f"TCP at ({place}) mm; deviation under 1 N, base axes")
     legend_below(ax, columns=1, drop=-0.03)
-    return ax
+    return drawn

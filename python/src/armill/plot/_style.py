@@ -15,7 +15,7 @@ import matplotlib as mpl
 import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patheffects import withStroke
+from matplotlib.patheffects import AbstractPathEffect, withStroke
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
@@ -24,7 +24,7 @@ SKY, AMBER, YELLOW, GREY = "#56b4e9", "#e69f00", "#f0e442", "#999999"
 COLOURS = (BLUE, ORANGE, GREEN, PINK, SKY, AMBER, YELLOW, GREY)
 INK, SOFT, FAINT, LIMIT = "#1a1a1a", "#5a5a5a", "#dddddd", "#c8102e"
 COLOUR_MAP = "viridis"
-HALO = [withStroke(linewidth=2.5, foreground="white")]
+HALO: list[AbstractPathEffect] = [withStroke(linewidth=2.5, foreground="white")]
 
 _RULES: dict[str, Any] = {
     "axes.edgecolor": INK,
@@ -57,17 +57,18 @@ def picture(draw: Callable[P, T]) -> Callable[P, T]:
 
     @functools.wraps(draw)
     def drawn(*args: P.args, **kwargs: P.kwargs) -> T:
-        before = {key: mpl.rcParams[key] for key in _RULES}
-        mpl.rcParams.update(_RULES)
+        settings: Any = mpl.rcParams
+        before = {key: settings[key] for key in _RULES}
+        settings.update(_RULES)
         try:
             return draw(*args, **kwargs)
         finally:
-            mpl.rcParams.update(before)
+            settings.update(before)
 
     return drawn
 
 
-def one(ax: Axes | None, size: tuple[float, float], projection: str | None = None) -> Axes:
+def one(ax: Any, size: tuple[float, float], projection: str | None = None) -> Axes:
     """The caller's axes, or those of a new figure of ``size`` in inches."""
     if ax is None:
         figure = plt.figure(figsize=size, layout="constrained")

@@ -37,7 +37,7 @@ def turns(
     answer = found.one("paths", ask)
     if answer["search"] is None:
         raise Missing(f"turns: {answer['name']!r} was not searched: an ask with `posture.search` is")
-    columns = found.columns(answer["name"], ["distance_mm", "turn_deg"])
+    columns = found.columns(answer["name"], ["line", "distance_mm", "turn_deg"])
     distance, chosen = (columns[name].astype(float) for name in ("distance_mm", "turn_deg"))
     ax = one(ax, (7.6, 4.8))
     if robot is not None:
@@ -48,9 +48,8 @@ def turns(
     if robot is not None:
         line[0].set_path_effects([*_outline()])
     for place in answer["search"]["breaks"]:
-        at = distance[np.flatnonzero(columns["line"].astype(float) == place)] if "line" in columns else []
-        if len(at):
-            ax.axvline(at[0], color=INK, linestyle=":", linewidth=1.2, label="takes another posture")
+        for at in distance[columns["line"].astype(float) == place][:1]:
+            ax.axvline(at, color=INK, linestyle=":", linewidth=1.2, label="takes another posture")
     ax.set_xlim(float(np.nanmin(distance)), float(np.nanmax(distance)))
     ax.set_ylim(-180, 180)
     ax.set_yticks(range(-180, 181, 60))
