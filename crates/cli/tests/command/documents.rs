@@ -106,6 +106,7 @@ fn guide_runs() {
         "budget",
         "live-page",
         "python",
+        "cam-to-robot",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -116,7 +117,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 19, "name the new page in `guide_runs`");
+    assert_eq!(pages, 20, "name the new page in `guide_runs`");
 }
 
 #[test]
