@@ -17,6 +17,8 @@ from matplotlib.figure import Figure
 
 import answers
 import armill
+from conftest import ROOT
+from test_docs import blocks
 
 mpl.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -460,6 +462,21 @@ def test_what_is_missing_is_told(tmp_path):
         plot.robot(result, np.zeros(6))
     with pytest.raises(TypeError, match="ax: expected matplotlib axes, given Figure"):
         plot.along(result, "pocket", ax=plt.figure())
+
+
+def test_the_python_of_the_guide_runs(tmp_path, monkeypatch, capsys):
+    pytest.importorskip("roboticstoolbox")
+    pytest.importorskip("pinocchio")
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    found = blocks(ROOT / "docs/guide/plotting.md")
+    for number, block in enumerate(found, 1):
+        exec(compile(block, f"plotting.md, block {number}", "exec"), names)
+    assert len(found) == 5 and "along: its points are not in the JSON" in capsys.readouterr().out
+    assert (tmp_path / "fig-6.pdf").is_file()
+    for name in plot.__all__:
+        told = f"| `{name}` |" in (ROOT / "docs/guide/plotting.md").read_text()
+        assert told or name in ("Missing", "skeleton"), name
 
 
 def test_every_function_says_what_it_takes_and_gives():

@@ -23,7 +23,7 @@ def robot(arm: Any, joints: ArrayLike, tool: ArrayLike | None = None, *, ax: Any
     Dots are where one axis passes nearest to the next, which need not be where the castings bend. The last posture is drawn
     bold, those before it faintly. `tool` (4, 4) is flange_from_tool; orange, green and black are its axes x, y, z.
     """
-    if not callable(getattr(arm, "jacobian", None)):
+    if not callable(getattr(arm, "with_compliance", None)):
         raise TypeError(f"robot: expected an armill.Robot, given {type(arm).__name__}")
     postures = np.atleast_2d(np.asarray(joints, dtype=float))
     drawn = one(ax, (6.4, 6.4), "3d")
@@ -55,20 +55,35 @@ def skeleton(arm: Any, posture: Floats, tool: ArrayLike | None = None) -> Floats
     direction but no place, and are passed over.
     """
     tip = np.asarray(arm.forward(posture, tool))[:3, 3]
-    columns = np.asarray(arm.jacobian(posture, tool)).T
-    turning = [(column[:3], column[3:]) for column in columns if np.linalg.norm(column[3:]) > _PARALLEL]
+    screws = [(screw[:3], screw[3:]) for screw in _screws(arm, posture, tool)]
+    turning = [(v, a) for v, a in screws if np.linalg.norm(a) > _PARALLEL]
     points = [np.zeros(3)]
     before: tuple[Floats, Floats] | None = None
     for v, a in turning:
-        # The twist of an axis, however its joint counts: |a| = 1 but of coupled joints.
-        size = np.linalg.norm(a)
-        v, a = v / size, a / size
         at = tip + np.cross(a, v)
         here = at + a * ((points[-1] - at) @ a)
         points.extend([here] if before is None else _feet(before, (at, a), points[-1]))
         before = (at, a)
     points.append(tip)
     return np.array(points)
+
+
+def _screws(arm: Any, posture: Floats, tool: ArrayLike | None) -> list[Floats]:
+    """The twist of the TCP by each axis of the chain, translation first, whichever way it counts.
+
+    Not the columns of the Jacobian: those of joints that count together move two axes. What a joint alone yields is
+    C = c S S', which has its screw S.
+    """
+    rigid = np.zeros(arm.dof)
+    others = np.asarray(arm.with_compliance(rigid).compliance(posture, tool))
+    found: list[Floats] = []
+    for i in range(arm.dof):
+        alone = rigid.copy()
+        alone[i] = 1.0
+        c = np.asarray(arm.with_compliance(alone).compliance(posture, tool)) - others
+        largest = int(np.argmax(np.diag(c)))
+        found.append(c[largest] / np.sqrt(c[largest, largest]))
+    return found
 
 
 def _feet(one_axis: tuple[Floats, Floats], other: tuple[Floats, Floats], near: Floats) -> list[Floats]:
