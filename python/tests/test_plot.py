@@ -324,7 +324,7 @@ def test_runs_of_a_ball_bar_go_clockwise_in_one_colour_and_back_in_another():
 def test_at_the_turn_that_was_chosen_the_lattice_has_the_deviation_of_the_path():
     points = columns(answers.paths(), "turned")
     ax = plot.turns(answers.paths(), "turned", robot=MH12, tool=answers.tool(), turn_count=19)
-    assert np.array_equal(lines(ax)["turn chosen"].get_ydata(), points["turn_deg"])
+    assert np.allclose(lines(ax)["turn chosen"].get_ydata(), points["turn_deg"], atol=1e-9)
     values = ax.collections[0].get_array().reshape(19, -1)
     turns = np.linspace(-180, 180, 19)
     rows = np.array([np.flatnonzero(np.isclose(turns, turn))[0] for turn in points["turn_deg"]])
@@ -334,6 +334,31 @@ def test_at_the_turn_that_was_chosen_the_lattice_has_the_deviation_of_the_path()
         plot.turns(answers.paths(), "groove")
     with pytest.raises(plot.Missing, match="is of another arm: it has no joint_"):
         plot.turns(answers.paths(), "turned", robot=armill.Robot.load("kuka/kr120r2500pro"))
+
+
+def test_a_turn_beyond_half_a_turn_comes_in_from_the_other_side():
+    study = answers.PATHS.split("[[ask]]")[0].replace("[900, 100, 500]", "[1250, 100, 500]")
+    study += '[[ask]]\nkind = "path"\nname = "slot"\nrectangle = { size_mm = [300, 500] }\nstep_mm = 5\n'
+    result = armill.Study.from_text(study + "posture.search = { step_deg = 10 }\n").run()
+    told = columns(result, "slot")["turn_deg"]
+    assert told.max() > 180, "the path no longer turns so far: take another"
+    drawn = lines(plot.turns(result))["turn chosen"].get_ydata()
+    known = drawn[np.isfinite(drawn)]
+    assert len(known) == len(told) and np.allclose(np.cos(np.radians(known - told)), 1.0) and np.isnan(drawn).any()
+    assert known.min() >= -180 and known.max() <= 180
+
+
+def test_what_is_nowhere_reached_is_drawn_so_or_told():
+    study = answers.PATHS.split("[[ask]]")[0].replace("[900, 100, 500]", "[3000, 100, 500]")
+    study += '[[ask]]\nkind = "map"\nname = "far"\n[[ask]]\nkind = "path"\nname = "away"\nrectangle = { size_mm = [160, 100] }\n'
+    result = armill.Study.from_text(study).run()
+    assert legend(plot.map(result)) == ["too far (25 points)"]
+    assert not [patch for patch in plot.region(result).patches if patch.get_label().startswith("circle")]
+    assert legend(plot.path(result)) == ["not reached"]
+    assert any(label.startswith("not reached") for label in legend(plot.along(result)))
+    for ask in ("far", "away"):
+        with pytest.raises(plot.Missing, match=f"shares: no point of '{ask}' is reached"):
+            plot.shares(result, ask)
 
 
 # ---- what commands answer

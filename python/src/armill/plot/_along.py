@@ -43,7 +43,8 @@ def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | 
     if unreached.any():
         here = columns["distance_mm"].astype(float)[unreached]
         ax.plot(here, np.zeros(len(here)), "x", color=PINK, markersize=4, label=f"not reached ({len(here)} points)")
-    ax.set_xlim(0.0, float(np.nanmax(distance)))
+    told = distance[np.isfinite(distance)]
+    ax.set_xlim(0.0, float(told.max()) if len(told) else 1.0)
     ax.margins(y=0.12)
     ax.set_xlabel("along the path (mm)")
     ax.set_ylabel("deviation (µm)")
