@@ -89,7 +89,15 @@ def by_numpy(joints):
         r[:, i, j] = -s
         return turn @ r
 
-    chain = [("z", 1, (0, 0, C1)), ("y", 1, (A1, 0, 0)), ("y", -1, (0, 0, C2)), ("x", -1, (0, 0, -A2)), ("y", -1, (C3, 0, 0)), ("x", -1, (0, 0, 0))]
+    # Axis, sense and the step that leads to it, joint by joint.
+    chain = [
+        ("z", 1, (0, 0, C1)),
+        ("y", 1, (A1, 0, 0)),
+        ("y", -1, (0, 0, C2)),
+        ("x", -1, (0, 0, -A2)),
+        ("y", -1, (C3, 0, 0)),
+        ("x", -1, (0, 0, 0)),
+    ]
     for joint, (axis, sign, step) in enumerate(chain):
         at = along(*step)
         axes.append(sign * turn[:, :, "xyz".index(axis)])

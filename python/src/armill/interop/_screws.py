@@ -147,7 +147,8 @@ def _toml(found: Screws, source: str) -> str:
         motions += [_about(name, -angle) for name, angle in reversed(turns)]
         joints.append(_joint(joint, sign))
     motions += _along(steps[-1])
-    motions += [_about(name, angle) for name, angle in zip("zyx", fixed_angles(found.base_from_flange[:3, :3])) if abs(angle) > _ROUNDING]
+    angles = zip("zyx", fixed_angles(found.base_from_flange[:3, :3]))
+    motions += [_about(name, angle) for name, angle in angles if abs(angle) > _ROUNDING]
     listed = "".join(f"  {motion},\n" for motion in motions)
     place = f'what = "chain and joint limits"\nwhere = {_text(source)}\nlicence = "that of the model"\n'
     head = f"format = 1\nname = {_text(found.name)}\n\n[chain]\nsource = \"given\"\nmotions = [\n{listed}]\n"

@@ -76,6 +76,10 @@ class Source:
         names = ", ".join(repr(each["name"]) for each in found)
         raise Missing(f"{self.picture}: none of the {kind} is called {ask!r}; there are {names}")
 
+    def has_table(self, file: str) -> bool:
+        """Whether a table was given, or `file` lies in the folder."""
+        return self._table is not None or (self._folder is not None and (self._folder / file).is_file())
+
     def columns(self, ask: str | None, needed: Sequence[str], file: str | None = None) -> Columns:
         """The table of an ask, or ``file`` of the folder, which must have the columns ``needed``."""
         table: Any = self._table

@@ -86,5 +86,6 @@ def _waves(ax: Axes, answer: Json) -> None:
     ax.set_xlabel("waves a turn; below: phase of the prediction beyond the part")
     ax.set_ylabel("amplitude (µm)")
     ax.spines[["top", "right"]].set_visible(False)
-    title(ax, "Wave by wave", f"{part['explained_percent']:.1f} % of the part explained, rest {number(part['residual']['rms_um'])} µm rms")
+    rest = number(part["residual"]["rms_um"])
+    title(ax, "Wave by wave", f"{part['explained_percent']:.1f} % of the part explained, rest {rest} µm rms")
     ax.legend(loc="upper right")

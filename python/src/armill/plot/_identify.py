@@ -70,7 +70,8 @@ def _springs(ax: Axes, answer: Json, kind: tuple[str, str, float, str], springs:
     ax.set_ylim(len(springs) - 0.4, -0.6)
     ax.grid(True, axis="x", color=FAINT, linewidth=0.6)
     ax.set_xlabel(label)
-    title(ax, f"{answer['robot']}: springs", f"{answer['tests']} tests, {answer['readings']} readings; intervals from the left edge hold zero")
+    counts = f"{answer['tests']} tests, {answer['readings']} readings"
+    title(ax, f"{answer['robot']}: springs", f"{counts}; intervals from the left edge hold zero")
     legend_below(ax, columns=2, drop=-0.62 / (0.6 + 0.24 * len(springs)))
 
 
@@ -90,7 +91,8 @@ def _residuals(ax: Axes, answer: Json) -> None:
                 f"{test['name']}: outlier", (i, _size(test["residual_um"])), xytext=(6, 2), textcoords="offset points",
                 color=ORANGE, fontweight="bold", path_effects=HALO,
             )
-    told = ", ".join(f"{name} {number(answer[key]['mean_um'])} µm" for key, name in (("residual", "used"), ("left_out", "left out")) if answer[key])
+    known = [(key, name) for key, name in (("residual", "used"), ("left_out", "left out")) if answer[key]]
+    told = ", ".join(f"{name} {number(answer[key]['mean_um'])} µm" for key, name in known)
     ax.set_xlim(0, len(tests) + 1)
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("test, in the order of the table")

@@ -27,7 +27,7 @@ def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes
     circles = _circles(found.data, centre, radius, around)
     curves = [values for _, _, _, values in circles]
     profile = None
-    if table is not None or not hasattr(source, "json") and not isinstance(source, (dict, list)):
+    if found.has_table("roundness.csv"):
         columns = found.columns(None, ["angle_deg", "deviation_um"], file="roundness.csv")
         profile = (np.radians(columns["angle_deg"].astype(float)), columns["deviation_um"].astype(float))
         curves.append(profile[1])
@@ -42,7 +42,8 @@ def roundness(source: Any, *, table: Any = None, ax: Axes | None = None) -> Axes
         ax.plot(around, values, color=colour, linestyle=dashes, linewidth=1.6, label=label)
     upr = found.data["filter_upr"]
     filtered = f"filtered at {upr:g} UPR" if upr is not None else "not filtered"
-    title(ax, f"Roundness of {found.data['file']}", f"{found.data['points']} points, radius {radius:.4f} mm, {filtered}", _rings.LIFT)
+    held = f"{found.data['points']} points, radius {radius:.4f} mm, {filtered}"
+    title(ax, f"Roundness of {found.data['file']}", held, _rings.LIFT)
     _rings.legend(ax, columns=2)
     return ax
 

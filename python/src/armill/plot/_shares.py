@@ -37,7 +37,8 @@ def shares(source: Any, ask: str | None = None, *, ax: Axes | None = None) -> Ax
         )
         beyond, before = beyond + np.maximum(share, 0), before + np.minimum(share, 0)
     for row, (_, point) in enumerate(points):
-        ax.plot([point["in_plane_um"]] * 2, [row - 0.4, row + 0.4], color=INK, linewidth=1.6, label="deviation" if row == 0 else None, zorder=3)
+        label = "deviation" if row == 0 else None
+        ax.plot([point["in_plane_um"]] * 2, [row - 0.4, row + 0.4], color=INK, linewidth=1.6, label=label, zorder=3)
         ax.annotate(
             f"{number(point['in_plane_um'])} µm", (max(beyond[row], point["in_plane_um"]), row), xytext=(5, 0),
             textcoords="offset points", va="center", fontsize=9, fontweight="bold",

@@ -45,7 +45,9 @@ def turns(
     # A path may turn the tool on beyond half a turn; it is the same turn, which comes in again from the other side.
     within = (chosen + 180.0) % 360.0 - 180.0
     around = np.flatnonzero(np.abs(np.diff(within)) > 180.0) + 1
-    line = ax.plot(np.insert(distance, around, np.nan), np.insert(within, around, np.nan), color="white" if robot is not None else INK, linewidth=2.2, label="turn chosen", zorder=4)
+    along, turned = (np.insert(values, around, np.nan) for values in (distance, within))
+    colour = INK if robot is None else "white"
+    line = ax.plot(along, turned, color=colour, linewidth=2.2, label="turn chosen", zorder=4)
     if robot is not None:
         line[0].set_path_effects([*_outline()])
     for place in answer["search"]["breaks"]:
@@ -107,7 +109,10 @@ def _lattice(ax: Axes, answer: Json, columns: Columns, arm: tuple[Any, Any], tur
         lost = np.isnan(values).astype(float)
         ax.contourf(distance, all_turns, lost, levels=[0.5, 1.5], colors="none", hatches=["///"])
         ax.add_patch(
-            Rectangle((0, 0), 0, 0, facecolor="#f2f2f2", edgecolor="#8c8c8c", hatch="///", linewidth=0, label="out of reach, or of joint limits")
+            Rectangle(
+                (0, 0), 0, 0, facecolor="#f2f2f2", edgecolor="#8c8c8c", hatch="///", linewidth=0,
+                label="out of reach, or of joint limits",
+            )
         )
 
 
