@@ -31,6 +31,7 @@ mod tool_path;
 #[pyo3::pymodule]
 mod _armill {
     /// The version of armill, which is that of the command.
+    #[allow(non_upper_case_globals)]
     #[pymodule_export]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
