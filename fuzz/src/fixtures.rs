@@ -31,6 +31,36 @@ pub fn studies() -> Vec<Vec<u8>> {
     all
 }
 
+/// Values that are changed, made, taken away and refused, in texts with comments, tables on a line and lists of tables.
+pub fn edits() -> Vec<Vec<u8>> {
+    const TEXT: &str = "# mine\nlimit_um = 100 # of the drawing\n[plane]\ncentre_mm = [1000, 0, 500] # mm\n\n[[ask]]\nkind = \"map\"\n\n\
+                        [[ask]]\nkind = \"path\"\nplane = { tilt_deg = 90 }\n";
+    let changes = [
+        ("plane.centre_mm", "[900, 0.5, 500]"),
+        ("plane.centre_mm[2]", "600"),
+        ("ask[1].plane.tilt_deg", "null"),
+        ("ask[0].load.cases_n", "[[1, 2, 3]]"),
+        ("place.\"x y\"", "{\"a\": [true, \"b\"]}"),
+        ("ask", "null"),
+        ("ask[7].limit_um", "1e300"),
+        ("", "plain"),
+    ];
+    let one = |(path, value)| format!("{path}\n{value}\n{TEXT}").into_bytes();
+    changes.into_iter().map(one).collect()
+}
+
+/// Meshes of every kind of name, with and without origin and scale, on a chain and off it.
+pub fn meshes() -> Vec<Vec<u8>> {
+    seeds(&[
+        "<robot name='r'><link name='a'><visual><origin xyz='0 0 1' rpy='0 1 0'/><geometry><mesh filename='package://p/a.stl' \
+         scale='0.001 0.001 0.001'/></geometry></visual><collision><geometry><mesh filename='a.stl'/></geometry></collision></link>\
+         <link name='b'><visual><geometry><box size='1 1 1'/></geometry></visual></link><joint name='j' type='continuous'>\
+         <parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint><link name='c'><visual><geometry>\
+         <mesh filename='file:///c.dae'/></geometry></visual></link><joint name='k' type='prismatic'><parent link='b'/>\
+         <child link='c'/><axis xyz='0.6 0 0.8'/></joint></robot>",
+    ])
+}
+
 /// Properties, arguments, conditions, blocks, nested macros.
 pub fn xacro() -> Vec<Vec<u8>> {
     [macros(), urdf()].concat()

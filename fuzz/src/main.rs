@@ -17,6 +17,7 @@
 
 mod corpus;
 mod dictionaries;
+mod edited;
 mod fixtures;
 mod signal_stack;
 mod targets;

@@ -5,7 +5,7 @@ use armill_study::file::format::StudyFile;
 
 use crate::dictionaries as words;
 use crate::fixtures;
-use crate::{tracked, verdicts};
+use crate::{edited, tracked, verdicts};
 
 /// One parser.
 pub struct Target {
@@ -59,8 +59,10 @@ impl Target {
 #[rustfmt::skip]
 pub const TARGETS: &[Target] = &[
     target("study", verdicts::study, fixtures::studies, &["toml"], words::STUDY).of_schema(schema_json::<StudyFile>),
+    target("edit", edited::edit, fixtures::edits, &[], words::STUDY).of_schema(schema_json::<StudyFile>),
     target("robot", verdicts::armill, fixtures::robots, &["toml"], words::ROBOT),
     target("urdf", verdicts::urdf, fixtures::urdf, &["urdf"], words::URDF),
+    target("meshes", edited::meshes, fixtures::meshes, &["urdf"], words::URDF),
     target("xacro", verdicts::xacro, fixtures::xacro, &["xacro"], words::XACRO),
     target("opw", verdicts::opw, fixtures::opw, &["yaml", "yml"], words::OPW),
     target("dh", verdicts::dh, fixtures::dh, &["dh"], words::DH),

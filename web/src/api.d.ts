@@ -180,6 +180,198 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/tables": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** The values of a text, each with its place */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["Checked"];
+                };
+            };
+            responses: {
+                /** @description as asked */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["TablesAnswer"];
+                    };
+                };
+                /** @description what is wrong */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/schema": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /** JSON schema of a study */
+        get: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody?: never;
+            responses: {
+                /** @description as asked */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": Record<string, never>;
+                    };
+                };
+                /** @description what is wrong */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/view": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** Answer, values and scene of an ask after values are changed */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["OfView"];
+                };
+            };
+            responses: {
+                /** @description as asked */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ViewAnswer"];
+                    };
+                };
+                /** @description what is wrong */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/mesh": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /** A shape of the robot */
+        post: {
+            parameters: {
+                query?: never;
+                header?: never;
+                path?: never;
+                cookie?: never;
+            };
+            requestBody: {
+                content: {
+                    "application/json": components["schemas"]["OfMesh"];
+                };
+            };
+            responses: {
+                /** @description as asked */
+                200: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "model/stl": string;
+                    };
+                };
+                /** @description what is wrong */
+                default: {
+                    headers: {
+                        [name: string]: unknown;
+                    };
+                    content: {
+                        "application/json": components["schemas"]["ErrorBody"];
+                    };
+                };
+            };
+        };
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/answer": {
         parameters: {
             query?: never;
@@ -970,6 +1162,27 @@ export interface components {
             key: string;
             /** @description What it is to be; `null` takes it away. */
             value: unknown;
+            /**
+             * @description Whether it is one of the study, also where an ask is named.
+             * @default false
+             */
+            whole: boolean;
+        };
+        /** @description An ask of a text in which values are changed first. */
+        OfView: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Its ask, whose values they are; the first where none is named. */
+            ask?: string | null;
+            /** @description What changes; nothing if left out. */
+            changes?: components["schemas"]["ChangedValue"][];
+        };
+        /** @description A shape of the robot. */
+        OfMesh: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description The file, as the robot's file names it. */
+            file: string;
         };
         /** @description An ask of a text. */
         OfAsk: {
@@ -1327,6 +1540,280 @@ export interface components {
             asks: components["schemas"]["OutlinedAsk"][];
             /** @description Everything that is wrong with it. */
             problems: components["schemas"]["Problem"][];
+        };
+        /** @description The values of a text. */
+        TablesAnswer: {
+            /** @description All tables and values as they stand, keys as in the schema of a study; `null` where the text is no TOML. */
+            values: unknown;
+            /** @description Where each value stands. */
+            places: components["schemas"]["ValuePlace"][];
+            /** @description Everything that is wrong, as `armill check --json` tells it. */
+            problems: components["schemas"]["Problem"][];
+        };
+        /** @description Where a value stands. */
+        ValuePlace: {
+            /** @description Which: `place.x_mm`, `ask[1].circle.radius_mm`; a list is one value, but for lists of tables. */
+            path: string;
+            /** @description Its bytes in the text: the first, and the one behind the last. */
+            bytes: [
+                number,
+                number
+            ];
+        };
+        /** @description What is shown of one ask. */
+        ViewAnswer: {
+            /** @description The text with the changes made in it. */
+            text: string;
+            /** @description Its asks. */
+            asks: components["schemas"]["OutlinedAsk"][];
+            /** @description The settings that the ask resolves to. */
+            values: components["schemas"]["ValuesAnswer"];
+            /** @description What of it can be drawn in space. */
+            scene: components["schemas"]["SceneAnswer"];
+            /** @description As `armill run --json` tells it of that ask. */
+            answer: components["schemas"]["StudyAnswer"];
+        };
+        /** @description Every setting of one ask; `null` where there is none. */
+        ValuesAnswer: {
+            /** @description Name of the ask. */
+            ask: string;
+            /** @description `map`, `sections`, `volume`, `path` or `holes`. */
+            kind: string;
+            /** @description The robot, as the study names it. */
+            robot: string;
+            /** @description Frame that coordinates count from. */
+            base: string;
+            /** @description Frames that they may count from. */
+            bases: string[];
+            /** @description Centre of the plane. */
+            centre_mm: [
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Its tilt; `null` where it is told by turns.
+             */
+            tilt_deg: number | null;
+            /** @description Its turns; `null` where it is told by its tilt. */
+            rotation_deg: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Half its sides along y' and z'. */
+            half_size_mm: [
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Pitch of its grid; of a path that of its points.
+             */
+            step_mm: number;
+            /** @description Flange to tool centre point, as the file tells it. */
+            flange_from_tool_mm_deg: [
+                number,
+                number,
+                number,
+                number,
+                number,
+                number
+            ];
+            /**
+             * Format: double
+             * @description Distance of the TCP from the flange.
+             */
+            tool_length_mm: number;
+            /** @description Axes that forces are told in; `null` where they come with a cut. */
+            load_frame: string | null;
+            /** @description Forces on the tool, one a case. */
+            cases_n: [
+                number,
+                number,
+                number
+            ][];
+            /**
+             * Format: double
+             * @description The tolerance.
+             */
+            limit_um: number;
+            /** @description Posture as the file asks for it: words of a branch, `nominal` or `best`. */
+            branch: string;
+            /** @description The branch that this means. */
+            branch_meant: string;
+            /** @description Names of branches that the robot has; none where they have no names. */
+            branches: string[];
+            /**
+             * Format: double
+             * @description Turn of the tool about its axis; of paths alone.
+             */
+            spin_deg: number | null;
+            /** @description Sections: the x coordinate of the plane's centre, one a section. */
+            distances_mm: number[] | null;
+            /** @description Sections: the tilt of the plane, one a section. */
+            tilts_deg: number[] | null;
+            /** @description Volume: half the sides of the box. */
+            box_half_size_mm: [
+                number,
+                number,
+                number
+            ] | null;
+            /** @description Corners of the plane, base, in order round it. */
+            plane_corners_mm: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ];
+        };
+        /** @description What can be drawn of one ask, base. */
+        SceneAnswer: {
+            /** @description Name of the robot. */
+            robot: string;
+            /** @description Where the frame stands that coordinates count from. */
+            base_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description The plane; of sections the first. */
+            plate: components["schemas"]["PlateInScene"];
+            /** @description Sections: each with its plane. */
+            sections: components["schemas"]["SectionInScene"][];
+            /** @description Points of a path, of holes or of a box. */
+            points: components["schemas"]["PointsInScene"] | null;
+            /** @description The box of a volume. */
+            box: components["schemas"]["BoxInScene"] | null;
+        };
+        /** @description A plane with its sides. */
+        PlateInScene: {
+            /** @description Its corners, in order round it: least y' and z', greatest y', greatest both, greatest z'. */
+            corners_mm: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ];
+            /** @description Outward normal. */
+            normal_axis: [
+                number,
+                number,
+                number
+            ];
+            /** @description Axis y'. */
+            y_axis: [
+                number,
+                number,
+                number
+            ];
+            /** @description Axis z'. */
+            z_axis: [
+                number,
+                number,
+                number
+            ];
+            /** @description Where y' and z' count from. */
+            centre_mm: [
+                number,
+                number,
+                number
+            ];
+        };
+        /** @description One of several planes. */
+        SectionInScene: {
+            /** @description What tells it from the others. */
+            label: string;
+            /** @description Where it lies. */
+            plate: components["schemas"]["PlateInScene"];
+        };
+        /** @description Points with some columns of their table: of each as many as there are points, `null` where one has none. */
+        PointsInScene: {
+            /** @description Where they are. */
+            xyz_mm: [
+                number,
+                number,
+                number
+            ][];
+            /** @description Deviation under the deciding case, base. */
+            deviation_um: ([
+                number,
+                number,
+                number
+            ] | null)[];
+            /**
+             * @description `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
+             *     `distance_mm`: see the table of the ask.
+             */
+            columns: {
+                [key: string]: unknown;
+            };
+        };
+        /** @description A box. */
+        BoxInScene: {
+            /** @description Its corner with the least coordinates. */
+            corner_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Its sides from there. */
+            sides_mm: [
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][],
+                [
+                    number,
+                    number,
+                    number
+                ][]
+            ];
+            /** @description Points along each side. */
+            counts: [
+                number,
+                number,
+                number
+            ];
         };
         /** @description The whole answer. */
         StudyAnswer: {
@@ -2906,117 +3393,6 @@ export interface components {
             /** @description Under which licence, or that it is a fact. */
             licence: string;
         };
-        /** @description Every setting of one ask; `null` where there is none. */
-        ValuesAnswer: {
-            /** @description Name of the ask. */
-            ask: string;
-            /** @description `map`, `sections`, `volume`, `path` or `holes`. */
-            kind: string;
-            /** @description The robot, as the study names it. */
-            robot: string;
-            /** @description Frame that coordinates count from. */
-            base: string;
-            /** @description Frames that they may count from. */
-            bases: string[];
-            /** @description Centre of the plane. */
-            centre_mm: [
-                number,
-                number,
-                number
-            ];
-            /**
-             * Format: double
-             * @description Its tilt; `null` where it is told by turns.
-             */
-            tilt_deg: number | null;
-            /** @description Its turns; `null` where it is told by its tilt. */
-            rotation_deg: [
-                number,
-                number,
-                number
-            ] | null;
-            /** @description Half its sides along y' and z'. */
-            half_size_mm: [
-                number,
-                number
-            ];
-            /**
-             * Format: double
-             * @description Pitch of its grid; of a path that of its points.
-             */
-            step_mm: number;
-            /** @description Flange to tool centre point, as the file tells it. */
-            flange_from_tool_mm_deg: [
-                number,
-                number,
-                number,
-                number,
-                number,
-                number
-            ];
-            /**
-             * Format: double
-             * @description Distance of the TCP from the flange.
-             */
-            tool_length_mm: number;
-            /** @description Axes that forces are told in; `null` where they come with a cut. */
-            load_frame: string | null;
-            /** @description Forces on the tool, one a case. */
-            cases_n: [
-                number,
-                number,
-                number
-            ][];
-            /**
-             * Format: double
-             * @description The tolerance.
-             */
-            limit_um: number;
-            /** @description Posture as the file asks for it: words of a branch, `nominal` or `best`. */
-            branch: string;
-            /** @description The branch that this means. */
-            branch_meant: string;
-            /** @description Names of branches that the robot has; none where they have no names. */
-            branches: string[];
-            /**
-             * Format: double
-             * @description Turn of the tool about its axis; of paths alone.
-             */
-            spin_deg: number | null;
-            /** @description Sections: the x coordinate of the plane's centre, one a section. */
-            distances_mm: number[] | null;
-            /** @description Sections: the tilt of the plane, one a section. */
-            tilts_deg: number[] | null;
-            /** @description Volume: half the sides of the box. */
-            box_half_size_mm: [
-                number,
-                number,
-                number
-            ] | null;
-            /** @description Corners of the plane, base, in order round it. */
-            plane_corners_mm: [
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][]
-            ];
-        };
         /** @description Every posture at one place, as `armill pose --json` tells it, and how each is drawn. */
         PosturesAnswer: {
             /** @description The postures under the load case asked for. */
@@ -3025,6 +3401,8 @@ export interface components {
             drawings: components["schemas"]["DrawnPosture"][];
             /** @description Limits of the joints. */
             limits: components["schemas"]["JointLimits"][];
+            /** @description Joints of each posture as the chain of the robot counts them, in place of its controller. */
+            chain: components["schemas"]["ChainPosition"][][];
             /** @description Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known. */
             in_plane: (components["schemas"]["CaseAnswer"] | null)[][];
         };
@@ -3369,6 +3747,8 @@ export interface components {
                 number,
                 number
             ][];
+            /** @description The shapes of its links, where the robot's file names them and all are there. */
+            meshes: components["schemas"]["DrawnMesh"][];
         };
         /** @description A joint in a drawing. */
         DrawnJoint: {
@@ -3389,6 +3769,32 @@ export interface components {
             /** @description `turns` or `slides`. */
             kind: string;
         };
+        /** @description A shape of a link, in base. */
+        DrawnMesh: {
+            /** @description Its link. */
+            link: string;
+            /** @description Its file, as the robot's file names it. */
+            file: string;
+            /** @description Millimetres for one unit of the file, along its axes. */
+            scale_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description Where it stands. */
+            xyz_mm: [
+                number,
+                number,
+                number
+            ];
+            /** @description How it stands there, unit quaternion. */
+            quaternion_wxyz: [
+                number,
+                number,
+                number,
+                number
+            ];
+        };
         /** @description Limits of a joint as the robot file counts; `null` where they are not known. */
         JointLimits: {
             /** @description Its name. */
@@ -3405,6 +3811,27 @@ export interface components {
             upper_deg: number | null;
             /** @description `deg` or `mm`. */
             unit: string;
+        };
+        /**
+         * @description A joint as the chain counts it: by the right hand about the axes of the chain, from where the chain is straight. What
+         *     the robot file tells of signs, zeros and coupled joints is in it; mm of a joint that slides.
+         */
+        ChainPosition: {
+            /**
+             * Format: double
+             * @description Where it stands.
+             */
+            at_deg: number;
+            /**
+             * Format: double
+             * @description Least position; `null` where it has no limits. Limits of a coupled joint move with the other.
+             */
+            lower_deg: number | null;
+            /**
+             * Format: double
+             * @description Greatest position, likewise.
+             */
+            upper_deg: number | null;
         };
         /** @description A deviation seen from the plane; what is not told of such a posture is `null`. */
         CaseAnswer: {
@@ -3440,137 +3867,6 @@ export interface components {
              * @description Force that keeps the limit whatever its direction.
              */
             permissible_any_direction_n: number | null;
-        };
-        /** @description What can be drawn of one ask, base. */
-        SceneAnswer: {
-            /** @description Name of the robot. */
-            robot: string;
-            /** @description Where the frame stands that coordinates count from. */
-            base_mm: [
-                number,
-                number,
-                number
-            ];
-            /** @description The plane; of sections the first. */
-            plate: components["schemas"]["PlateInScene"];
-            /** @description Sections: each with its plane. */
-            sections: components["schemas"]["SectionInScene"][];
-            /** @description Points of a path, of holes or of a box. */
-            points: components["schemas"]["PointsInScene"] | null;
-            /** @description The box of a volume. */
-            box: components["schemas"]["BoxInScene"] | null;
-        };
-        /** @description A plane with its sides. */
-        PlateInScene: {
-            /** @description Its corners, in order round it: least y' and z', greatest y', greatest both, greatest z'. */
-            corners_mm: [
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][]
-            ];
-            /** @description Outward normal. */
-            normal_axis: [
-                number,
-                number,
-                number
-            ];
-            /** @description Axis y'. */
-            y_axis: [
-                number,
-                number,
-                number
-            ];
-            /** @description Axis z'. */
-            z_axis: [
-                number,
-                number,
-                number
-            ];
-            /** @description Where y' and z' count from. */
-            centre_mm: [
-                number,
-                number,
-                number
-            ];
-        };
-        /** @description One of several planes. */
-        SectionInScene: {
-            /** @description What tells it from the others. */
-            label: string;
-            /** @description Where it lies. */
-            plate: components["schemas"]["PlateInScene"];
-        };
-        /** @description Points with some columns of their table: of each as many as there are points, `null` where one has none. */
-        PointsInScene: {
-            /** @description Where they are. */
-            xyz_mm: [
-                number,
-                number,
-                number
-            ][];
-            /** @description Deviation under the deciding case, base. */
-            deviation_um: ([
-                number,
-                number,
-                number
-            ] | null)[];
-            /**
-             * @description `state`, `branch`, `in_plane_um`, `normal_um`, `full_um`, of a path `along_um`, `cross_um`, `axial_um`, `line`,
-             *     `distance_mm`: see the table of the ask.
-             */
-            columns: {
-                [key: string]: unknown;
-            };
-        };
-        /** @description A box. */
-        BoxInScene: {
-            /** @description Its corner with the least coordinates. */
-            corner_mm: [
-                number,
-                number,
-                number
-            ];
-            /** @description Its sides from there. */
-            sides_mm: [
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][],
-                [
-                    number,
-                    number,
-                    number
-                ][]
-            ];
-            /** @description Points along each side. */
-            counts: [
-                number,
-                number,
-                number
-            ];
         };
         /** @description The pictures of an ask. */
         PicturesAnswer: {

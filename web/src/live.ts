@@ -1,29 +1,24 @@
 // What is on the screen: one study text, one ask, its answer, and where the robot stands. Panels and scene listen.
 //
-// A change of a control goes /api/change -> /api/answer, values, scene -> /api/pose; newest wins. The text that comes
-// back becomes the text of the next change, so that comments and order stay as the user wrote them.
+// A change of a control goes /api/view -> /api/pose; newest wins. The text that comes back becomes the text of the next
+// change, so that comments and order stay as the user wrote them.
 
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, decidingCase } from "./posture";
-import type { Answer, Ask, At, Change, MapAnswer, Point, Pose, Problem, Scene, Setting, Study, Values } from "./types";
+import type { Answer, Ask, At, Change, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
 export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
 /** Where the robot stands: the worst or best point of what is shown, or a place that the user chose. */
 export type Follow = "worst" | "best" | "place";
 
 interface Job {
-  text: string;
   ask: string | null;
   since: number;
 }
 interface Result {
-  text: string;
-  problems: Problem[];
   sent: Map<string, unknown>;
-  answer: Answer;
-  values: Values;
-  scene: Scene;
+  view: View;
 }
 
 export class Live {
@@ -130,7 +125,7 @@ export class Live {
 
   refresh(): void {
     this.input_at = performance.now();
-    if (this.text !== "") this.answers.submit({ text: this.text, ask: this.ask, since: this.input_at });
+    if (this.text !== "") this.answers.submit({ ask: this.ask, since: this.input_at });
   }
 
   goTo(at: At): void {
@@ -201,33 +196,27 @@ export class Live {
 
   private async ask_server(job: Job, signal: AbortSignal): Promise<Result> {
     const sent = new Map(this.pending);
-    let text = job.text === this.text ? job.text : this.text;
-    let problems: Problem[] = [];
-    for (const whole of [true, false]) {
-      const changes: Change[] = [...sent].filter(([key]) => key.startsWith("\n") === whole).map(([key, value]) => ({ key: key.trimStart(), value }));
-      if (changes.length === 0) continue;
-      const changed = await api.change(text, whole ? null : job.ask, changes, signal);
-      text = changed.text;
-      problems = changed.problems;
-    }
-    if (problems.length > 0) throw new Refused(422, "invalid-input", problems[0]!.message, problems);
-    const [answer, values, scene] = await Promise.all([api.answer(text, job.ask, signal), api.values(text, job.ask, signal), api.scene(text, job.ask, signal)]);
-    return { text, problems, sent, answer, values, scene };
+    const changes: Change[] = [...sent].map(([key, value]) => ({ key: key.trimStart(), value, whole: key.startsWith("\n") }));
+    return { sent, view: await api.view(this.text, job.ask, changes, signal) };
   }
 
-  private take(result: Result, job: Job): void {
+  private take({ sent, view }: Result, job: Job): void {
     if (job.ask !== this.ask) return;
-    for (const [key, value] of result.sent) if (this.pending.get(key) === value) this.pending.delete(key);
-    this.text = result.text;
-    this.answer = result.answer;
-    if (this.settled) this.values = result.values;
-    this.scene = result.scene;
+    for (const [key, value] of sent) if (this.pending.get(key) === value) this.pending.delete(key);
+    this.text = view.text;
+    this.asks = view.asks;
+    this.answer = view.answer;
+    if (this.settled) this.values = view.values;
+    this.scene = view.scene;
     this.error = null;
-    if (this.section >= Math.max(1, result.answer.maps.length)) this.section = 0;
+    if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
+    const begun = performance.now();
     this.tell("answer");
+    performance.measure("armill:draw", { start: begun });
     requestAnimationFrame(() =>
       setTimeout(() => {
         this.took_ms = performance.now() - job.since;
+        performance.measure("armill:picture", { start: job.since });
         this.tell("busy");
       }),
     );
@@ -238,6 +227,8 @@ export class Live {
   private fail(error: unknown): void {
     if (error instanceof Refused && error.kind === "superseded") return;
     this.error = error instanceof Refused ? error : new Refused(0, "internal", String(error), []);
+    const [first] = this.error.problems;
+    if (first) this.error = new Refused(this.error.status, this.error.kind, first.message, this.error.problems, first.hint);
     this.pending.clear();
     this.error_at_field = false;
     this.tell("error");

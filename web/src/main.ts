@@ -27,7 +27,12 @@ async function start(): Promise<void> {
   const live = new Live();
   const tabs: Tab[] = [];
   const go = (id: string) => show(tabs.find((t) => t.id === id) ?? tabs[0]!);
-  tabs.push(liveTab(live), picturesTab(live), jobsTab(live, go), studyTab(live), filesTab(live));
+  const study_tab = studyTab(live);
+  const table = (name: string) => {
+    go("study");
+    study_tab.reveal(name);
+  };
+  tabs.push(liveTab(live), picturesTab(live), jobsTab(live, { go, table }), study_tab, filesTab(live));
   let current: Tab | null = null;
   const buttons = tabs.map((tab) => h("button", { type: "button", role: "tab", id: `tab-${tab.id}`, "aria-controls": `view-${tab.id}`, onclick: () => show(tab) }, tab.title));
   const nav = h("nav", { role: "tablist", "aria-label": "Views" }, buttons);

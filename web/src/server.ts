@@ -1,6 +1,7 @@
 // The server: one function a call. The token comes with the URL that armill opened and stays in this tab.
 
-import type { Answer, At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Scene, StoredFile, Study, TakenIn, Values, Wrong } from "./types";
+import type { Schema } from "./tables/schema";
+import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -70,10 +71,20 @@ export const api = {
   study: () => json<Study>("GET", "/api/study"),
   save: (text: string, version: string) => json<Study>("PUT", "/api/study", { text, version }),
   check: (text: string, signal?: AbortSignal) => json<Checked>("POST", "/api/check", { text }, signal),
+  schema: () => json<Schema>("GET", "/api/schema"),
+  tables: (text: string, signal?: AbortSignal) => json<Tables>("POST", "/api/tables", { text }, signal),
   change: (text: string, ask: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, ask, changes }, signal),
-  answer: (text: string, ask: string | null, signal?: AbortSignal) => json<Answer>("POST", "/api/answer", { text, ask }, signal),
-  values: (text: string, ask: string | null, signal?: AbortSignal) => json<Values>("POST", "/api/values", { text, ask }, signal),
-  scene: (text: string, ask: string | null, signal?: AbortSignal) => json<Scene>("POST", "/api/scene", { text, ask }, signal),
+  view: async (text: string, ask: string | null, changes: Change[], signal?: AbortSignal) => {
+    const asked = performance.now();
+    const response = await raw("POST", "/api/view", { text, ask, changes }, signal);
+    const body = await response.text();
+    const got = performance.now();
+    const view = JSON.parse(body) as View;
+    performance.measure("armill:answer", { start: asked, end: got });
+    performance.measure("armill:parse", { start: got });
+    return view;
+  },
+  mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   pose: (text: string, ask: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, ask, at, case: load_case }, signal),
   pictures: (text: string, ask: string | null, signal?: AbortSignal) => json<{ pictures: Picture[] }>("POST", "/api/pictures", { text, ask }, signal),
   table: async (text: string, ask: string | null) => (await raw("POST", "/api/table", { text, ask, format: "csv" })).blob(),

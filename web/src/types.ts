@@ -14,6 +14,7 @@ export type Ask = Schemas["OutlinedAsk"];
 export type Checked = Schemas["OutlineAnswer"];
 export type Changed = Schemas["ChangedAnswer"];
 export type Change = Schemas["ChangedValue"];
+export type Tables = Omit<Schemas["TablesAnswer"], "places"> & { places: { path: string; bytes: [number, number] }[] };
 
 // openapi-typescript gets lists of fixed length within such lists wrong: these few are set right by hand.
 type Region = Omit<Schemas["RegionAnswer"], "rectangle_mm"> & { rectangle_mm: [[number, number], [number, number]] | null };
@@ -32,6 +33,7 @@ export type MapGrid = Schemas["GridAnswer"];
 
 export type At = Schemas["Place"];
 export type ArmDrawing = Schemas["DrawnPosture"];
+export type DrawnMesh = Schemas["DrawnMesh"];
 /** Uncertainty, shares and permissible forces come where the posture has a named branch. */
 export type CaseValues = Schemas["CaseAnswer"] & {
   in_plane_u_um?: number | null;
@@ -61,6 +63,15 @@ export type Scene = Omit<Schemas["SceneAnswer"], "points" | "plate" | "sections"
   points: ScenePoints | null;
   box: Box | null;
 };
+
+/** All that is shown of an ask after values have changed. */
+export interface View {
+  text: string;
+  asks: Ask[];
+  values: Values;
+  scene: Scene;
+  answer: Answer;
+}
 
 export type RobotRow = Schemas["RobotRow"];
 export type Picture = Schemas["PictureAnswer"];

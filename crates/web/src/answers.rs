@@ -3,9 +3,11 @@
 //! | path | answers |
 //! |---|---|
 //! | `POST /api/answer` | as `armill run --json` of one ask, or of all |
+//! | `POST /api/view` | answer, values and scene of an ask at once, after values are changed |
 //! | `POST /api/values` | the settings that an ask resolves to |
 //! | `POST /api/pose` | the arm at one place of an ask |
 //! | `POST /api/scene` | what of an ask can be drawn in space |
+//! | `POST /api/mesh` | the shape of a link, where the robot's file names one |
 //! | `POST /api/table` | the table of an ask |
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
 //! | `GET /api/robots` | as `armill robots --json` |
@@ -14,7 +16,8 @@ use std::sync::Arc;
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    Place, PostureQuestion, Text, answer_json, picture_svg, pictures, postures, scene, table_csv, values,
+    ChangedValue, Place, PostureQuestion, Text, answer_json, mesh_bytes, picture_svg, pictures, postures,
+    scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -40,6 +43,29 @@ pub(crate) struct OfAsk {
     pub text: String,
     /// Its ask; all of them, or the first, where none is named.
     pub ask: Option<String>,
+}
+
+/// An ask of a text in which values are changed first.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfView {
+    /// The text of the study.
+    pub text: String,
+    /// Its ask, whose values they are; the first where none is named.
+    pub ask: Option<String>,
+    /// What changes; nothing if left out.
+    #[serde(default)]
+    pub changes: Vec<ChangedValue>,
+}
+
+/// A shape of the robot.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct OfMesh {
+    /// The text of the study.
+    pub text: String,
+    /// The file, as the robot's file names it.
+    pub file: String,
 }
 
 /// A place of an ask.
@@ -98,9 +124,11 @@ pub(crate) struct OfPicture {
 pub(crate) fn routes() -> Router<Arc<State>> {
     Router::new()
         .route("/answer", post(answer))
+        .route("/view", post(of_view))
         .route("/values", post(of_values))
         .route("/pose", post(pose))
         .route("/scene", post(of_scene))
+        .route("/mesh", post(mesh))
         .route("/table", post(table))
         .route("/pictures", post(of_pictures))
         .route("/picture.png", post(picture_png))
@@ -129,6 +157,25 @@ fn as_json(value: &impl Serialize) -> Result<Vec<u8>, StudyError> {
 async fn answer(Shared(state): Shared<Arc<State>>, headers: HeaderMap, Asked(of): Asked<OfAsk>) -> Answered {
     answered(state, (of.text, headers, JSON), move |text, watch| {
         answer_json(text, of.ask.as_deref(), watch)
+    })
+    .await
+}
+
+async fn of_view(
+    Shared(state): Shared<Arc<State>>,
+    headers: HeaderMap,
+    Asked(of): Asked<OfView>,
+) -> Answered {
+    let headers = for_itself(&headers, "view");
+    answered(state, (of.text, headers, JSON), move |text, watch| {
+        as_json(&view(text, of.ask.as_deref(), &of.changes, watch)?)
+    })
+    .await
+}
+
+async fn mesh(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfMesh>) -> Answered {
+    answered(state, (of.text, HeaderMap::new(), "model/stl"), move |text, _| {
+        mesh_bytes(text, &of.file)
     })
     .await
 }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use armill_study::answer::StudyAnswer;
 use armill_study::live::{
-    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, SceneAnswer, ValuesAnswer,
+    ChangedAnswer, OutlineAnswer, PicturesAnswer, PosturesAnswer, SceneAnswer, TablesAnswer, ValuesAnswer,
+    ViewAnswer,
 };
 use armill_study::robot_answers::RobotRow;
 use axum::Router;
@@ -17,7 +18,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, SchemaGenerator};
 use serde_json::{Map, Value, json};
 
-use crate::answers::{OfAsk, OfPicture, OfPlace, OfTable};
+use crate::answers::{OfAsk, OfMesh, OfPicture, OfPlace, OfTable, OfView};
 use crate::error::ErrorBody;
 use crate::files::{Files, TakenIn};
 use crate::job::JobAnswer;
@@ -181,6 +182,34 @@ fn operations(s: &mut Schemas) -> Vec<Operation> {
             "A text with values changed",
             s.asked::<Changes>(),
             s.answered::<ChangedAnswer>(200),
+        ),
+        of(
+            "post",
+            "/api/tables",
+            "The values of a text, each with its place",
+            s.asked::<Checked>(),
+            s.answered::<TablesAnswer>(200),
+        ),
+        of(
+            "get",
+            "/api/schema",
+            "JSON schema of a study",
+            None,
+            (200, "application/json", json!({ "type": "object" })),
+        ),
+        of(
+            "post",
+            "/api/view",
+            "Answer, values and scene of an ask after values are changed",
+            s.asked::<OfView>(),
+            s.answered::<ViewAnswer>(200),
+        ),
+        of(
+            "post",
+            "/api/mesh",
+            "A shape of the robot",
+            s.asked::<OfMesh>(),
+            bytes(200, "model/stl"),
         ),
         of(
             "post",

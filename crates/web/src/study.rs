@@ -6,20 +6,23 @@
 //! | `PUT /api/study` | writes it, if nobody else has |
 //! | `POST /api/check` | what is in a text, what is wrong with it |
 //! | `POST /api/change` | a text with some values changed, its comments kept |
+//! | `POST /api/tables` | the values of a text, each with its place |
+//! | `GET /api/schema` | which tables and values a study may have, as `armill check --schema` prints it |
 
 use std::sync::Arc;
 
-use armill_formats::document::Problem;
-use armill_formats::document::edit::Change;
-use armill_study::live::{OutlineAnswer, OutlinedAsk, changed, outline};
+use armill_formats::document::{Problem, schema_json};
+use armill_study::file::format::StudyFile;
+use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline, tables};
 use axum::Router;
 use axum::extract::State as Shared;
 use axum::http::StatusCode;
+use axum::response::Response;
 use axum::routing::{get, post};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Asked, check_text, json};
+use crate::body::{Asked, check_text, json, typed};
 use crate::cell::{Cell, version};
 use crate::error::Answered;
 use crate::server::State;
@@ -79,21 +82,13 @@ pub(crate) struct Changes {
     pub changes: Vec<ChangedValue>,
 }
 
-/// A value that is to be another.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct ChangedValue {
-    /// Which: `plane.centre_mm`.
-    pub key: String,
-    /// What it is to be; `null` takes it away.
-    pub value: serde_json::Value,
-}
-
 pub(crate) fn routes() -> Router<Arc<State>> {
     Router::new()
         .route("/study", get(read).put(write))
         .route("/check", post(check))
         .route("/change", post(change))
+        .route("/tables", post(of_tables))
+        .route("/schema", get(schema))
 }
 
 async fn read(Shared(state): Shared<Arc<State>>) -> Answered {
@@ -156,15 +151,22 @@ async fn change(Shared(state): Shared<Arc<State>>, Asked(asked): Asked<Changes>)
     check_text(&asked.text)?;
     let shared = Arc::clone(&state);
     let work = move |_: armill_core::watch::Watch<'_>| {
-        let changes = asked.changes.into_iter().map(|change| Change {
-            path: change.key,
-            value: change.value,
-        });
         changed(
             shared.cell.text(&asked.text),
             asked.ask.as_deref(),
-            &changes.collect::<Vec<_>>(),
+            &asked.changes,
         )
     };
     Ok(json(StatusCode::OK, &state.work.done(work).await?))
+}
+
+async fn of_tables(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Checked>) -> Answered {
+    check_text(&checked.text)?;
+    let shared = Arc::clone(&state);
+    let work = move |_: armill_core::watch::Watch<'_>| Ok(tables(shared.cell.text(&checked.text)));
+    Ok(json(StatusCode::OK, &state.work.done(work).await?))
+}
+
+async fn schema() -> Response {
+    typed("application/json", schema_json::<StudyFile>())
 }

@@ -1,4 +1,4 @@
-// Joint positions with their limits, in the robot file's own counting.
+// Joint positions with their limits, as the controller counts (the robot file) or as the chain does.
 
 import { h } from "../dom";
 import { fixed } from "../format";
@@ -7,17 +7,21 @@ import { panel } from "./panel";
 
 export function joints(live: Live): HTMLElement {
   const { root, show } = panel("joints", "Joint positions");
+  let by_chain = false;
   const draw = () => {
     const pose = live.pose;
     const posture = pose?.answer.postures[live.posture];
     if (!pose || !posture) return show(h("p", { class: "note" }, "Joint angles and limits appear here."));
+    const chain = pose.chain[live.posture] ?? [];
+    const told = posture.joints_deg.map((q, i) => (by_chain ? { at: chain[i]!.at_deg, low: chain[i]!.lower_deg, high: chain[i]!.upper_deg } : { at: q, low: pose.limits[i]?.lower_deg ?? null, high: pose.limits[i]?.upper_deg ?? null }));
+    const way = (chosen: boolean, name: string, about: string) =>
+      h("button", { type: "button", "aria-pressed": String(by_chain === chosen), "data-key": name, title: about, onclick: () => ((by_chain = chosen), draw()) }, name);
     show(
+      h("div", { class: "switch", role: "group", "aria-label": "How joints are counted" }, way(false, "Controller", "Signs and zeros of the robot's controller, as in its file"), way(true, "Chain", "By the right hand about the axes of the chain, from where it is straight")),
       h(
         "ul",
         { class: "bars joints", "aria-label": "Joint positions within their limits" },
-        posture.joints_deg.map((q, i) => {
-          const limit = pose.limits[i];
-          const [low, high] = [limit?.lower_deg ?? null, limit?.upper_deg ?? null];
+        told.map(({ at: q, low, high }, i) => {
           const at = low !== null && high !== null && high > low ? (100 * (q - low)) / (high - low) : null;
           const out = at !== null && (at < 0 || at > 100);
           const near = at !== null && !out && Math.min(q - low!, high! - q) < 10;

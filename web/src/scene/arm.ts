@@ -3,6 +3,7 @@
 
 import * as THREE from "three";
 import type { ArmDrawing, Vec3 } from "../types";
+import type { Limb } from "./covered";
 
 const vector = (v: Vec3): THREE.Vector3 => new THREE.Vector3(v[0], v[1], v[2]);
 const BODY = new THREE.MeshStandardMaterial({ color: 0xd5dbe3, roughness: 0.42, metalness: 0.15 });
@@ -14,6 +15,19 @@ export class Arm {
   readonly group = new THREE.Group();
   /** Of each joint: its name and where its housing sits. */
   knuckles: { name: string; at: THREE.Vector3 }[] = [];
+  /** What of the scene it hides. */
+  limbs: Limb[] = [];
+  private readonly body = new THREE.Group();
+  private readonly tooling = new THREE.Group();
+
+  constructor() {
+    this.group.add(this.body, this.tooling);
+  }
+
+  /** The tool alone, where the arm is shown in another shape. */
+  bare(on: boolean): void {
+    this.body.visible = !on;
+  }
 
   /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
   draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
@@ -28,10 +42,12 @@ export class Arm {
     const thick = total * 0.044;
     const radius = (along: number) => thick * (1 - 0.66 * Math.min(1, along / total));
 
+    this.limbs = [];
     let along = 0;
     knots.slice(1).forEach((to, i) => {
       const from = knots[i]!;
       this.add(limb(from, to, radius(along), radius(along + lengths[i]!)), BODY);
+      this.limbs.push({ from, to, radius: radius(along) });
       along += lengths[i]!;
       if (i + 2 < knots.length) this.add(ball(to, radius(along)), BODY);
     });
@@ -59,7 +75,7 @@ export class Arm {
 
   /** See-through, where what lies behind matters more. */
   ghost(on: boolean): void {
-    for (const child of this.group.children) {
+    for (const child of [...this.body.children, ...this.tooling.children]) {
       const material = (child as THREE.Mesh).material as THREE.MeshStandardMaterial;
       material.transparent = on;
       material.opacity = on ? 0.12 : 1;
@@ -69,12 +85,14 @@ export class Arm {
   }
 
   private clear(): void {
-    for (const child of this.group.children) (child as THREE.Mesh).geometry.dispose();
-    this.group.clear();
+    for (const part of [this.body, this.tooling]) {
+      for (const child of part.children) (child as THREE.Mesh).geometry.dispose();
+      part.clear();
+    }
   }
 
-  private add(geometry: THREE.BufferGeometry, material: THREE.Material): void {
-    this.group.add(new THREE.Mesh(geometry, material));
+  private add(geometry: THREE.BufferGeometry, material: THREE.Material, part = this.body): void {
+    part.add(new THREE.Mesh(geometry, material));
   }
 
   /** A joint whose axis runs along a link sits as a collar on that link, else at its origin. */
@@ -110,16 +128,17 @@ export class Arm {
   }
 
   private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number): void {
-    this.add(drum(flange.clone().addScaledVector(axis, -thick * 0.25), axis, thick * 1.05, thick * 0.28), STEEL);
+    this.add(drum(flange.clone().addScaledVector(axis, -thick * 0.25), axis, thick * 1.05, thick * 0.28), STEEL, this.tooling);
     const length = tip.distanceTo(flange);
+    this.limbs.push({ from: flange, to: tip, radius: thick * 0.7 });
     if (length > 2) {
       const way = tip.clone().sub(flange).normalize();
       const neck = Math.min(length * 0.75, Math.max(0, length - thick * 1.2));
       const shoulder = flange.clone().addScaledVector(way, neck);
-      this.add(limb(flange, shoulder, thick * 0.72, thick * 0.62), STEEL);
-      this.add(limb(shoulder, tip, thick * 0.3, thick * 0.14), TIP);
+      this.add(limb(flange, shoulder, thick * 0.72, thick * 0.62), STEEL, this.tooling);
+      this.add(limb(shoulder, tip, thick * 0.3, thick * 0.14), TIP, this.tooling);
     }
-    this.add(ball(tip, Math.max(6, thick * 0.24)), TIP);
+    this.add(ball(tip, Math.max(6, thick * 0.24)), TIP, this.tooling);
   }
 }
 

@@ -38,8 +38,11 @@ export class Labels {
     else this.hidden.add(name);
   }
 
-  /** Puts every label where its point is seen; of two that would cover each other the later one goes. */
-  place(camera: THREE.Camera, size: THREE.Vector2): void {
+  /**
+   * Puts every label where its point is seen; of two that would cover each other the later one goes, and so does one of
+   * what `covered` says lies behind something.
+   */
+  place(camera: THREE.Camera, size: THREE.Vector2, covered: (group: string, at: THREE.Vector3) => boolean): void {
     const taken: [number, number, number, number][] = [];
     const point = new THREE.Vector3();
     for (const [name, labels] of this.groups) {
@@ -50,9 +53,9 @@ export class Labels {
         const [w, h] = [element.textContent!.length * 6.2 + 10, 17];
         const box: [number, number, number, number] = [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
         const outside = this.hidden.has(name) || point.z > 1 || point.z < -1 || box[0] < 0 || box[1] < 0 || box[2] > size.x || box[3] > size.y;
-        const covered = taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1]);
-        element.style.visibility = outside || covered ? "hidden" : "visible";
-        if (outside || covered) continue;
+        const gone = outside || taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1]) || covered(name, at);
+        element.style.visibility = gone ? "hidden" : "visible";
+        if (gone) continue;
         taken.push(box);
         element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
       }

@@ -8,7 +8,7 @@ import type { View } from "./stage";
 import { ELLIPSOID, type SceneView, type Show, type Under } from "./view";
 
 const VIEWS: [View, string, string][] = [["overview", "Overview", "1"], ["front", "Front", "2"], ["side", "Side", "3"], ["top", "Top", "4"], ["plate", "Plate", "5"]];
-const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Its parts: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Surely within (dashed)"], ["rectangle", "Largest rectangle within"], ["hold_scale", "Hold the colour scale"]];
+const SWITCHES: [keyof Show, string][] = [["arm", "Arm"], ["shape", "Its own shape (meshes)"], ["forces", "Force arrow"], ["deviation", "Deviation arrow"], ["parts", "Its parts: in plane, normal"], ["ellipsoid", "Compliance ellipsoid"], ["lines", "Lines of equal deviation"], ["certainty", "Surely within (dashed)"], ["rectangle", "Largest rectangle within"], ["hold_scale", "Hold the colour scale"]];
 
 export function overlay(view: SceneView, live: Live): HTMLElement {
   const legendBox = h("div", { class: "legend card", role: "img" });
@@ -41,7 +41,10 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
         (view.show[key] as boolean) = box.checked;
         redraw();
       });
-      return h("label", {}, box, ` ${text}`);
+      const label = h("label", {}, box, ` ${text}`);
+      // There to be chosen where the robot has one.
+      if (key === "shape") live.listen((topic) => topic === "pose" && (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
+      return label;
     }),
   );
   const scales = h(

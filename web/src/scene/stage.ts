@@ -20,6 +20,8 @@ export class Stage {
   readonly labels: Labels;
   readonly size = new THREE.Vector2(1, 1);
   private readonly ground = new THREE.Group();
+  /** Whether something stands before a label of this group at this point. */
+  covered: (group: string, at: THREE.Vector3) => boolean = () => false;
   private ground_key = "";
   private asked = false;
 
@@ -50,7 +52,7 @@ export class Stage {
     requestAnimationFrame(() => {
       this.asked = false;
       this.renderer.render(this.scene, this.camera);
-      this.labels.place(this.camera, this.size);
+      this.labels.place(this.camera, this.size, this.covered);
     });
   }
 

@@ -2,21 +2,26 @@
 
 import * as THREE from "three";
 import { niceStep } from "../format";
+import { api } from "../server";
 import type { Live } from "../live";
 import { sharesOf } from "../shares";
 import type { At, Plate } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
 import { scaleOf, type Scale } from "./colour";
+import { isCovered } from "./covered";
 import { Ellipsoid } from "./ellipsoid";
 import { Part } from "./part";
 import { PathView } from "./path";
 import { PlateView } from "./plate";
+import { Shapes } from "./shapes";
 import { Stage, type Subject, type View } from "./stage";
 import { VolumeView } from "./volume";
 
 export interface Show {
   arm: boolean;
+  /** The robot's own shape, where its file names one. */
+  shape: boolean;
   forces: boolean;
   deviation: boolean;
   /** Its parts in the plane and along the normal. */
@@ -42,10 +47,11 @@ export const ELLIPSOID = 8;
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
-  readonly show: Show = { arm: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, hold_scale: false };
+  readonly show: Show = { arm: true, shape: true, forces: true, deviation: true, parts: false, ellipsoid: false, lines: true, certainty: true, rectangle: false, magnified: 1000, magnified_by_hand: false, mm_per_n: 25, hold_scale: false };
   onHover: (under: Under, x: number, y: number) => void = () => {};
   onScale: () => void = () => {};
   private readonly arm = new Arm();
+  private readonly shapes: Shapes;
   private readonly force = new Arrow(0xd55e00);
   private readonly deviation = new Arrow(0xcc3fa0);
   private readonly in_plane = new Arrow(0x009e9a);
@@ -63,7 +69,9 @@ export class SceneView {
 
   constructor(private readonly host: HTMLElement, private readonly live: Live) {
     this.stage = new Stage(host);
-    this.stage.scene.add(this.arm.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
+    this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
+    this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at);
+    this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
     live.listen((topic) => {
       if (topic === "answer") this.drawAnswer();
       if (topic === "pose") this.drawPose();
@@ -80,6 +88,7 @@ export class SceneView {
   look(view: View): void {
     this.ghost = view === "plate";
     this.arm.ghost(this.ghost);
+    this.shapes.ghost(this.ghost);
     this.stage.axes(!this.ghost);
     this.stage.look(view, this.subject());
   }
@@ -143,6 +152,7 @@ export class SceneView {
     const answer = pose?.answer.postures[posture];
     this.stage.labels.group("arm");
     this.arm.group.visible = this.show.arm;
+    this.shapes.group.visible = false;
     // Where it cannot stand, it waits faintly where it stood.
     if (!drawing) this.arm.ghost(true);
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
@@ -156,7 +166,10 @@ export class SceneView {
       const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
       const shares = this.shares();
       this.arm.draw(drawing, shares, colour("--joint-quiet"), colour("--joint-loud"));
+      const own = this.show.arm && this.show.shape && this.shapes.draw(pose!.answer.robot, drawing.meshes);
+      this.arm.bare(own);
       this.arm.ghost(this.ghost);
+      this.shapes.ghost(this.ghost);
       const most = shares.indexOf(Math.max(...shares));
       if (this.show.arm)
         this.arm.knuckles.forEach(({ name, at }, i) => {

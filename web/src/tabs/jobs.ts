@@ -8,15 +8,16 @@ import type { Job, Vec3 } from "../types";
 import type { Tab } from "./tab";
 import { testsDialog } from "./tests-dialog";
 
-const KINDS: [string, string, string][] = [
-  ["run", "Run the study", "Every question, with tables, pictures and report in the study's folder."],
-  ["place", "Find the best place", "Where the part should lie so that a path deviates least; needs [place] in the study."],
-  ["posture", "Find the best posture", "The best turn of the tool and branch along the paths; needs a path."],
-  ["identify", "Identify compliances", "Joint compliances from load tests: a table in the study's folder."],
+/** What it is called, what it does, and the table of the study that bounds it. */
+const KINDS: [string, string, string, string | null][] = [
+  ["run", "Run the study", "Every question, with tables, pictures and report in the study's folder.", null],
+  ["place", "Find the best place", "Where the part should lie so that a path deviates least.", "place"],
+  ["posture", "Find the best posture", "The best turn of the tool and branch along the paths; needs a path.", "posture"],
+  ["identify", "Identify compliances", "Joint compliances from load tests: a table in the study's folder.", null],
 ];
 const over = (job: Job): boolean => job.state === "done" || job.state === "failed" || job.state === "cancelled";
 
-export function jobsTab(live: Live, go: (tab: string) => void): Tab {
+export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; table: (name: string) => void }): Tab {
   const list = h("div", { class: "jobs" });
   const status = h("p", { class: "note", role: "status" });
   const jobs = new Map<string, Job>();
@@ -147,7 +148,14 @@ export function jobsTab(live: Live, go: (tab: string) => void): Tab {
     "div",
     { class: "page" },
     h("header", { class: "page-head" }, h("h1", {}, "Long work")),
-    h("div", { class: "starters" }, KINDS.map(([kind, text, about]) => h("button", { type: "button", class: "starter", "data-kind": kind, onclick: () => void start(kind) }, h("b", {}, text), h("span", {}, about)))),
+    h("div", { class: "starters" }, KINDS.map(([kind, text, about, bounds]) =>
+        h(
+          "div",
+          { class: "starter" },
+          h("button", { type: "button", "data-kind": kind, onclick: () => void start(kind) }, h("b", {}, text), h("span", {}, about)),
+          bounds ? h("button", { type: "button", class: "link", onclick: () => table(bounds) }, bounds === "place" ? "What may move: [place]" : "What is tried: [posture]") : null,
+        ),
+      )),
     status,
     list,
     tests.root,

@@ -1,13 +1,14 @@
-// The study as text: checked while it is typed, saved as it stands, comments and all.
+// The study as text and as fields: checked while it is typed, saved as it stands, comments and all.
 
 import { api, Refused } from "../server";
 import { fill, h } from "../dom";
 import type { Live } from "../live";
 import { Newest } from "../newest";
-import type { Checked, Problem } from "../types";
+import { Fields } from "../tables/fields";
+import type { Checked, Problem, Tables } from "../types";
 import type { Tab } from "./tab";
 
-export function studyTab(live: Live): Tab {
+export function studyTab(live: Live): Tab & { reveal: (table: string) => void } {
   const lines = h("div", { class: "lines", "aria-hidden": "true" });
   const text = h("textarea", { id: "study-text", spellcheck: "false", wrap: "off", "aria-label": "Study file, TOML", "aria-describedby": "study-problems" });
   const problems = h("div", { class: "problems", id: "study-problems", role: "status" });
@@ -43,12 +44,27 @@ export function studyTab(live: Live): Tab {
     text.setSelectionRange(from + (p.column ?? 1) - 1, from + rows[p.line - 1]!.length);
     text.scrollTop = Math.max(0, (p.line - 8) * 20);
   };
-  const checks = new Newest<string, Checked>({
-    work: (value, signal) => api.check(value, signal),
-    done: (answer, _, settled) => {
+  // A field changes the text that stands there when its turn comes: one after the other.
+  let turn: Promise<void> = Promise.resolve();
+  const fields = new Fields((path, value) => {
+    turn = turn.then(async () => {
+      try {
+        const made = await api.change(text.value, null, [{ key: path, value, whole: true }]);
+        text.value = made.text;
+        edited();
+      } catch (error) {
+        message.textContent = error instanceof Error ? error.message : String(error);
+      }
+    });
+  });
+  void api.schema().then((schema) => fields.learn(schema), () => undefined);
+  const checks = new Newest<string, [Checked, Tables]>({
+    work: (value, signal) => Promise.all([api.check(value, signal), api.tables(value, signal)]),
+    done: ([answer, tables], _, settled) => {
       if (!settled) return;
       checked = answer;
       told(answer.problems);
+      fields.show(tables);
     },
     failed: (error) => void (message.textContent = error instanceof Error ? error.message : String(error)),
   });
@@ -107,9 +123,10 @@ export function studyTab(live: Live): Tab {
     text.value = live.study?.text ?? "";
     edited();
   });
-  const root = h("div", { class: "page study-page" }, h("header", { class: "page-head" }, name, message, undo, save), h("div", { class: "editor" }, lines, text), problems);
+  const root = h("div", { class: "page study-page" }, h("header", { class: "page-head" }, name, message, undo, save), h("div", { class: "both" }, h("div", { class: "editor" }, lines, text), fields.root), problems);
   return {
     id: "study",
+    reveal: (table) => fields.reveal(table),
     title: "Study",
     root,
     shown: () => {

@@ -1,4 +1,4 @@
-// Pictures, jobs, study and files, on a study folder of their own.
+// Pictures, study and files, on a study folder of their own.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -75,58 +75,6 @@ test("a change of a control is saved with the comments kept", async () => {
   assert.match(saved, /850/);
   assert.match(saved, /# The paper does not state tool length/);
   await page.context().close();
-});
-
-test("a job runs to its end over a reload, another is cancelled", async () => {
-  const page = await open(browser, server.url);
-  await page.click("#tab-jobs");
-  await page.click("[data-kind=run]");
-  await page.waitForSelector(".job");
-  await page.reload();
-  await page.waitForSelector(".job");
-  await page.waitForSelector(".job.done", { timeout: 120_000 });
-  assert.ok((await page.locator(".job.done .files a").count()) >= 1);
-  await page.click("[data-kind=place]");
-  await page.locator(".job.running, .job.waiting").first().getByRole("button", { name: "Cancel" }).click();
-  await page.waitForSelector(".job.cancelled", { timeout: 30_000 });
-  assert.deepEqual(page.complaints, []);
-  await page.context().close();
-});
-
-const SMALL = `format = 1
-robot = "yaskawa/mh12"
-limit_um = 50
-[plane]
-centre_mm = [1000, 0, 800]
-half_size_mm = 100
-step_mm = 20
-[load]
-cases_n = [[3, 5, 5]]
-[[ask]]
-kind = "path"
-name = "groove"
-circle.radius_mm = 100
-step_mm = 60
-[place]
-ask = "groove"
-x_mm = [900, 1100]
-`;
-
-test("a small placement runs to its end, and its place is shown", async () => {
-  const small = await serve(() => SMALL);
-  try {
-    const page = await open(browser, small.url);
-    await page.click("#tab-jobs");
-    await page.click("[data-kind=place]");
-    await page.waitForSelector(".job.done", { timeout: 240_000 });
-    await page.click("text=Show this place");
-    await settled(page);
-    const x = Number(await page.inputValue("#field-x"));
-    assert.ok(x >= 900 && x <= 1100 && x !== 1000, `x is ${x}`);
-    await page.context().close();
-  } finally {
-    await small.stop();
-  }
 });
 
 test("a broken study opens in the editor with every problem marked", async () => {

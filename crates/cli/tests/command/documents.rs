@@ -105,6 +105,7 @@ fn guide_runs() {
         "calibrate",
         "budget",
         "live-page",
+        "python",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -115,7 +116,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 18, "name the new page in `guide_runs`");
+    assert_eq!(pages, 19, "name the new page in `guide_runs`");
 }
 
 #[test]

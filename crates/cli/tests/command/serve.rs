@@ -6,7 +6,9 @@ use std::net::TcpStream;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::cell::Cell;
+use serde_json::{Value, json};
+
+use crate::cell::{Cell, files_in};
 
 /// The server of this cell and its address; ended with the test, however it ends.
 struct Served(Child, String);
@@ -77,4 +79,118 @@ fn a_port_that_is_taken_and_a_study_that_is_none_are_told() {
         .refused(&["cannot listen on 127.0.0.1", "another --port"]);
     cell.armill(&["serve", "--no-open", "no-such"])
         .refused(&["no study at no-such", "mh12-groove"]);
+}
+
+/// Room along x and to tilt: enough rounds to be killed between.
+const PLACED: &str = r#"format = 1
+robot = "yaskawa/mh12"
+limit_um = 60
+plane = { centre_mm = [1000, 0, 800], tilt_deg = 0, half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, -5, -5], [3, 5, 5]] }
+posture = { branch = "front elbow-up" }
+[[ask]]
+kind = "path"
+name = "ring"
+circle.radius_mm = 60
+step_mm = 30
+[place]
+x_mm = [700, 1200]
+tilt_deg = [-30, 60]
+"#;
+
+impl Served {
+    /// The answer of the server in JSON.
+    fn asked(&self, method: &str, path: &str, body: &str) -> Value {
+        let (host, token) = self
+            .1
+            .strip_prefix("http://")
+            .unwrap()
+            .split_once("/?token=")
+            .unwrap();
+        let mut stream = TcpStream::connect(host).unwrap();
+        write!(
+            stream,
+            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nAuthorization: Bearer {token}\r\nContent-Length: {}\r\nConnection: close\r\n\r\n{body}",
+            body.len()
+        )
+        .unwrap();
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).unwrap();
+        serde_json::from_str(answer.split_once("\r\n\r\n").unwrap().1).unwrap()
+    }
+
+    /// Begins the placement of the study.
+    fn place(&self) -> String {
+        let job = json!({ "kind": "place", "text": PLACED }).to_string();
+        self.asked("POST", "/api/jobs", &job)["id"]
+            .as_str()
+            .unwrap()
+            .to_owned()
+    }
+
+    /// The job, once it is done.
+    fn done(&self, id: &str) -> Value {
+        let begun = Instant::now();
+        loop {
+            let job = self.asked("GET", &format!("/api/jobs/{id}"), "");
+            match job["state"].as_str().unwrap() {
+                "done" => return job,
+                "waiting" | "running" => assert!(begun.elapsed() < Duration::from_secs(600)),
+                other => panic!("{other}: {job}"),
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
+    }
+}
+
+/// The placement without what tells that it was stopped, and every other file.
+fn placed(cell: &Cell) -> (Value, Vec<(String, Vec<u8>)>) {
+    let mut files = files_in(&cell.at("place"));
+    let mut placement: Value = serde_json::from_slice(&files.remove("placement.json").unwrap()).unwrap();
+    placement["rounds_taken_up"] = 0.into();
+    // What a kill leaves of a file under way is known by its name.
+    let whole = files
+        .into_iter()
+        .filter(|(name, _)| !name.starts_with(".armill-"));
+    (placement, whole.collect())
+}
+
+#[test]
+fn a_placement_goes_on_after_the_server_was_killed() {
+    let whole = Cell::with_study(PLACED);
+    let server = served(&whole);
+    let id = server.place();
+    let undisturbed = server.done(&id);
+    assert_eq!(undisturbed["answer"]["rounds_taken_up"], 0);
+
+    let killed = Cell::with_study(PLACED);
+    let mut server = served(&killed);
+    server.place();
+    let begun = Instant::now();
+    while !killed.at("place/place.rounds").exists() {
+        assert!(
+            begun.elapsed() < Duration::from_secs(300),
+            "no round in five minutes"
+        );
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    server.0.kill().unwrap();
+    server.0.wait().unwrap();
+    assert!(killed.at("place/place.rounds").exists() && !killed.at("place/placement.json").exists());
+    let server = served(&killed);
+    let id = server.place();
+    let job = server.done(&id);
+    assert!(job["answer"]["rounds_taken_up"].as_u64() >= Some(1), "{job}");
+    assert!(
+        placed(&killed) == placed(&whole),
+        "the files differ from those of an undisturbed search"
+    );
+
+    // The command says the same.
+    let command = Cell::with_study(PLACED);
+    command.armill(&["place", "study.toml"]).fine();
+    assert!(
+        placed(&command) == placed(&whole),
+        "the files differ from those of the command"
+    );
 }

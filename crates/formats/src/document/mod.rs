@@ -149,6 +149,16 @@ impl Document {
         found
     }
 
+    /// All values as JSON has them: dates as text, what cannot be held as `null`.
+    pub fn to_json(&self) -> serde_json::Value {
+        tree::json(&self.root)
+    }
+
+    /// Where the value that `path` names stands, in bytes of the text; `None` where there is none.
+    pub fn place(&self, path: &str) -> Option<Range<usize>> {
+        path::found(&self.root, path).map(|node| node.span.clone())
+    }
+
     /// Every text in the document, with its path as [`Document::problem`] takes it.
     pub(crate) fn texts(&self) -> Vec<(String, &str)> {
         let mut found = Vec::new();

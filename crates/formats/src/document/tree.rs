@@ -83,6 +83,23 @@ pub(super) fn leaves(node: &Node, path: &str, found: &mut Vec<String>) {
     }
 }
 
+/// The values at and below `node` as JSON has them.
+pub(super) fn json(node: &Node) -> serde_json::Value {
+    use serde_json::Value as Json;
+    match &node.value {
+        Value::Text(text) | Value::Date(text) => Json::from(text.as_str()),
+        Value::Whole(whole) => i64::try_from(*whole).map_or(Json::Null, Json::from),
+        // JSON knows no number that is infinite or none.
+        Value::Real(real) => Json::from(*real),
+        Value::Flag(flag) => Json::from(*flag),
+        Value::List(entries) => entries.iter().map(json).collect(),
+        Value::Table(table) => {
+            let fields = table.iter().map(|(key, entry)| (key.clone(), json(&entry.node)));
+            Json::Object(fields.collect())
+        }
+    }
+}
+
 /// The fields of a table with the places of their keys.
 fn fields(table: DeTable<'_>) -> Table {
     let entry = |(key, value): (Spanned<_>, _)| {

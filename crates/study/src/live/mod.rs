@@ -7,9 +7,12 @@
 //! |---|---|
 //! | `outline` | what is in this text, and what is wrong with it? |
 //! | `values` | which settings does an ask resolve to? |
+//! | `view` | all that is shown of an ask once a value has changed |
+//! | `tables` | which values does the text give, for fields to be filled with? |
 //! | `answered` | what does `armill run` say of it: answer, table, pictures? |
 //! | `posture` | how does the arm stand at one place of it, and what does a load do there? |
 //! | `scene` | what of it can be drawn in space? |
+//! | `meshes` | how does the robot look, where its file names shapes? |
 //! | `file_kind` | what does a file seem to be? |
 //!
 //! ```
@@ -26,19 +29,26 @@
 
 mod answered;
 mod file_kind;
+mod meshes;
 mod outline;
 mod posture;
 mod scene;
+mod tables;
 mod values;
+mod view;
 
 pub use answered::{PictureAnswer, PicturesAnswer, answer_json, picture_svg, pictures, table_csv};
 pub use file_kind::{FileKind, kind_of};
-pub use outline::{ChangedAnswer, OutlineAnswer, OutlinedAsk, changed, outline};
+pub use meshes::{DrawnMesh, mesh_bytes};
+pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline};
 pub use posture::{
-    CaseAnswer, DrawnJoint, DrawnPosture, JointLimits, Place, PostureQuestion, PosturesAnswer, postures,
+    CaseAnswer, ChainPosition, DrawnJoint, DrawnPosture, JointLimits, Place, PostureQuestion, PosturesAnswer,
+    postures,
 };
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
+pub use tables::{TablesAnswer, ValuePlace, tables};
 pub use values::{ValuesAnswer, values};
+pub use view::{ViewAnswer, view};
 
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 use armill_formats::document::Problem;
 use armill_formats::document::edit::{self, Change};
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Text;
 use crate::error::StudyError;
@@ -45,6 +45,19 @@ pub struct ChangedAnswer {
     pub problems: Vec<Problem>,
 }
 
+/// A value that is to be another.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ChangedValue {
+    /// Which: `plane.centre_mm`.
+    pub key: String,
+    /// What it is to be; `null` takes it away.
+    pub value: serde_json::Value,
+    /// Whether it is one of the study, also where an ask is named.
+    #[serde(default)]
+    pub whole: bool,
+}
+
 /// What is in this text.
 pub fn outline(text: Text<'_>) -> OutlineAnswer {
     let parsed = match Parsed::of(text.shown, text.bytes) {
@@ -73,25 +86,12 @@ pub fn outline(text: Text<'_>) -> OutlineAnswer {
 ///
 /// # Errors
 /// A text that is not TOML; no ask of that name; a change that cannot be made.
-pub fn changed(text: Text<'_>, ask: Option<&str>, changes: &[Change]) -> Result<ChangedAnswer, StudyError> {
-    let below = match ask {
-        Some(name) => {
-            let parsed = Parsed::of(text.shown, text.bytes)?;
-            // The map that a study without asks means stands in the study itself.
-            match (parsed.index_of(name)?, parsed.file.ask.is_empty()) {
-                (_, true) => String::new(),
-                (index, false) => format!("ask[{index}]."),
-            }
-        }
-        None => String::new(),
-    };
-    let changes = changes.iter().map(|change| Change {
-        path: format!("{below}{}", change.path),
-        value: change.value.clone(),
-    });
-    let changes: Vec<Change> = changes.collect();
-    let old = armill_formats::document::Document::text_of(text.shown, text.bytes)?;
-    let new = edit::changed(text.shown, old, &changes)?;
+pub fn changed(
+    text: Text<'_>,
+    ask: Option<&str>,
+    changes: &[ChangedValue],
+) -> Result<ChangedAnswer, StudyError> {
+    let new = changed_text(text, ask, changes)?;
     let OutlineAnswer { asks, problems, .. } = outline(Text {
         bytes: new.as_bytes(),
         ..text
@@ -103,7 +103,32 @@ pub fn changed(text: Text<'_>, ask: Option<&str>, changes: &[Change]) -> Result<
     })
 }
 
-fn asks(parsed: &Parsed) -> Vec<OutlinedAsk> {
+/// The text alone of [`changed`].
+pub(super) fn changed_text(
+    text: Text<'_>,
+    ask: Option<&str>,
+    changes: &[ChangedValue],
+) -> Result<String, StudyError> {
+    let below = match ask {
+        Some(name) if changes.iter().any(|change| !change.whole) => {
+            let parsed = Parsed::of(text.shown, text.bytes)?;
+            // The map that a study without asks means stands in the study itself.
+            match (parsed.index_of(name)?, parsed.file.ask.is_empty()) {
+                (_, true) => String::new(),
+                (index, false) => format!("ask[{index}]."),
+            }
+        }
+        _ => String::new(),
+    };
+    let changes = changes.iter().map(|change| Change {
+        path: format!("{}{}", if change.whole { "" } else { &below }, change.key),
+        value: change.value.clone(),
+    });
+    let old = armill_formats::document::Document::text_of(text.shown, text.bytes)?;
+    Ok(edit::changed(text.shown, old, &changes.collect::<Vec<_>>())?)
+}
+
+pub(super) fn asks(parsed: &Parsed) -> Vec<OutlinedAsk> {
     let tables = parsed.ask_tables();
     let names = parsed.ask_names();
     let one = |(index, (table, name)): (usize, (_, String))| {

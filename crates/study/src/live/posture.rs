@@ -20,6 +20,7 @@ use armill_core::workpiece::Split;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::meshes::{DrawnMesh, Shapes};
 use super::{Text, setting};
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
@@ -68,6 +69,8 @@ pub struct PosturesAnswer {
     pub drawings: Vec<DrawnPosture>,
     /// Limits of the joints.
     pub limits: Vec<JointLimits>,
+    /// Joints of each posture as the chain of the robot counts them, in place of its controller.
+    pub chain: Vec<Vec<ChainPosition>>,
     /// Deviation of each posture under each load case; `null` where the arm finds no rest, or no compliance is known.
     pub in_plane: Vec<Vec<Option<CaseAnswer>>>,
 }
@@ -85,6 +88,8 @@ pub struct DrawnPosture {
     pub tool_axis: [f64; 3],
     /// The arm as a line: from its foot over the joints and the flange to the TCP.
     pub links_mm: Vec<[f64; 3]>,
+    /// The shapes of its links, where the robot's file names them and all are there.
+    pub meshes: Vec<DrawnMesh>,
 }
 
 /// A joint in a drawing.
@@ -111,6 +116,18 @@ pub struct JointLimits {
     pub upper_deg: Option<f64>,
     /// `deg` or `mm`.
     pub unit: &'static str,
+}
+
+/// A joint as the chain counts it: by the right hand about the axes of the chain, from where the chain is straight. What
+/// the robot file tells of signs, zeros and coupled joints is in it; mm of a joint that slides.
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+pub struct ChainPosition {
+    /// Where it stands.
+    pub at_deg: f64,
+    /// Least position; `null` where it has no limits. Limits of a coupled joint move with the other.
+    pub lower_deg: Option<f64>,
+    /// Greatest position, likewise.
+    pub upper_deg: Option<f64>,
 }
 
 /// A deviation seen from the plane; what is not told of such a posture is `null`.
@@ -149,7 +166,7 @@ pub fn postures(
     question: &PostureQuestion<'_>,
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
-    let (_, _, study) = text.one_ask(question.ask)?;
+    let (parsed, _, study) = text.one_ask(question.ask)?;
     let setting = setting(&study, question.at.section.unwrap_or(0))?;
     let asked = asked(&study, setting, &question.at, watch)?;
     let robot = &study.robot.robot;
@@ -199,13 +216,16 @@ pub fn postures(
         .zip(&answer.postures)
         .map(|(q, posture)| deviations(robot, setting, (q, &posture.branch), (&asked.cases, asked.normal)));
     let in_plane = of_cases.collect();
+    let shapes = Shapes::of(&parsed.file.robot, text.folder);
+    let drawn = |q: &Vec<f64>| DrawnPosture {
+        meshes: shapes.drawn(robot, q),
+        ..drawn(robot, q, &setting.flange_from_tool)
+    };
     Ok(PosturesAnswer {
         in_plane,
-        drawings: joints
-            .iter()
-            .map(|q| drawn(robot, q, &setting.flange_from_tool))
-            .collect(),
+        drawings: joints.iter().map(drawn).collect(),
         limits: limits(robot),
+        chain: joints.iter().map(|q| as_chain(robot, q)).collect(),
         answer,
     })
 }
@@ -381,7 +401,29 @@ fn drawn(robot: &Robot, q: &[f64], flange_from_tool: &Isometry) -> DrawnPosture 
         tool_mm: stands.tool_mm,
         tool_axis: clean(tool_on(&frames, flange_from_tool) * Vector3::z()),
         links_mm: links.collect(),
+        meshes: Vec::new(),
     }
+}
+
+/// These joint positions (rad, m) as the chain counts them.
+fn as_chain(robot: &Robot, q: &[f64]) -> Vec<ChainPosition> {
+    let of = |i: usize| {
+        let scale = JointUnit::of(robot, i).scale;
+        let mut other = q.to_vec();
+        let mut told = |value: f64| {
+            other[i] = value;
+            without_rounding(robot.theta(i, &other) * scale)
+        };
+        let limits = robot.joints()[i].limits;
+        // A joint of negative sign counts from its upper limit up.
+        let ends = limits.map(|limits| [told(limits.lower), told(limits.upper)]);
+        ChainPosition {
+            at_deg: told(q[i]),
+            lower_deg: ends.map(|[a, b]| a.min(b)),
+            upper_deg: ends.map(|[a, b]| a.max(b)),
+        }
+    };
+    (0..robot.joints().len()).map(of).collect()
 }
 
 /// Limits of every joint.
@@ -397,4 +439,27 @@ fn limits(robot: &Robot) -> Vec<JointLimits> {
         }
     };
     robot.joints().iter().enumerate().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chain_counts_by_sign_zero_and_coupling_and_back() {
+        // The FANUC counts its second joint in with the third.
+        for name in ["yaskawa/mh12", "fanuc/r2000ic"] {
+            let robot = crate::library::robot(name).unwrap().unwrap().robot;
+            let q: Vec<f64> = (0..robot.joints().len()).map(|i| 0.1 + 0.05 * i as f64).collect();
+            let mut back = Vec::new();
+            for (i, told) in as_chain(&robot, &q).iter().enumerate() {
+                assert!(
+                    told.lower_deg < Some(told.at_deg) && Some(told.at_deg) < told.upper_deg,
+                    "{name} {i}"
+                );
+                back.push(robot.joint_position(i, told.at_deg.to_radians(), &back));
+                assert!((back[i] - q[i]).abs() < 1e-9, "{name} {i}");
+            }
+        }
+    }
 }

@@ -15,7 +15,7 @@ use super::Text;
 use crate::error::StudyError;
 use crate::file::ask::plane_of;
 use crate::file::format::{HalfSize, PlaneTable};
-use crate::file::resolve::{Setting, Sheet, Study, Subject};
+use crate::file::resolve::{Parsed, Setting, Sheet, Study, Subject};
 use crate::number::without_rounding;
 use crate::output;
 use crate::run::{Done, Found, run};
@@ -106,32 +106,49 @@ const COLUMNS: [&str; 11] = [
 /// Every problem of the text that concerns it; no ask of that name; cancelled by the watch.
 pub fn scene(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<SceneAnswer, StudyError> {
     let (parsed, name, study) = text.one_ask(ask)?;
+    let done = match has_points(&study) {
+        true => run(&study, watch)?,
+        false => Vec::new(),
+    };
+    scene_of(&parsed, &name, (&study, &done))
+}
+
+/// Whether the points of this study's ask are drawn one by one.
+fn has_points(study: &Study) -> bool {
+    let subject = study.asks.first().map(|ask| &ask.subject);
+    !matches!(subject, Some(Subject::Map(_) | Subject::Sections(_)))
+}
+
+/// What can be drawn of the ask of this name, the only one of the study, and of what was found where it has points.
+pub(super) fn scene_of(
+    parsed: &Parsed,
+    name: &str,
+    (study, done): (&Study, &[Done<'_>]),
+) -> Result<SceneAnswer, StudyError> {
     let tables = parsed.ask_tables();
-    let plane = plane_of(&parsed.file, &tables[parsed.index_of(&name)?]);
-    let setting = super::setting(&study, 0)?;
+    let plane = plane_of(&parsed.file, &tables[parsed.index_of(name)?]);
+    let setting = super::setting(study, 0)?;
     let (mut sections, mut in_box) = (Vec::new(), None);
     let of_sheet = |sheet: &Sheet| {
         let half = |count: usize| 0.5 * (count as f64 - 1.0) * sheet.grid.step;
         PlateInScene::of(&sheet.setting, [half(sheet.grid.columns), half(sheet.grid.rows)])
     };
     let mut plate = PlateInScene::of(setting, half_of(&plane));
-    let mut is_run = true;
     match &study.asks[0].subject {
-        Subject::Map(sheet) => (plate, is_run) = (of_sheet(sheet), false),
+        Subject::Map(sheet) => plate = of_sheet(sheet),
         Subject::Sections(all) => {
             let section = |(label, sheet): &(String, Sheet)| SectionInScene {
                 label: label.clone(),
                 plate: of_sheet(sheet),
             };
             sections = all.iter().map(section).collect();
-            is_run = false;
         }
         Subject::Volume(_, grid) => in_box = Some(BoxInScene::of(grid)),
         Subject::Path(_) | Subject::Holes(_) => {}
     }
-    let points = match is_run {
-        true => Some(points(&study, &run(&study, watch)?[0])?),
-        false => None,
+    let points = match done.first().filter(|_| has_points(study)) {
+        Some(done) => Some(points(study, done)?),
+        None => None,
     };
     Ok(SceneAnswer {
         robot: study.robot.robot.name().to_owned(),

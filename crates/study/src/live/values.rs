@@ -12,6 +12,7 @@ use super::{Text, setting};
 use crate::error::StudyError;
 use crate::file::ask::{kind_name, plane_of};
 use crate::file::format::{AskTable, HalfSize, StudyFile};
+use crate::file::resolve::{Parsed, Study};
 use crate::number::without_rounding;
 
 /// Every setting of one ask; `null` where there is none.
@@ -71,10 +72,15 @@ pub struct ValuesAnswer {
 /// Every problem of the text that concerns it; no ask of that name.
 pub fn values(text: Text<'_>, ask: Option<&str>) -> Result<ValuesAnswer, StudyError> {
     let (parsed, name, study) = text.one_ask(ask)?;
+    values_of(&parsed, name, &study)
+}
+
+/// The settings of the ask of this name, the only one of the study.
+pub(super) fn values_of(parsed: &Parsed, name: String, study: &Study) -> Result<ValuesAnswer, StudyError> {
     let tables = parsed.ask_tables();
     let table = &tables[parsed.index_of(&name)?];
     let file = &parsed.file;
-    let setting = setting(&study, 0)?;
+    let setting = setting(study, 0)?;
     let robot = &study.robot.robot;
     let plane = plane_of(file, table);
     let half_size_mm = match plane.half_size_mm {

@@ -3,6 +3,12 @@
 use std::io::{BufRead, BufReader, Write};
 use std::time::{Duration, Instant};
 
+use armill_core::nalgebra::Vector3;
+use armill_core::watch::Watch;
+use armill_study::file::placement::PlaceTable;
+use armill_study::identify::{self, PointsAsked, PriorAsked, Question, Units};
+use armill_study::place::{Journal, Placing};
+use armill_study::studies;
 use serde_json::{Value, json};
 
 use crate::client::{PATIENCE, STUDY, Served, folder, serve};
@@ -74,6 +80,121 @@ fn a_broken_study_becomes_a_job_that_failed_and_says_why() {
     let refused = served.post("/api/jobs", json!({ "kind": "dance", "text": STUDY }));
     assert_eq!(refused.status, 400);
     assert_eq!(served.get("/api/jobs/17").status, 404);
+}
+
+/// The file of the folder that a job wrote, as JSON.
+fn written(folder: &tempfile::TempDir, name: &str) -> Value {
+    serde_json::from_str(&std::fs::read_to_string(folder.path().join(name)).unwrap()).unwrap()
+}
+
+#[test]
+fn a_placement_ends_in_the_place_that_the_command_finds() {
+    // A wide step and little room, so that it ends soon.
+    let text = STUDY.replace("radius_mm = 50 }", "radius_mm = 50 }\nstep_mm = 30")
+        + "[place]\nask = \"rim\"\nx_mm = [950, 1050]\n";
+    let folder = folder(&text);
+    let found = studies::find(folder.path()).unwrap();
+    let placing = Placing::new(&found.read().unwrap(), PlaceTable::default(), 1).unwrap();
+    let command = placing
+        .search(&mut Journal::none(), Watch::NONE, &|_| ())
+        .unwrap();
+    let served = serve(folder.path());
+    let job = ended(&served, &begin(&served, json!({ "kind": "place", "text": text })));
+    assert_eq!(job["state"], "done", "{job}");
+    let answer = serde_json::to_value(&command.answer).unwrap();
+    assert_eq!(job["answer"], answer);
+    assert_eq!(written(&folder, "place/placement.json"), answer);
+    assert_eq!(job["best"], command.answer.sentences().join(" "));
+    // The path at that place, as a run writes it.
+    let result = written(&folder, "place/result.json");
+    assert_eq!(
+        result["paths"][0]["worst"]["in_plane_um"],
+        answer["found"]["cost_um"]
+    );
+    assert!(!folder.path().join("place/place.rounds").exists());
+}
+
+#[test]
+fn a_search_of_postures_ends_with_its_files() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let options = json!({ "step_deg": 30, "goal": "mean" });
+    let job = ended(
+        &served,
+        &begin(
+            &served,
+            json!({ "kind": "posture", "text": STUDY, "options": options }),
+        ),
+    );
+    assert_eq!(job["state"], "done", "{job}");
+    let search = &job["answer"]["paths"][0]["search"];
+    assert_eq!((&search["goal"], &search["turns"]), (&json!("mean"), &json!(12)));
+    assert_eq!(written(&folder, "posture/result.json"), job["answer"]);
+    let table = std::fs::read_to_string(folder.path().join("posture/rim.csv")).unwrap();
+    assert!(table.contains("turn_deg"));
+    let wrong = json!({ "kind": "posture", "text": STUDY, "options": { "step_deg": 0 } });
+    let job = ended(&served, &begin(&served, wrong));
+    assert_eq!(job["state"], "failed", "{job}");
+}
+
+#[test]
+fn springs_are_found_from_a_table_of_the_folder() {
+    let folder = folder(STUDY);
+    let robot = armill_study::library::robot("yaskawa/mh12")
+        .unwrap()
+        .unwrap()
+        .robot;
+    let question = Question {
+        unknowns: "drives".to_owned(),
+        points: PointsAsked::Known,
+        point_u: 0.2,
+        prior: PriorAsked::Typical,
+        tool_point: Vector3::new(0.0, 0.06, 0.15),
+        units: Units::Checked,
+    };
+    // The gauge shows what a typical arm would show: 2e-6 rad/(N m) at every joint.
+    let plan = identify::plan(&robot, &question, 14, [500.0, 1e-6]).unwrap();
+    let filled = plan.table.lines().enumerate().map(|(line, text)| {
+        let mut cells: Vec<&str> = text.split(',').collect();
+        if line > 0 {
+            cells.copy_within(13..16, 10);
+        }
+        cells.join(",") + "\n"
+    });
+    std::fs::write(folder.path().join("tests.csv"), filled.collect::<String>()).unwrap();
+    let served = serve(folder.path());
+    let options = json!({ "tests": "tests.csv", "unknowns": "drives", "tool_mm": [0, 60, 150] });
+    let job = ended(
+        &served,
+        &begin(
+            &served,
+            json!({ "kind": "identify", "text": STUDY, "options": options }),
+        ),
+    );
+    assert_eq!(
+        (&job["state"], &job["files"]),
+        (&json!("done"), &json!(["identify/robot.toml"])),
+        "{job}"
+    );
+    for spring in job["answer"]["springs"].as_array().unwrap() {
+        let of = |key: &str| spring[key].as_f64().unwrap();
+        assert!(
+            (of("compliance_rad_per_n_m") - 2e-6).abs() < 4.0 * of("compliance_u_rad_per_n_m"),
+            "{spring}"
+        );
+    }
+    // The robot that it wrote is one: the study runs with it.
+    let mine = STUDY.replace("yaskawa/mh12", "identify/robot.toml");
+    assert_eq!(
+        served
+            .post("/api/answer", json!({ "text": mine, "ask": "plate" }))
+            .status,
+        200
+    );
+    for tests in ["../tests.csv", "none.csv", "/etc/passwd"] {
+        let job = json!({ "kind": "identify", "text": STUDY, "options": { "tests": tests } });
+        assert_eq!(ended(&served, &begin(&served, job))["state"], "failed", "{tests}");
+    }
 }
 
 /// A search that takes long.

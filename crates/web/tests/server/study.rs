@@ -186,6 +186,152 @@ fn a_change_keeps_the_comments() {
 }
 
 #[test]
+fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
+    let served = serve(Path::new("mh12-groove"));
+    for ask in ["plate", "rim"] {
+        let changes = json!([
+            { "key": "plane.step_mm", "value": 25 },
+            { "key": "limit_um", "value": 70, "whole": true },
+        ]);
+        let of = json!({ "text": STUDY, "ask": ask, "changes": changes });
+        let view = served.post("/api/view", of.clone());
+        assert_eq!(view.status, 200, "{}", view.text());
+        let changed = served.post("/api/change", of).json();
+        assert_eq!(changed["problems"], json!([]));
+        let text = changed["text"].as_str().unwrap();
+        assert!(
+            text.contains("limit_um = 70 # of the drawing") && text.contains("plane = { step_mm = 25 }"),
+            "{text}"
+        );
+        let body = view.text();
+        for (key, path) in [
+            ("answer", "/api/answer"),
+            ("values", "/api/values"),
+            ("scene", "/api/scene"),
+        ] {
+            let alone = served.post(path, json!({ "text": text, "ask": ask })).text();
+            // The bytes themselves, not only their meaning.
+            assert!(
+                body.contains(&format!("\"{key}\":{}", alone.trim_end())),
+                "{ask} {key}"
+            );
+        }
+        assert_eq!(
+            (&view.json()["text"], &view.json()["asks"]),
+            (&changed["text"], &changed["asks"])
+        );
+    }
+    let refused = |changes: Value| {
+        served.post(
+            "/api/view",
+            json!({ "text": STUDY, "ask": "plate", "changes": changes }),
+        )
+    };
+    let wrong = refused(json!([{ "key": "plane.step_mm", "value": -1 }]));
+    assert_eq!((wrong.status, wrong.kind().as_str()), (422, "invalid-input"));
+    assert!(
+        wrong.json()["error"]["problems"][0]["message"]
+            .as_str()
+            .unwrap()
+            .contains("step_mm")
+    );
+    assert_eq!(refused(json!([{ "key": "ask", "value": 1 }])).status, 422);
+    assert_eq!(refused(json!([{ "value": 1 }])).status, 400);
+}
+
+#[test]
+fn tables_and_schema_are_what_fields_are_made_of() {
+    let served = serve(Path::new("mh12-groove"));
+    let schema = served.get("/api/schema");
+    let command = armill_formats::document::schema_json::<armill_study::file::format::StudyFile>();
+    assert_eq!((schema.status, schema.text()), (200, command));
+    let told = served
+        .post(
+            "/api/tables",
+            json!({ "text": STUDY.replace("step_mm = 20", "step_mm = -20") }),
+        )
+        .json();
+    assert_eq!(told["values"]["ask"][1]["circle"]["radius_mm"], 50);
+    let problem = &told["problems"][0]["span"]["start"];
+    let places = told["places"].as_array().unwrap();
+    let place = places
+        .iter()
+        .find(|place| place["path"] == "plane.step_mm")
+        .unwrap();
+    assert_eq!(&place["bytes"][0], problem);
+    let broken = served
+        .post("/api/tables", json!({ "text": "limit_um = = 3" }))
+        .json();
+    assert!(broken["values"].is_null() && broken["problems"][0]["line"] == 1);
+}
+
+/// An arm of two joints whose links are named meshes.
+const ARM: &str = r#"<robot name="arm">
+<link name="foot"><visual><geometry><mesh filename="package://arm/meshes/foot.stl" scale="0.001 0.001 0.001"/></geometry></visual></link>
+<link name="rod"><visual><geometry><mesh filename="package://arm/meshes/rod.stl"/></geometry></visual></link>
+<joint name="A" type="revolute"><parent link="foot"/><child link="rod"/><origin xyz="0 0 0.4"/><axis xyz="0 0 1"/><limit lower="-3" upper="3"/></joint>
+<link name="slide"/>
+<joint name="B" type="prismatic"><parent link="rod"/><child link="slide"/><origin xyz="0.5 0 0"/><axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint>
+</robot>"#;
+
+#[test]
+fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
+    let study = STUDY.replace(
+        "\"yaskawa/mh12\"",
+        "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6] }",
+    );
+    let folder = folder(&study);
+    std::fs::write(folder.path().join("arm.urdf"), ARM).unwrap();
+    std::fs::write(folder.path().join("secret.stl"), "secret").unwrap();
+    let served = serve(folder.path());
+    let pose = || {
+        served
+            .post(
+                "/api/pose",
+                json!({ "text": study, "ask": "plate", "at": { "joints_deg": [90, 100] } }),
+            )
+            .json()
+    };
+    // Not all are there: the arm is drawn from its chain.
+    assert_eq!(pose()["drawings"][0]["meshes"], json!([]));
+    std::fs::create_dir(folder.path().join("meshes")).unwrap();
+    std::fs::write(folder.path().join("meshes/foot.stl"), "solid foot\nendsolid\n").unwrap();
+    std::fs::write(folder.path().join("meshes/rod.stl"), "solid rod\nendsolid\n").unwrap();
+    let meshes = pose()["drawings"][0]["meshes"].clone();
+    assert_eq!(
+        (&meshes[0]["scale_mm"], &meshes[0]["xyz_mm"]),
+        (&json!([1.0, 1.0, 1.0]), &json!([0.0, 0.0, 0.0]))
+    );
+    // A quarter turn about z, at the joint.
+    assert_eq!(
+        (&meshes[1]["scale_mm"], &meshes[1]["xyz_mm"]),
+        (&json!([1000.0, 1000.0, 1000.0]), &json!([0.0, 0.0, 400.0]))
+    );
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let turn: Vec<f64> = serde_json::from_value(meshes[1]["quaternion_wxyz"].clone()).unwrap();
+    assert!(
+        turn.iter()
+            .zip([half, 0.0, 0.0, half])
+            .all(|(a, b)| (a - b).abs() < 1e-9),
+        "{turn:?}"
+    );
+    let mesh = |file: &str| served.post("/api/mesh", json!({ "text": study, "file": file }));
+    let rod = mesh("package://arm/meshes/rod.stl");
+    assert_eq!((rod.status, rod.text().as_str()), (200, "solid rod\nendsolid\n"));
+    assert_eq!(rod.header("content-type").as_deref(), Some("model/stl"));
+    for file in [
+        "secret.stl",
+        "meshes/rod.stl",
+        "../secret.stl",
+        "package://arm/../secret.stl",
+        "/etc/passwd",
+        "",
+    ] {
+        assert_eq!(mesh(file).status, 400, "{file}");
+    }
+}
+
+#[test]
 fn two_tabs_are_answered_at_once_and_a_later_question_takes_the_place_of_one_that_waits() {
     let served = serve(Path::new("mh12-groove"));
     // So large that what follows is asked meanwhile.

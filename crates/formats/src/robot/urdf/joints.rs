@@ -187,7 +187,7 @@ fn end_of(file: &Source, limit: Option<Node<'_, '_>>, attribute: &str) -> Result
 ///
 /// # Errors
 /// Positions beyond 1000 m, turns beyond two, a quaternion of length zero.
-fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
+pub(super) fn origin_of(file: &Source, origin: Node<'_, '_>) -> Result<([f64; 3], [f64; 3]), Problems> {
     let xyz = numbers(file, origin, "xyz", [0.0; 3])?;
     if let Some(far) = xyz.iter().find(|value| value.abs() > LONGEST) {
         let message = format!("an origin {far} m away is beyond {LONGEST} m");

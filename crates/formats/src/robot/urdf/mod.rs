@@ -7,8 +7,8 @@
 //! hangs rigidly on the root is where the controller counts from (ROS-Industrial): it becomes the frame
 //! `controller`.
 //!
-//! In reading order: `joints` (the elements as they stand), `tree` (links, joints and the chain to a tip), and here the
-//! motions of that chain.
+//! In reading order: `joints` (the elements as they stand), `tree` (links, joints and the chain to a tip), here the motions
+//! of that chain, and [`meshes`] (how its links look).
 //!
 //! | element | motions |
 //! |---|---|
@@ -20,6 +20,7 @@
 //! Source: the XML specification of URDF (wiki.ros.org/urdf/XML).
 
 mod joints;
+pub mod meshes;
 mod tree;
 
 use armill_core::frame::{Isometry, from_xyz_and_fixed_angles};

@@ -1,0 +1,111 @@
+// All tables of a study as fields beside its text: a value that is changed here is changed in the text, with the comments
+// kept; a problem stands at the field that it is about.
+
+import { fill, h, type Child } from "../dom";
+import type { Problem, Tables } from "../types";
+import { input, type Input } from "./inputs";
+import { fieldsOf, named, type Field, type Schema } from "./schema";
+
+/** Tables in the order in which one asks for them; others follow. */
+const FIRST = ["place", "posture", "tool", "load", "cut", "plane", "ask"];
+
+export class Fields {
+  readonly root = h("form", { class: "fields", "aria-label": "Tables of the study", onsubmit: (e: Event) => e.preventDefault() });
+  private fields: Field[] = [];
+  private readonly open = new Set<string>();
+  private inputs = new Map<string, Input>();
+  private tables: Tables | null = null;
+
+  constructor(private readonly changed: (path: string, value: unknown) => void) {}
+
+  learn(schema: Schema): void {
+    const place = (f: Field) => (FIRST.indexOf(f.key) + FIRST.length + 1) % (FIRST.length + 1);
+    this.fields = fieldsOf(schema, schema).sort((a, b) => place(a) - place(b));
+    this.draw();
+  }
+
+  show(tables: Tables): void {
+    this.tables = tables;
+    this.draw();
+  }
+
+  /** Unfolds a table and shows it. */
+  reveal(path: string): void {
+    this.open.add(path);
+    this.draw();
+    this.root.querySelector(`[data-table="${CSS.escape(path)}"]`)?.scrollIntoView({ block: "start" });
+  }
+
+  private draw(): void {
+    const values = this.tables?.values as Record<string, unknown> | null | undefined;
+    this.inputs = new Map();
+    if (!values) return fill(this.root, h("p", { class: "note" }, this.tables ? "The text is no TOML: fields come back when that is mended." : ""));
+    const top = this.fields.filter((f) => f.kind.of !== "table" && f.kind.of !== "tables");
+    const rest = this.fields.filter((f) => !top.includes(f));
+    fill(this.root, this.fold("", "study", "What the study says as a whole.", () => this.rows(top, "", values), Object.keys(values).length > 0), ...rest.map((f) => this.child(f, f.key, values[f.key])));
+    this.mark();
+  }
+
+  private rows(fields: Field[], path: string, values: Record<string, unknown>): Child[] {
+    return fields.map((f) => {
+      const at = path === "" ? f.key : `${path}.${f.key}`;
+      if (f.kind.of === "table" || f.kind.of === "tables") return this.child(f, at, values[f.key]);
+      const made = input(at, f, values[f.key], (value) => this.changed(at, value));
+      this.inputs.set(at, made);
+      return made.root;
+    });
+  }
+
+  private child(field: Field, path: string, value: unknown): Child {
+    const table = (at: string, title: string, of: unknown) => {
+      const fields = field.kind.of === "table" || field.kind.of === "tables" ? field.kind.fields : [];
+      const values = typeof of === "object" && of !== null && !Array.isArray(of) ? (of as Record<string, unknown>) : {};
+      return this.fold(at, title, field.about, () => this.rows(fields, at, values), of !== undefined);
+    };
+    if (field.kind.of === "table") return table(path, named(field.key).name, value);
+    // Entries that are there; more are written in the text.
+    const entries = Array.isArray(value) ? value : [];
+    return entries.map((entry: unknown, i) => {
+      const name = typeof entry === "object" && entry !== null && "name" in entry ? String(entry.name) : String(i + 1);
+      return table(`${path}[${i}]`, `${named(field.key).name}: ${name}`, entry);
+    });
+  }
+
+  /** A table that unfolds; what is inside is made when it does. `there`: the text has it. */
+  private fold(path: string, title: string, about: string, rows: () => Child[], there: boolean): Child {
+    const body = h("div", { class: "fold-body" });
+    const make = () => fill(body, h("p", { class: "note" }, about), ...rows());
+    const root = h("details", { class: there ? "fold there" : "fold", open: this.open.has(path), "data-table": path }, h("summary", { "data-key": `fold ${path}` }, title, there ? null : h("small", {}, " not in the study")), body);
+    if (this.open.has(path)) make();
+    root.addEventListener("toggle", () => {
+      if (root.open === this.open.has(path)) return;
+      if (root.open) {
+        this.open.add(path);
+        make();
+        this.mark();
+      } else this.open.delete(path);
+    });
+    return root;
+  }
+
+  /** Each problem at the field whose value it stands on, or whose path it names; folds that hide one say so. */
+  private mark(): void {
+    this.root.querySelectorAll(".fold.wrong").forEach((e) => e.classList.remove("wrong"));
+    for (const problem of this.tables?.problems ?? []) {
+      const path = this.pathOf(problem);
+      if (path === null) continue;
+      this.inputs.get(path)?.refuse(problem.message, problem.hint);
+      this.root.querySelectorAll<HTMLElement>(".fold").forEach((fold) => {
+        const table = fold.dataset.table!;
+        if (table === "" ? !/[.[]/.test(path) : path === table || path.startsWith(`${table}.`) || path.startsWith(`${table}[`)) fold.classList.add("wrong");
+      });
+    }
+  }
+
+  private pathOf(problem: Problem): string | null {
+    const { start } = problem.span;
+    const on = this.tables!.places.filter((p) => p.bytes[0] <= start && start < p.bytes[1]).sort((a, b) => a.bytes[1] - a.bytes[0] - (b.bytes[1] - b.bytes[0]))[0];
+    if (on) return on.path;
+    return [...this.inputs.keys()].filter((path) => problem.message.includes(`\`${path}\``)).sort((a, b) => b.length - a.length)[0] ?? null;
+  }
+}

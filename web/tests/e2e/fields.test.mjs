@@ -1,0 +1,113 @@
+// Every table of the study as fields: what is typed is in the text, comments kept; what is wrong is told at its field.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { client, launch, open, serve, settled } from "./setup.mjs";
+
+let server, browser, ask;
+before(async () => {
+  server = await serve();
+  browser = await launch();
+  ask = client(server.url);
+});
+after(async () => {
+  await browser?.close();
+  await server?.stop();
+});
+
+const field = (page, path) => page.locator(`.row[data-path="${path}"]`);
+const unfold = async (page, path) => {
+  await page.locator(`[data-table="${path}"] > summary`).click();
+  await page.locator(`[data-table="${path}"] .fold-body .row`).first().waitFor();
+};
+const fine = (page) => page.waitForSelector(".problems .fine");
+
+test("[place] by fields: made, changed, wrong, taken away; the comments stay", async () => {
+  const page = await open(browser, server.url);
+  await page.click("#tab-jobs");
+  await page.getByRole("button", { name: "What may move: [place]" }).click();
+  await fine(page);
+  const text = () => page.inputValue("#study-text");
+  const before = await text();
+  const [least, most] = [field(page, "place.x_mm").locator("input").nth(0), field(page, "place.x_mm").locator("input").nth(1)];
+  await least.fill("700");
+  await most.fill("1100");
+  await most.press("Tab");
+  await page.waitForFunction(() => document.querySelector("#study-text").value.includes("x_mm = [700, 1100]"));
+  assert.match(await text(), /\[place\]\nx_mm = \[700, 1100\]/);
+  assert.match(await text(), /# Fig. 6: a vertical plate/);
+  await field(page, "place.goal").locator("select").selectOption("mean");
+  await page.waitForFunction(() => document.querySelector("#study-text").value.includes('goal = "mean"'));
+  // Which of several paths: the study must say.
+  await page.waitForSelector(".problems .wrong");
+  const paths = (await ask("POST", "/api/check", { text: before })).asks.filter((a) => a.kind === "path");
+  await field(page, "place.ask").locator("input").fill(paths[0].name);
+  await field(page, "place.ask").locator("input").press("Tab");
+  await fine(page);
+  // Beyond its bounds: told by the server, at the field.
+  await field(page, "place.margin_deg").locator("input").fill("120");
+  await field(page, "place.margin_deg").locator("input").press("Tab");
+  await page.waitForSelector('.row[data-path="place.margin_deg"] [aria-invalid=true]');
+  assert.match(await field(page, "place.margin_deg").locator(".field-error").innerText(), /margin_deg.*90/s);
+  assert.equal(await page.locator('[data-table="place"].wrong').count(), 1);
+  // No number: told before it is asked.
+  const margin = field(page, "place.margin_deg").locator("input");
+  await margin.fill("wide");
+  await margin.press("Tab");
+  assert.match(await field(page, "place.margin_deg").locator(".field-error").innerText(), /"wide" is not a number/);
+  await margin.fill("");
+  await margin.press("Tab");
+  await fine(page);
+  assert.doesNotMatch(await text(), /margin_deg/);
+  await page.getByRole("button", { name: "Save", exact: true }).click();
+  await page.getByText("Saved.", { exact: true }).waitFor();
+  assert.equal(readFileSync(join(server.folder, "study.toml"), "utf8"), await text());
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+test("[posture.search], [tool] and the asks by fields; what they change is answered", async () => {
+  const page = await open(browser, server.url);
+  await page.click("#tab-study");
+  await fine(page);
+  await unfold(page, "posture");
+  await unfold(page, "posture.search");
+  await field(page, "posture.search.step_deg").locator("input").fill("15");
+  await field(page, "posture.search.step_deg").locator("input").press("Tab");
+  await page.waitForFunction(() => /search = \{ step_deg = 15 \}/.test(document.querySelector("#study-text").value));
+  await fine(page);
+  await unfold(page, "load");
+  const cases = field(page, "load.cases_n").locator("input");
+  const forces = JSON.parse(await cases.inputValue());
+  await cases.fill("three");
+  await cases.press("Tab");
+  assert.match(await field(page, "load.cases_n").locator(".field-error").innerText(), /A list belongs here/);
+  await cases.fill(JSON.stringify(forces.map((f) => f.map((v) => 2 * v))));
+  await cases.press("Tab");
+  await fine(page);
+  await page.click("#tab-live");
+  await settled(page);
+  const doubled = await ask("POST", "/api/change", { text: readFileSync(join(server.folder, "study.toml"), "utf8"), ask: null, changes: [{ key: "load.cases_n", value: forces.map((f) => f.map((v) => 2 * v)) }] });
+  const { maps } = await ask("POST", "/api/answer", { text: doubled.text, ask: "Fig. 6" });
+  assert.ok((await page.locator("[data-follow=worst] .extreme-value").innerText()).startsWith(String(Math.round(maps[0].worst.in_plane_um))));
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+test("joints are counted as the controller does, or as the chain does", async () => {
+  const page = await open(browser, server.url);
+  const text = readFileSync(join(server.folder, "study.toml"), "utf8");
+  const { maps } = await ask("POST", "/api/answer", { text, ask: "Fig. 6" });
+  const pose = await ask("POST", "/api/pose", { text, ask: "Fig. 6", at: { y_mm: maps[0].worst.in_plane_mm[0], z_mm: maps[0].worst.in_plane_mm[1] }, case: maps[0].worst.deciding_case });
+  const shown = pose.answer.postures.findIndex((p) => p.branch === maps[0].worst.branch);
+  const written = (list) => list.map((q) => `${q < -0.05 ? "−" : ""}${Math.abs(q).toFixed(1)}°`);
+  const read = () => page.locator("#panel-joints .bar-value").allInnerTexts();
+  assert.deepEqual(await read(), written(pose.answer.postures[shown].joints_deg));
+  await page.locator("#panel-joints .switch button", { hasText: "Chain" }).click();
+  const chain = written(pose.chain[shown].map((c) => c.at_deg));
+  assert.deepEqual(await read(), chain);
+  assert.notDeepEqual(chain, written(pose.answer.postures[shown].joints_deg), "they differ for this robot");
+  await page.context().close();
+});

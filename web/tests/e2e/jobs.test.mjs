@@ -1,0 +1,135 @@
+// Long work in the page: to its end, cancelled, over a reload; its results in the page and as files.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { launch, open, serve, settled } from "./setup.mjs";
+
+let browser;
+before(async () => {
+  browser = await launch();
+});
+after(() => browser?.close());
+
+const study = (path, place = "") => `format = 1
+robot = "yaskawa/mh12"
+limit_um = 50
+[plane]
+centre_mm = [1000, 0, 800]
+half_size_mm = 100
+step_mm = 20
+[load]
+cases_n = [[3, 5, 5]]
+[[ask]]
+kind = "path"
+name = "groove"
+circle.radius_mm = 100
+${path}
+${place}`;
+// So few points and so little room that a search is over soon, and the contrary.
+const SMALL = study("step_mm = 60", "[place]\nx_mm = [900, 1100]\n");
+const LARGE = study("step_mm = 2", "[place]\nx_mm = [700, 1200]\ny_mm = [-300, 300]\nz_mm = [400, 1100]\ntilt_deg = [-30, 60]\n");
+
+/** A page on a server of this study, at its jobs. */
+async function at(text, work) {
+  const server = await serve(() => text);
+  try {
+    const page = await open(browser, server.url);
+    await page.click("#tab-jobs");
+    await work(page, server.folder);
+    assert.deepEqual(page.complaints, []);
+    await page.context().close();
+  } finally {
+    await server.stop();
+  }
+}
+const json = (folder, name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
+
+test("a small placement runs to its end: its place is told, shown, and lies in the folder", () =>
+  at(SMALL, async (page, folder) => {
+    await page.click("[data-kind=place]");
+    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    const placed = json(folder, "place/placement.json");
+    const words = await page.locator(".job.done").innerText();
+    assert.ok(words.includes(`${placed.found.cost_um.toFixed(1)} um`), `${words} tells ${placed.found.cost_um}`);
+    for (const name of ["place/placement.json", "place/result.json", "place/report.html"]) assert.ok(existsSync(join(folder, name)), name);
+    assert.ok(!existsSync(join(folder, "place/place.rounds")));
+    // Every file of the card can be opened.
+    const links = await page.locator(".job.done .files a").evaluateAll((all) => all.map((a) => a.href));
+    assert.ok(links.length > 3);
+    for (const link of links) assert.equal(await page.evaluate(async (to) => (await fetch(to)).status, link), 200, link);
+    await page.click("text=Show this place");
+    await settled(page);
+    assert.equal(Number(await page.inputValue("#field-x")), placed.place.centre_mm[0]);
+    assert.notEqual(placed.place.centre_mm[0], 1000);
+    // The path there is what the placement found.
+    const worst = await page.locator("[data-follow=worst] .extreme-value").innerText();
+    assert.ok(worst.startsWith(placed.found.cost_um.toFixed(1)), `${worst}, ${placed.found.cost_um}`);
+  }));
+
+test("a placement goes on over a reload and is shown again; cancelled it leaves no answer, and the next one ends", () =>
+  at(LARGE, async (page, folder) => {
+    await page.click("[data-kind=place]");
+    await page.waitForSelector(".job.running progress");
+    const counted = async () => Number(/^([\d.,]+) of/.exec((await page.locator(".job.running p").first().innerText()).replaceAll("\u202f", ""))?.[1] ?? -1);
+    await page.waitForFunction(() => / of /.test(document.querySelector(".job.running p")?.textContent ?? ""));
+    const before = await counted();
+    await page.reload();
+    await page.waitForSelector(".job.running progress");
+    await page.waitForFunction(() => / of /.test(document.querySelector(".job.running p")?.textContent ?? ""));
+    assert.ok((await counted()) >= before, "it went on meanwhile");
+    assert.equal(await page.locator(".job").count(), 1);
+    // A second one waits for it, in another tab.
+    const other = await page.context().newPage();
+    await other.goto(page.url().replace(/#.*/, "#jobs"));
+    await page.click("[data-kind=run]");
+    await page.waitForSelector(".job.waiting");
+    await page.locator(".job.running").getByRole("button", { name: "Cancel" }).click();
+    await page.waitForSelector(".job.cancelled", { timeout: 60_000 });
+    assert.ok(!existsSync(join(folder, "place/placement.json")));
+    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    assert.ok(json(folder, "out/result.json").paths[0].points > 100);
+    await other.close();
+  }));
+
+test("the best posture is searched to its end, its table lies in the folder", () =>
+  at(`${SMALL}[posture.search]\nstep_deg = 30\n`, async (page, folder) => {
+    await page.click("[data-kind=posture]");
+    await page.waitForSelector(".job.done", { timeout: 240_000 });
+    const { search } = json(folder, "posture/result.json").paths[0];
+    assert.equal(search.turns, 12);
+    assert.ok((await page.locator(".job.done").innerText()).includes("posture/"), "its files are named");
+    assert.match(readFileSync(join(folder, "posture/groove.csv"), "utf8"), /turn_deg/);
+  }));
+
+test("compliances are identified from a table that was dropped, and the study takes the robot", () =>
+  at(SMALL, async (page, folder) => {
+    // A plan whose readings are what a typical arm would show.
+    execFileSync(process.env.ARMILL_BIN, ["identify", "--plan", "14", "--robot", "yaskawa/mh12", "--out", join(folder, "..", "armill-plan.csv")], { stdio: "ignore" });
+    const rows = readFileSync(join(folder, "..", "armill-plan.csv"), "utf8").trim().split("\n").map((row) => row.split(","));
+    const [first, expected] = [rows[0].indexOf("dx_mm"), rows[0].indexOf("expected_dx_mm")];
+    for (const row of rows.slice(1)) for (let k = 0; k < 3; k++) row[first + k] = row[expected + k];
+    await page.click("#tab-files");
+    await page.setInputFiles("#pick", { name: "tests.csv", mimeType: "text/csv", buffer: Buffer.from(rows.map((row) => row.join(",")).join("\n")) });
+    await page.waitForSelector(".said li");
+    await page.click("#tab-jobs");
+    await page.click("[data-kind=identify]");
+    await page.getByRole("button", { name: "Start" }).click();
+    await page.waitForSelector(".job.done", { timeout: 120_000 });
+    assert.match(readFileSync(join(folder, "identify/robot.toml"), "utf8"), /tests\.csv/);
+    await page.click("#tab-study");
+    const editor = page.locator("#study-text");
+    await editor.fill((await editor.inputValue()).replace("yaskawa/mh12", "identify/robot.toml"));
+    await page.waitForSelector(".problems .fine");
+    await page.click("#tab-live");
+    await settled(page);
+    assert.match(await page.locator("[data-follow=worst] .extreme-value").innerText(), /µm/);
+    // A table that is none is told as such.
+    writeFileSync(join(folder, "tests.csv"), "nothing\n");
+    await page.click("#tab-jobs");
+    await page.click("[data-kind=identify]");
+    await page.getByRole("button", { name: "Start" }).click();
+    await page.waitForSelector(".job.failed .note.warn");
+  }));
