@@ -5,6 +5,7 @@
 //! | `robot` | the class `Robot`; `source`: where it comes from |
 //! | `stands`, `postures`, `held` | what it answers about many joint positions or poses |
 //! | `study`, `table` | the classes `Study` and `Result`; tables as Arrow |
+//! | `judged` | the class `Judged`: a path wherever its part lies |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
 //! | `answer` | commands as functions, and the command itself |
 //! | `arrays`, `poses` | numbers, poses and forces out of arrays, and back |
@@ -17,6 +18,7 @@ mod answer;
 mod arrays;
 mod errors;
 mod held;
+mod judged;
 mod poses;
 mod postures;
 mod robot;
@@ -39,6 +41,8 @@ mod _armill {
     use crate::errors::{Cancelled, Fault, InputError};
     #[pymodule_export]
     use crate::held::Held;
+    #[pymodule_export]
+    use crate::judged::Judged;
     #[pymodule_export]
     use crate::postures::Postures;
     #[pymodule_export]

@@ -28,7 +28,7 @@ def manifest(folder: Path) -> dict[str, Any]:
 def cluster() -> Iterator[Any]:
     """Four workers of Dask, whose nannies start another where one dies."""
     distributed = pytest.importorskip("distributed")
-    with distributed.LocalCluster(4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+    with distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
         yield cluster
 
 

@@ -13,14 +13,15 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import works
-from conftest import manifest, sums
 
 from armill import scale
 from armill.scale.backends import Lost, Outcome
 from armill.scale.manifest import Done
 from armill.scale.task import Failed
 from armill.scale.window import AHEAD, MOST_LOST, worked
+
+from . import works
+from .conftest import manifest, sums
 
 # What the packages of others warn of is not ours to mend.
 pytestmark = pytest.mark.filterwarnings("default")
@@ -180,7 +181,7 @@ def test_a_folder_that_workers_do_not_see_is_told(tmp_path: Path, client: Any, m
         made = real(*given)
         return type(made)("/nowhere", *[getattr(made, name) for name in ("pickle_name", "fingerprint", "version", "threads")])
 
-    monkeypatch.setattr("armill.scale.run.task", elsewhere)
+    monkeypatch.setattr("armill.scale.running.task", elsewhere)
     with pytest.raises(scale.SweepFailed, match="does not see /nowhere: a folder is wanted that all machines share"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
 
@@ -208,7 +209,7 @@ def test_a_scheduler_that_dies_is_told_and_the_same_call_goes_on(tmp_path: Path,
     script = (
         "import os, time, distributed\n"
         "if __name__ == '__main__':\n"
-        "    cluster = distributed.LocalCluster(2, threads_per_worker=1, dashboard_address=None, processes=False)\n"
+        "    cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, processes=False, protocol='tcp')\n"
         "    print(cluster.scheduler_address, flush=True)\n"
         "    time.sleep(60)\n"
     )

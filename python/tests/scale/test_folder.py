@@ -12,12 +12,13 @@ import time
 from pathlib import Path
 
 import pytest
-import works
-from conftest import manifest, sums
 
 import armill
 from armill import scale
 from armill.scale import files
+
+from . import works
+from .conftest import manifest, sums
 
 
 @pytest.fixture
@@ -150,14 +151,14 @@ def test_bad_numbers_of_workers_are_refused(tmp_path: Path) -> None:
 SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
-import works
+from . from scale import works
 from armill import scale
 scale.run(works.waves(seconds=0.05), {folder!r}, "local", workers=2, items_per_part=10, progress={progress})
 """
 
 
 def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
-    script = SCRIPT.format(tests=str(Path(__file__).parent), folder=str(folder), progress=progress)
+    script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder), progress=progress)
     return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True)
 
 

@@ -7,12 +7,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import works
-from conftest import manifest, sums
 
 import armill
 from armill import scale
 from armill.scale.fingerprint import asked
+
+from . import works
+from .conftest import manifest, sums
 
 
 def test_items_are_all_combinations_and_the_last_axis_is_fastest() -> None:

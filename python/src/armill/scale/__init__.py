@@ -8,17 +8,17 @@ hold the same bytes wherever and in whatever order they were made.
 ``Sweep``, ``Block``                  what is asked: axes and a function of some items (``sweep.py``)
 ``placements``, ``deviations``,       sweeps that are ready-made (``sweeps/``)
 ``studies``
-``plan``, ``Plan``                    into which parts it goes (``plan.py``)
-``run``, ``Finished``                 does what is not done yet (``run.py``)
-``read``                              the rows of all parts, in their order (``read.py``)
+``plan``, ``Plan``                    into which parts it goes (``planning.py``)
+``run``, ``Finished``                 does what is not done yet (``running.py``)
+``read``                              the rows of all parts, in their order (``reading.py``)
 ``SweepFailed``, ``MissingExtra``     what goes wrong beside ``armill.InputError`` (``errors.py``)
 ====================================  ==========================================================================
 """
 
 from armill.scale.errors import MissingExtra, SweepFailed
-from armill.scale.plan import Plan, plan
-from armill.scale.read import read
-from armill.scale.run import Finished, run
+from armill.scale.planning import Plan, plan
+from armill.scale.reading import read
+from armill.scale.running import Finished, run
 from armill.scale.sweep import Block, Sweep
 from armill.scale.sweeps.deviations import deviations
 from armill.scale.sweeps.placements import placements

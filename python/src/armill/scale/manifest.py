@@ -23,7 +23,7 @@ from typing import Any
 from armill.scale.errors import refused
 from armill.scale.files import write_whole
 from armill.scale.fingerprint import asked, fingerprint
-from armill.scale.plan import Plan
+from armill.scale.planning import Plan
 
 NAME = "manifest.json"
 FORMAT = 1

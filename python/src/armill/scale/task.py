@@ -19,7 +19,7 @@ import armill
 from armill.scale.errors import needed
 from armill.scale.files import FULL, write_whole
 from armill.scale.manifest import Done, part_path
-from armill.scale.plan import Plan
+from armill.scale.planning import Plan
 from armill.scale.table import table_of
 
 

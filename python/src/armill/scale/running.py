@@ -23,9 +23,9 @@ from armill.scale.backends import Wanted, opened
 from armill.scale.errors import SweepFailed, needed, refused
 from armill.scale.fingerprint import asked
 from armill.scale.manifest import PARTS, Manifest, same_sweep
-from armill.scale.plan import Plan, plan
+from armill.scale.planning import Plan, plan
 from armill.scale.progress import Progress
-from armill.scale.read import is_whole, read
+from armill.scale.reading import is_whole, read
 from armill.scale.sweep import Sweep
 from armill.scale.task import task
 from armill.scale.window import worked
