@@ -151,7 +151,7 @@ def test_bad_numbers_of_workers_are_refused(tmp_path: Path) -> None:
 SCRIPT = """
 import sys
 sys.path.insert(0, {tests!r})
-from . from scale import works
+from scale import works
 from armill import scale
 scale.run(works.waves(seconds=0.05), {folder!r}, "local", workers=2, items_per_part=10, progress={progress})
 """
@@ -169,7 +169,7 @@ def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
         if (folder / "manifest.json").exists() and len(manifest(folder)["parts"]) >= count:
             return
         time.sleep(0.02)
-    raise AssertionError(f"the run did not come so far: {process.poll()}")
+    raise AssertionError(f"the run did not come so far: {process.communicate()[1]}")
 
 
 def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:

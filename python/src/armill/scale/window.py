@@ -31,16 +31,22 @@ def worked(backend: Backend, parts: Iterable[int]) -> Iterator[Done]:
             under_way += 1
         if not under_way:
             return
+        failed, again = None, list[int]()
         for outcome in backend.arrived():
             under_way -= 1
             match outcome:
                 case Done():
                     yield outcome
                 case Failed():
-                    raise SweepFailed(outcome.why)
+                    failed = failed or outcome
                 case Lost(part, why):
                     lost[part] += 1
                     if lost[part] == MOST_LOST:
-                        raise SweepFailed(f"part {part} lost its worker {MOST_LOST} times, the last time by {why}")
-                    backend.send(part)
-                    under_way += 1
+                        failed = Failed(part, f"part {part} lost its worker {MOST_LOST} times, the last time by {why}")
+                    again.append(part)
+        # What else has arrived is kept.
+        if failed:
+            raise SweepFailed(failed.why)
+        for part in again:
+            backend.send(part)
+            under_way += 1
