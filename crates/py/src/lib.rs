@@ -10,11 +10,13 @@
 //! | `answer` | commands as functions, and the command itself |
 //! | `arrays`, `poses` | numbers, poses and forces out of arrays, and back |
 //! | `threads` | on which threads, without the lock of Python, until Ctrl-C |
+//! | `arithmetic` | whether two machines give the same bits |
 //! | `errors` | exceptions |
 //!
 //! It computes nothing: no mechanics, no units but SI on both sides.
 
 mod answer;
+mod arithmetic;
 mod arrays;
 mod errors;
 mod held;
@@ -37,6 +39,8 @@ mod _armill {
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]
     use crate::answer::{ask, command, options};
+    #[pymodule_export]
+    use crate::arithmetic::arithmetic;
     #[pymodule_export]
     use crate::errors::{Cancelled, Fault, InputError};
     #[pymodule_export]

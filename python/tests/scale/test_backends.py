@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
-import signal
 import subprocess
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from armill import scale
+from armill import _armill, scale
 from armill.scale.backends import Lost, Outcome
 from armill.scale.manifest import Done
 from armill.scale.task import Failed
 from armill.scale.window import AHEAD, MOST_LOST, worked
 
 from . import works
-from .conftest import manifest, sums
+from .conftest import Killer, busy_of_ray, manifest, sums
 
 # What the packages of others warn of is not ours to mend.
 pytestmark = pytest.mark.filterwarnings("default")
@@ -92,20 +91,6 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     return sums(folder)
 
 
-def killed_at(folder: Path, parts: int, victim: Callable[[], int]) -> threading.Thread:
-    """Kills a process when the folder holds so many parts."""
-
-    def wait() -> None:
-        until = time.monotonic() + 60
-        while time.monotonic() < until and len(list(folder.glob("parts/part-*"))) < parts:
-            time.sleep(0.01)
-        os.kill(victim(), signal.SIGKILL)
-
-    thread = threading.Thread(target=wait)
-    thread.start()
-    return thread
-
-
 @pytest.mark.parametrize("workers", [1, 3, 8])
 def test_threads_give_the_same_bytes(tmp_path: Path, alone: list[str], workers: int) -> None:
     scale.run(works.waves(seconds=0.02), tmp_path, workers=workers, items_per_part=10)
@@ -114,7 +99,7 @@ def test_threads_give_the_same_bytes(tmp_path: Path, alone: list[str], workers: 
 
 def test_dask_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alone: list[str], client: Any) -> None:
     pids = client.run(os.getpid)
-    killer = killed_at(tmp_path, 20, lambda: next(iter(pids.values())))
+    killer = Killer(tmp_path, 20, lambda: next(iter(pids.values())))
     done = scale.run(works.waves(seconds=0.02), tmp_path, client, items_per_part=10)
     killer.join()
     assert done.done_before == 0
@@ -123,13 +108,7 @@ def test_dask_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alo
 
 
 def test_ray_gives_the_same_bytes_though_a_worker_is_killed(tmp_path: Path, alone: list[str], four_of_ray: Any) -> None:
-    @four_of_ray.remote
-    def own_pid() -> int:
-        time.sleep(0.3)
-        return os.getpid()
-
-    pids = four_of_ray.get([own_pid.remote() for _ in range(4)])
-    killer = killed_at(tmp_path, 20, lambda: pids[0])
+    killer = Killer(tmp_path, 20, busy_of_ray(four_of_ray))
     scale.run(works.waves(seconds=0.02), tmp_path, "ray", items_per_part=10)
     killer.join()
     assert sums(tmp_path) == alone
@@ -179,7 +158,7 @@ def test_a_folder_that_workers_do_not_see_is_told(tmp_path: Path, client: Any, m
 
     def elsewhere(*given: Any) -> Any:
         made = real(*given)
-        return type(made)("/nowhere", *[getattr(made, name) for name in ("pickle_name", "fingerprint", "version", "threads")])
+        return dataclasses.replace(made, folder="/nowhere")
 
     monkeypatch.setattr("armill.scale.running.task", elsewhere)
     with pytest.raises(scale.SweepFailed, match="does not see /nowhere: a folder is wanted that all machines share"):
@@ -192,6 +171,12 @@ def test_a_worker_of_another_version_is_told(tmp_path: Path, client: Any, monkey
     own = armill.__version__
     monkeypatch.setattr(armill, "__version__", "9.9.9")
     with pytest.raises(scale.SweepFailed, match=rf"this worker has armill {own}, the sweep was begun with 9\.9\.9"):
+        scale.run(works.waves(), tmp_path, client, items_per_part=50)
+
+
+def test_a_worker_that_rounds_otherwise_is_told(tmp_path: Path, client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_armill, "arithmetic", lambda: "otherwise")
+    with pytest.raises(scale.SweepFailed, match=r"this worker rounds \w+, the sweep was begun on one that rounds otherwise"):
         scale.run(works.waves(), tmp_path, client, items_per_part=50)
 
 
@@ -217,7 +202,7 @@ def test_a_scheduler_that_dies_is_told_and_the_same_call_goes_on(tmp_path: Path,
     assert other.stdout is not None
     address = other.stdout.readline().strip()
     # Its workers are threads of it, and know the works as we do.
-    killer = killed_at(tmp_path, 5, lambda: other.pid)
+    killer = Killer(tmp_path, 5, lambda: other.pid)
     with pytest.raises(scale.SweepFailed, match=r"connection to the scheduler was lost .*\n  \d+ of 100 parts are kept"):
         scale.run(works.waves(seconds=0.02), tmp_path, address, items_per_part=10, timeout=3)
     killer.join()

@@ -26,7 +26,7 @@ class MissingExtra(ImportError):
 def refused(message: str, hint: str) -> InputError:
     """Bad input, told as the command tells it."""
     error = InputError(f"{message}\n  help: {hint}")
-    error.problems = [{"message": message, "hint": hint}]  # type: ignore[attr-defined]
+    error.problems = [{"message": message, "hint": hint}]
     return error
 
 

@@ -7,7 +7,7 @@ import errno
 import hashlib
 import os
 import uuid
-from collections.abc import Iterator
+from collections.abc import Generator
 from pathlib import Path
 
 from armill.scale.errors import refused
@@ -18,7 +18,7 @@ UNFINISHED = ".unfinished"
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
-def write_whole(path: Path, data: bytes) -> None:
+def write_whole(path: Path, data: bytes | memoryview) -> None:
     """Writes beside, makes sure that it lies on the disk, and renames: whoever looks sees all of it or none."""
     beside = path.with_name(f".{path.name}.{uuid.uuid4().hex}{UNFINISHED}")
     try:
@@ -66,7 +66,7 @@ def tidied(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def alone_in(folder: Path) -> Iterator[None]:
+def alone_in(folder: Path) -> Generator[None]:
     """Keeps other runs out of the folder. The system lets go of it however this process ends."""
     with (folder / ".lock").open("ab") as file:
         if os.name == "posix":

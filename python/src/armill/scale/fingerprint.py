@@ -18,6 +18,7 @@ from typing import Any, cast
 import numpy as np
 
 import armill
+from armill import _armill
 from armill.scale.errors import refused
 from armill.scale.sweep import Sweep
 
@@ -29,7 +30,8 @@ DEEPEST = 20
 
 def asked(sweep: Sweep) -> dict[str, str]:
     """sweep -> what was asked, by name."""
-    told = {"armill": armill.__version__}
+    # Machines that round otherwise give other bits.
+    told = {"armill": armill.__version__, "arithmetic": _armill.arithmetic()}
     told |= {f"axis {name}": str(length) for name, length in sweep.axes.items()}
     told |= {"evaluations_per_item": str(sweep.evaluations_per_item), "seed": str(sweep.seed)}
     work = sweep.work
@@ -60,20 +62,22 @@ def _hashed(*parts: str | bytes) -> str:
 def _words(value: Any, depth: int) -> str:
     if depth > DEEPEST:
         raise refused("what the work holds goes round in a circle", "let it hold arrays, numbers and texts")
-    if value is None or isinstance(value, (bool, int, float, complex, np.generic)):
+    if value is None or isinstance(value, (bool, int, float, complex)):
         return repr(value)
+    if isinstance(value, np.generic):
+        return repr(cast("Any", value).item())
     if isinstance(value, (str, os.PathLike)):
         text = os.fspath(cast("str | os.PathLike[str]", value))
         return repr(text) if len(text) <= SHORT else f"{len(text)} characters, {_hashed(text)}"
     if isinstance(value, bytes):
         return f"{len(value)} bytes, {_hashed(value)}"
     if isinstance(value, np.ndarray):
-        return _array_words(value, depth)
+        return _array_words(value, depth)  # pyright: ignore
     if isinstance(value, Mapping):
-        pairs = cast("Mapping[Any, Any]", value).items()
+        pairs: list[tuple[Any, Any]] = list(value.items())  # pyright: ignore
         return _hashed("mapping", *(_words(part, depth + 1) for pair in pairs for part in pair))
     if isinstance(value, Sequence):
-        parts = cast("Sequence[Any]", value)
+        parts: list[Any] = list(value)  # pyright: ignore
         return _hashed("sequence", *(_words(part, depth + 1) for part in parts))
     if isinstance(value, types.FunctionType):
         return _function_words(value, depth)

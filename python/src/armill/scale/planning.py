@@ -105,5 +105,5 @@ def _measured(sweep: Sweep, threads: int) -> tuple[float, float]:
 def _rounded(items: float) -> int:
     """Down to two digits, so that parts are easy to name."""
     whole = int(items)
-    step = 10 ** max(len(str(whole)) - 2, 0)
+    step = int(10 ** max(len(str(whole)) - 2, 0))
     return whole // step * step

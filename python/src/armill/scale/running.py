@@ -10,6 +10,7 @@ done again, to the same bytes.
 
 from __future__ import annotations
 
+import functools
 import os
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -116,16 +117,17 @@ def run(
 
 def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads: int) -> tuple[Plan, Manifest]:
     """The plan of the folder and its manifest; a new one where there is none."""
-    if isinstance(sweep, Plan):
-        if items_per_part is not None:
-            raise refused("items_per_part is told twice", "a plan has its parts")
-        sweep, items_per_part = sweep.sweep, sweep.items_per_part
+    told = sweep if isinstance(sweep, Plan) else None
+    if told and items_per_part is not None:
+        raise refused("items_per_part is told twice", "a plan has its parts")
+    what = sweep.sweep if isinstance(sweep, Plan) else sweep
+    wanted = told.items_per_part if told else items_per_part
     manifest = Manifest.read(place)
     if manifest is None:
-        ready = plan(sweep, items_per_part=items_per_part, threads=threads)
+        ready = told or plan(what, items_per_part=wanted, threads=threads)
         return ready, Manifest.of(ready)
-    same_sweep(manifest, asked(sweep), place)
-    ready = plan(sweep, items_per_part=items_per_part or manifest.items_per_part)
+    same_sweep(manifest, asked(what), place)
+    ready = plan(what, items_per_part=wanted or manifest.items_per_part)
     if ready.items_per_part != manifest.items_per_part:
         message = f"{place} has parts of {manifest.items_per_part} items, asked for are {ready.items_per_part}"
         raise refused(message, "the parts of a sweep stay as they were begun; leave items_per_part out, or give another folder")
@@ -135,7 +137,7 @@ def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads
 def _damaged(place: Path, manifest: Manifest) -> list[int]:
     parts = sorted(manifest.done)
     with ThreadPoolExecutor(CHECKERS) as pool:
-        whole = pool.map(lambda part: is_whole(place, manifest, part, verify=True), parts)
+        whole = pool.map(functools.partial(is_whole, place, manifest, verify=True), parts)
         return [part for part, good in zip(parts, whole, strict=True) if not good]
 
 

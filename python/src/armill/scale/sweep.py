@@ -43,7 +43,7 @@ class Sweep:
         for name, length in self.axes.items():
             if not name.isidentifier():
                 raise refused(f"axis `{name}` is no name", "letters, digits and _ make a name of a column")
-            if isinstance(length, bool) or not isinstance(length, (int, np.integer)) or length < 1:
+            if not isinstance(length, int) or isinstance(length, bool) or length < 1:  # pyright: ignore
                 raise refused(f"axis `{name}` has the length {length!r}", "a whole number from 1 on")
         if self.item_count > MOST_ITEMS:
             raise refused(f"{self.item_count:.3g} items are more than can be counted", "sweep over less")
@@ -79,7 +79,7 @@ class Block:
     axes: Mapping[str, int]
     threads: int = 1
     seed: int | None = None
-    _indices: dict[str, NDArray[np.int64]] = field(default_factory=dict, compare=False, repr=False)
+    _indices: dict[str, NDArray[np.int64]] = field(default_factory=dict[str, NDArray[np.int64]], compare=False, repr=False)
 
     def __len__(self) -> int:
         return self.last - self.first

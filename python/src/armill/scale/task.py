@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 import armill
+from armill import _armill
 from armill.scale.errors import needed
 from armill.scale.files import FULL, write_whole
 from armill.scale.manifest import Done, part_path
@@ -39,6 +40,7 @@ class Task:
     pickle_name: str
     fingerprint: str
     version: str
+    arithmetic: str
     threads: int
 
     def __call__(self, part: int) -> Done | Failed:
@@ -66,6 +68,8 @@ class Task:
     def _done(self, part: int) -> Done:
         if armill.__version__ != self.version:
             raise RuntimeError(f"this worker has armill {armill.__version__}, the sweep was begun with {self.version}")
+        if _armill.arithmetic() != self.arithmetic:
+            raise RuntimeError(f"this worker rounds {_armill.arithmetic()}, the sweep was begun on one that rounds {self.arithmetic}")
         plan = self._plan()
         before = time.perf_counter()
         table = table_of(plan.sweep, *plan.span(part), self.threads)
@@ -93,7 +97,8 @@ def _plan(folder: str, name: str) -> Plan:
         raise RuntimeError(f"this worker does not see {folder}: a folder is wanted that all machines share") from error
     if pickle_name(data) != name:
         raise RuntimeError(f"{folder}/{name} is damaged")
-    return pickle.loads(data)
+    plan: Plan = pickle.loads(data)
+    return plan
 
 
 def pickle_name(data: bytes) -> str:
@@ -108,7 +113,7 @@ def task(plan: Plan, folder: Path, fingerprint: str, threads: int) -> Task:
     for old in folder.glob(".sweep-*.pickle"):
         old.unlink(missing_ok=True)
     write_whole(folder / name, data)
-    return Task(str(folder), name, fingerprint, armill.__version__, threads)
+    return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads)
 
 
 def _pickled(plan: Plan) -> bytes:

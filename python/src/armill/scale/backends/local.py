@@ -23,7 +23,10 @@ class Local:
         return self._width
 
     def send(self, part: int) -> None:
-        self._sent[self._pool.submit(self._task, part)] = part
+        self._sent[self._pool.submit(self._outcome, part)] = part
+
+    def _outcome(self, part: int) -> Outcome:
+        return self._task(part)
 
     def arrived(self) -> Iterable[Outcome]:
         ready, _ = wait(self._sent, return_when=FIRST_COMPLETED)

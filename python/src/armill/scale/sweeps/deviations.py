@@ -42,7 +42,7 @@ class Deviations:
         # The items of a sample follow each other.
         starts = np.flatnonzero(np.diff(sample, prepend=-1))
         ends = [*starts[1:], len(block)]
-        parts = [self._of(sample[first], pose[first:last], block.threads) for first, last in zip(starts, ends, strict=True)]
+        parts = [self.of(sample[first], pose[first:last], block.threads) for first, last in zip(starts, ends, strict=True)]
         deviation, held, within = (np.concatenate(each) for each in zip(*parts, strict=True))
         cases = len(self.forces)
         missing = np.repeat(~held, cases)
@@ -51,7 +51,8 @@ class Deviations:
             columns[f"d{name}_um"] = np.ma.masked_array(deviation[:, :, axis].ravel() * UM, mask=missing)
         return columns | {"within_joint_limits": np.repeat(within, cases)}
 
-    def _of(self, sample: int, poses: NDArray[np.int64], threads: int) -> tuple[Any, Any, Any]:
+    def of(self, sample: int, poses: NDArray[np.int64], threads: int) -> tuple[Any, Any, Any]:
+        """One sample at some poses: deviations, whether each is held, whether inside joint limits."""
         robot = self.robot if self.samples is None else self.robot.with_compliance(self.samples[sample])
         held = robot.hold(self.poses[poses], self.forces, **self.options, threads=threads)
         return held.deviation, held.held, held.within_limits
@@ -84,6 +85,6 @@ def deviations(
     options = {"tool": tool, "branch": branch, "normal": normal, "home": home}
     work = Deviations(arm, many, loads, drawn, {name: value for name, value in options.items() if value is not None})
     # One pose shows whether the others can be asked.
-    work._of(0, np.arange(1), 1)
+    work.of(0, np.arange(1), 1)
     axes = {"sample": 1 if drawn is None else len(drawn), "pose": len(many)}
     return Sweep(axes, work, evaluations_per_item=len(loads))

@@ -46,7 +46,7 @@ class Placements:
     places: NDArray[np.float64] | None
 
     def __call__(self, block: Block) -> dict[str, Any]:
-        places = self._places(block)
+        places = self.at(block)
         judged = self.study.judge(places, ask=self.ask, threads=block.threads)
         columns: dict[str, Any] = {
             f"{degree}_mm" if degree in LENGTHS else f"{degree}_deg": _told(degree, numbers)
@@ -57,7 +57,8 @@ class Placements:
         branch = np.asarray(judged.branch, dtype=np.str_)
         return columns | {"lost_points": lost, "cost_um": cost, "branch": branch}
 
-    def _places(self, block: Block) -> NDArray[np.float64]:
+    def at(self, block: Block) -> NDArray[np.float64]:
+        """The places of a block."""
         if self.places is not None:
             return self.places[block["place"]]
         places = np.tile(self.drawn, (len(block), 1))
@@ -91,7 +92,7 @@ def placements(study: Study | str | Path, places: ArrayLike | None = None, *, as
     # The first place shows whether the others can be judged, and how many points and cases there are.
     lengths = {"place": len(given)} if given is not None else {f"{degree}_index": len(array) for degree, array in values.items()}
     sweep = Sweep(lengths, work)
-    first = found.judge(work._places(sweep.block(0, 1)), ask=ask)
+    first = found.judge(work.at(sweep.block(0, 1)), ask=ask)
     return Sweep(lengths, work, evaluations_per_item=first.point_count * first.case_count)
 
 

@@ -95,12 +95,12 @@ def _value(value: Any) -> str:
         return "{" + ", ".join(f"{json.dumps(key)} = {_value(part)}" for key, part in pairs) + "}"
     if isinstance(value, (list, tuple, np.ndarray)):
         return "[" + ", ".join(_value(part) for part in cast("Sequence[Any]", value)) + "]"
-    if isinstance(value, (bool, np.bool_)):
+    if isinstance(value, np.generic):
+        return _value(cast("Any", value).item())
+    if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, (int, np.integer)):
-        return str(int(value))
-    if isinstance(value, (float, np.floating)):
-        return repr(float(value))
+    if isinstance(value, (int, float)):
+        return repr(value)
     if isinstance(value, str):
         # JSON writes a delete as it is, which TOML does not read.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
@@ -109,10 +109,10 @@ def _value(value: Any) -> str:
 
 def _at(answer: Any, where: str) -> float | None:
     """The number at a place of the result, `paths.0.roundness_um`; None where there is null."""
-    found = answer
+    found: Any = answer
     for name in where.split("."):
         try:
-            found = found[int(name)] if isinstance(found, list) else found[name]
+            found = found[int(name) if isinstance(found, list) else name]
         except (KeyError, IndexError, ValueError, TypeError):
             raise ValueError(f"the result has no `{where}`") from None
     if found is not None and (isinstance(found, bool) or not isinstance(found, (int, float))):
