@@ -23,12 +23,12 @@ from armill.scale import files
 from armill.scale.backends import Wanted, opened
 from armill.scale.errors import SweepFailed, needed, refused
 from armill.scale.fingerprint import asked
-from armill.scale.manifest import PARTS, Manifest, same_sweep
+from armill.scale.manifest import PARTS, Done, Manifest, same_sweep
 from armill.scale.planning import Plan, plan
 from armill.scale.progress import Progress
 from armill.scale.reading import is_whole, read
 from armill.scale.sweep import Sweep
-from armill.scale.task import task
+from armill.scale.task import forgotten, task
 from armill.scale.window import worked
 
 #: The manifest is written so often, s, and takes this part of the time at the most.
@@ -94,8 +94,8 @@ def run(
         for part in damaged:
             del manifest.done[part]
         files.made(place / PARTS)
-        for there in (place, place / PARTS):
-            files.tidied(there)
+        files.tidied(place)
+        files.tidied(place / PARTS)
         task_seconds = 0.0
         if not manifest.is_complete:
             shown = Progress(progress, manifest.evaluation_count, _evaluations(ready, manifest))
@@ -148,11 +148,30 @@ def _evaluations(ready: Plan, manifest: Manifest) -> int:
 
 def _work(ready: Plan, place: Path, manifest: Manifest, wanted: Wanted, shown: Progress) -> float:
     """Everything that is not done, the manifest kept meanwhile and in the end; gives how long the tasks took."""
-    seconds = 0.0
     keeper = _Keeper(place, manifest)
     try:
+        seconds = _parts(ready, place, keeper, wanted, shown)
         keeper.write()
-        to_do = [part for part in range(manifest.part_count) if part not in manifest.done]
+        return seconds
+    except KeyboardInterrupt as error:
+        raise Cancelled(f"cancelled: {keeper.last()}") from error
+    except SweepFailed as error:
+        raise SweepFailed(f"{error}\n  {keeper.last()}") from error
+    except OSError as error:
+        if error.errno not in files.FULL:
+            raise
+        raise SweepFailed(f"the disk of {place} is full ({error.strerror}): make room\n  {keeper.last()}") from error
+    finally:
+        shown.end()
+
+
+def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Progress) -> float:
+    """All parts that are not done; gives how long their tasks took."""
+    seconds = 0.0
+    manifest = keeper.manifest
+    keeper.write()
+    to_do = [part for part in range(manifest.part_count) if part not in manifest.done]
+    try:
         backend = opened(wanted, task(ready, place, manifest.fingerprint, wanted.threads_per_worker))
         shown.begin()
         try:
@@ -163,19 +182,8 @@ def _work(ready: Plan, place: Path, manifest: Manifest, wanted: Wanted, shown: P
                 shown.add((last - first) * ready.sweep.evaluations_per_item)
         finally:
             backend.close()
-        for pickled in place.glob(".sweep-*.pickle"):
-            pickled.unlink(missing_ok=True)
-    except KeyboardInterrupt as error:
-        raise Cancelled(f"cancelled: {keeper.told()}") from error
-    except SweepFailed as error:
-        raise SweepFailed(f"{error}\n  {keeper.told()}") from error
-    except OSError as error:
-        if error.errno not in files.FULL:
-            raise
-        raise SweepFailed(f"the disk of {place} is full ({error.strerror}): make room\n  {keeper.told()}") from error
     finally:
-        shown.end()
-        keeper.last()
+        forgotten(place)
     return seconds
 
 
@@ -183,15 +191,17 @@ class _Keeper:
     """Writes the manifest: not after each part, for it grows with them."""
 
     def __init__(self, place: Path, manifest: Manifest) -> None:
-        self._place, self._manifest = place, manifest
+        self.manifest = manifest
+        self._place = place
         self._next = 0.0
+        self._kept = 0
 
-    def take(self, done: Any) -> None:
-        manifest = self._manifest
+    def take(self, done: Done) -> None:
+        manifest = self.manifest
         if not manifest.columns:
             manifest.columns = done.columns
         elif manifest.columns != done.columns:
-            told = [" ".join(map(str, column)) for column in set(manifest.columns) ^ set(done.columns)]
+            told = [" ".join(column) for column in set(manifest.columns) ^ set(done.columns)]
             raise SweepFailed(f"part {done.part} has other columns than those before: {', '.join(sorted(told))}")
         manifest.done[done.part] = done
         if time.monotonic() >= self._next:
@@ -199,18 +209,16 @@ class _Keeper:
 
     def write(self) -> None:
         began = time.monotonic()
-        self._manifest.write(self._place)
+        self.manifest.write(self._place)
+        self._kept = len(self.manifest.done)
         ended = time.monotonic()
         self._next = ended + max(KEPT_S, (ended - began) / KEPT_PART)
 
-    def last(self) -> None:
-        """As it is in the end; on a full disk the one before stays."""
+    def last(self) -> str:
+        """Writes it after something went wrong, if there is room, and tells how much is kept."""
         try:
             self.write()
         except OSError as error:
             if error.errno not in files.FULL:
                 raise
-
-    def told(self) -> str:
-        done, parts = len(self._manifest.done), self._manifest.part_count
-        return f"{done} of {parts} parts are kept in {self._place}: the same call goes on from there"
+        return f"{self._kept} of {self.manifest.part_count} parts are kept in {self._place}: the same call goes on from there"

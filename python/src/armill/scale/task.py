@@ -110,10 +110,15 @@ def task(plan: Plan, folder: Path, fingerprint: str, threads: int) -> Task:
     """The task that makes the parts of this plan in this folder, and writes the pickle that it reads."""
     data = _pickled(plan)
     name = pickle_name(data)
-    for old in folder.glob(".sweep-*.pickle"):
-        old.unlink(missing_ok=True)
+    forgotten(folder)
     write_whole(folder / name, data)
     return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads)
+
+
+def forgotten(folder: Path) -> None:
+    """Takes the pickle away: nobody is at work."""
+    for old in folder.glob(".sweep-*.pickle"):
+        old.unlink(missing_ok=True)
 
 
 def _pickled(plan: Plan) -> bytes:
