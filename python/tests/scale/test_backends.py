@@ -74,7 +74,7 @@ def test_a_hundred_thousand_parts_are_never_all_under_way() -> None:
 def test_a_lost_part_is_sent_again_but_not_for_ever() -> None:
     done = worked(Reversed({3: MOST_LOST - 1, 5: 1}), range(10))
     assert sorted(part.part for part in done) == list(range(10))
-    with pytest.raises(scale.SweepFailed, match=f"part 3 lost its worker {MOST_LOST} times, the last time by a signal"):
+    with pytest.raises(scale.SweepFailed, match=f"part 3 did not come back from {MOST_LOST} workers, the last time by a signal"):
         list(worked(Reversed({3: MOST_LOST}), range(10)))
 
 
@@ -124,7 +124,7 @@ def test_a_part_that_kills_a_worker_is_done_by_another(tmp_path: Path, client: A
 
 def test_a_part_that_kills_every_worker_of_ray_is_told(tmp_path: Path, four_of_ray: Any) -> None:
     sweep = scale.Sweep({"i": 40}, works.Deadly(17, 99, tmp_path / "diary"))
-    with pytest.raises(scale.SweepFailed, match=r"part 1 lost its worker 3 times, the last time by .*\n  \d of 4 parts are kept"):
+    with pytest.raises(scale.SweepFailed, match=r"part 1 did not come back from 3 workers, the last time by .*\n  \d of 4 parts are kept"):
         scale.run(sweep, tmp_path / "sweep", "ray", items_per_part=10)
 
 

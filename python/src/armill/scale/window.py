@@ -42,7 +42,7 @@ def worked(backend: Backend, parts: Iterable[int]) -> Iterator[Done]:
                 case Lost(part, why):
                     lost[part] += 1
                     if lost[part] == MOST_LOST:
-                        failed = Failed(part, f"part {part} lost its worker {MOST_LOST} times, the last time by {why}")
+                        failed = Failed(part, f"part {part} did not come back from {MOST_LOST} workers, the last time by {why}")
                     again.append(part)
         # What else has arrived is kept.
         if failed:
