@@ -2,10 +2,29 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
+from pathlib import Path
 from typing import Any, Literal, SupportsFloat, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
+
+__all__ = [
+    "Cancelled",
+    "Fault",
+    "Held",
+    "InputError",
+    "Postures",
+    "Result",
+    "Robot",
+    "Study",
+    "Table",
+    "ToolPath",
+    "__version__",
+    "ask",
+    "command",
+    "options",
+    "read_path",
+]
 
 __version__: str
 
@@ -163,6 +182,20 @@ class Held:
     def __len__(self) -> int: ...
 
 @final
+class Judged:
+    @property
+    def lost(self) -> _Integers: ...
+    @property
+    def cost(self) -> _Floats: ...
+    @property
+    def branch(self) -> list[str]: ...
+    @property
+    def point_count(self) -> int: ...
+    @property
+    def case_count(self) -> int: ...
+    def __len__(self) -> int: ...
+
+@final
 class Study:
     @staticmethod
     def load(path: _Path) -> Study: ...
@@ -175,6 +208,12 @@ class Study:
     def asks(self) -> list[str]: ...
     @property
     def point_count(self) -> int: ...
+    @property
+    def text(self) -> str: ...
+    @property
+    def folder(self) -> Path: ...
+    def drawn_place(self, ask: str | None = None) -> _Floats: ...
+    def judge(self, places: _Numbers, *, ask: str | None = None, threads: int | None = None) -> Judged: ...
     def run(
         self,
         out: _Path | None = None,
@@ -252,3 +291,4 @@ def ask(
 ) -> tuple[str, list[str], bool]: ...
 def options(name: str) -> tuple[str, list[tuple[str, bool, str]]]: ...
 def command(words: Sequence[str]) -> int: ...
+def arithmetic() -> str: ...

@@ -94,7 +94,8 @@ fn a_placement_ends_in_the_place_that_the_command_finds() {
         + "[place]\nask = \"rim\"\nx_mm = [950, 1050]\n";
     let folder = folder(&text);
     let found = studies::find(folder.path()).unwrap();
-    let placing = Placing::new(&found.read().unwrap(), PlaceTable::default(), 1).unwrap();
+    let study = found.read().unwrap();
+    let placing = Placing::new(&study, PlaceTable::default(), 1).unwrap();
     let command = placing
         .search(&mut Journal::none(), Watch::NONE, &|_| ())
         .unwrap();
