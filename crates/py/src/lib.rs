@@ -5,10 +5,12 @@
 //! | `robot` | the class `Robot`; `source`: where it comes from |
 //! | `stands`, `postures`, `held` | what it answers about many joint positions or poses |
 //! | `study`, `table` | the classes `Study` and `Result`; tables as Arrow |
+//! | `judged` | the class `Judged`: a path wherever its part lies |
 //! | `tool_path` | the class `ToolPath`: the moves of a program |
 //! | `answer` | commands as functions, and the command itself |
 //! | `arrays`, `poses` | numbers, poses and forces out of arrays, and back |
 //! | `threads` | on which threads, without the lock of Python, until Ctrl-C |
+//! | `arithmetic` | whether two machines give the same bits |
 //! | `errors` | exceptions |
 //!
 //! It computes nothing: no mechanics, no units but SI on both sides.
@@ -17,9 +19,11 @@
 #![allow(clippy::too_many_arguments)]
 
 mod answer;
+mod arithmetic;
 mod arrays;
 mod errors;
 mod held;
+mod judged;
 mod poses;
 mod postures;
 mod robot;
@@ -40,9 +44,13 @@ mod _armill {
     #[pymodule_export]
     use crate::answer::{ask, command, options};
     #[pymodule_export]
+    use crate::arithmetic::arithmetic;
+    #[pymodule_export]
     use crate::errors::{Cancelled, Fault, InputError};
     #[pymodule_export]
     use crate::held::Held;
+    #[pymodule_export]
+    use crate::judged::Judged;
     #[pymodule_export]
     use crate::postures::Postures;
     #[pymodule_export]

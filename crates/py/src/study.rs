@@ -1,6 +1,6 @@
 //! The classes `Study` and `Result`: a study file, checked and run, and what came out.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, TryLockError};
 use std::time::Duration;
@@ -11,9 +11,12 @@ use armill_study::output::{self, Csv, Pictures, Wanted};
 use armill_study::run::point_count;
 use armill_study::studies::{self, FoundStudy};
 use armill_study::{Study as Checked, StudyError};
+use numpy::PyArrayDyn;
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::errors::{exception, refused};
+use crate::judged::{self, Judged};
 use crate::table::Table;
 use crate::threads::{Beats, Effort, watched, work};
 
@@ -40,6 +43,9 @@ impl Study {
         checked.as_ref().map(Arc::clone)
     }
 }
+
+/// What a study is made of again: what errors call it, its folder, its bytes.
+type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>);
 
 /// What is written beside `result.json`.
 fn wanted(pictures: bool, csv: bool) -> Wanted {
@@ -100,6 +106,49 @@ impl Study {
         Ok(point_count(&study))
     }
 
+    /// -> str: the text of the file.
+    #[getter]
+    fn text(&self) -> std::borrow::Cow<'_, str> {
+        // Bytes that are no text are told by `check`.
+        String::from_utf8_lossy(&self.found.bytes)
+    }
+
+    /// -> path: where files are looked for that it names.
+    #[getter]
+    fn folder(&self) -> &Path {
+        &self.found.folder
+    }
+
+    /// ask name or None -> (8,) x, y, z, heading, tilt, roll, spin, rail: where the study has the part of a path, m and rad.
+    ///
+    /// Without the rail, (7,), where the arm stands on none.
+    #[pyo3(signature = (ask=None))]
+    fn drawn_place<'py>(
+        &self,
+        py: Python<'py>,
+        ask: Option<String>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let study = self.checked(py).map_err(|error| exception(py, error))?;
+        judged::drawn(py, &study, ask)
+    }
+
+    /// (n, 6) places -> Judged: what the path costs wherever its part lies.
+    ///
+    /// A place is x, y, z of the plane's centre (m, in the frame that the study counts from), heading, tilt and roll of the
+    /// plane (rad); (n, 7) has the turn of the tool beside the one it has (rad), (n, 8) the rail (m). Goal, branches and margin
+    /// are those of the study's `[place]`. `ask` names the path where there are several.
+    #[pyo3(signature = (places, *, ask=None, threads=None))]
+    fn judge(
+        &self,
+        py: Python<'_>,
+        places: &Bound<'_, PyAny>,
+        ask: Option<String>,
+        threads: Option<usize>,
+    ) -> PyResult<Judged> {
+        let study = self.checked(py).map_err(|error| exception(py, error))?;
+        judged::judge(&study, (places, ask), threads)
+    }
+
     /// folder or None -> Result: runs every ask, and writes what `armill run` writes where a folder `out` is given.
     ///
     /// `progress` is called now and then with the number of points finished, of `point_count`.
@@ -152,6 +201,19 @@ impl Study {
 
     fn __repr__(&self) -> String {
         format!("<armill.Study {}>", self.found.shown)
+    }
+
+    /// How it is made again, from the very bytes that were read.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Parts<'py>)> {
+        let found = &slf.get().found;
+        let bytes = PyBytes::new(slf.py(), &found.bytes);
+        let again = slf.get_type().getattr("_again")?;
+        Ok((again, (found.shown.clone(), found.folder.clone(), bytes)))
+    }
+
+    #[staticmethod]
+    fn _again(shown: String, folder: PathBuf, bytes: Vec<u8>) -> Study {
+        Study::of(FoundStudy { shown, folder, bytes })
     }
 }
 

@@ -8,6 +8,7 @@ m, rad, N, N m. A single item is taken without the first axis, and answered with
 ``Study``             a study file: check it, run it, take its results
 ``pose``, ...         every command as a function, with the options of the command
 ``read_path``         the points of a tool path
+``armill.scale``      sweeps over many machines (``armill[scale]``)
 ====================  =====================================================================
 """
 
@@ -17,6 +18,7 @@ from armill._armill import (
     Fault,
     Held,
     InputError,
+    Judged,
     Postures,
     Result,
     Robot,
@@ -53,6 +55,7 @@ __all__ = [
     "Fault",
     "Held",
     "InputError",
+    "Judged",
     "Postures",
     "Result",
     "Robot",
