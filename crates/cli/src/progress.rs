@@ -1,22 +1,27 @@
 //! A progress bar on stderr, where there is a terminal to show it; it goes when the work ends, however it ends.
 //!
-//! Nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell tells as 130: files are whole
-//! or not there, and `result.json` comes last, so that nothing needs to be cleared away.
+//! At a terminal nothing here cancels. An interrupt (Ctrl-C) ends the process by its signal, which a shell tells as 130: files
+//! are whole or not there, and `result.json` comes last, so that nothing needs to be cleared away. A program that asks hears
+//! the count, and may cancel.
 //!
 //! ```text
 //! ████████████████░░░░░░░░░░░░░░░░░░░░░░░░ 1026/2565 points, 12s left plate.png
 //! ```
 
+use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use armill_core::watch::Watch;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::listener::{self, Listener};
+
 /// Points finished, on a bar. Dropping it takes the bar off the terminal.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    /// Never set: the core asks for a flag, and nothing here stops work half-way.
-    cancel: AtomicBool,
+    /// Never set: the core asks for a flag, and at a terminal nothing stops work half-way.
+    never: AtomicBool,
+    listener: Option<Arc<Listener>>,
 }
 
 impl Progress {
@@ -27,23 +32,35 @@ impl Progress {
 
     /// The same of things with another name.
     pub(crate) fn of(things: &str, count: usize) -> Progress {
-        let bar = ProgressBar::with_draw_target(Some(count as u64), ProgressDrawTarget::stderr_with_hz(10));
+        let listener = listener::current();
+        let target = match listener {
+            Some(_) => ProgressDrawTarget::hidden(),
+            None => ProgressDrawTarget::stderr_with_hz(10),
+        };
+        let bar = ProgressBar::with_draw_target(Some(count as u64), target);
         let template = format!("{{bar:40}} {{pos}}/{{len}} {things}, {{eta}} left {{msg}}");
         if let Ok(style) = ProgressStyle::with_template(&template) {
             bar.set_style(style);
         }
         Progress {
             bar,
-            cancel: AtomicBool::new(false),
+            never: AtomicBool::new(false),
+            listener,
         }
     }
 
     /// Runs `work` under this bar, which its threads move on together, and gives what it gives.
     pub(crate) fn watch<T>(&self, work: impl FnOnce(Watch<'_>) -> T) -> T {
-        let finished = |points: usize| self.bar.inc(points as u64);
+        let listener = self.listener.as_deref();
+        let finished = |points: usize| {
+            self.bar.inc(points as u64);
+            if let Some(listener) = listener {
+                listener.count(points);
+            }
+        };
         work(Watch {
             finished: &finished,
-            cancel: &self.cancel,
+            cancel: listener.map_or(&self.never, Listener::cancel),
         })
     }
 

@@ -1,4 +1,4 @@
-//! What the command says: data on stdout, talk on stderr.
+//! What the command says: data on stdout, talk on stderr; both to whoever asked where that is a program.
 //!
 //! | what | where | ends in |
 //! |---|---|---|
@@ -14,11 +14,17 @@ use std::io::{ErrorKind, IsTerminal, Write};
 use armill_formats::file::FileError;
 use armill_study::StudyError;
 
+use crate::listener;
+
 /// Prints `text` and a line end on stdout. A reader that went away (`| head`) is no error.
 ///
 /// # Errors
 /// Stdout leads to a file that takes no more.
 pub(crate) fn print(text: &str) -> Result<(), StudyError> {
+    if let Some(listener) = listener::current() {
+        listener.hear_data(text);
+        return Ok(());
+    }
     let mut out = std::io::stdout().lock();
     let written = out
         .write_all(text.as_bytes())
@@ -36,7 +42,12 @@ pub(crate) fn print(text: &str) -> Result<(), StudyError> {
 
 /// Says `text` on stderr, with a line end. That nobody can hear it stops no work.
 pub(crate) fn say(text: &str) {
-    let _ = writeln!(std::io::stderr().lock(), "{text}");
+    match listener::current() {
+        Some(listener) => listener.hear_talk(text),
+        None => {
+            let _ = writeln!(std::io::stderr().lock(), "{text}");
+        }
+    }
 }
 
 /// Whether colours are wanted on stderr.
@@ -47,18 +58,26 @@ fn coloured() -> bool {
 /// Says what went wrong on stderr; as JSON on stdout too where `json` is asked for.
 pub(crate) fn show_error(error: &StudyError, json: bool) {
     if json {
-        let problems = match error {
-            StudyError::Problems(problems) => problems.to_json(),
-            StudyError::Value { message, hint } => serde_json::json!([{ "message": message, "hint": hint }]),
-            other => serde_json::json!([{ "message": other.to_string() }]),
-        };
         // What went wrong is said on stderr in any case.
-        let _ = print(&serde_json::json!({ "problems": problems }).to_string());
+        let _ = print(&serde_json::json!({ "problems": problems_of(error) }).to_string());
     }
     match error {
         StudyError::Problems(problems) if coloured() => say(&problems.in_colour()),
         StudyError::Problems(problems) => say(&problems.to_string()),
         other => say(&format!("error: {other}")),
+    }
+}
+
+/// The problems of an error as a JSON list, as `--json` tells them.
+pub fn problems_json(error: &StudyError) -> String {
+    problems_of(error).to_string()
+}
+
+fn problems_of(error: &StudyError) -> serde_json::Value {
+    match error {
+        StudyError::Problems(problems) => problems.to_json(),
+        StudyError::Value { message, hint } => serde_json::json!([{ "message": message, "hint": hint }]),
+        other => serde_json::json!([{ "message": other.to_string() }]),
     }
 }
 

@@ -13,10 +13,56 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Matrix4, Rotation3, Translation3, Unit, UnitQuaternion, Vector3};
 
 /// A rigid displacement; the name of the variable says from which frame to which.
 pub type Isometry = Isometry3<f64>;
+
+/// How far (no unit) a matrix may be from a rotation that rounding of whoever wrote it has left: single precision keeps
+/// seven digits.
+const ROUNDED: f64 = 1e-6;
+
+/// Why a matrix is no pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPose {
+    /// A number is NaN or infinite.
+    #[error("a number is not finite")]
+    NotFinite,
+    /// The last row is another.
+    #[error("the last row is not 0, 0, 0, 1")]
+    LastRow,
+    /// The axes are not of length 1, or not at right angles.
+    #[error("its axes are not of length 1 and at right angles (to {ROUNDED})")]
+    NoRotation,
+    /// The axes are those of a left hand.
+    #[error("its axes are those of a left hand")]
+    Mirrored,
+}
+
+/// The isometry that a homogeneous matrix writes (rotation, translation in m, last row 0 0 0 1); its rotation is made exact.
+///
+/// # Errors
+/// A matrix that is none: see [`NoPose`].
+pub fn from_matrix(matrix: &Matrix4<f64>) -> Result<Isometry, NoPose> {
+    if matrix.iter().any(|value| !value.is_finite()) {
+        return Err(NoPose::NotFinite);
+    }
+    if matrix.row(3) != Matrix4::identity().row(3) {
+        return Err(NoPose::LastRow);
+    }
+    let axes: Matrix3<f64> = matrix.fixed_view::<3, 3>(0, 0).into_owned();
+    if (axes.transpose() * axes - Matrix3::identity()).amax() > ROUNDED {
+        return Err(NoPose::NoRotation);
+    }
+    if axes.determinant() < 0.0 {
+        return Err(NoPose::Mirrored);
+    }
+    let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    Ok(Isometry::from_parts(
+        matrix.fixed_view::<3, 1>(0, 3).into_owned().into(),
+        UnitQuaternion::new_normalize(turn.into_inner()),
+    ))
+}
 
 /// The isometry with translation `xyz` (m) and rotation `Rz(rz) Ry(ry) Rx(rx)` (rad).
 ///
@@ -101,6 +147,28 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+
+    #[test]
+    fn the_matrix_of_a_pose_reads_back_and_what_is_no_pose_is_refused() {
+        let pose = from_xyz_and_fixed_angles(Vector3::new(0.1, -2.0, 3.0), Vector3::new(3.1, -0.4, 2.0));
+        let matrix = pose.to_homogeneous();
+        let back = from_matrix(&matrix).unwrap();
+        // Nine products of rounding each.
+        assert!((back.to_homogeneous() - matrix).amax() < 1e-15);
+        // Single precision is taken, and made exact.
+        let single = from_matrix(&matrix.map(|value| f64::from(value as f32))).unwrap();
+        assert!((single.rotation.norm() - 1.0).abs() < 1e-15);
+        let changed = |at: (usize, usize), value: f64| {
+            let mut matrix = matrix;
+            matrix[at] = value;
+            from_matrix(&matrix).unwrap_err()
+        };
+        assert_eq!(changed((0, 3), f64::NAN), NoPose::NotFinite);
+        assert_eq!(changed((3, 1), 1e-3), NoPose::LastRow);
+        assert_eq!(changed((1, 1), 0.5), NoPose::NoRotation);
+        let mirror = Matrix4::from_diagonal(&nalgebra::Vector4::new(1.0, 1.0, -1.0, 1.0));
+        assert_eq!(from_matrix(&(matrix * mirror)), Err(NoPose::Mirrored));
+    }
 
     /// Any angle, and those near a quarter turn, where two of the three axes fall together.
     fn angle() -> impl Strategy<Value = f64> {

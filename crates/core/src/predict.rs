@@ -17,7 +17,7 @@ use nalgebra::Matrix3;
 
 use crate::robot::Posture;
 use crate::robot::joint::JointCompliance;
-use crate::source::{Standing, Unstable, elastic};
+use crate::source::{Standing, Unstable, elastic, repeatability};
 use crate::spatial::{Twist, Wrench};
 
 /// How far the tool is from where it was asked to be, and why.
@@ -27,7 +27,7 @@ pub struct Deviation {
     pub twist: Twist,
     /// Share of each joint, base to flange, then of base, flange and tool where springs sit; they add up to `twist`.
     pub shares: Vec<Twist>,
-    /// Covariance of the displacement, m^2, from the uncertainties of the inputs.
+    /// Covariance of the displacement, m^2, from the uncertainties of the inputs and the repeatability of the arm.
     pub covariance: Matrix3<f64>,
 }
 
@@ -64,7 +64,7 @@ pub fn predict_in_full(standing: &mut Standing<'_>, wrench: &Wrench) -> Result<D
     Ok(Deviation {
         twist: deviation_of(standing, wrench)?,
         shares: standing.shares(),
-        covariance: standing.covariance(),
+        covariance: standing.covariance() + repeatability::covariance(standing.scatter()),
     })
 }
 

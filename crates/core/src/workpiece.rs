@@ -14,6 +14,25 @@ use nalgebra::{Matrix3, Point2, Point3, Rotation3, Unit, UnitQuaternion, Vector3
 
 use crate::frame::{Isometry, tool_orientation};
 
+/// Tool axes that differ by less (no unit) point the same way: rounding of whoever wrote the poses.
+const SAME_WAY: f64 = 1e-9;
+
+/// The outward normal of the planes that all these tools stand across: against their common axis; base z where there is no
+/// tool.
+///
+/// # Errors
+/// The index of the first tool that points another way than the first.
+pub fn normal_across(
+    base_from_tool: impl IntoIterator<Item = Isometry>,
+) -> Result<Unit<Vector3<f64>>, usize> {
+    let mut axes = base_from_tool.into_iter().map(|pose| pose * Vector3::z_axis());
+    let Some(first) = axes.next() else {
+        return Ok(Vector3::z_axis());
+    };
+    let other = axes.position(|axis| (axis.into_inner() - first.into_inner()).amax() > SAME_WAY);
+    other.map_or(Ok(-first), |index| Err(index + 1))
+}
+
 /// A plane of the workpiece.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
@@ -140,6 +159,23 @@ impl Grid {
 mod tests {
     use super::*;
     use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn tools_that_point_one_way_stand_across_one_plane() {
+        let plane = Plane::tilted(Point3::new(1.0, 0.0, 0.5), 0.7);
+        let poses = |spins: &[f64]| -> Vec<Isometry> {
+            spins
+                .iter()
+                .map(|spin| plane.base_from_tool(Point2::new(*spin, -0.1), *spin))
+                .collect()
+        };
+        let normal = normal_across(poses(&[0.0, 1.0, -2.5])).unwrap();
+        assert!((normal.into_inner() - plane.normal().into_inner()).norm() < 1e-15);
+        let mut turned = poses(&[0.0, 1.0, 2.0]);
+        turned[1] = Plane::tilted(Point3::origin(), 0.7 + 1e-6).base_from_tool(Point2::origin(), 0.0);
+        assert_eq!(normal_across(turned), Err(1));
+        assert_eq!(normal_across([]), Ok(Vector3::z_axis()));
+    }
 
     #[test]
     fn vertical_plate_faces_the_robot_and_horizontal_plate_faces_up() {

@@ -44,6 +44,8 @@ pub struct AdviceAnswer {
     pub not_held: Vec<StretchAnswer>,
     /// How far the tool goes from the path there, compensated.
     pub compensated: ErrorAnswer,
+    /// Standard uncertainty of the deviation that is taken off, where it is largest: what compensation leaves of it.
+    pub compensated_u_um: f64,
     /// What keeps the tolerance everywhere, of a program.
     pub limits: Option<LimitsAnswer>,
     /// By how much all forces may grow until the tolerance is used up; below 1 they must shrink.
@@ -154,6 +156,7 @@ pub fn advise(
         not_held: not_held(advised, (ask, of_path), &path),
         turns: path.search.filter(|_| turns),
         compensated,
+        compensated_u_um: path.worst.map_or(0.0, |worst| worst.in_plane_u_um),
         limits: path.limits,
         compliance_assumed: study.compliance_is_assumed(),
     };
@@ -283,8 +286,12 @@ impl AdviceAnswer {
         )];
         lines.extend(self.weak_in_words());
         lines.push(format!(
-            "Compensated (`armill compensate`), the tool is predicted to stay within {} µm of the path.",
-            micrometres(self.compensated.max_um)
+            "Compensated (`armill compensate`), the tool is predicted to stay within {} µm of the path, {}.",
+            micrometres(self.compensated.max_um),
+            match self.compensated_u_um {
+                u if u > 0.0 => format!("± {} µm that are not known of arm and force", micrometres(u)),
+                _ => "as if arm and force were known".to_owned(),
+            }
         ));
         lines.extend(self.permitted_in_words());
         if self.compliance_assumed {

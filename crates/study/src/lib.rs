@@ -1,7 +1,8 @@
 //! What a user asks of armill, from the file to the answer.
 //!
 //! A study file is read and checked ([`file`](mod@file)), its asks are run ([`run`]), answered as one JSON value
-//! ([`answer`]), and written as tables, pictures and a report ([`output`]); [`compare`] puts several side by side. [`pose`]
+//! ([`answer`]), and written as tables, pictures and a report ([`output`]; [`finished`] keeps what came out until it is asked
+//! for); [`compare`] puts several side by side. [`pose`]
 //! answers for a single pose, [`pendant`] compares a robot file with what its pendant shows, [`forces`] reads measured forces,
 //! [`roundness`] measured profiles, [`ballbar`] circular tests, [`backlash`] what these tell of the joints of an arm, [`pose_accuracy`] and [`calibrate`] measured poses, [`path_accuracy`]
 //! measured paths,
@@ -26,6 +27,7 @@ pub mod compensate;
 pub mod compliance_class;
 pub mod error;
 pub mod file;
+pub mod finished;
 pub mod forces;
 pub mod identify;
 pub mod in_place;

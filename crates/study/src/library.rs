@@ -109,11 +109,43 @@ pub const MATERIALS: &[Embedded] = embedded![
     "titanium-pure" in "materials/titanium-pure.toml",
 ];
 
-/// Every example study.
-pub const STUDIES: &[Embedded] = embedded![
+/// Every file of every example, by the name of the example; its study comes first.
+pub const EXAMPLES: &[Embedded] = embedded![
     "mh12-groove" in "studies/mh12-groove/study.toml",
     "kr120-groove" in "studies/kr120-groove/study.toml",
+    "r2000ic-pocket" in "studies/r2000ic-pocket/study.toml",
+    "r2000ic-pocket" in "studies/r2000ic-pocket/pocket.ngc",
+    "kr210-rivets" in "studies/kr210-rivets/study.toml",
+    "mh12-ballbar" in "studies/mh12-ballbar/study.toml",
+    "mh12-ballbar" in "studies/mh12-ballbar/ballbar-groove.csv",
+    "mh12-ballbar" in "studies/mh12-ballbar/ballbar-side.csv",
+    "mh12-ballbar" in "studies/mh12-ballbar/cmm.csv",
 ];
+
+/// The studies of all examples.
+pub fn example_studies() -> impl Iterator<Item = &'static Embedded> {
+    EXAMPLES.iter().filter(|file| file.path.ends_with("/study.toml"))
+}
+
+/// The files of the example of this name, each with its name in the folder of the example.
+///
+/// # Errors
+/// No such example, with the names of all.
+pub fn example(name: &str) -> Result<Vec<(&'static str, &'static Embedded)>, StudyError> {
+    let files: Vec<_> = EXAMPLES
+        .iter()
+        .filter(|file| file.name == name)
+        .filter_map(|file| Some((file.path.rsplit('/').next()?, file)))
+        .collect();
+    if files.is_empty() {
+        let names: Vec<&str> = example_studies().map(|study| study.name).collect();
+        return Err(StudyError::value(
+            format!("no example is called `{name}`"),
+            format!("one of: {}", names.join(", ")),
+        ));
+    }
+    Ok(files)
+}
 
 /// The library robot of this name; `None` if there is none.
 ///

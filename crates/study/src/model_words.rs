@@ -3,7 +3,7 @@
 //! ```text
 //! drive springs; 6 further springs; torque curves of A2; gravity compensator of A2;
 //! gravity, against the posture where the tool was set; load-dependent stiffness; covariance of the compliances;
-//! backlash of L, U along paths; the measured arm along paths
+//! backlash of L, U along paths; the measured arm along paths; repeatability in the uncertainty
 //! ```
 //!
 //! An answer has those of its own model, in this order.
@@ -46,6 +46,9 @@ pub fn parts(robot: &Robot, model: &StiffnessModel) -> Vec<String> {
     }
     if model.actual.is_some() {
         parts.push("the measured arm along paths".to_owned());
+    }
+    if structure.repeatability > 0.0 {
+        parts.push("repeatability in the uncertainty".to_owned());
     }
     parts
 }

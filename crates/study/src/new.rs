@@ -68,6 +68,8 @@ pub enum Compliances {
 pub struct MadeStudy {
     /// The study file.
     pub study: String,
+    /// The files beside it.
+    pub beside: Vec<String>,
 }
 
 /// A study of the robot `given`: a library name, or a robot file, whose path counts from the current folder.

@@ -151,6 +151,8 @@ pub struct KnownStructure {
     pub compensator: Option<KnownCompensator>,
     /// Whether the covariance of the compliances is known.
     pub covariance_known: bool,
+    /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+    pub scatter_um: f64,
 }
 
 /// A direction in which the arm yields.
@@ -392,6 +394,7 @@ impl KnownStructure {
                 angle_deg: c.angle.to_degrees(),
             }),
             covariance_known: structure.covariance.is_some(),
+            scatter_um: structure.repeatability * 1e6,
         }
     }
 }

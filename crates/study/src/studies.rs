@@ -106,14 +106,20 @@ fn example(given: &Path, shown: &str) -> Result<FoundStudy, StudyError> {
         .unwrap_or(given)
         .display()
         .to_string();
-    let Some(example) = library::STUDIES.iter().find(|study| study.name == name) else {
-        let examples: Vec<&str> = library::STUDIES.iter().map(|study| study.name).collect();
+    let Ok(files) = library::example(&name) else {
+        let examples: Vec<&str> = library::example_studies().map(|study| study.name).collect();
         return Err(StudyError::value(
             format!("no study at {shown}"),
             format!(
                 "make one with `armill new DIR`, or run an example: {}",
                 examples.join(", ")
             ),
+        ));
+    };
+    let [(_, example)] = files[..] else {
+        return Err(StudyError::value(
+            format!("the example {name} is not there as a folder, and its study needs the files beside it"),
+            format!("`armill new {name} --example {name}` makes it"),
         ));
     };
     Ok(FoundStudy {

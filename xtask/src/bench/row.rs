@@ -48,7 +48,8 @@ pub fn digits(value: f64) -> String {
         size if size >= 100.0 => 0,
         size if size >= 10.0 => 1,
         size if size >= 1.0 => 2,
-        _ => 3,
+        size if size >= 0.01 => 3,
+        _ => 5,
     };
     format!("{value:.decimals$}")
 }
@@ -68,8 +69,8 @@ mod tests {
     #[test]
     fn digits_follow_the_size() {
         assert_eq!(
-            [297.3, 28.71, 4.2, 0.0341].map(digits),
-            ["297", "28.7", "4.20", "0.034"]
+            [297.3, 28.71, 4.2, 0.0341, 0.001_43].map(digits),
+            ["297", "28.7", "4.20", "0.034", "0.00143"]
         );
     }
 }

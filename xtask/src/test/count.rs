@@ -5,6 +5,7 @@
 //! | `cargo test` | `test result: ok. 5 passed; 0 failed; 1 ignored; ...` | 5, 0, 1; one line for each program |
 //! | nextest | `Summary [   0.01s] 5 tests run: 5 passed, 1 skipped` | 5, 0, 1; one line in all |
 //! | vitest | `Tests  1 failed \| 5 passed \| 1 skipped (7)` | 5, 1, 1; one line in all |
+//! | pytest | `===== 1 failed, 5 passed, 1 skipped in 0.12s =====` | 5, 1, 1; one line in all; what breaks before its test counts as failed |
 //! | node | `ℹ pass 5`, or `# pass 5`; likewise `fail`, `skipped` | a line each |
 //!
 //! Not checked: what the runners print elsewhere; a summary in other words counts nothing, and a run that
@@ -55,6 +56,13 @@ impl Count {
                 passed,
                 failed: run.saturating_sub(passed),
                 skipped,
+            };
+        }
+        if line.starts_with('=') && line.ends_with('=') && line.contains(" in ") {
+            return Self {
+                passed: number_before(line, " passed"),
+                failed: number_before(line, " failed") + number_before(line, " error"),
+                skipped: number_before(line, " skipped"),
             };
         }
         let words: Vec<&str> = line.split_whitespace().collect();
@@ -130,6 +138,26 @@ mod tests {
         assert_eq!(counted("# fail 2"), "0 passed, 2 failed, 0 skipped");
         assert_eq!(counted("ℹ skipped 1"), "0 passed, 0 failed, 1 skipped");
         assert_eq!(counted("ℹ tests 40"), "0 passed, 0 failed, 0 skipped");
+    }
+
+    #[test]
+    fn pytest_summary_is_counted() {
+        let counted = |line| Count::in_line(line).to_string();
+        assert_eq!(
+            counted("==== 1 failed, 41 passed, 2 skipped, 1 error in 12.34s ===="),
+            "41 passed, 2 failed, 2 skipped"
+        );
+        assert_eq!(
+            counted("=========== 90 passed, 2 warnings in 63.20s (0:01:03) ==========="),
+            "90 passed, 0 failed, 0 skipped"
+        );
+        for other in [
+            "=== short test summary info ===",
+            "==== FAILURES ====",
+            "a = 5 passed =",
+        ] {
+            assert_eq!(counted(other), "0 passed, 0 failed, 0 skipped");
+        }
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! `ARMILL_SAMPLES` goes through to the tests: with it a missing sample fails a test, without it the test
 //! says that it was skipped.
 //!
-//! `step`: one of them; `page`: those of the page of `armill serve`; `count`: the tests in what it printed.
+//! `step`: one of them; `page`: those of the page of `armill serve`; `python`: those of the Python package; `count`: the tests in what it printed.
 //!
 //! | step | fails where |
 //! |---|---|
@@ -12,23 +12,25 @@
 //! | documentation | a link leads nowhere, or rustdoc has another warning |
 //! | the kernel for NEON | it does not compile; left out without the standard library for that target |
 //! | the page | see `page` |
+//! | the Python package | see `python` |
 //!
 //! Exit codes as for any chore; a run without a single test is one that could not run.
 
 mod count;
 mod page;
+mod python;
 mod step;
 
 use crate::command::{cargo, expect_no_arguments, has_cargo_tool};
 use crate::{COULD_NOT_RUN, FOUND_WRONG};
 use count::Count;
 use std::env;
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 use step::{Outcome, Step};
 
 /// What `--help` says.
 pub const ABOUT: &str =
-    "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser.";
+    "Passes all tests on a fresh machine: unit, integration, documentation, the page in a browser, Python.";
 
 /// What makes up "all tests", in order. A new step, an installation included, is one line here.
 fn steps() -> Vec<Step> {
@@ -45,6 +47,7 @@ fn steps() -> Vec<Step> {
         steps.push(Step::new("the kernel for NEON, compiled only", check));
     }
     steps.extend(page::steps());
+    steps.extend(python::steps());
     steps
 }
 
@@ -83,6 +86,28 @@ pub fn run(arguments: &[String]) -> ExitCode {
         .fold(Count::default(), Count::plus);
     println!("tests: {total}");
     verdict(&outcomes, total)
+}
+
+/// Asks Debian for these packages, and says so.
+fn install(packages: &[&str]) {
+    eprintln!("installing for the tests: {}", packages.join(", "));
+    for arguments in [
+        vec!["update"],
+        [vec!["install", "-y"], packages.to_vec()].concat(),
+    ] {
+        let done = Command::new("apt-get")
+            .args(&arguments)
+            .stdout(Stdio::null())
+            .status();
+        if !done.is_ok_and(|status| status.success()) {
+            eprintln!(
+                "apt-get {} failed: install {} by hand",
+                arguments.join(" "),
+                packages.join(", ")
+            );
+            return;
+        }
+    }
 }
 
 /// Nextest where it is installed (it shows progress and runs in parallel), else the runner every cargo has.

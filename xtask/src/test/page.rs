@@ -9,6 +9,7 @@
 //!
 //! Node, npm and Chromium are installed by `apt-get` where they are missing and it is there; without them the steps fail.
 
+use super::install;
 use super::step::Step;
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -44,28 +45,6 @@ fn npm(arguments: &[&str]) -> Command {
     // Summaries are read: without colours.
     command.args(arguments).current_dir("web").env("NO_COLOR", "1");
     command
-}
-
-/// Asks Debian for these packages, and says so.
-fn install(packages: &[&str]) {
-    eprintln!("installing for the tests of the page: {}", packages.join(", "));
-    for arguments in [
-        vec!["update"],
-        [vec!["install", "-y"], packages.to_vec()].concat(),
-    ] {
-        let done = Command::new("apt-get")
-            .args(&arguments)
-            .stdout(Stdio::null())
-            .status();
-        if !done.is_ok_and(|status| status.success()) {
-            eprintln!(
-                "apt-get {} failed: install {} by hand",
-                arguments.join(" "),
-                packages.join(", ")
-            );
-            return;
-        }
-    }
 }
 
 /// Whether a program is there.

@@ -1,7 +1,7 @@
-//! Which crate may depend on which: core <- formats <- study <- web <- cli, report <- study; programs beside them.
+//! Which crate may depend on which: core <- formats <- study <- web <- cli <- py, report <- study; programs beside them.
 //!
 //! ```text
-//! core <- formats <- study <- web <- cli        report <- study        validation, bench, fuzz, xtask: on them nobody depends
+//! core <- formats <- study <- web <- cli <- py  report <- study        validation, bench, fuzz, xtask: on them nobody depends
 //! ```
 //!
 //! Direct dependencies alone are read, in any table of a `Cargo.toml`, tests included: a test may not turn the
@@ -26,6 +26,7 @@ const USES: &[(&str, &[&str])] = &[
     ("study", &["core", "formats", "report"]),
     ("web", &["core", "formats", "study"]),
     ("cli", &["core", "formats", "report", "study", "web"]),
+    ("py", &["cli", "core", "formats", "study"]),
 ];
 
 /// Programs of the repository, on which nothing depends.

@@ -17,25 +17,19 @@ pub const RULE: Rule = Rule {
 /// Where the library is embedded: this file, or a folder of that name.
 const LIBRARY: &str = "crates/study/src/library";
 
-/// The library must name each file of `robots/` and `materials/`, and each folder of `studies/`, by its path
-/// from the repository root. Pages for readers (`.md`) need not be embedded.
+/// The library must name each file of `robots/`, `materials/` and `studies/` by its path from the repository root. Pages for readers (`.md`) need not be embedded.
 fn check(tree: &Tree) -> Vec<Violation> {
     let library: String = tree.texts_in(LIBRARY, ".rs").map(|(_, text)| text).collect();
-    let files = tree
-        .paths()
-        .filter(|path| path.starts_with("robots/") || path.starts_with("materials/"));
-    let files = files.filter(|path| !path.ends_with(".md")).map(str::to_owned);
-    let studies = tree
-        .folders_in("studies/")
-        .into_iter()
-        .map(|folder| format!("studies/{folder}/"));
-    let missing = files
-        .chain(studies)
-        .filter(|path| !library.contains(path.as_str()));
+    let files = tree.paths().filter(|path| {
+        ["robots/", "materials/", "studies/"]
+            .iter()
+            .any(|folder| path.starts_with(folder))
+    });
+    let missing = files.filter(|path| !path.ends_with(".md") && !library.contains(path));
     missing
         .map(|path| {
             let what = format!("not embedded: {LIBRARY}.rs does not name it");
-            Violation::new(&path, 1, what, "add it there, or take it out of the library")
+            Violation::new(path, 1, what, "add it there, or take it out of the library")
         })
         .collect()
 }
@@ -56,7 +50,7 @@ mod tests {
         let library = "include_str!(\"../../../robots/maker/one.toml\")";
         let tree = Tree::of(&[FILES, &[("crates/study/src/library.rs", library)]].concat());
         let paths: Vec<String> = check(&tree).into_iter().map(|violation| violation.path).collect();
-        assert_eq!(paths, ["materials/steel.toml", "studies/groove/"]);
+        assert_eq!(paths, ["materials/steel.toml", "studies/groove/study.toml"]);
     }
 
     #[test]

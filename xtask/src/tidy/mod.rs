@@ -32,6 +32,7 @@ mod pictures;
 mod robot_formats;
 mod sources;
 mod thin_command;
+mod thin_python;
 mod units;
 mod unsafe_code;
 mod vague_names;
@@ -67,6 +68,7 @@ const RULES: &[Rule] = &[
     core_absence::RULE,
     unsafe_code::RULE,
     thin_command::RULE,
+    thin_python::RULE,
     file_length::RULE,
     vague_names::RULE,
     units::RULE,

@@ -1,6 +1,6 @@
 //! What can be typed behind `armill new`.
 //!
-//! The folder may exist, a study in it may not. The robot is the one that the new study names.
+//! The folder may exist, a study in it may not. The robot is the one that the new study names; an example has its own.
 
 use std::path::PathBuf;
 
@@ -12,12 +12,16 @@ use super::ROBOT_HELP;
 #[command(after_help = "\
 Examples:
   armill new cell
-  armill new cell --robot kuka/kr120r2500pro")]
+  armill new cell --robot kuka/kr120r2500pro
+  armill new pocket --example r2000ic-pocket")]
 pub(crate) struct NewArguments {
     /// Folder to make
     pub dir: PathBuf,
     #[arg(long, value_name = "NAME", default_value = "yaskawa/mh12", help = ROBOT_HELP)]
     pub robot: String,
+    /// A copy of this example, with all of its files: mh12-groove, kr120-groove, r2000ic-pocket, kr210-rivets, mh12-ballbar
+    #[arg(long, value_name = "NAME", conflicts_with = "robot")]
+    pub example: Option<String>,
     /// Print what was made as JSON on stdout
     #[arg(long)]
     pub json: bool,

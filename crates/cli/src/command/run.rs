@@ -13,6 +13,7 @@ use armill_study::{Study, StudyError, studies};
 
 use crate::Outcome;
 use crate::arguments::{RunArguments, RunOptions};
+use crate::listener;
 use crate::progress::Progress;
 use crate::terminal::{print, say};
 
@@ -71,7 +72,8 @@ pub(super) fn in_pool<T: Send>(
     let pool = pool.map_err(|error| {
         StudyError::value(format!("cannot start {threads} threads: {error}"), "try fewer")
     })?;
-    Ok(pool.install(work))
+    let listener = listener::current();
+    Ok(pool.install(|| listener::heard_by(listener, work)))
 }
 
 /// From the study to its answer and its files, under a bar.

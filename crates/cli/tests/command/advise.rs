@@ -43,6 +43,7 @@ fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
         "of the path then holds 40 µm, at most ",
         "as drawn).",
         "Compensated (`armill compensate`), the tool is predicted to stay within ",
+        "µm that are not known of arm and force.",
     ] {
         assert!(said.out.contains(words), "{words}: {}", said.out);
     }
@@ -54,6 +55,8 @@ fn a_path_that_does_not_hold_is_moved_turned_and_told_what_it_comes_to() {
     assert!(number(&advice["compensated"]["max_um"]) < 0.5 * largest("as_advised"));
     // What is advised is what was run.
     let run = &cell.result("advice")["paths"][0];
+    assert_eq!(run["worst"]["in_plane_u_um"], advice["compensated_u_um"]);
+    assert!(number(&advice["compensated_u_um"]) > number(&advice["compensated"]["max_um"]));
     assert!((number(&run["max_in_plane_um"]) - largest("as_advised")).abs() < 1e-9);
     // Forces are told by what is left of the tolerance.
     let factor = number(&advice["force_factor"]);

@@ -350,6 +350,24 @@ fn backlash_that_the_ballbar_saw_is_not_counted_again() {
             .contains("is predicted from gravity"),
         "{alone}"
     );
+    // Gaps known to a tenth: no more than a tenth of what they make, and less, for they are independent.
+    let (rms, u) = (
+        number(&alone, "/contributions/1/rms_um"),
+        number(&alone, "/contributions/1/bias_u_um"),
+    );
+    assert!(u > 0.02 * rms && u < 0.1 * rms * 6f64.sqrt(), "{u} {rms}");
+    assert!(alone["repeatability_um"].is_null());
+
+    // And what the data sheet says stands for the scatter of runs.
+    let study = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    let scattering = study.replacen("limit_um", "repeatability_mm = 0.08\nlimit_um", 1);
+    std::fs::write(at.join("study.toml"), scattering).unwrap();
+    let scattering = told(at);
+    assert_eq!(scattering["contributions"][2]["name"], "repeatability");
+    assert!((number(&scattering, "/contributions/2/scatter_um") - 80.0 / 3.616_088).abs() < 1e-4);
+    assert!((number(&scattering, "/repeatability_um") - 80.0 / 3.616_088).abs() < 1e-4);
+    let sum = |told: &Value| number(told, "/sums/with_scatter_um") - number(told, "/sums/as_functions_um");
+    assert!(sum(&scattering) > sum(&alone) + 20.0, "{scattering}");
 }
 
 #[test]

@@ -62,6 +62,31 @@ fn each_hole_deviates_as_its_posture_does() {
 }
 
 #[test]
+fn a_hole_that_only_a_straight_wrist_holds_is_told_with_a_warning_and_lost_to_a_search() {
+    let cell = Cell::new();
+    // A level tool on the height of a level forearm: however it is turned, the wrist is straight.
+    let level = PANEL
+        .replace("[850, 50, 300], tilt_deg = 90", "[1045, 0, 1264], tilt_deg = 0")
+        .replace("[100, 0, 150, 0, 90, 0]", "[0, 0, 150, 0, 0, 0]")
+        .replace("[[0, 0, 0], [60, 20, 0], [-50, 60, 0]]", "[[0, 0, 0]]")
+        .replace(
+            "posture.search",
+            "posture.branch = \"front elbow-up\"\nposture.search",
+        );
+    cell.file("study.toml", &level);
+    let json = cell
+        .armill(&["run", "study.toml", "--json", "--no-pictures"])
+        .fine()
+        .json();
+    assert_eq!(json["holes"][0]["each"][0]["in_the_way"], "singular", "{json}");
+    let warned = json["warnings"].to_string();
+    assert!(
+        warned.contains("panel: for 1 of 1 holes every turn and branch is refused, hole 1 first (singular)"),
+        "{warned}"
+    );
+}
+
+#[test]
 fn a_run_leaves_table_pictures_and_report() {
     let cell = Cell::new();
     cell.file("study.toml", PANEL);

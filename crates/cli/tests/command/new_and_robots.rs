@@ -295,3 +295,46 @@ fn completions_know_every_command_and_flag() {
     }
     Cell::new().armill(&["completions", "tcsh"]).refused(&["tcsh"]);
 }
+
+#[test]
+fn an_example_comes_with_all_of_its_files_and_runs() {
+    let cell = Cell::new();
+    let said = cell
+        .armill(&["new", "pocket", "--example", "r2000ic-pocket", "--json"])
+        .fine();
+    assert_eq!(said.json()["study"], "pocket/study.toml");
+    assert_eq!(said.json()["beside"][0], "pocket/pocket.ngc");
+    let run = cell.armill(&["run", "pocket", "--no-pictures"]).fine();
+    assert!(
+        run.out.starts_with("pocket, branch front elbow-up"),
+        "{}",
+        run.out
+    );
+    // What is there stays, and nothing is half made.
+    std::fs::remove_file(cell.at("pocket/study.toml")).unwrap();
+    cell.armill(&["new", "pocket", "--example", "r2000ic-pocket"])
+        .refused(&["pocket/pocket.ngc exists already"]);
+    assert!(!cell.at("pocket/study.toml").exists());
+}
+
+#[test]
+fn an_example_of_several_files_is_made_before_it_is_run() {
+    let cell = Cell::new();
+    cell.armill(&["run", "studies/mh12-ballbar"])
+        .refused(&["armill new mh12-ballbar --example mh12-ballbar"]);
+    cell.armill(&["new", "day", "--example", "mh12-balbar"])
+        .refused(&[
+            "no example is called `mh12-balbar`",
+            "mh12-groove, ",
+            "mh12-ballbar",
+        ]);
+    cell.armill(&["new", "mh12-ballbar", "--example", "mh12-ballbar"])
+        .fine();
+    // The gaps that its measurements were made with.
+    let told = cell.armill(&["backlash", "mh12-ballbar", "--json"]).fine().json();
+    let made = [0.009, 0.006, 0.012, 0.015, 0.010];
+    for (joint, gap) in told["joints"].as_array().unwrap().iter().zip(made) {
+        let (found, u) = (number(&joint["backlash_deg"]), number(&joint["backlash_u_deg"]));
+        assert!((found - gap).abs() < 4.0 * u && u < 2e-4, "{joint}");
+    }
+}

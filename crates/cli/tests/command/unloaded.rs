@@ -157,6 +157,51 @@ where = "here"
 licence = "none"
 "#;
 
+/// The largest uncertainty, the setting's scatter and the parts of the model that are told of a map.
+fn unsure(cell: &Cell) -> (f64, f64, String) {
+    let told = cell
+        .armill(&["run", "study.toml", "--no-pictures", "--json"])
+        .fine()
+        .json();
+    let map = &told["maps"][0];
+    (
+        number(&map["worst"]["in_plane_u_um"]),
+        number(&map["setting"]["scatter_um"]),
+        map["setting"]["model"].to_string(),
+    )
+}
+
+#[test]
+fn an_arm_that_scatters_is_less_sure_by_that_and_the_study_knows_better() {
+    let map = CELL.split_once("[[ask]]").unwrap().0;
+    let cell = Cell::with_study(map);
+    cell.file("arm.toml", mh12());
+    let (still, none, _) = unsure(&cell);
+    assert_eq!(none, 0.0);
+    let table = "[repeatability]\npose_mm = 0.08\nsource = \"paper\"\n\n[chain]";
+    cell.file("arm.toml", mh12().replacen("[chain]", table, 1));
+    let sigma = 80.0 / 3.616_088;
+    let (by_file, told, model) = unsure(&cell);
+    assert!((told - sigma).abs() < 1e-4, "{told}");
+    assert!((by_file - still.hypot(sigma)).abs() < 1e-3, "{by_file} {still}");
+    assert!(model.contains("repeatability in the uncertainty"), "{model}");
+    cell.file(
+        "study.toml",
+        map.replacen("limit_um", "repeatability_mm = 0.04\nlimit_um", 1),
+    );
+    let (by_study, _, _) = unsure(&cell);
+    assert!(
+        (by_study - still.hypot(0.5 * sigma)).abs() < 1e-3,
+        "{by_study} {still}"
+    );
+    cell.file(
+        "study.toml",
+        map.replacen("limit_um", "repeatability_mm = -1\nlimit_um", 1),
+    );
+    cell.armill(&["check", "study.toml"])
+        .refused(&["study.toml:3:", "repeatability_mm"]);
+}
+
 #[test]
 fn the_table_has_what_no_load_makes() {
     let cell = Cell::with_study(&CELL.replace("[[3, -5, -5]]", "[[0, 0, 0]]"));

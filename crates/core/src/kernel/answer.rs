@@ -27,7 +27,7 @@ pub struct Held {
     pub deciding_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane: f64,
-    /// Its standard uncertainty from the compliances.
+    /// Its standard uncertainty: from compliances, load and tool as far as they are known, and the arm's repeatability.
     pub in_plane_uncertainty: f64,
     /// Deviation along the outward normal, of the case where it is largest in size.
     pub normal: f64,

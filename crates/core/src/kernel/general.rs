@@ -201,7 +201,7 @@ impl<'q> General<'q> {
             self.standing.elastic(&question.cases[case]).map_err(unstable)?;
         }
         self.standing.share_along(&along, &self.sharers, &mut self.shares);
-        let mut variance = self.standing.variance_along(&along).max(0.0);
+        let mut variance = self.standing.variance_along(&along).max(0.0) + self.standing.scatter().powi(2);
         if let Some(dragged) = self.dragged {
             let lie = (dragged, &question.cases[case]);
             variance += self

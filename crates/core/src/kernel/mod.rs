@@ -5,11 +5,12 @@
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
 //! other. [`evaluate_loaded`] takes a load of its own at every point, [`evaluate_on_path`] one point of a path with all that
 //! moves the tool beside its load, [`at_joints`] any chain at joint positions that are
-//! known. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
+//! known, [`stand_at`] an arm where it stands, for whoever writes down what he wants of it, [`postures_at`] every posture of
+//! many poses. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
 //! gives the same bits.
 //!
 //! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
-//! points that each have a load of their own; `column`: every posture of a few poses; `placed`: a path wherever its part lies.
+//! points that each have a load of their own; `column`: every posture of a few poses under a load; `placed`: a path wherever its part lies.
 
 mod answer;
 mod at_joints;
@@ -20,15 +21,19 @@ mod general;
 pub mod lanes;
 mod loaded;
 mod placed;
+mod postures_at;
 mod question;
 mod solver;
+mod stand_at;
 
 pub use answer::{AT_LIMIT, Answers, Held};
 pub use at_joints::{AtJoints, at_joints};
 pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
 pub use placed::{Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};
+pub use postures_at::{PosturesAt, postures_at};
 pub use question::{BranchChoice, Question};
+pub use stand_at::{Untold, stand_at};
 
 use rayon::prelude::*;
 
@@ -76,14 +81,20 @@ pub fn evaluate(
     watch: Watch<'_>,
 ) -> Result<Answers, Cancelled> {
     let mut answers = Answers::new(question, count, Told::Shares);
-    answers
-        .blocks(BLOCK)
-        .into_par_iter()
-        .enumerate()
-        .try_for_each_init(
-            || Solver::new(question, Order::Any, Told::Shares),
-            |solver, (block, slots)| solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch),
-        )?;
+    let mut blocks = answers.blocks(BLOCK);
+    // One block is done here: a hand-over to the pool would take longer than a point.
+    if blocks.len() == 1 {
+        let mut solver = Solver::new(question, Order::Any, Told::Shares);
+        for slots in blocks.drain(..) {
+            solver.answer(&base_from_tool, slots, watch)?;
+        }
+        drop(blocks);
+        return Ok(answers);
+    }
+    blocks.into_par_iter().enumerate().try_for_each_init(
+        || Solver::new(question, Order::Any, Told::Shares),
+        |solver, (block, slots)| solver.answer(|i| base_from_tool(block * BLOCK + i), slots, watch),
+    )?;
     Ok(answers)
 }
 

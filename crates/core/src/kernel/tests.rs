@@ -123,6 +123,43 @@ fn points_in_order_and_in_any_order_are_the_same_where_no_wrist_is_straight() {
 }
 
 #[test]
+fn an_arm_that_scatters_is_as_unsure_through_lanes_as_otherwise() {
+    let robot = &arms::ALL[0];
+    let poses = poses(robot, 100, 9);
+    let of = |model: &StiffnessModel| {
+        ask(robot, model, NOMINAL, |question| {
+            evaluate(question, 100, |i| poses[i], Watch::NONE).unwrap()
+        })
+    };
+    // A spring that does not give way keeps points out of lanes.
+    let rigid = |repeatability| {
+        let mut model = springy();
+        model.structure.springs[0].compliance = JointCompliance {
+            value: 0.0,
+            standard_uncertainty: 0.0,
+        };
+        model.structure.repeatability = repeatability;
+        model
+    };
+    let mut drives = StiffnessModel::DRIVES.clone();
+    drives.structure.repeatability = 2e-5;
+    let [plain, lanes, general] = [&rigid(0.0), &drives, &rigid(2e-5)].map(of);
+    let held = plain.points.iter().zip(&lanes.points).zip(&general.points);
+    let mut count = 0;
+    for ((plain, lanes), general) in held {
+        let (Ok(plain), Ok(lanes), Ok(general)) = (plain, lanes, general) else {
+            continue;
+        };
+        let expected = plain.in_plane_uncertainty.hypot(2e-5);
+        for told in [lanes, general] {
+            assert!((told.in_plane_uncertainty - expected).abs() < 1e-12 * expected);
+        }
+        count += 1;
+    }
+    assert!(count > 20, "{count}");
+}
+
+#[test]
 #[should_panic(expected = "a question has a load case at least")]
 fn a_question_without_load_is_refused() {
     ask(&arms::ALL[0], StiffnessModel::DRIVES, NOMINAL, |question| {

@@ -31,7 +31,7 @@ pub use jumps::{Jump, jumps};
 pub use limits::{CutLimits, Permitted, PermittedForces, PointLimits, ProgramLimits, program_limits};
 pub use plane::{Counts, PlaneMap, plane_map};
 pub use radial::{RadialDeviation, radial_deviations};
-pub use radial_parts::{radial_doubts, radial_without_load};
+pub use radial_parts::{WithoutLoad, radial_doubts, radial_without_load};
 pub use region::{Region, region_within};
 pub use unloaded::Unloaded;
 pub use volume::{BoxGrid, VolumeMap, volume_map};

@@ -4,6 +4,7 @@
 //! dr(a) = without(a) + load(a)                     without: the same path in the same postures, no wrench
 //! d_m(a) = sum over k of L_mk e . (s_k(w) - s_k(0))        S = L^T L
 //! u^2(a) = sum over m of d_m^2(a)
+//! g_i(a) = e . s_i u_i u(b_i)/b_i                     of what it has without load, by a gap that is not known exactly
 //! ```
 //!
 //! | symbol | meaning | unit |
@@ -12,6 +13,8 @@
 //! | `d_m` | change of the load's part by one independent unknown, off by its standard uncertainty | m |
 //! | `s_k(w)` | displacement per unit of compliance k under the wrench `w` | m/(rad/(N m)) |
 //! | `S` | covariance of the compliances | |
+//! | `g_i` | change of `without` by a gap that is off by its standard uncertainty | m |
+//! | `u_i`, `b_i`, `u(b_i)` | where a link lies in its gap, the gap, its standard uncertainty | rad (m) |
 //! | `e` | unit vector outwards | 1 |
 //!
 //! An unknown is the same all round the circle: its curve keeps its sign, and loses its centre and radius as any other.
@@ -29,8 +32,17 @@ use crate::source::{Arm, Standing, Unstable};
 use crate::spatial::Wrench;
 use crate::watch::{Cancelled, Watch};
 
-/// Outward deviation (m) of the circle about `centre` (path x and y, m) where nothing pushes, in the postures of `along`;
-/// `None` where nothing but the load moves the tool, or a point is not reached.
+/// A circle where nothing pushes: outward deviations, m.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WithoutLoad {
+    /// At each point.
+    pub outward: Vec<f64>,
+    /// Its change by each gap that is off by its standard uncertainty: a curve a gap, independent of each other.
+    pub doubts: Vec<Vec<f64>>,
+}
+
+/// The circle about `centre` (path x and y, m) where nothing pushes, in the postures of `along`; `None` where nothing but
+/// the load moves the tool, or a point is not reached.
 ///
 /// # Errors
 /// [`Cancelled`] if the watch says so.
@@ -39,7 +51,7 @@ pub fn radial_without_load(
     (track, along): (&Track, &AlongPath),
     centre: Point2<f64>,
     watch: Watch<'_>,
-) -> Result<Option<Vec<f64>>, Cancelled> {
+) -> Result<Option<WithoutLoad>, Cancelled> {
     let model = question.arm.model;
     if !model.moves_unloaded() && model.gravity.is_none() {
         return Ok(None);
@@ -54,7 +66,40 @@ pub fn radial_without_load(
     };
     let found = along_postures(question, (track, nothing), along.choices.clone(), quiet)?;
     let told = radial_deviations(track, &found.answers, centre);
-    Ok(told.into_iter().next().map(|case| case.outward))
+    Ok(told.into_iter().next().map(|case| WithoutLoad {
+        outward: case.outward,
+        doubts: gap_doubts(&question.arm, (track, &found), centre),
+    }))
+}
+
+/// How far (m) each gap, off by its standard uncertainty, moves the unloaded circle outwards: in proportion to the gap.
+fn gap_doubts(arm: &Arm<'_>, (track, found): (&Track, &AlongPath), centre: Point2<f64>) -> Vec<Vec<f64>> {
+    let Some(unloaded) = &found.unloaded else {
+        return Vec::new();
+    };
+    let joints = found.answers.joint_count;
+    let unsure: Vec<(usize, f64)> = (arm.model.structure.gaps())
+        .filter(|(_, gap)| gap.standard_uncertainty > 0.0)
+        .map(|(joint, gap)| (joint, gap.standard_uncertainty / gap.gap))
+        .collect();
+    let mut standing = Standing::new(*arm);
+    let mut curves = vec![Vec::with_capacity(track.len()); unsure.len()];
+    for index in 0..track.len() {
+        standing.stand(found.answers.joints_at(index));
+        let outward = outwards(track, index, centre);
+        let dragged = unloaded.dragged_at(index, joints);
+        for (curve, (joint, relative)) in curves.iter_mut().zip(&unsure) {
+            let moved = standing.backlash_of(*joint, dragged, &Wrench::ZERO).linear;
+            curve.push(moved.dot(&outward) * relative);
+        }
+    }
+    curves
+}
+
+/// The unit vector (base) from `centre` to point `index` of the circle.
+fn outwards(track: &Track, index: usize, centre: Point2<f64>) -> Vector3<f64> {
+    let at = track.path.points[index].at.xy() - centre;
+    track.placing.base_from_path.rotation * at.push(0.0).normalize()
 }
 
 /// How far (m) each independent unknown of compliances, load and tool, off by its standard uncertainty, moves the outward
@@ -75,8 +120,7 @@ pub fn radial_doubts(
     let mut curves: Vec<Vec<f64>> = Vec::new();
     for index in 0..answers.points.len() {
         track.wrenches(&along.load, index, &mut wrenches);
-        let at = track.path.points[index].at.xy() - centre;
-        let outward = track.placing.base_from_path.rotation * at.push(0.0).normalize();
+        let outward = outwards(track, index, centre);
         let of_case = |wrench| room.moves((track, along), index, (wrench, &outward));
         let moved: Result<Vec<Vec<f64>>, Unstable> = wrenches.iter().take(cases).map(of_case).collect();
         // Where it was held the arm found its rest under the load; off by an unknown it may not.

@@ -1,4 +1,5 @@
-//! What yields, weighs and has play in an arm beside its drives: springs, masses, compensator, torque curves, backlash.
+//! What yields, weighs, has play and scatters in an arm beside its drives: springs, masses, compensator, torque curves,
+//! backlash, repeatability.
 //!
 //! Empty for the simple model, in which only joints yield, each about its own axis.
 
@@ -25,6 +26,8 @@ pub struct Structure {
     pub covariance: Option<DMatrix<f64>>,
     /// Backlash, by joint; a list may end early. It yields to nothing, and moves the tool along paths alone.
     pub backlash: Vec<Option<Backlash>>,
+    /// Standard deviation of where the tool comes to rest, along any axis, from time to time, m; zero where it is not known.
+    pub repeatability: f64,
 }
 
 /// Why a structure fits no arm.
@@ -81,6 +84,9 @@ pub enum StructureError {
         /// As given.
         value: f64,
     },
+    /// A repeatability that is none.
+    #[error("a standard deviation of {0} m is not a number from 0 to {WIDEST_SCATTER}")]
+    Repeatability(f64),
     /// A curve of fewer than two pairs.
     #[error("a torque curve of {0} pairs: two make a line")]
     ShortCurve(usize),
@@ -101,6 +107,9 @@ const LEAST_SPRING: f64 = 1e-3;
 /// No gap is wider, rad (m).
 pub const WIDEST: f64 = 0.1;
 
+/// No arm scatters by more, m.
+pub const WIDEST_SCATTER: f64 = 0.01;
+
 impl Structure {
     /// Nothing yields or weighs but the drives.
     pub const EMPTY: Structure = Structure {
@@ -110,6 +119,7 @@ impl Structure {
         curves: Vec::new(),
         covariance: None,
         backlash: Vec::new(),
+        repeatability: 0.0,
     };
 
     /// The torque curve of joint `index`, if it has one.
@@ -175,6 +185,9 @@ impl Structure {
                     return Err(StructureError::Backlash { joint, value });
                 }
             }
+        }
+        if !(0.0..=WIDEST_SCATTER).contains(&self.repeatability) {
+            return Err(StructureError::Repeatability(self.repeatability));
         }
         if let Some(c) = &self.compensator {
             turns("the compensator", c.joint)?;

@@ -3,7 +3,7 @@
 //! [`elastic`]: joints give way to the load, the simple model by itself. [`stiffness_model`]: which parts beyond it are on.
 //! [`gravity`]: what masses do to drives and springs. [`equilibrium`]: where an arm comes to rest that the load changes.
 //! [`backlash`]: where links lie in the gaps of their joints. [`geometric`]: an arm that is not the one that its controller
-//! reckons with.
+//! reckons with. [`repeatability`]: how it scatters from time to time.
 //! [`standing`]: one arm in one posture, and what each of these moves there; `predict.rs` adds them in a visible row.
 //!
 //! `linear_system`: small systems of equations, in room that is reused.
@@ -14,6 +14,7 @@ pub mod equilibrium;
 pub mod geometric;
 pub mod gravity;
 mod linear_system;
+pub mod repeatability;
 pub mod standing;
 pub mod stiffness_model;
 

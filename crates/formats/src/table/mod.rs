@@ -195,6 +195,11 @@ impl Table {
         &self.columns
     }
 
+    /// The columns, without the table.
+    pub fn into_columns(self) -> Vec<Column> {
+        self.columns
+    }
+
     /// How many values each column has.
     pub fn row_count(&self) -> usize {
         self.row_count

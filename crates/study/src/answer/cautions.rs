@@ -8,14 +8,30 @@ use super::path::PathAnswer;
 /// Stretches without posture that are told.
 const MOST_LOST: usize = 5;
 
-/// Holes that no posture holds, with the reason of the first; none where all are held.
-pub(super) fn of_holes(holes: &HolesAnswer) -> Option<String> {
-    let first = holes.each.iter().find(|hole| hole.reason.is_some())?;
-    let reason = first.reason.as_deref().unwrap_or_default();
-    Some(format!(
-        "{}: {} of {} holes cannot be drilled, hole {} first: {reason}.",
-        holes.name, holes.unreached, holes.holes, first.hole
-    ))
+/// Holes that no posture holds, with the reason of the first, and holes that only a posture holds that a search refuses.
+pub(super) fn of_holes(holes: &HolesAnswer) -> Vec<String> {
+    let (name, count) = (&holes.name, holes.holes);
+    let lost = holes.each.iter().find(|hole| hole.reason.is_some());
+    let lost = lost.map(|first| {
+        let reason = first.reason.as_deref().unwrap_or_default();
+        format!(
+            "{name}: {} of {count} holes cannot be drilled, hole {} first: {reason}.",
+            holes.unreached, first.hole
+        )
+    });
+    let mut strained = holes
+        .each
+        .iter()
+        .filter_map(|hole| Some((hole.hole, hole.in_the_way?)));
+    let strained = strained.next().map(|(first, why)| {
+        format!(
+            "{name}: for {} of {count} holes every turn and branch is refused, hole {first} first ({}): they are told as they can \
+             be held, and `armill place` counts them as lost.",
+            1 + strained.count(),
+            why.replace('_', " ")
+        )
+    });
+    lost.into_iter().chain(strained).collect()
 }
 
 /// What a user should know before trusting the result of a path.

@@ -88,6 +88,9 @@ pub struct HoleAnswer {
     pub state: &'static str,
     /// Why no posture stands, in words; none where one does.
     pub reason: Option<String>,
+    /// What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
+    /// where one does.
+    pub in_the_way: Option<&'static str>,
     /// Branch of the posture.
     pub branch: Option<String>,
     /// Turn of the tool about its axis, beside the one that it has unturned.
@@ -226,6 +229,10 @@ fn hole(study: &Study, (ask, found): (&HolesAsk, &HolesFound), index: usize) -> 
             };
             format!("{miss}{most}")
         }),
+        in_the_way: held
+            .and(found.stands.get(index))
+            .filter(|stand| **stand != Stand::Holds)
+            .map(|stand| stand.word()),
         branch: held.map(|held| held.name.to_string()),
         turn_deg: held.map(|_| without_rounding(found.spins[index].to_degrees())),
         x_um: error.map(|error| error.x),

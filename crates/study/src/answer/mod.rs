@@ -329,7 +329,7 @@ fn warnings(
         ));
     }
     warnings.extend(paths.iter().flat_map(cautions::of_path));
-    warnings.extend(holes.iter().filter_map(cautions::of_holes));
+    warnings.extend(holes.iter().flat_map(cautions::of_holes));
     for ask in &study.asks {
         if let Subject::Path(path) = &ask.subject {
             let unsure = path.measured.as_ref().and_then(|measured| measured.warning());

@@ -47,6 +47,8 @@ pub struct SettingAnswer {
     pub load_u_n: [[f64; 3]; 3],
     /// Standard uncertainty of the place of the TCP along the tool axis.
     pub tool_length_u_mm: f64,
+    /// Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+    pub scatter_um: f64,
     /// The tolerance.
     pub limit_um: f64,
     /// Parts of the stiffness model that were on.
@@ -79,6 +81,7 @@ impl SettingAnswer {
             load_u_percent: without_rounding(setting.doubt.relative * 100.0),
             load_u_n: setting.doubt.forces.map(|u| clean(u.into())),
             tool_length_u_mm: without_rounding(setting.doubt.tool_length * 1e3),
+            scatter_um: setting.model.structure.repeatability * 1e6,
             limit_um: without_rounding(setting.limit * 1e6),
             model: parts(robot, &setting.model),
             shares_of: setting.model.sharer_names(robot.joints()),
@@ -105,7 +108,7 @@ pub struct PointAnswer {
     pub deciding_case: usize,
     /// Largest in-plane deviation of all cases.
     pub in_plane_um: f64,
-    /// Its standard uncertainty, from compliances, load and tool length.
+    /// Its standard uncertainty, from compliances, load, tool length and repeatability.
     pub in_plane_u_um: f64,
     /// Deviation along the outward normal, of the case where it is largest.
     pub normal_um: f64,

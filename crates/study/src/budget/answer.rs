@@ -35,7 +35,8 @@ pub struct BudgetAnswer {
     pub load_cases: usize,
     /// Least and greatest deviation that the load makes of all of them, from the nominal circle.
     pub load_envelope_um: [f64; 2],
-    /// Standard deviation of ball-bar runs the same way; none where no way has two.
+    /// Standard deviation of ball-bar runs the same way; where no way has two, of the arm as robot file or study tell it;
+    /// none where neither does.
     pub repeatability_um: Option<f64>,
     /// What they make together.
     pub sums: SumsAnswer,
@@ -384,7 +385,8 @@ fn wave(pair: &WavePair, least: f64) -> WaveAnswer {
 
 /// Whether the path without load is a prediction.
 fn is_predicted(combined: &Combined) -> bool {
-    let of_path = |one: &Contribution| one.origin == Origin::Unloaded;
+    let moves = |one: &Contribution| one.bias.iter().any(|by| *by != 0.0);
+    let of_path = |one: &Contribution| one.origin == Origin::Unloaded && moves(one);
     combined.has_cut_way.is_none() && combined.balance.contributions.iter().any(of_path)
 }
 

@@ -6,7 +6,7 @@
 //! | predicted | unloaded | without a ball-bar: gravity, backlash and geometry of the study | - |
 //! | both ways | unloaded | mean of clockwise and anticlockwise runs | - |
 //! | reversal | unloaded | half of what the way that was cut has more than the other | - |
-//! | repeatability | unloaded | - | of runs the same way |
+//! | repeatability | unloaded | - | of runs the same way; where no ball-bar tells, what the robot file or the study says |
 //!
 //! A cut and a measured force have a mean and a greatest force: the mean is the bias, the greatest is told as the end of
 //! the envelope. Given cases may each act: all are as likely. A ball-bar sees gravity, backlash and geometry: where one was
@@ -103,30 +103,31 @@ pub fn combine(
         doubts,
     } = parts(study, (path, found), biased, watch)?;
     let cases: Vec<Vec<f64>> = load.iter().map(|case| turn.of_even(case)).collect();
-    let without = without.map(|curve| turn.of_even(&curve));
+    let without = without.map(|told| {
+        (
+            turn.of_even(&told.outward),
+            uncertainty(&told.doubts, &turn, experiment),
+        )
+    });
     let mut contributions = vec![Contribution {
         u: uncertainty(&doubts, &turn, experiment),
         ..under_load(&cases[..biased])
     }];
     let (mut has_cut_way, mut both_ways) = (None, false);
-    let mut repeatability = None;
-    let mut without_load = None;
+    let (mut without_load, mut measured_scatter) = (None, None);
     if let Some(test) = test {
         let seen = of_test(test, &turn, experiment)?;
         has_cut_way = Some(seen.has_cut_way);
         both_ways = seen.reversal.is_some();
-        repeatability = seen.scatter;
-        without_load = without.and_then(|predicted| beside(&turn, (&predicted, &seen), experiment));
-        contributions.extend(contributions_of(seen, turn.angle().len()));
-    } else if let Some(bias) = without {
-        contributions.push(Contribution {
-            name: "path without load, predicted".to_owned(),
-            origin: Origin::Unloaded,
-            scatter: vec![0.0; bias.len()],
-            bias,
-            u: None,
-        });
+        measured_scatter = seen.scatter;
+        without_load = without.and_then(|(predicted, _)| beside(&turn, (&predicted, &seen), experiment));
+        contributions.extend(contributions_of(seen));
+    } else if let Some((bias, u)) = without {
+        contributions.push(of_unloaded("path without load, predicted", bias, u));
     }
+    let stated = Some(path.setting.model.structure.repeatability).filter(|told| *told > 0.0);
+    let repeatability = measured_scatter.or(stated);
+    contributions.extend(repeatability.map(|told| scattering(told, turn.angle().len())));
     // Every angle is one of the part's own.
     let measured: Option<Vec<f64>> =
         part.and_then(|part| turn.angle().iter().map(|angle| part.at(*angle)).collect());
@@ -216,24 +217,32 @@ fn of_test(
     })
 }
 
-/// Those parts as contributions at `count` angles.
-fn contributions_of(seen: armill_core::budget::Unloaded, count: usize) -> Vec<Contribution> {
-    let one = |name: &str, bias: Vec<f64>, (scatter, u): (f64, Option<f64>)| Contribution {
-        name: name.to_owned(),
-        origin: Origin::Unloaded,
-        scatter: vec![scatter; bias.len()],
-        bias,
-        u,
-    };
+/// Those parts as contributions, but how they scatter.
+fn contributions_of(seen: armill_core::budget::Unloaded) -> Vec<Contribution> {
     let mean = match seen.reversal {
         Some(_) => "path without load, both ways",
         None => "path without load",
     };
-    let mut parts = vec![one(mean, seen.mean, (0.0, seen.u))];
-    parts.extend(seen.reversal.map(|bias| one("reversal", bias, (0.0, seen.u))));
-    parts.extend(
-        seen.scatter
-            .map(|s| one("repeatability", vec![0.0; count], (s, None))),
-    );
+    let mut parts = vec![of_unloaded(mean, seen.mean, seen.u)];
+    parts.extend(seen.reversal.map(|bias| of_unloaded("reversal", bias, seen.u)));
     parts
+}
+
+/// A part of the path without load, and its standard uncertainty (m).
+fn of_unloaded(name: &str, bias: Vec<f64>, u: Option<f64>) -> Contribution {
+    Contribution {
+        name: name.to_owned(),
+        origin: Origin::Unloaded,
+        scatter: vec![0.0; bias.len()],
+        bias,
+        u,
+    }
+}
+
+/// What differs from time to time, alike at all of `count` angles: a standard deviation, m.
+fn scattering(deviation: f64, count: usize) -> Contribution {
+    Contribution {
+        scatter: vec![deviation; count],
+        ..of_unloaded("repeatability", vec![0.0; count], None)
+    }
 }

@@ -1,7 +1,7 @@
 //! The predicted deviation of a circle in its parts: what the load does, what there is without it, and how sure the load's
 //! part is.
 
-use armill_core::map::{radial_doubts, radial_without_load};
+use armill_core::map::{WithoutLoad, radial_doubts, radial_without_load};
 use armill_core::nalgebra::Point2;
 use armill_core::path::{Shape, Track};
 use armill_core::watch::Watch;
@@ -17,7 +17,7 @@ pub struct Parts {
     /// Of each load case, what the load alone does.
     pub load: Vec<Vec<f64>>,
     /// What the same path does without it; none where nothing else moves the tool.
-    pub without: Option<Vec<f64>>,
+    pub without: Option<WithoutLoad>,
     /// Change of the mean of the cases that make the bias by each independent unknown.
     pub doubts: Vec<Vec<f64>>,
 }
@@ -47,7 +47,11 @@ pub fn parts(
     let without = radial_without_load(&question, followed, centre, watch)?;
     let of_load = |outward: &Vec<f64>| match &without {
         None => outward.clone(),
-        Some(without) => outward.iter().zip(without).map(|(all, own)| all - own).collect(),
+        Some(without) => outward
+            .iter()
+            .zip(&without.outward)
+            .map(|(all, own)| all - own)
+            .collect(),
     };
     Ok(Parts {
         load: found.radial.iter().map(|case| of_load(&case.outward)).collect(),

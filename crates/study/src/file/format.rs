@@ -45,6 +45,9 @@ pub struct StudyFile {
     /// Whether the load acts on the arm as it has yielded, instead of as it stood.
     #[serde(default)]
     pub load_dependent: bool,
+    /// Pose repeatability RP of ISO 9283, in place of the robot file's.
+    #[schemars(range(min = 0.0, max = 30.0))]
+    pub repeatability_mm: Option<f64>,
     /// The workpiece plane.
     pub plane: PlaneTable,
     /// The load on the tool; along paths a cut does as well.

@@ -2,10 +2,11 @@
 //!
 //! | from | what |
 //! |---|---|
-//! | robot file | springs, masses, compensator, torque curves, covariance, backlash |
+//! | robot file | springs, masses, compensator, torque curves, covariance, backlash, repeatability |
 //! | `[[tool.spring]]`, `[[tool.mass]]` | what yields and weighs in holder, spindle and tool |
 //! | `tool.stick_out_mm` and what goes with it | a cutter that bends like a clamped bar, two springs |
 //! | `[gravity]` | where the tool was set, and where down is |
+//! | `repeatability_mm` | how the arm scatters, in place of the robot file's |
 //! | `load_dependent` | whether the load acts on the arm as it has yielded |
 //! | `actual_robot` | the arm as it was measured, where its controller reckons with another |
 
@@ -15,7 +16,7 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::spring::cutter_springs;
 use armill_core::robot::{Robot, Structure};
 use armill_core::source::stiffness_model::FREE_FALL;
-use armill_core::source::{Gravity, StiffnessModel};
+use armill_core::source::{Gravity, StiffnessModel, repeatability};
 use armill_formats::robot::spring_tables::Fault;
 
 use super::format::{CutterMaterial, GravityTable, StudyFile, ToolTable};
@@ -31,6 +32,9 @@ pub(super) fn model(
     // All problems are told, so whether there are new ones decides at the end.
     let before = places.problems.len();
     let mut structure = robot.structure().clone();
+    if let Some(pose_mm) = file.repeatability_mm {
+        structure.repeatability = repeatability::deviation_of(pose_mm * 1e-3);
+    }
     if let Some(tool) = tool {
         add_tool(places, tool, robot, &mut structure);
     }

@@ -257,7 +257,7 @@ pub fn png(svg: &str) -> Result<Vec<u8>, StudyError> {
 ///
 /// # Errors
 /// A table that cannot be made, which would be a fault of armill.
-pub(crate) fn points_table(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
+pub fn points_table(study: &Study, done: &Done<'_>) -> Result<Table, StudyError> {
     tables::rows_of(study, done)
 }
 

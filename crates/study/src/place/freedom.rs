@@ -104,7 +104,11 @@ impl Freedom {
 
     /// The place where the free degrees have these parts of their ranges.
     pub fn lie(&self, at: &[f64]) -> Lie {
-        let values = self.values(at);
+        self.lie_of(self.values(at))
+    }
+
+    /// The place where the degrees have these values, m and rad.
+    pub fn lie_of(&self, values: [f64; DEGREES]) -> Lie {
         let base_from_part = self.base_from_counted * self.counted_from_part(values);
         let [.., spin, rail] = values;
         Lie {

@@ -6,7 +6,8 @@
 //!
 //! `freedom`: what may move; `search`: from places spread over it to the best; `certificate`: whether grids of places hold a
 //! better one; `rounds`: all of that for every site and margin; [`journal`]: what is kept so that a search goes on where it was
-//! stopped; [`answer`]: the values of the result; `found`: the study at the place; `pictures`. Theory: `docs/theory/placement.md`.
+//! stopped; [`answer`]: the values of the result; `found`: the study at the place; `pictures`; [`judge`]: places that somebody
+//! else chose. Theory: `docs/theory/placement.md`.
 //!
 //! Where fixtures are told each is searched by itself, and the best is taken. Against a margin to limits and singularities
 //! the search is done again for each of some margins, with the place before as one more start.
@@ -16,6 +17,7 @@ mod certificate;
 mod found;
 mod freedom;
 pub mod journal;
+pub mod judge;
 mod pictures;
 mod rounds;
 mod search;
@@ -25,6 +27,7 @@ pub use certificate::{CertificateAnswer, GridAnswer};
 pub use found::Found;
 pub use freedom::PlaceAnswer;
 pub use journal::Journal;
+pub use judge::{PartPlace, Worth};
 
 use armill_core::frame::from_xyz_and_fixed_angles;
 use armill_core::kernel::{BranchChoice, Lie};

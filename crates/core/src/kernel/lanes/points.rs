@@ -122,7 +122,7 @@ impl<'q> Points<'q> {
             singularity: singularity(flags),
             deciding_case: worst.case[index] as usize,
             in_plane: worst.in_plane[index],
-            in_plane_uncertainty: uncertainty[index],
+            in_plane_uncertainty: uncertainty[index].hypot(self.question.arm.model.structure.repeatability),
             normal: worst.normal[index],
             full: worst.full[index],
         })

@@ -54,7 +54,7 @@ fn told(
     robot: &Robot,
     (compliance, model, doubt): (&[JointCompliance], &StiffnessModel, Doubt),
     load: &PathLoad,
-) -> (Vec<f64>, Option<Vec<f64>>, Vec<Vec<f64>>) {
+) -> (Vec<f64>, Option<WithoutLoad>, Vec<Vec<f64>>) {
     let tool = arms::bent_tool();
     let arm = Arm {
         robot,
@@ -115,7 +115,7 @@ fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
     };
     model.structure.backlash = vec![Some(gap); 6];
     let (loaded, without, _) = told(&robot, (&springs, &model, Doubt::NONE), &push(&[FORCE]));
-    let without = without.unwrap();
+    let without = without.unwrap().outward;
     let load: Vec<f64> = loaded.iter().zip(&without).map(|(all, own)| all - own).collect();
     assert!(farthest_apart(&load, &plain.0) < 1e-15);
     // They are no little thing: a good part of what the load does, and more.
@@ -126,7 +126,42 @@ fn what_the_load_makes_is_left_when_backlash_and_geometry_come_off() {
         (&springs, &model, Doubt::NONE),
         &push(&[[-9.0, 70.0, 5.0]]),
     );
-    assert!(farthest_apart(&other.1.unwrap(), &without) < 1e-15);
+    assert!(farthest_apart(&other.1.unwrap().outward, &without) < 1e-15);
+}
+
+#[test]
+fn a_gap_that_is_off_moves_the_unloaded_circle_as_its_curve_says() {
+    let robot = arms::mh12();
+    let springs = compliance(&robot);
+    let play = |gap: f64, standard_uncertainty| Backlash {
+        gap,
+        standard_uncertainty,
+        flank: Flank::Motion,
+    };
+    let of = |gaps: [Backlash; 2]| {
+        let mut model = StiffnessModel::DRIVES.clone();
+        model.structure.backlash = vec![Some(gaps[0]), None, Some(gaps[1])];
+        let told = told(&robot, (&springs, &model, Doubt::NONE), &push(&[FORCE]));
+        told.1.unwrap()
+    };
+    let as_is = of([play(2e-4, 3e-5), play(4e-4, 0.0)]);
+    // A gap that is known has no curve.
+    assert_eq!(as_is.doubts.len(), 1);
+    let off = of([play(2.3e-4, 0.0), play(4e-4, 0.0)]);
+    let change: Vec<f64> = (off.outward.iter().zip(&as_is.outward))
+        .map(|(off, is)| off - is)
+        .collect();
+    // Where the link crosses its gap it is not in proportion: a few points at the reversals.
+    let apart = |(a, b): (&f64, &f64)| (a - b).abs() > 1e-12;
+    let crossing = (change.iter().zip(&as_is.doubts[0]))
+        .filter(|pair| apart(*pair))
+        .count();
+    assert!(
+        crossing <= 4 && change.len() > 100,
+        "{crossing} of {}",
+        change.len()
+    );
+    assert!(change.iter().any(|by| by.abs() > 5e-6));
 }
 
 #[test]

@@ -51,6 +51,7 @@ fn sound() -> Structure {
         curves: vec![None, None, curve()],
         covariance: Some(DMatrix::identity(8, 8) * 1e-14),
         backlash: vec![None, backlash(2e-4)],
+        repeatability: 2e-5,
     }
 }
 
@@ -60,6 +61,14 @@ fn backlash(gap: f64) -> Option<Backlash> {
         standard_uncertainty: 1e-5,
         flank: Flank::Motion,
     })
+}
+
+#[test]
+fn repeatability_is_a_length() {
+    for refused_value in [-1e-9, 0.02, f64::NAN] {
+        let told = refused(|s| s.repeatability = refused_value);
+        assert!(told.ends_with("m is not a number from 0 to 0.01"), "{told}");
+    }
 }
 
 #[test]

@@ -48,6 +48,7 @@ pub struct Standing<'a> {
     /// Joint positions where it stands, the controller's counting and the chain's.
     joints: Vec<f64>,
     theta: Vec<f64>,
+    base_from_tool: IsometryMatrix3<f64>,
     screws: Vec<Twist>,
     weight: Option<Weight<'a>>,
     /// Torque of gravity on each drive and spring; zeros without gravity.
@@ -90,6 +91,7 @@ impl<'a> Standing<'a> {
             frames: None,
             joints: vec![0.0; joints],
             theta: vec![0.0; joints],
+            base_from_tool: IsometryMatrix3::identity(),
             screws: vec![Twist::ZERO; size],
             weight: arm.model.gravity.as_ref().map(weight),
             before: vec![0.0; size],
@@ -120,6 +122,11 @@ impl<'a> Standing<'a> {
         &self.screws
     }
 
+    /// The tool where the arm stands, in base.
+    pub fn base_from_tool(&self) -> &IsometryMatrix3<f64> {
+        &self.base_from_tool
+    }
+
     /// Torque of gravity on each drive, then each spring, N m (N); zeros where gravity does not count.
     pub fn gravity_torques(&self) -> &[f64] {
         &self.before
@@ -148,6 +155,7 @@ impl<'a> Standing<'a> {
         screws_into(robot, frames, tcp, &mut self.screws[..joints]);
         let turn = frames.base_from_flange.rotation * flange_from_tool.rotation.to_rotation_matrix();
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
+        self.base_from_tool = base_from_tool;
         let frame = |seat: Seat| seat_frame(seat, frames, &base_from_tool);
         for (screw, spring) in self.screws[joints..].iter_mut().zip(&structure.springs) {
             *screw = spring_screw(&spring.direction, &frame(spring.seat), tcp.coords);

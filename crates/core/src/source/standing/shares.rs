@@ -55,6 +55,11 @@ impl Standing<'_> {
         self.variances(a, |a, b| a * b, 0.0)
     }
 
+    /// Standard deviation (m) of where the tool comes to rest, along any axis.
+    pub fn scatter(&self) -> f64 {
+        self.arm.model.structure.repeatability
+    }
+
     /// Covariance (m^2) of the displacement, from the compliances: `A S A^T`.
     pub fn covariance(&self) -> Matrix3<f64> {
         let a = |k: usize| self.sensitivity(k);

@@ -72,6 +72,7 @@ fn everything() -> StiffnessModel {
             curves: vec![None, None, Some(curve())],
             covariance: None,
             backlash: Vec::new(),
+            repeatability: 0.0,
         },
         gravity: Some(Gravity {
             acceleration: -Vector3::z() * FREE_FALL,

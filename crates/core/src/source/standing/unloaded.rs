@@ -26,7 +26,7 @@ impl Standing<'_> {
     }
 
     /// Part of joint `joint`, which has play.
-    fn backlash_of(&self, joint: usize, dragged: &[f64], wrench: &Wrench) -> Twist {
+    pub(crate) fn backlash_of(&self, joint: usize, dragged: &[f64], wrench: &Wrench) -> Twist {
         let screw = self.screws[joint];
         let gap = self.arm.model.structure.backlash[joint];
         let lies = gap.map_or(0.0, |gap| {

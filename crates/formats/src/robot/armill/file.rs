@@ -41,6 +41,8 @@ pub(super) struct RobotFile {
     pub compensator: Option<CompensatorTable>,
     /// Covariance of compliances that were identified together.
     pub covariance: Option<CovarianceTable>,
+    /// How much the arm scatters from time to time.
+    pub repeatability: Option<RepeatabilityTable>,
     /// Greatest load at the flange.
     pub payload: Option<PayloadTable>,
     /// Where the numbers come from, by key.
@@ -255,6 +257,17 @@ pub(super) struct CovarianceTable {
     /// Row by row, in that order.
     #[schemars(inner(inner(range(min = -1.0, max = 1.0))))]
     pub matrix_rad2_per_n2_m2: Vec<Vec<f64>>,
+    /// Key of the source.
+    #[serde(rename = "source")]
+    pub _source: String,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RepeatabilityTable {
+    /// Pose repeatability RP of ISO 9283, as data sheets tell it after a plus-minus.
+    #[schemars(range(min = 0.0, max = 30.0))]
+    pub pose_mm: f64,
     /// Key of the source.
     #[serde(rename = "source")]
     pub _source: String,

@@ -1,4 +1,5 @@
-//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance, backlash.
+//! What a robot file says of an arm beside its drives: springs, masses, compensator, torque curves, covariance, backlash,
+//! repeatability.
 //!
 //! Compliances are counted as the core counts them: the drives in the order of the joints, then the springs in the
 //! order of their tables, of which one with a whole matrix makes up to six. A covariance names those it is of; all
@@ -6,6 +7,7 @@
 
 use armill_core::nalgebra::DMatrix;
 use armill_core::robot::{Backlash, Compensator, Flank, JointCurve, Structure, TorqueCurve};
+use armill_core::source::repeatability;
 
 use super::checks::Checks;
 use super::file::{CovarianceTable, FlankName, JointEntry, RobotFile};
@@ -44,6 +46,8 @@ impl Checks<'_> {
             .map(|joint| self.backlash(file, joint))
             .collect();
         structure.compensator = self.compensator(file, &joints);
+        structure.repeatability = (file.repeatability.as_ref())
+            .map_or(0.0, |table| repeatability::deviation_of(table.pose_mm * 1e-3));
         if let Some(table) = &file.covariance {
             structure.covariance = self.covariance(table, &names, &structure, file);
         }

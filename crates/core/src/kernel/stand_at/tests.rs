@@ -1,0 +1,107 @@
+//! Many stands are the stands of one after the other.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use nalgebra::Vector3;
+
+use super::super::tests::springy;
+use super::*;
+use crate::arms::{self, Stream};
+use crate::robot::Robot;
+use crate::robot::inverse::posture_at;
+use crate::source::StiffnessModel;
+use crate::spatial::Wrench;
+
+fn joints(robot: &Robot, count: usize) -> Vec<f64> {
+    let mut stream = Stream(47);
+    (0..count).flat_map(|_| stream.joints(robot)).collect()
+}
+
+#[test]
+fn the_tool_stands_where_the_posture_of_the_joints_has_it_in_one_block_and_in_many() {
+    let tool = arms::bent_tool();
+    for robot in [arms::hung(), arms::other::iiwa14()] {
+        let (model, compliance) = (springy(), robot.compliance().unwrap());
+        let arm = Arm {
+            robot: &robot,
+            compliance,
+            model: &model,
+            flange_from_tool: &tool,
+        };
+        let dof = robot.joints().len();
+        let q = joints(&robot, 2 * AT_ONCE + 9);
+        let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+            out.copy_from_slice(standing.base_from_tool().translation.vector.as_slice());
+            Ok(())
+        };
+        let mut many = vec![0.0; q.len() / dof * 3];
+        stand_at(&arm, &q, (&mut many, 3), tell, Watch::NONE).unwrap();
+        let mut few = vec![0.0; 15];
+        stand_at(&arm, &q[..5 * dof], (&mut few, 3), tell, Watch::NONE).unwrap();
+        assert_eq!(few, many[..15]);
+        for (q, tip) in q.chunks(dof).zip(many.chunks(3)).step_by(11) {
+            let posture = posture_at(&robot, q, &tool);
+            let away = posture.base_from_tool.translation.vector - Vector3::from_column_slice(tip);
+            // The turn of the flange goes through a quaternion there: some roundings of a tool of a metre at most.
+            assert!(away.norm() < 1e-14, "{away}");
+        }
+    }
+}
+
+#[test]
+fn the_first_point_without_rest_is_told_whatever_the_block() {
+    let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
+    let model = StiffnessModel {
+        load_dependent: true,
+        ..StiffnessModel::DRIVES.clone()
+    };
+    let arm = Arm {
+        robot,
+        compliance: robot.compliance().unwrap(),
+        model: &model,
+        flange_from_tool: &tool,
+    };
+    let q = joints(robot, 3 * AT_ONCE);
+    let wrench = Wrench::from_force(Vector3::new(7e5, -4e5, 6e5));
+    let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+        out[0] = standing.elastic(&wrench)?.linear.norm();
+        Ok(())
+    };
+    let witness = q.chunks(6).position(|q| {
+        let mut standing = Standing::new(arm);
+        standing.stand(q);
+        standing.elastic(&wrench).is_err()
+    });
+    let mut out = vec![0.0; 3 * AT_ONCE];
+    let told = stand_at(&arm, &q, (&mut out, 1), tell, Watch::NONE).unwrap_err();
+    match told {
+        Untold::Unstable { point, .. } => assert_eq!(Some(point), witness),
+        Untold::Cancelled(_) => panic!("nobody cancelled"),
+    }
+}
+
+#[test]
+fn a_cancelled_watch_stops_and_no_points_are_no_work() {
+    let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
+    let arm = Arm {
+        robot,
+        compliance: robot.compliance().unwrap(),
+        model: StiffnessModel::DRIVES,
+        flange_from_tool: &tool,
+    };
+    let cancel = AtomicBool::new(false);
+    let watch = Watch {
+        finished: &|_| cancel.store(true, Ordering::Relaxed),
+        cancel: &cancel,
+    };
+    let tell = |_: &mut Standing<'_>, out: &mut [f64]| {
+        out[0] = 1.0;
+        Ok(())
+    };
+    let q = joints(robot, 64 * AT_ONCE);
+    let mut out = vec![0.0; 64 * AT_ONCE];
+    let stopped = stand_at(&arm, &q, (&mut out, 1), tell, watch);
+    assert_eq!(stopped, Err(Untold::Cancelled(Cancelled)));
+    assert!(out.contains(&0.0));
+    assert_eq!(stand_at(&arm, &[], (&mut [], 1), tell, watch), Ok(()));
+}

@@ -1,0 +1,207 @@
+//! Is the uncertainty that is told what the deviation scatters by? Every input drawn at random, again and again.
+//!
+//! Draws are normal where little is unknown, and log-normal where compliances are known to a factor only, for none is
+//! negative. Compared: the standard deviation of the in-plane deviation, which is the length of a vector and so not linear.
+
+// A panic is how a test says that its claim is false; helper functions too.
+#![allow(clippy::unwrap_used)]
+
+mod arms;
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::{BranchChoice, Held, Question, evaluate_on_path};
+use armill_core::load::Doubt;
+use armill_core::measure::pose_accuracy::{Attained, pose_accuracy};
+use armill_core::nalgebra::{Unit, Vector3};
+use armill_core::predict::predict_in_full;
+use armill_core::robot::{Backlash, Flank, JointCompliance, Robot};
+use armill_core::source::{Arm, Standing, StiffnessModel, repeatability};
+use armill_core::spatial::Wrench;
+use arms::Stream;
+
+const DRAWS: usize = 20_000;
+
+/// An MH12 that stands somewhere under a load, with all that is not known of it.
+#[derive(Clone)]
+struct Cell {
+    robot: Robot,
+    compliance: Vec<JointCompliance>,
+    model: StiffnessModel,
+    doubt: Doubt,
+    wrench: Wrench,
+    normal: Unit<Vector3<f64>>,
+    dragged: Vec<f64>,
+}
+
+impl Cell {
+    /// Nothing is unknown but the compliances, by this relative standard uncertainty.
+    fn new(relative: f64) -> Cell {
+        let robot = arms::mh12();
+        let unsure = |c: &JointCompliance| JointCompliance {
+            standard_uncertainty: relative * c.value,
+            ..*c
+        };
+        Cell {
+            compliance: robot.compliance().unwrap().iter().map(unsure).collect(),
+            robot,
+            model: StiffnessModel::DRIVES.clone(),
+            doubt: Doubt::NONE,
+            wrench: Wrench::from_force(Vector3::new(60.0, -90.0, -40.0)),
+            normal: Unit::new_normalize(Vector3::new(-0.8, 0.3, 0.5)),
+            dragged: vec![0.0; 6],
+        }
+    }
+
+    fn pose(&self) -> Isometry {
+        let q = [0.3, 0.4, -0.5, 0.6, 0.9, -0.2];
+        armill_core::robot::inverse::posture_at(&self.robot, &q, &arms::bent_tool()).base_from_tool
+    }
+
+    /// What is told, and the joint positions.
+    fn told(&self) -> (Held, Vec<f64>) {
+        let tool = arms::bent_tool();
+        let cases = [self.wrench];
+        let question = Question {
+            cases: &cases,
+            doubt: self.doubt,
+            normal: self.normal,
+            choice: BranchChoice::Of(self.robot.nominal_branch()),
+            ..Question::unloaded(self.arm(&self.compliance, &self.model, &tool), None)
+        };
+        let answers = evaluate_on_path(&question, &self.pose(), &self.dragged);
+        (
+            *answers.points[0].as_ref().unwrap(),
+            answers.joints_at(0).to_vec(),
+        )
+    }
+
+    fn arm<'a>(
+        &'a self,
+        compliance: &'a [JointCompliance],
+        model: &'a StiffnessModel,
+        tool: &'a Isometry,
+    ) -> Arm<'a> {
+        Arm {
+            robot: &self.robot,
+            compliance,
+            model,
+            flange_from_tool: tool,
+        }
+    }
+
+    /// Mean and standard deviation (m) of the in-plane deviation over arms, loads and tools that might as well be true;
+    /// `factor` draws what a compliance is multiplied with.
+    fn drawn(&self, joints: &[f64], mut factor: impl FnMut(&mut Stream, f64) -> f64) -> (f64, f64) {
+        let mut stream = Stream(11);
+        let mut lengths = Vec::with_capacity(DRAWS);
+        for _ in 0..DRAWS {
+            let compliance: Vec<JointCompliance> = (self.compliance.iter())
+                .map(|c| JointCompliance {
+                    value: c.value * factor(&mut stream, c.standard_uncertainty / c.value),
+                    ..*c
+                })
+                .collect();
+            let mut model = self.model.clone();
+            let mut dragged = self.dragged.clone();
+            for (joint, gap) in model.structure.backlash.iter_mut().enumerate() {
+                let Some(gap) = gap else { continue };
+                let other = 1.0 + stream.normal() * gap.standard_uncertainty / gap.gap;
+                gap.gap *= other;
+                dragged[joint] *= other;
+            }
+            let mut wrench = self.wrench * (1.0 + stream.normal() * self.doubt.relative);
+            for u in self.doubt.forces {
+                wrench.force += u * stream.normal();
+            }
+            let tool =
+                arms::bent_tool() * Isometry::translation(0.0, 0.0, stream.normal() * self.doubt.tool_length);
+            let arm = self.arm(&compliance, &model, &tool);
+            let mut standing = Standing::new(arm);
+            standing.stand(joints);
+            let by_load = predict_in_full(&mut standing, &wrench).unwrap().twist.linear;
+            let by_gaps = standing.backlash(&dragged, &wrench).linear;
+            let scatter = Vector3::from_fn(|_, _| stream.normal()) * model.structure.repeatability;
+            let moved = by_load + by_gaps + scatter;
+            lengths.push((moved - self.normal.into_inner() * moved.dot(&self.normal)).norm());
+        }
+        let mean = lengths.iter().sum::<f64>() / DRAWS as f64;
+        let squares = lengths.iter().map(|length| (length - mean).powi(2)).sum::<f64>();
+        (mean, (squares / (DRAWS - 1) as f64).sqrt())
+    }
+}
+
+fn normal(stream: &mut Stream, relative: f64) -> f64 {
+    1.0 + stream.normal() * relative
+}
+
+/// Mean 1, standard deviation `relative`, never negative.
+fn log_normal(stream: &mut Stream, relative: f64) -> f64 {
+    let variance = relative.powi(2).ln_1p();
+    (stream.normal() * variance.sqrt() - 0.5 * variance).exp()
+}
+
+#[test]
+fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
+    let mut cell = Cell::new(0.1);
+    cell.doubt = Doubt {
+        relative: 0.1,
+        forces: [Vector3::x() * 3.0, Vector3::y() * 2.0, Vector3::z() * 5.0],
+        tool_length: 2e-3,
+    };
+    let gap = |gap: f64| Backlash {
+        gap,
+        standard_uncertainty: 0.3 * gap,
+        flank: Flank::Motion,
+    };
+    cell.model.structure.backlash = vec![Some(gap(7e-4)), Some(gap(2e-4)), None, Some(gap(5e-4))];
+    cell.dragged = vec![3.5e-4, -1e-4, 0.0, 2.5e-4, 0.0, 0.0];
+    cell.model.structure.repeatability = repeatability::deviation_of(160e-6);
+    let (held, joints) = cell.told();
+    let (mean, spread) = cell.drawn(&joints, normal);
+    assert!(
+        (held.in_plane_uncertainty - spread).abs() < 0.02 * spread,
+        "{held:?} {spread}"
+    );
+    assert!((held.in_plane - mean).abs() < 0.02 * mean, "{held:?} {mean}");
+    // Each of them counts: without it something else would be told.
+    let told = held.in_plane_uncertainty;
+    let without = |change: &dyn Fn(&mut Cell)| {
+        let mut other = cell.clone();
+        change(&mut other);
+        other.told().0.in_plane_uncertainty
+    };
+    assert!(without(&|cell| cell.doubt.relative = 0.0) < 0.99 * told);
+    assert!(without(&|cell| cell.model.structure.repeatability = 0.0) < 0.99 * told);
+    let known = |cell: &mut Cell| {
+        let gaps = cell.model.structure.backlash.iter_mut().flatten();
+        gaps.for_each(|gap| gap.standard_uncertainty = 0.0);
+    };
+    assert!(without(&known) < 0.995 * told);
+}
+
+/// Compliances of a class are known to a factor: their uncertainty is as large as they are.
+#[test]
+fn of_compliances_known_to_a_factor_the_spread_is_told_and_its_shape_is_not() {
+    let cell = Cell::new(1.0);
+    let (held, joints) = cell.told();
+    let (mean, spread) = cell.drawn(&joints, log_normal);
+    // A length is longer on the mean than that of the mean vector, and what is across adds to its spread.
+    assert!(
+        (held.in_plane_uncertainty / spread - 1.0).abs() < 0.15,
+        "{held:?} {spread}"
+    );
+    assert!((1.0..1.2).contains(&(mean / held.in_plane)), "{mean} {held:?}");
+}
+
+/// `RP` of places that are drawn, as the standard's formula has it.
+#[test]
+fn an_arm_that_scatters_by_it_has_the_pose_repeatability_of_its_data_sheet() {
+    let sigma = repeatability::deviation_of(80e-6);
+    let mut stream = Stream(5);
+    let at = |position| Attained { position, turn: None };
+    let reached: Vec<Attained> = (0..DRAWS)
+        .map(|_| at(Vector3::from_fn(|_, _| sigma * stream.normal())))
+        .collect();
+    let told = pose_accuracy(&at(Vector3::zeros()), &reached).unwrap();
+    assert!((told.repeatability.unwrap() - 80e-6).abs() < 1e-6, "{told:?}");
+}

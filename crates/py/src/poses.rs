@@ -1,0 +1,156 @@
+//! Poses and loads out of arrays: homogeneous matrices, and what other packages write them as; forces and wrenches.
+
+use armill_core::frame::{Isometry, NoPose, from_matrix};
+use armill_core::nalgebra::{Matrix4, Vector3};
+use armill_core::spatial::Wrench;
+use numpy::PyUntypedArray;
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::arrays::{Batch, Given, array, wrong_shape};
+use crate::errors::refused;
+
+/// Numbers of a homogeneous matrix.
+const ENTRIES: usize = 16;
+
+/// Many poses, or a single one.
+pub(crate) struct Poses<'py> {
+    /// The matrices.
+    pub batch: Batch<'py>,
+}
+
+impl<'py> Poses<'py> {
+    /// The poses of `value`: (n, 4, 4) or (4, 4); spatialmath's `SE3`; a transform of scipy; a pair of a rotation of scipy
+    /// and translations.
+    pub(crate) fn of(value: &Bound<'py, PyAny>, name: &str) -> PyResult<Poses<'py>> {
+        let py = value.py();
+        if let Ok(pair) = value.cast::<PyTuple>()
+            && pair.len() == 2
+            && pair.get_item(0)?.hasattr("as_matrix")?
+        {
+            let turns = pair.get_item(0)?.call_method0("as_matrix")?;
+            return composed(py, name, (&turns, &pair.get_item(1)?));
+        }
+        let matrices = if value.cast::<PyUntypedArray>().is_ok() {
+            value.clone()
+        } else if value.hasattr("A")? {
+            value.getattr("A")?
+        } else if value.hasattr("as_matrix")? {
+            value.call_method0("as_matrix")?
+        } else {
+            value.clone()
+        };
+        Ok(Poses {
+            batch: Batch::of(&matrices, name, &[4, 4])?,
+        })
+    }
+
+    /// The matrices of all poses, row by row.
+    pub(crate) fn values(&self) -> &[f64] {
+        self.batch.given.values()
+    }
+}
+
+/// Pose `index` of matrices that lie one behind the other.
+///
+/// # Errors
+/// A matrix that is no pose.
+pub(crate) fn pose_at(values: &[f64], index: usize) -> Result<Isometry, NoPose> {
+    from_matrix(&Matrix4::from_row_slice(&values[index * ENTRIES..][..ENTRIES]))
+}
+
+/// What is said of pose `index`.
+pub(crate) fn no_pose(py: Python<'_>, (name, single): (&str, bool), index: usize, why: NoPose) -> PyErr {
+    let which = if single {
+        name.to_owned()
+    } else {
+        format!("{name}[{index}]")
+    };
+    let hint = "a pose is a rotation and a translation in m, [[R, t], [0, 1]]";
+    refused(py, format!("{which} is no pose: {why}"), hint)
+}
+
+/// One pose, such as that of the tool on the flange; nothing is the identity.
+pub(crate) fn one_pose(value: Option<&Bound<'_, PyAny>>, name: &str) -> PyResult<Isometry> {
+    let Some(value) = value else {
+        return Ok(Isometry::identity());
+    };
+    let poses = Poses::of(value, name)?;
+    if poses.batch.count != 1 {
+        return Err(wrong_shape(
+            value.py(),
+            name,
+            &"(4, 4)",
+            poses.batch.given.shape(),
+        ));
+    }
+    pose_at(poses.values(), 0).map_err(|why| no_pose(value.py(), (name, true), 0, why))
+}
+
+/// Matrices out of rotations (n, 3, 3) and translations (n, 3).
+fn composed<'py>(
+    py: Python<'py>,
+    name: &str,
+    (turns, translations): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+) -> PyResult<Poses<'py>> {
+    let turns = Batch::of(turns, name, &[3, 3])?;
+    let translations = Batch::of(translations, name, &[3])?;
+    if turns.count != translations.count {
+        let message = format!(
+            "{name}: {} rotations and {} translations",
+            turns.count, translations.count
+        );
+        return Err(refused(py, message, "as many of both"));
+    }
+    let mut matrices = Vec::with_capacity(turns.count * ENTRIES);
+    let both = turns.given.values().chunks(9);
+    for (turn, translation) in both.zip(translations.given.values().chunks(3)) {
+        for (row, along) in turn.chunks(3).zip(translation) {
+            matrices.extend_from_slice(row);
+            matrices.push(*along);
+        }
+        matrices.extend([0.0, 0.0, 0.0, 1.0]);
+    }
+    let matrices = array(py, &turns.shape(&[4, 4]), matrices)?;
+    Ok(Poses {
+        batch: Batch::of(matrices.as_any(), name, &[4, 4])?,
+    })
+}
+
+/// Load cases on the tool at the TCP, base axes.
+pub(crate) struct Forces {
+    /// At least one.
+    pub cases: Vec<Wrench>,
+    /// Whether it is one case without the axis of cases: so is its answer.
+    pub single: bool,
+}
+
+impl Forces {
+    /// Forces (cases, 3) or (3,), or wrenches (cases, 6) or (6,): force N, then moment N m.
+    pub(crate) fn of(value: &Bound<'_, PyAny>) -> PyResult<Forces> {
+        const WANTED: &str = "(cases, 3), (cases, 6), (3,) or (6,)";
+        let py = value.py();
+        let given = Given::of(value, "forces", &WANTED)?;
+        let (width, single) = match given.shape() {
+            [width @ (3 | 6)] => (*width, true),
+            [count, width @ (3 | 6)] if *count > 0 => (*width, false),
+            shape => return Err(wrong_shape(py, "forces", &WANTED, shape)),
+        };
+        given.finite(py, "forces")?;
+        let cases = given.values().chunks(width).map(|case| Wrench {
+            force: Vector3::from_column_slice(&case[..3]),
+            moment: case
+                .get(3..6)
+                .map_or_else(Vector3::zeros, Vector3::from_column_slice),
+        });
+        Ok(Forces {
+            cases: cases.collect(),
+            single,
+        })
+    }
+
+    /// The axis of cases in the shape of an answer.
+    pub(crate) fn axis(&self) -> Option<usize> {
+        (!self.single).then_some(self.cases.len())
+    }
+}

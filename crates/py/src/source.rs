@@ -1,0 +1,294 @@
+//! Where a robot comes from: the text of its file, kept so that the same robot, to the last bit, is made in another
+//! process (pickle); and the texts that parameters of a call are told in, so that there is one reader of each format.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
+use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::spring_tables::Yields;
+use armill_formats::robot::{RobotDescription, armill};
+use armill_study::{library, robots};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::arrays::{Given, wrong_shape};
+use crate::errors::{exception, refused};
+
+/// The text of a robot file, and what was said of it.
+#[derive(Clone, Debug)]
+pub(crate) struct RobotSource {
+    /// What problems show.
+    path: PathBuf,
+    /// Its name in results.
+    name: String,
+    bytes: Vec<u8>,
+    format: Format,
+    tip: Option<String>,
+    /// Joint compliances in place of those of the file, with their standard uncertainties.
+    compliance: Option<(Vec<f64>, Vec<f64>)>,
+}
+
+/// A source as Python keeps it: file, format with tip, compliances.
+pub(crate) type Parts<'py> = (
+    (PathBuf, String, Bound<'py, PyBytes>),
+    (String, Option<String>),
+    Option<(Vec<f64>, Vec<f64>)>,
+);
+
+impl RobotSource {
+    /// That of a robot of the library, or of a file.
+    ///
+    /// # Errors
+    /// Neither; a file that cannot be read, or holds no robot.
+    pub(crate) fn load(py: Python<'_>, robot: &Path) -> PyResult<RobotSource> {
+        let name = robot.to_string_lossy();
+        if let Some(entry) = library::ROBOTS.iter().find(|robot| robot.name == name) {
+            let mut source = RobotSource::text(Format::Armill, entry.name, entry.text.to_owned(), None);
+            source.path = PathBuf::from(entry.path);
+            return Ok(source);
+        }
+        let found = robots::find(&name, Path::new(".")).map_err(|error| exception(py, &error))?;
+        RobotSource::file(py, robot, (&found, None))
+    }
+
+    /// That of a URDF with its flange at the link `tip`.
+    ///
+    /// # Errors
+    /// As [`RobotSource::load`].
+    pub(crate) fn urdf(py: Python<'_>, path: &Path, tip: Option<String>) -> PyResult<RobotSource> {
+        let bytes = read(py, path)?;
+        let macros = String::from_utf8_lossy(&bytes).contains("xmlns:xacro");
+        let wanted = Wanted {
+            format: Some(if macros { Format::Xacro } else { Format::Urdf }),
+            tip: tip.clone(),
+        };
+        let found = format::read(path, &stem(path), &bytes, &wanted);
+        let found = found.map_err(|problems| exception(py, &problems.into()))?;
+        RobotSource::file(py, path, (&found, tip))
+    }
+
+    /// That of a file, which was read already. What includes other files is kept as a robot file of ours.
+    fn file(
+        py: Python<'_>,
+        path: &Path,
+        (found, tip): (&RobotDescription, Option<String>),
+    ) -> PyResult<RobotSource> {
+        let bytes = read(py, path)?;
+        let name = found.robot.name();
+        let mut source = match Format::of(path, &String::from_utf8_lossy(&bytes)) {
+            Some(Format::Xacro) | None => RobotSource::text(Format::Armill, name, armill::write(found), None),
+            Some(format) => RobotSource {
+                bytes,
+                ..RobotSource::text(format, name, String::new(), tip)
+            },
+        };
+        source.path = path.to_owned();
+        Ok(source)
+    }
+
+    /// That of a text.
+    pub(crate) fn text(format: Format, name: &str, text: String, tip: Option<String>) -> RobotSource {
+        RobotSource {
+            path: PathBuf::from(format!("<{name}>")),
+            name: name.to_owned(),
+            bytes: text.into_bytes(),
+            format,
+            tip,
+            compliance: None,
+        }
+    }
+
+    /// The same with other joint compliances.
+    pub(crate) fn with_compliance(&self, values: Vec<f64>, doubts: Vec<f64>) -> RobotSource {
+        RobotSource {
+            compliance: Some((values, doubts)),
+            ..self.clone()
+        }
+    }
+
+    /// The robot.
+    ///
+    /// # Errors
+    /// The problems of the text.
+    pub(crate) fn read(&self, py: Python<'_>) -> PyResult<RobotDescription> {
+        let wanted = Wanted {
+            format: Some(self.format),
+            tip: self.tip.clone(),
+        };
+        let found = format::read(&self.path, &self.name, &self.bytes, &wanted);
+        found.map_err(|problems| exception(py, &problems.into()))
+    }
+
+    /// The robot as a robot file of ours: its own text where it is one, with the compliances that were given in it.
+    ///
+    /// # Errors
+    /// Springs beside the drives, which stand in no list of joint compliances.
+    pub(crate) fn toml(&self, py: Python<'_>) -> PyResult<String> {
+        let found = self.read(py)?;
+        let text = match self.format {
+            Format::Armill => String::from_utf8_lossy(&self.bytes).into_owned(),
+            _ => armill::write(&found),
+        };
+        let Some((values, doubts)) = &self.compliance else {
+            return Ok(text);
+        };
+        if !found.robot.structure().springs.is_empty() {
+            let message = format!("robot `{}` has springs beside its drives", self.name);
+            return Err(refused(py, message, "change the compliances in its robot file"));
+        }
+        let joints = found.robot.joints().iter().enumerate();
+        let springs = joints
+            .zip(values.iter().zip(doubts))
+            .map(|((index, joint), (value, doubt))| IdentifiedSpring {
+                at: joint.name.clone(),
+                yields: match found.robot.slides(index) {
+                    true => Yields::SlidingDrive,
+                    false => Yields::Drive,
+                },
+                compliance: *value,
+                standard_uncertainty: *doubt,
+            });
+        let identified = Identified {
+            springs: springs.collect(),
+            covariance: Vec::new(),
+            what: "joint compliances given by the caller".to_owned(),
+            place: "Robot.with_compliance".to_owned(),
+        };
+        let written = with_springs(&self.path.to_string_lossy(), &text, &identified);
+        written.map_err(|problems| exception(py, &problems.into()))
+    }
+
+    /// As Python keeps it.
+    pub(crate) fn parts<'py>(&self, py: Python<'py>) -> Parts<'py> {
+        (
+            (
+                self.path.clone(),
+                self.name.clone(),
+                PyBytes::new(py, &self.bytes),
+            ),
+            (self.format.name().to_owned(), self.tip.clone()),
+            self.compliance.clone(),
+        )
+    }
+
+    /// From what Python kept; compliances apart.
+    ///
+    /// # Errors
+    /// An unknown format.
+    pub(crate) fn again(
+        py: Python<'_>,
+        (path, name, bytes): (PathBuf, String, Bound<'_, PyBytes>),
+        (format, tip): (String, Option<String>),
+    ) -> PyResult<RobotSource> {
+        let format = format
+            .parse()
+            .map_err(|message: String| refused(py, message, "pickled by another version?"))?;
+        Ok(RobotSource {
+            path,
+            name,
+            bytes: bytes.as_bytes().to_vec(),
+            format,
+            tip,
+            compliance: None,
+        })
+    }
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem()
+        .map_or_else(|| "robot".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
+    std::fs::read(path).map_err(|error| {
+        let message = format!("cannot read robot file {}: {error}", path.display());
+        refused(py, message, "is the path right?")
+    })
+}
+
+/// The Denavit-Hartenberg table of these rows.
+///
+/// # Errors
+/// Rows or limits of another shape, numbers that are not finite.
+pub(crate) fn dh_text(
+    py: Python<'_>,
+    (rows, convention): (&Bound<'_, PyAny>, &str),
+    sliding: &[usize],
+    limits: Option<&Bound<'_, PyAny>>,
+) -> PyResult<String> {
+    let rows = table(py, (rows, "rows"), (None, 4))?;
+    let limits = limits
+        .map(|limits| table(py, (limits, "limits"), (Some(rows.len()), 2)))
+        .transpose()?;
+    if let Some(index) = sliding.iter().find(|index| **index >= rows.len()) {
+        let message = format!("sliding: there is no joint {index} among {}", rows.len());
+        return Err(refused(py, message, "joints are counted from 0"));
+    }
+    let mut text = format!("convention = {convention}\na_m, alpha_rad, d_m, theta_rad, type");
+    if limits.is_some() {
+        // A column has one unit.
+        let slides = (0..rows.len()).filter(|index| sliding.contains(index)).count();
+        let unit = match slides {
+            0 => "rad",
+            slides if slides == rows.len() => "m",
+            _ => {
+                let message = "limits of joints that turn and of joints that slide do not go into one table";
+                return Err(refused(
+                    py,
+                    message,
+                    "write a robot file of armill, or leave the limits out",
+                ));
+            }
+        };
+        let _ = write!(text, ", lower_{unit}, upper_{unit}");
+    }
+    for (index, row) in rows.iter().enumerate() {
+        let kind = if sliding.contains(&index) {
+            "prismatic"
+        } else {
+            "revolute"
+        };
+        let numbers: Vec<String> = row.iter().map(f64::to_string).collect();
+        // Writing into a string cannot fail.
+        let _ = write!(text, "\n{}, {kind}", numbers.join(", "));
+        for limit in limits.iter().flat_map(|limits| &limits[index]) {
+            let _ = write!(text, ", {limit}");
+        }
+    }
+    text.push('\n');
+    Ok(text)
+}
+
+/// Rows of numbers.
+fn table(
+    py: Python<'_>,
+    (value, name): (&Bound<'_, PyAny>, &str),
+    (count, width): (Option<usize>, usize),
+) -> PyResult<Vec<Vec<f64>>> {
+    let wanted = match count {
+        Some(count) => format!("({count}, {width})"),
+        None => format!("(dof, {width})"),
+    };
+    let given = Given::of(value, name, &wanted)?;
+    match given.shape() {
+        [rows, columns] if *columns == width && count.is_none_or(|count| count == *rows) => {}
+        shape => return Err(wrong_shape(py, name, &wanted, shape)),
+    }
+    given.finite(py, name)?;
+    Ok(given.values().chunks(width).map(<[f64]>::to_vec).collect())
+}
+
+/// The OPW parameters as a file has them.
+pub(crate) fn opw_text(lengths: [f64; 7], offsets: [f64; 6], signs: [i64; 6]) -> String {
+    let names = ["a1", "a2", "b", "c1", "c2", "c3", "c4"];
+    let lengths: String = names
+        .iter()
+        .zip(lengths)
+        .map(|(name, length)| format!("  {name}: {length:?}\n"))
+        .collect();
+    format!(
+        "opw_kinematics_geometric_parameters:\n{lengths}opw_kinematics_joint_offsets: {offsets:?}\n\
+         opw_kinematics_joint_sign_corrections: {signs:?}\n"
+    )
+}

@@ -1,0 +1,223 @@
+//! An arm stood at many joint positions: poses, Jacobians, compliances, deviations and their shares.
+//!
+//! Each takes joints, a tool and a number of threads, and writes what the core tells of each stand into one array.
+
+use armill_core::frame::Isometry;
+use armill_core::kernel::{Untold, stand_at};
+use armill_core::nalgebra::Vector3;
+use armill_core::robot::JointCompliance;
+use armill_core::robot::jacobian::jacobian as jacobian_of;
+use armill_core::source::{Arm, Gravity, Standing, StiffnessModel, Unstable};
+use numpy::PyArrayDyn;
+use pyo3::prelude::*;
+
+use crate::arrays::{Batch, array};
+use crate::errors::{exception, refused};
+use crate::poses::{Forces, one_pose};
+use crate::robot::Robot;
+use crate::threads::{Effort, work};
+
+type Floats<'py> = PyResult<Bound<'py, PyArrayDyn<f64>>>;
+type Tool<'a, 'py> = Option<&'a Bound<'py, PyAny>>;
+
+/// Where the tool is.
+pub(crate) fn forward<'py>(
+    robot: &Robot,
+    joints: &Bound<'py, PyAny>,
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let stands = Stands::rigid(robot, joints, tool)?;
+    stands.told(threads, &[4, 4], |standing, out| {
+        let pose = standing.base_from_tool().to_homogeneous();
+        // The transpose of a matrix by columns is the matrix by rows.
+        out.copy_from_slice(pose.transpose().as_slice());
+        Ok(())
+    })
+}
+
+/// How the tool moves with the joints.
+pub(crate) fn jacobian<'py>(
+    robot: &Robot,
+    joints: &Bound<'py, PyAny>,
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let stands = Stands::rigid(robot, joints, tool)?;
+    let dof = robot.dof();
+    stands.told(threads, &[6, dof], |standing, out| {
+        let jacobian = jacobian_of(robot.arm(), &standing.screws()[..dof]);
+        out.copy_from_slice(jacobian.transpose().as_slice());
+        Ok(())
+    })
+}
+
+/// How the tool yields.
+pub(crate) fn compliance<'py>(
+    robot: &Robot,
+    joints: &Bound<'py, PyAny>,
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let stands = Stands::yielding(robot, joints, tool)?;
+    stands.told(threads, &[6, 6], |standing, out| {
+        let compliance = standing.compliance().ok_or(Unstable::Buckles)?;
+        out.copy_from_slice(compliance.transpose().as_slice());
+        Ok(())
+    })
+}
+
+/// How far the tool deviates under each load case.
+pub(crate) fn deviation<'py>(
+    robot: &Robot,
+    (joints, forces): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let stands = Stands::yielding(robot, joints, tool)?;
+    let forces = Forces::of(forces)?;
+    let shape: Vec<usize> = forces.axis().into_iter().chain([3]).collect();
+    stands.told(threads, &shape, |standing, out| {
+        for (wrench, out) in forces.cases.iter().zip(out.chunks_mut(3)) {
+            out.copy_from_slice(standing.elastic(wrench)?.linear.as_slice());
+        }
+        Ok(())
+    })
+}
+
+/// Who makes how much of it.
+pub(crate) fn shares<'py>(
+    robot: &Robot,
+    (joints, forces): (&Bound<'py, PyAny>, &Bound<'py, PyAny>),
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let stands = Stands::yielding(robot, joints, tool)?;
+    let forces = Forces::of(forces)?;
+    let sharers = robot.model.sharers(robot.dof()).len();
+    let shape: Vec<usize> = forces.axis().into_iter().chain([sharers, 3]).collect();
+    stands.told(threads, &shape, |standing, out| {
+        for (wrench, out) in forces.cases.iter().zip(out.chunks_mut(3 * sharers)) {
+            standing.elastic(wrench)?;
+            for (share, out) in standing.shares().iter().zip(out.chunks_mut(3)) {
+                out.copy_from_slice(share.linear.as_slice());
+            }
+        }
+        Ok(())
+    })
+}
+
+/// How far the tool sags.
+pub(crate) fn gravity<'py>(
+    robot: &Robot,
+    (joints, reference, acceleration): (&Bound<'py, PyAny>, Vec<f64>, Vector3<f64>),
+    tool: Tool<'_, 'py>,
+    threads: Option<usize>,
+) -> Floats<'py> {
+    let py = joints.py();
+    if robot.model.structure.masses.is_empty() {
+        let message = format!(
+            "robot `{}` has no masses: gravity would move nothing",
+            robot.arm().name()
+        );
+        return Err(refused(py, message, "a robot file tells them as [[mass]]"));
+    }
+    if acceleration.iter().any(|part| !part.is_finite()) {
+        return Err(refused(
+            py,
+            "acceleration holds a number that is not finite",
+            "m/s^2, base axes",
+        ));
+    }
+    let model = StiffnessModel {
+        gravity: Some(Gravity {
+            acceleration,
+            reference,
+        }),
+        ..robot.model.clone()
+    };
+    let stands = Stands {
+        model: &model,
+        ..Stands::yielding(robot, joints, tool)?
+    };
+    stands.told(threads, &[3], |standing, out| {
+        let sag = standing
+            .gravity()?
+            .map_or_else(Vector3::zeros, |twist| twist.linear);
+        out.copy_from_slice(sag.as_slice());
+        Ok(())
+    })
+}
+
+/// What stands where.
+struct Stands<'a, 'py> {
+    py: Python<'py>,
+    robot: &'a Robot,
+    joints: Batch<'py>,
+    flange_from_tool: Isometry,
+    compliance: Vec<JointCompliance>,
+    model: &'a StiffnessModel,
+}
+
+impl<'a, 'py> Stands<'a, 'py> {
+    /// An arm of which nothing is asked that needs its compliance.
+    fn rigid(robot: &'a Robot, joints: &Bound<'py, PyAny>, tool: Tool<'_, 'py>) -> PyResult<Stands<'a, 'py>> {
+        let py = joints.py();
+        let joints = Batch::of(joints, "joints", &[robot.dof()])?;
+        joints.given.finite(py, "joints")?;
+        const STIFF: JointCompliance = JointCompliance {
+            value: 0.0,
+            standard_uncertainty: 0.0,
+        };
+        Ok(Stands {
+            py,
+            robot,
+            joints,
+            flange_from_tool: one_pose(tool, "tool")?,
+            compliance: vec![STIFF; robot.dof()],
+            model: StiffnessModel::DRIVES,
+        })
+    }
+
+    /// An arm that yields.
+    fn yielding(
+        robot: &'a Robot,
+        joints: &Bound<'py, PyAny>,
+        tool: Tool<'_, 'py>,
+    ) -> PyResult<Stands<'a, 'py>> {
+        Ok(Stands {
+            compliance: robot.compliances(joints.py())?.to_vec(),
+            model: &robot.model,
+            ..Stands::rigid(robot, joints, tool)?
+        })
+    }
+
+    /// An array of `item` for each stand, which `tell` writes.
+    fn told(
+        &self,
+        threads: Option<usize>,
+        item: &[usize],
+        tell: impl Fn(&mut Standing<'_>, &mut [f64]) -> Result<(), Unstable> + Sync,
+    ) -> Floats<'py> {
+        let arm = Arm {
+            robot: self.robot.arm(),
+            compliance: &self.compliance,
+            model: self.model,
+            flange_from_tool: &self.flange_from_tool,
+        };
+        let (joints, count) = (self.joints.given.values(), self.joints.count);
+        let width = item.iter().product();
+        let tell = &tell;
+        let told = work(self.py, threads, Effort::Points(count), move |watch| {
+            let mut out = vec![0.0; count * width];
+            stand_at(&arm, joints, (&mut out, width), tell, watch).map(|()| out)
+        })?;
+        let out = told.map_err(|why| match why {
+            Untold::Cancelled(cancelled) => exception(self.py, &cancelled.into()),
+            Untold::Unstable { point, why } => {
+                refused(self.py, format!("joints[{point}]: {why}"), "is the load right?")
+            }
+        })?;
+        array(self.py, &self.joints.shape(item), out)
+    }
+}

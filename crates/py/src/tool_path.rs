@@ -1,0 +1,222 @@
+//! The class `ToolPath`: the moves of a tool path program, as arrays.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::PathBuf;
+
+use armill_core::nalgebra::Vector3;
+use armill_core::path::{Course, Move, Operation, Pace, Step};
+use armill_formats::toolpath::apt::Dialect;
+use armill_formats::toolpath::format::{Wanted, read};
+use armill_formats::toolpath::{LengthUnit, Summary};
+use numpy::{Element, PyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::array;
+use crate::errors::{exception, refused};
+use crate::threads::{Effort, work};
+
+/// The n moves of a program, m and m/s in the frame that it counts from; a move is told by where it ends.
+#[pyclass(frozen, module = "armill")]
+pub(crate) struct ToolPath {
+    moves: Vec<Move>,
+    /// Index of the operation of each move; -1 before the first.
+    operation: Vec<i64>,
+    operations: Vec<Operation>,
+    summary: Summary,
+}
+
+/// file -> ToolPath: the moves of G-code, cutter locations (APT-CL, CLSF) or a CSV of points.
+///
+/// `unit` (`mm` or `inch`) is that of lengths where the file does not tell; `dialect` (`nx` or `solidworks`) whose cutter
+/// locations these are, where the file does not show it.
+#[pyfunction]
+#[pyo3(signature = (file, *, unit=None, dialect=None))]
+pub(crate) fn read_path(
+    py: Python<'_>,
+    file: PathBuf,
+    unit: Option<&str>,
+    dialect: Option<&str>,
+) -> PyResult<ToolPath> {
+    let unit = match unit {
+        None => None,
+        Some("mm") => Some(LengthUnit::Millimetre),
+        Some("inch") => Some(LengthUnit::Inch),
+        Some(other) => {
+            return Err(refused(
+                py,
+                format!("unit: `{other}` is no unit"),
+                "`mm` or `inch`",
+            ));
+        }
+    };
+    let dialect = match dialect {
+        None => None,
+        Some("nx") => Some(Dialect::Nx),
+        Some("solidworks") => Some(Dialect::SolidWorks),
+        Some(other) => {
+            let message = format!("dialect: `{other}` is none");
+            return Err(refused(py, message, "`nx` or `solidworks`"));
+        }
+    };
+    let shown = file.display().to_string();
+    let opened = File::open(&file)
+        .map_err(|error| refused(py, format!("cannot read {shown}: {error}"), "is the path right?"))?;
+    let found = work(py, Some(1), Effort::Long, |_| {
+        let (mut moves, mut operation, mut operations) = (Vec::new(), Vec::new(), Vec::new());
+        let wanted = Wanted {
+            unit,
+            dialect,
+            ..Wanted::default()
+        };
+        let summary = read(&shown, BufReader::new(opened), &wanted, &mut |step| match step {
+            Step::Operation(begun) => operations.push(begun),
+            Step::Move(told) => {
+                moves.push(told);
+                operation.push(operations.len() as i64 - 1);
+            }
+        })?;
+        Ok(ToolPath {
+            moves,
+            operation,
+            operations,
+            summary,
+        })
+    })?;
+    found.map_err(|problems: armill_formats::document::Problems| exception(py, &problems.into()))
+}
+
+impl ToolPath {
+    /// A number for each move.
+    fn each<'py, T: Element>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&Move) -> T,
+    ) -> PyResult<Bound<'py, PyArrayDyn<T>>> {
+        array(py, &[self.moves.len()], self.moves.iter().map(of).collect())
+    }
+
+    /// A vector for each move.
+    fn vectors<'py>(
+        &self,
+        py: Python<'py>,
+        of: impl Fn(&Move) -> Vector3<f64>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        let values = self.moves.iter().flat_map(|told| of(told).data.0[0]);
+        array(py, &[self.moves.len(), 3], values.collect())
+    }
+}
+
+#[pymethods]
+impl ToolPath {
+    /// -> (n, 3) where each move ends, m.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |told| told.end.coords)
+    }
+
+    /// -> (n, 3) tool axes at the ends, from the tip towards the spindle; zeros where the program tells none.
+    #[getter]
+    fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |told| {
+            told.axis.map_or_else(Vector3::zeros, |axis| axis.into_inner())
+        })
+    }
+
+    /// -> (n,) bool: whether the tool cuts on the way.
+    #[getter]
+    fn cuts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<bool>>> {
+        self.each(py, |told| told.pace.cuts())
+    }
+
+    /// -> (n,) speed of each move, m/s; 0 of rapids, and where the program tells none.
+    #[getter]
+    fn feed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.each(py, |told| match told.pace {
+            Pace::Feed(speed) => speed,
+            Pace::Rapid | Pace::Untold => 0.0,
+        })
+    }
+
+    /// -> (n,) angle of each arc, rad, full turns included; 0 of straight moves.
+    #[getter]
+    fn sweep<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.each(py, |told| match told.course {
+            Course::Arc(arc) => arc.sweep,
+            Course::Line => 0.0,
+        })
+    }
+
+    /// -> (n, 3) a point on the axis of each arc, m; zeros of straight moves.
+    #[getter]
+    fn arc_centre<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |told| match told.course {
+            Course::Arc(arc) => arc.centre.coords,
+            Course::Line => Vector3::zeros(),
+        })
+    }
+
+    /// -> (n, 3) the axis of each arc, which it turns about by the right hand; zeros of straight moves.
+    #[getter]
+    fn arc_axis<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+        self.vectors(py, |told| match told.course {
+            Course::Arc(arc) => arc.axis.into_inner(),
+            Course::Line => Vector3::zeros(),
+        })
+    }
+
+    /// -> (n,) line of each move in the program, from 1.
+    #[getter]
+    fn line<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
+        self.each(py, |told| i64::from(told.line))
+    }
+
+    /// -> (n,) index of each move's operation in `operations`; -1 before the first.
+    #[getter]
+    fn operation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<i64>>> {
+        array(py, &[self.operation.len()], self.operation.clone())
+    }
+
+    /// -> list of dict: `name`, `tool`, `diameter` (m), `corner_radius` (m), `spindle` (rad/s), `line`; None where not told.
+    #[getter]
+    fn operations<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyDict>>> {
+        let told = |operation: &Operation| {
+            let dict = PyDict::new(py);
+            dict.set_item("name", operation.name.as_deref())?;
+            dict.set_item("tool", operation.tool)?;
+            dict.set_item("diameter", operation.diameter)?;
+            dict.set_item("corner_radius", operation.corner_radius)?;
+            dict.set_item("spindle", operation.spindle)?;
+            dict.set_item("line", operation.line)?;
+            Ok(dict)
+        };
+        self.operations.iter().map(told).collect()
+    }
+
+    /// -> str: the format of the file: `gcode`, `apt` or `csv`.
+    #[getter]
+    fn format(&self) -> &'static str {
+        self.summary.format.name()
+    }
+
+    /// -> list of str: words that were not followed, and what was taken for granted.
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.summary.notes.clone()
+    }
+
+    /// -> int: how many moves there are.
+    fn __len__(&self) -> usize {
+        self.moves.len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!(
+            "<armill.ToolPath {}: {} moves, {} of them arcs>",
+            self.format(),
+            self.moves.len(),
+            self.summary.arcs
+        )
+    }
+}

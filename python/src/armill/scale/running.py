@@ -1,0 +1,224 @@
+"""Does what is not done yet of a sweep, and keeps the manifest of its folder.
+
+::
+
+    manifest of the folder -> parts that are whole -> the others to workers -> files, and the manifest now and then -> complete
+
+The manifest is written about once a second: a process that is killed loses from it what was done since, and those parts are
+done again, to the same bytes.
+"""
+
+from __future__ import annotations
+
+import functools
+import os
+import time
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from armill import Cancelled
+from armill.scale import files
+from armill.scale.backends import Wanted, opened
+from armill.scale.errors import SweepFailed, needed, refused
+from armill.scale.fingerprint import asked
+from armill.scale.manifest import PARTS, Done, Manifest, same_sweep
+from armill.scale.planning import Plan, plan
+from armill.scale.progress import Progress
+from armill.scale.reading import is_whole, read
+from armill.scale.sweep import Sweep
+from armill.scale.task import forgotten, task
+from armill.scale.window import worked
+
+#: The manifest is written so often, s, and takes this part of the time at the most.
+KEPT_S = 1.0
+KEPT_PART = 0.05
+#: Files are checked on so many threads.
+CHECKERS = 4
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A sweep that is done: its folder, what it holds, and what this run did for it.
+
+    ``done_before`` parts were there already; ``redone`` are those of them that were damaged and made anew. ``seconds`` is
+    how long this run took, ``task_seconds`` how long its tasks took in all.
+    """
+
+    folder: Path
+    rows: int
+    part_count: int
+    evaluation_count: int
+    done_before: int
+    redone: tuple[int, ...]
+    seconds: float
+    task_seconds: float
+
+    def read(self) -> Any:
+        """-> pyarrow.dataset.Dataset: its rows, as ``armill.scale.read`` gives them."""
+        return read(self.folder)
+
+
+def run(
+    sweep: Sweep | Plan,
+    folder: str | os.PathLike[str],
+    backend: Any = "local",
+    *,
+    workers: int | None = None,
+    threads_per_worker: int = 1,
+    items_per_part: int | None = None,
+    progress: bool | None = None,
+    timeout: float = 30.0,
+) -> Finished:
+    """sweep, folder -> Finished: works out the parts that the folder has not got yet.
+
+    ``backend`` is ``"local"`` (threads of this process), ``"dask"`` (processes of this machine), the address of a scheduler
+    of Dask (``"tcp://HOST:8786"``), a ``dask.distributed.Client``, ``"ray"``, or the address of a cluster of Ray
+    (``"ray://HOST:10001"``). ``workers`` are started here, or waited for where they run elsewhere; without it as many as
+    there are processors, or as come. Each has ``threads_per_worker``. ``items_per_part`` fixes the parts, which are else
+    planned by what some items take here. ``progress`` shows a bar always or never; without it where stderr is a terminal.
+    ``timeout`` is how long a scheduler may take to answer, and its workers to come, s. Ctrl-C stops it; the same call goes on.
+    """
+    began = time.monotonic()
+    for name, value in (("workers", workers), ("threads_per_worker", threads_per_worker), ("items_per_part", items_per_part)):
+        if value is not None and (isinstance(value, bool) or value < 1):
+            raise refused(f"{name} is {value!r}", "a whole number from 1 on")
+    needed("pyarrow.parquet", "scale")
+    place = Path(folder).absolute()
+    files.made(place)
+    with files.alone_in(place):
+        ready, manifest = _begun(sweep, place, items_per_part, threads_per_worker)
+        before = len(manifest.done)
+        damaged = _damaged(place, manifest)
+        for part in damaged:
+            del manifest.done[part]
+        files.made(place / PARTS)
+        files.tidied(place)
+        files.tidied(place / PARTS)
+        task_seconds = 0.0
+        if not manifest.is_complete:
+            shown = Progress(progress, manifest.evaluation_count, _evaluations(ready, manifest))
+            if damaged:
+                shown.note(f"{len(damaged)} parts are not as they were written and are done again")
+            wanted = Wanted(backend, workers, threads_per_worker, timeout)
+            task_seconds = _work(ready, place, manifest, wanted, shown)
+        return Finished(
+            place,
+            sum(done.rows for done in manifest.done.values()),
+            manifest.part_count,
+            manifest.evaluation_count,
+            before - len(damaged),
+            tuple(damaged),
+            time.monotonic() - began,
+            task_seconds,
+        )
+
+
+def _begun(sweep: Sweep | Plan, place: Path, items_per_part: int | None, threads: int) -> tuple[Plan, Manifest]:
+    """The plan of the folder and its manifest; a new one where there is none."""
+    told = sweep if isinstance(sweep, Plan) else None
+    if told and items_per_part is not None:
+        raise refused("items_per_part is told twice", "a plan has its parts")
+    what = sweep.sweep if isinstance(sweep, Plan) else sweep
+    wanted = told.items_per_part if told else items_per_part
+    manifest = Manifest.read(place)
+    if manifest is None:
+        ready = told or plan(what, items_per_part=wanted, threads=threads)
+        return ready, Manifest.of(ready)
+    same_sweep(manifest, asked(what), place)
+    ready = plan(what, items_per_part=wanted or manifest.items_per_part)
+    if ready.items_per_part != manifest.items_per_part:
+        message = f"{place} has parts of {manifest.items_per_part} items, asked for are {ready.items_per_part}"
+        raise refused(message, "the parts of a sweep stay as they were begun; leave items_per_part out, or give another folder")
+    return ready, manifest
+
+
+def _damaged(place: Path, manifest: Manifest) -> list[int]:
+    parts = sorted(manifest.done)
+    with ThreadPoolExecutor(CHECKERS) as pool:
+        whole = pool.map(functools.partial(is_whole, place, manifest, verify=True), parts)
+        return [part for part, good in zip(parts, whole, strict=True) if not good]
+
+
+def _evaluations(ready: Plan, manifest: Manifest) -> int:
+    spans = (ready.span(part) for part in manifest.done)
+    return sum(last - first for first, last in spans) * ready.sweep.evaluations_per_item
+
+
+def _work(ready: Plan, place: Path, manifest: Manifest, wanted: Wanted, shown: Progress) -> float:
+    """Everything that is not done, the manifest kept meanwhile and in the end; gives how long the tasks took."""
+    keeper = _Keeper(place, manifest)
+    try:
+        seconds = _parts(ready, place, keeper, wanted, shown)
+        keeper.write()
+        return seconds
+    except KeyboardInterrupt as error:
+        raise Cancelled(f"cancelled: {keeper.last()}") from error
+    except SweepFailed as error:
+        raise SweepFailed(f"{error}\n  {keeper.last()}") from error
+    except OSError as error:
+        if error.errno not in files.FULL:
+            raise
+        raise SweepFailed(f"the disk of {place} is full ({error.strerror}): make room\n  {keeper.last()}") from error
+    finally:
+        shown.end()
+
+
+def _parts(ready: Plan, place: Path, keeper: _Keeper, wanted: Wanted, shown: Progress) -> float:
+    """All parts that are not done; gives how long their tasks took."""
+    seconds = 0.0
+    manifest = keeper.manifest
+    keeper.write()
+    to_do = [part for part in range(manifest.part_count) if part not in manifest.done]
+    try:
+        backend = opened(wanted, task(ready, place, manifest.fingerprint, wanted.threads_per_worker))
+        shown.begin()
+        try:
+            for done in worked(backend, to_do):
+                keeper.take(done)
+                seconds += done.seconds
+                first, last = ready.span(done.part)
+                shown.add((last - first) * ready.sweep.evaluations_per_item)
+        finally:
+            backend.close()
+    finally:
+        forgotten(place)
+    return seconds
+
+
+class _Keeper:
+    """Writes the manifest: not after each part, for it grows with them."""
+
+    def __init__(self, place: Path, manifest: Manifest) -> None:
+        self.manifest = manifest
+        self._place = place
+        self._next = 0.0
+        self._kept = 0
+
+    def take(self, done: Done) -> None:
+        manifest = self.manifest
+        if not manifest.columns:
+            manifest.columns = done.columns
+        elif manifest.columns != done.columns:
+            told = [" ".join(column) for column in set(manifest.columns) ^ set(done.columns)]
+            raise SweepFailed(f"part {done.part} has other columns than those before: {', '.join(sorted(told))}")
+        manifest.done[done.part] = done
+        if time.monotonic() >= self._next:
+            self.write()
+
+    def write(self) -> None:
+        began = time.monotonic()
+        self.manifest.write(self._place)
+        self._kept = len(self.manifest.done)
+        ended = time.monotonic()
+        self._next = ended + max(KEPT_S, (ended - began) / KEPT_PART)
+
+    def last(self) -> str:
+        """Writes it after something went wrong, if there is room, and tells how much is kept."""
+        try:
+            self.write()
+        except OSError as error:
+            if error.errno not in files.FULL:
+                raise
+        return f"{self._kept} of {self.manifest.part_count} parts are kept in {self._place}: the same call goes on from there"

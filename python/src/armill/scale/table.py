@@ -1,0 +1,59 @@
+"""The rows of a part: the axes, then the columns that the work gives.
+
+Numbers are finite; what is missing is masked (``numpy.ma``) and null in the file.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from armill.scale.errors import needed
+from armill.scale.sweep import Block, Sweep
+
+#: Kinds of numpy that a column may have: yes or no, whole numbers, numbers, texts.
+KINDS = "biufU"
+
+
+def table_of(sweep: Sweep, first: int, last: int, threads: int) -> Any:
+    """items -> pyarrow.Table: what the work makes of them. Raises what the work raises; ValueError for columns that cannot be."""
+    arrow = needed("pyarrow", "scale")
+    block = sweep.block(first, last, threads)
+    given = sweep.work(block)
+    columns = {name: _column(name, values, block) for name, values in given.items()}
+    lengths = {len(values) for values in columns.values()}
+    if not columns or len(lengths) != 1:
+        told = ", ".join(f"{name} {len(values)}" for name, values in columns.items())
+        raise ValueError(f"columns of one length are wanted, given {told or 'none'}")
+    rows = lengths.pop()
+    if rows == 0 or rows % len(block):
+        raise ValueError(f"{rows} rows are not so many for each of {len(block)} items")
+    own = set(columns) & set(sweep.axes)
+    if own:
+        raise ValueError(f"columns have the names of axes: {', '.join(sorted(own))}")
+    axes = {name: np.repeat(block[name], rows // len(block)) for name in sweep.axes}
+    arrays = {name: arrow.array(values.astype(_index_kind(sweep.axes[name]))) for name, values in axes.items()}
+    for name, values in columns.items():
+        masked = np.ma.getmaskarray(values) if np.ma.isMaskedArray(values) else None
+        arrays[name] = arrow.array(np.ma.getdata(values), mask=masked)
+    return arrow.table(arrays)
+
+
+def _index_kind(length: int) -> str:
+    return "int32" if length < 2**31 else "int64"
+
+
+def _column(name: str, values: Any, block: Block) -> Any:
+    column = np.asanyarray(values)
+    if column.ndim != 1:
+        raise ValueError(f"column `{name}` has the shape {column.shape}, a number or text a row is wanted")
+    if column.dtype.kind not in KINDS:
+        raise ValueError(f"column `{name}` holds {column.dtype}: numbers, texts, yes or no are wanted")
+    if column.dtype.kind == "f":
+        bad = ~np.isfinite(np.ma.getdata(column)) & ~np.ma.getmaskarray(column)
+        if bad.any():
+            row = int(np.argmax(bad))
+            item = block.first + row * len(block) // len(column)
+            raise ValueError(f"column `{name}` is {np.ma.getdata(column)[row]} at item {item}: mask what is missing")
+    return column

@@ -1,0 +1,131 @@
+"""One part, on whatever machine: work it out, write its file, tell a few numbers of it.
+
+The sweep itself lies in the folder as a pickle, so that a task is small and any worker that sees the folder can take it.
+What goes wrong is told as a value: the same error would come again anywhere.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib
+import pickle
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import armill
+from armill import _armill
+from armill.scale.errors import needed
+from armill.scale.files import FULL, write_whole
+from armill.scale.manifest import Done, part_path
+from armill.scale.planning import Plan
+from armill.scale.table import table_of
+
+
+@dataclass(frozen=True)
+class Failed:
+    """A part that cannot be worked out or written, and why."""
+
+    part: int
+    why: str
+
+
+@dataclass(frozen=True)
+class Task:
+    """Works out a part when it is called with its number."""
+
+    folder: str
+    pickle_name: str
+    fingerprint: str
+    version: str
+    arithmetic: str
+    threads: int
+
+    def __call__(self, part: int) -> Done | Failed:
+        """part -> Done or Failed."""
+        try:
+            return self._done(part)
+        except OSError as error:
+            if error.errno in FULL:
+                return Failed(part, f"the disk of {self.folder} is full ({error.strerror}): make room")
+            return Failed(part, f"part {part}: {error}")
+        except Exception as error:
+            return Failed(part, f"part {part}{self._items(part)} failed: {type(error).__name__}: {error}")
+
+    def _items(self, part: int) -> str:
+        """Which items they are, where that can be told."""
+        try:
+            first, last = self._plan().span(part)
+        except Exception:
+            return ""
+        return f" (items {first} to {last - 1})"
+
+    def _plan(self) -> Plan:
+        return _plan(self.folder, self.pickle_name)
+
+    def _done(self, part: int) -> Done:
+        if armill.__version__ != self.version:
+            raise RuntimeError(f"this worker has armill {armill.__version__}, the sweep was begun with {self.version}")
+        if _armill.arithmetic() != self.arithmetic:
+            raise RuntimeError(f"this worker rounds {_armill.arithmetic()}, the sweep was begun on one that rounds {self.arithmetic}")
+        plan = self._plan()
+        before = time.perf_counter()
+        table = table_of(plan.sweep, *plan.span(part), self.threads)
+        table = table.replace_schema_metadata({"armill.sweep": self.fingerprint})
+        data = _parquet(table)
+        write_whole(part_path(Path(self.folder), part), data)
+        columns = tuple((column.name, str(column.type)) for column in table.schema)
+        took = time.perf_counter() - before
+        return Done(part, table.num_rows, len(data), hashlib.sha256(data).hexdigest(), columns, took)
+
+
+def _parquet(table: Any) -> memoryview:
+    arrow, parquet = needed("pyarrow", "scale"), needed("pyarrow.parquet", "scale")
+    sink = arrow.BufferOutputStream()
+    parquet.write_table(table, sink, compression="zstd")
+    return memoryview(sink.getvalue())
+
+
+@functools.lru_cache(maxsize=2)
+def _plan(folder: str, name: str) -> Plan:
+    """The plan in this file, which is named after what it holds."""
+    try:
+        data = (Path(folder) / name).read_bytes()
+    except FileNotFoundError as error:
+        raise RuntimeError(f"this worker does not see {folder}: a folder is wanted that all machines share") from error
+    if pickle_name(data) != name:
+        raise RuntimeError(f"{folder}/{name} is damaged")
+    plan: Plan = pickle.loads(data)
+    return plan
+
+
+def pickle_name(data: bytes) -> str:
+    """What the file with this pickle is called."""
+    return f".sweep-{hashlib.sha256(data).hexdigest()[:32]}.pickle"
+
+
+def task(plan: Plan, folder: Path, fingerprint: str, threads: int) -> Task:
+    """The task that makes the parts of this plan in this folder, and writes the pickle that it reads."""
+    data = _pickled(plan)
+    name = pickle_name(data)
+    forgotten(folder)
+    write_whole(folder / name, data)
+    return Task(str(folder), name, fingerprint, armill.__version__, _armill.arithmetic(), threads)
+
+
+def forgotten(folder: Path) -> None:
+    """Takes the pickle away: nobody is at work."""
+    for old in folder.glob(".sweep-*.pickle"):
+        old.unlink(missing_ok=True)
+
+
+def _pickled(plan: Plan) -> bytes:
+    try:
+        # It takes functions of a script and of a notebook too; it comes with both backends.
+        pickler: Any = importlib.import_module("cloudpickle")
+    except ModuleNotFoundError:
+        pickler = pickle
+    data: bytes = pickler.dumps(plan)
+    return data

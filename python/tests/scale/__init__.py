@@ -1,0 +1,1 @@
+"""Sweeps: what is asked, folders, backends, and those that are ready-made."""

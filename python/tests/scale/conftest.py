@@ -1,0 +1,99 @@
+"""What the tests of sweeps share: clusters that are started once, and what lies in a folder."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("pyarrow", reason='sweeps need pyarrow: pip install "armill[scale]"')
+
+
+def sums(folder: Path) -> list[str]:
+    """SHA-256 of all parts."""
+    parts = sorted((folder / "parts").iterdir())
+    return [hashlib.sha256(part.read_bytes()).hexdigest() for part in parts]
+
+
+def manifest(folder: Path) -> dict[str, Any]:
+    told: dict[str, Any] = json.loads((folder / "manifest.json").read_text())
+    return told
+
+
+class Killer:
+    """Kills a process by signal when a folder holds so many parts, and notes how many it holds then."""
+
+    def __init__(self, folder: Path, parts: int, victim: Callable[[], int]) -> None:
+        self._parts, self._folder, self._victim = parts, folder, victim
+        self.there = -1
+        self._thread = threading.Thread(target=self._wait)
+        self._thread.start()
+
+    def _wait(self) -> None:
+        until = time.monotonic() + 60
+        while time.monotonic() < until and self._count() < self._parts:
+            time.sleep(0.005)
+        os.kill(self._victim(), signal.SIGKILL)
+        self.there = self._count()
+
+    def _count(self) -> int:
+        return len(list(self._folder.glob("parts/part-*")))
+
+    def join(self) -> int:
+        """How many parts there were when it was killed."""
+        self._thread.join()
+        return self.there
+
+
+def busy_of_ray(ray: Any) -> Callable[[], int]:
+    """Gives a process of Ray that is at work on a part."""
+
+    @ray.remote
+    def own_pid() -> int:
+        time.sleep(0.2)
+        return os.getpid()
+
+    pids = set(ray.get([own_pid.remote() for _ in range(8)]))
+
+    def busy() -> int:
+        until = time.monotonic() + 30
+        while time.monotonic() < until:
+            for pid in pids:
+                # Ray writes there what a process is at.
+                if Path(f"/proc/{pid}/cmdline").read_bytes().startswith(b"ray::_part"):
+                    return pid
+        raise AssertionError("no process of ray is at work on a part")
+
+    return busy
+
+
+@pytest.fixture(scope="session")
+def cluster() -> Iterator[Any]:
+    """Four workers of Dask, whose nannies start another where one dies."""
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+        yield cluster
+
+
+@pytest.fixture(scope="session")
+def client(cluster: Any) -> Iterator[Any]:
+    distributed = pytest.importorskip("distributed")
+    with distributed.Client(cluster, set_as_default=False) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def four_of_ray() -> Iterator[Any]:
+    """Ray with four processors."""
+    ray = pytest.importorskip("ray")
+    ray.init(num_cpus=4, include_dashboard=False, logging_level="error", log_to_driver=False)
+    yield ray
+    ray.shutdown()

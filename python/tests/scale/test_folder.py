@@ -1,0 +1,209 @@
+"""Folders: of another sweep, damaged, half done, not writable, full."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Container
+from pathlib import Path
+
+import pytest
+
+import armill
+from armill import scale
+from armill.scale import files
+
+from . import works
+from .conftest import manifest, sums
+
+
+@pytest.fixture
+def whole(tmp_path: Path) -> Path:
+    """The 20 parts of a sweep that is done."""
+    scale.run(works.waves(), tmp_path / "whole", items_per_part=50)
+    return tmp_path / "whole"
+
+
+def test_a_sweep_that_is_done_is_not_done_again(whole: Path) -> None:
+    times = [part.stat().st_mtime_ns for part in sorted((whole / "parts").iterdir())]
+    again = scale.run(works.waves(), whole)
+    assert (again.done_before, again.redone, again.task_seconds) == (20, (), 0.0)
+    assert [part.stat().st_mtime_ns for part in sorted((whole / "parts").iterdir())] == times
+
+
+def test_another_sweep_is_refused_with_what_differs(whole: Path) -> None:
+    with pytest.raises(armill.InputError, match=r"holds another sweep: axis row: 40 there, 41 here; work\.scale: <f8 40"):
+        scale.run(works.waves(41), whole)
+
+
+def test_another_version_is_another_sweep(whole: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(armill, "__version__", "9.9.9")
+    with pytest.raises(armill.InputError, match=r"armill: .* there, 9\.9\.9 here"):
+        scale.run(works.waves(), whole)
+
+
+def test_other_parts_are_refused(whole: Path) -> None:
+    with pytest.raises(armill.InputError, match="has parts of 50 items, asked for are 60"):
+        scale.run(works.waves(), whole, items_per_part=60)
+
+
+def test_damaged_half_and_missing_parts_are_done_again(whole: Path) -> None:
+    before = sums(whole)
+    parts = sorted((whole / "parts").iterdir())
+    data = bytearray(parts[3].read_bytes())
+    data[len(data) // 2] ^= 1
+    parts[3].write_bytes(data)
+    parts[7].write_bytes(parts[7].read_bytes()[:100])
+    parts[11].unlink()
+    with pytest.raises(armill.InputError, match="2 parts are not as they were written: 7, 11"):
+        scale.read(whole)
+    with pytest.raises(armill.InputError, match="3 parts are not as they were written: 3, 7, 11"):
+        scale.read(whole, verify=True)
+    again = scale.run(works.waves(), whole)
+    assert (again.done_before, again.redone) == (17, (3, 7, 11))
+    assert sums(whole) == before
+
+
+def test_a_half_done_sweep_is_read_only_where_that_is_asked(whole: Path) -> None:
+    told = manifest(whole)
+    told["parts"] = told["parts"][2:5]
+    (whole / "manifest.json").write_text(json.dumps(told))
+    with pytest.raises(armill.InputError, match="holds 3 of 20 parts"):
+        scale.read(whole)
+    frame = scale.read(whole, partial=True).to_table()
+    assert frame.num_rows == 150
+    assert frame["row"][0].as_py() == 4
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["", "{}", "[]", '{"format": 2}', "{", '{"format": 1, "asked": {}}', "\x00"],
+)
+def test_a_manifest_that_is_none_is_refused(whole: Path, text: str) -> None:
+    (whole / "manifest.json").write_text(text)
+    for ask in (lambda: scale.run(works.waves(), whole), lambda: scale.read(whole)):
+        with pytest.raises(armill.InputError, match="is no manifest of a sweep"):
+            ask()
+
+
+def test_a_changed_manifest_is_noticed(whole: Path) -> None:
+    told = manifest(whole)
+    told["asked"]["axis row"] = "41"
+    (whole / "manifest.json").write_text(json.dumps(told))
+    with pytest.raises(armill.InputError, match="do not belong together"):
+        scale.read(whole)
+
+
+def test_a_folder_without_sweep_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(armill.InputError, match="holds no sweep"):
+        scale.read(tmp_path)
+
+
+def test_a_folder_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(armill.InputError, match="cannot write into"):
+        scale.run(works.waves(), tmp_path / "file")
+
+
+def test_two_runs_do_not_share_a_folder(tmp_path: Path) -> None:
+    with files.alone_in(tmp_path), pytest.raises(armill.InputError, match="another run is at work"):
+        scale.run(works.waves(), tmp_path)
+
+
+@pytest.mark.parametrize(("also", "kept"), [((), 6), (range(10, 99), 0)], ids=["room for the manifest", "none"])
+def test_a_disk_that_gets_full_half_way_tells_what_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, also: Container[int], kept: int
+) -> None:
+    real, written = os.fsync, []
+
+    def fsync(number: int) -> None:
+        written.append(number)
+        # The manifest, the sweep, six parts; then it is full, but for what the failed part gives back.
+        if len(written) == 9 or len(written) in also:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        real(number)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    with pytest.raises(scale.SweepFailed, match=r"is full \(No space left on device\): make room\n  \d+ of 20 parts are kept") as error:
+        scale.run(works.waves(), tmp_path, items_per_part=50, workers=1)
+    assert not list(tmp_path.rglob(".*.unfinished"))
+    assert f"{len(manifest(tmp_path)['parts'])} of 20" in str(error.value)
+    # Parts may have been written while the others were told.
+    assert len(manifest(tmp_path)["parts"]) in ((0,) if kept == 0 else (kept, kept + 1, kept + 2))
+    monkeypatch.undo()
+    again = scale.run(works.waves(), tmp_path)
+    assert again.done_before in ((0,) if kept == 0 else (kept, kept + 1, kept + 2))
+    assert len(sums(tmp_path)) == 20
+
+
+def test_a_part_that_fails_tells_its_items_and_keeps_the_others(tmp_path: Path) -> None:
+    told = r"part 7 \(items 70 to 79\) failed: ValueError: joint 3 at 151\.2 deg exceeds its limit of 150\.0 deg\n  7 of 10 parts"
+    with pytest.raises(scale.SweepFailed, match=told):
+        scale.run(scale.Sweep({"i": 100}, works.refuses), tmp_path, items_per_part=10, workers=1)
+    assert len(manifest(tmp_path)["parts"]) == 7
+
+
+def test_bad_numbers_of_workers_are_refused(tmp_path: Path) -> None:
+    for name in ("workers", "threads_per_worker", "items_per_part"):
+        with pytest.raises(armill.InputError, match=f"{name} is 0"):
+            scale.run(works.waves(), tmp_path, **{name: 0})
+    with pytest.raises(armill.InputError, match="there is no backend 'slurm'"):
+        scale.run(works.waves(), tmp_path, "slurm")
+
+
+SCRIPT = """
+import sys
+sys.path.insert(0, {tests!r})
+from scale import works
+from armill import scale
+scale.run(works.waves(seconds=0.05), {folder!r}, "local", workers=2, items_per_part=10, progress={progress})
+"""
+
+
+def started(folder: Path, progress: bool = False) -> subprocess.Popen[str]:
+    script = SCRIPT.format(tests=str(Path(__file__).parents[1]), folder=str(folder), progress=progress)
+    return subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.PIPE, text=True)
+
+
+def has_parts(folder: Path, count: int, process: subprocess.Popen[str]) -> None:
+    """Waits until the manifest has so many parts."""
+    until = time.monotonic() + 30
+    while time.monotonic() < until and process.poll() is None:
+        if (folder / "manifest.json").exists() and len(manifest(folder)["parts"]) >= count:
+            return
+        time.sleep(0.02)
+    raise AssertionError(f"the run did not come so far: {process.communicate()[1]}")
+
+
+def test_a_run_that_is_killed_goes_on_where_it_was(tmp_path: Path) -> None:
+    process = started(tmp_path / "killed")
+    has_parts(tmp_path / "killed", 20, process)
+    process.kill()
+    assert process.wait() == -signal.SIGKILL
+    assert process.stderr is not None
+    process.stderr.close()
+    kept = {part["part"] for part in manifest(tmp_path / "killed")["parts"]}
+    files = [tmp_path / "killed" / "parts" / f"part-{part:06d}.parquet" for part in sorted(kept)]
+    times = [file.stat().st_mtime_ns for file in files]
+    again = scale.run(works.waves(seconds=0.05), tmp_path / "killed", workers=8)
+    assert again.done_before == len(kept)
+    assert again.part_count == 100
+    assert [file.stat().st_mtime_ns for file in files] == times, "parts that were done stay"
+    scale.run(works.waves(seconds=0.05), tmp_path / "undisturbed", items_per_part=10, workers=50)
+    assert sums(tmp_path / "killed") == sums(tmp_path / "undisturbed")
+
+
+def test_ctrl_c_keeps_what_is_done_and_says_so(tmp_path: Path) -> None:
+    process = started(tmp_path, progress=True)
+    has_parts(tmp_path, 1, process)
+    process.send_signal(signal.SIGINT)
+    _, told = process.communicate(timeout=30)
+    assert "Cancelled: cancelled: " in told
+    assert "of 100 parts are kept in" in told
+    assert 1 <= len(manifest(tmp_path)["parts"]) < 100
+    assert not list(tmp_path.rglob(".*.unfinished"))

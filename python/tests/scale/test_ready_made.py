@@ -1,0 +1,246 @@
+"""Sweeps that are ready-made, held against the calls that they are made of, and the large one with a worker killed."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import armill
+from armill import scale
+from armill.scale.fingerprint import asked
+from armill.scale.sweeps.studies import toml_of
+
+from .conftest import Killer, busy_of_ray, manifest, sums
+
+RING = """format = 1
+robot = "yaskawa/mh12"
+limit_um = 200
+tool = { flange_from_tool_mm_deg = [0, 0, 100, 0, 0, 0] }
+plane = { centre_mm = [1000, 0, 800], half_size_mm = 150, step_mm = 75 }
+load = { cases_n = [[3, -5, -5], [3, -5, 5], [3, 5, -5], [3, 5, 5]] }
+[[ask]]
+kind = "path"
+name = "ring"
+circle = { radius_mm = 100 }
+"""
+
+
+@pytest.fixture
+def ring(tmp_path: Path) -> armill.Study:
+    return armill.Study.from_text(RING, tmp_path)
+
+
+def test_places_are_judged_as_the_study_that_has_the_part_there(ring: armill.Study) -> None:
+    drawn = ring.drawn_place()
+    assert drawn.tolist() == [1.0, 0.0, 0.8, 0.0, 0.0, 0.0, 0.0]
+    judged = ring.judge([drawn, drawn + [0.05, 0.1, -0.1, 0, 0, 0, 0]])
+    assert (judged.point_count, judged.case_count, len(judged)) == (360, 4, 2)
+    for cost, centre in zip(judged.cost, ([1000, 0, 800], [1050, 100, 700]), strict=True):
+        told = armill.Study.from_text(RING.replace("[1000, 0, 800]", str(centre)), ".").run().answer
+        assert abs(told["paths"][0]["max_in_plane_um"] - cost * 1e6) < 1e-3, "answers have three decimals"
+    assert judged.lost.tolist() == [0, 0]
+    assert set(judged.branch) == {"front elbow-up no-flip"} or len(judged.branch) == 2
+
+
+def test_one_place_is_answered_without_the_first_axis(ring: armill.Study) -> None:
+    judged = ring.judge(ring.drawn_place())
+    assert judged.cost.shape == judged.lost.shape == ()
+    assert judged.cost == ring.judge([ring.drawn_place()]).cost[0]
+
+
+def test_any_number_of_threads_judges_alike(ring: armill.Study) -> None:
+    places = ring.drawn_place() + np.linspace(-0.2, 0.2, 70)[:, None] * [1, 1, 1, 1, 1, 0, 1]
+    one, three = (ring.judge(places, threads=threads) for threads in (1, 3))
+    assert one.cost.tobytes() == three.cost.tobytes()
+    assert one.branch == three.branch
+
+
+@pytest.mark.parametrize(
+    ("places", "told"),
+    [
+        (np.zeros((3, 5)), r"places: expected shape \(n, 6\), \(n, 7\) or \(n, 8\)"),
+        (np.zeros((2, 3, 6)), "expected shape"),
+        ([[0, 0, np.nan, 0, 0, 0]], r"places\[0, 2\] is"),
+        (np.zeros((1, 8)), "stands on no rail"),
+    ],
+)
+def test_places_that_cannot_be_are_refused(ring: armill.Study, places: Any, told: str) -> None:
+    with pytest.raises(armill.InputError, match=told):
+        ring.judge(places)
+    with pytest.raises(armill.InputError, match="other"):
+        ring.judge(np.zeros((1, 6)), ask="other")
+
+
+def test_a_study_travels(ring: armill.Study) -> None:
+    again = pickle.loads(pickle.dumps(ring))
+    assert (again.text, again.folder) == (ring.text, ring.folder)
+    assert again.judge([ring.drawn_place()]).cost == ring.judge([ring.drawn_place()]).cost
+
+
+def test_placements_over_degrees(ring: armill.Study, tmp_path: Path) -> None:
+    x, spin = np.linspace(0.7, 2.5, 19), np.radians([-30, 0, 30])
+    sweep = scale.placements(ring, x=x, spin=spin)
+    assert sweep.evaluation_count == 19 * 3 * 360 * 4
+    frame = scale.run(sweep, tmp_path / "sweep", items_per_part=10, workers=2).read().to_table()
+    places = np.tile(ring.drawn_place(), (57, 1))
+    places[:, 0], places[:, 6] = np.repeat(x, 3), np.tile(spin, 19)
+    judged = ring.judge(places)
+    assert frame["lost_points"].to_pylist() == judged.lost.tolist()
+    assert frame["branch"].to_pylist() == judged.branch
+    assert np.allclose(frame["x_mm"], np.repeat(x, 3) * 1e3)
+    assert np.allclose(frame["spin_deg"], np.tile([-30, 0, 30], 19))
+    costs = frame["cost_um"].to_pylist()
+    all_lost = judged.lost == 360
+    assert all_lost.any()
+    assert not all_lost.all()
+    assert [cost is None for cost in costs] == all_lost.tolist()
+    assert [cost for cost in costs if cost is not None] == (judged.cost[~all_lost] * 1e6).tolist()
+
+
+def test_placements_told_one_by_one(ring: armill.Study, tmp_path: Path) -> None:
+    places = ring.drawn_place()[:6] + np.linspace(0, 0.1, 7)[:, None]
+    frame = scale.run(scale.placements(ring, places), tmp_path / "sweep").read().to_table()
+    assert frame["cost_um"].to_pylist() == (ring.judge(places).cost * 1e6).tolist()
+    assert frame["place"].to_pylist() == list(range(7))
+
+
+def test_placements_that_cannot_be_are_refused(ring: armill.Study) -> None:
+    with pytest.raises(armill.InputError, match="a place has no degree `yaw`"):
+        scale.placements(ring, yaw=[0.0])
+    with pytest.raises(armill.InputError, match="stands on no rail"):
+        scale.placements(ring, rail=[0.0])
+    with pytest.raises(armill.InputError, match="twice or not at all"):
+        scale.placements(ring)
+    with pytest.raises(armill.InputError, match="x: expected finite numbers"):
+        scale.placements(ring, x=[np.inf])
+
+
+def test_a_file_that_a_study_names_is_part_of_what_is_asked(tmp_path: Path) -> None:
+    robot = armill.Robot.load("yaskawa/mh12").to_toml()
+    (tmp_path / "arm.toml").write_text(robot)
+    study = armill.Study.from_text(RING.replace("yaskawa/mh12", "arm.toml"), tmp_path)
+    before = asked(scale.placements(study, x=[0.9]))
+    assert before == asked(scale.placements(study, x=[0.9]))
+    (tmp_path / "arm.toml").write_text(robot + "\n# measured again\n")
+    after = asked(scale.placements(study, x=[0.9]))
+    assert [name for name in after if after[name] != before[name]] == ["work.files"]
+
+
+def test_deviations_are_those_of_hold(tmp_path: Path) -> None:
+    robot = armill.Robot.load("yaskawa/mh12")
+    joints = np.radians(np.random.default_rng(3).uniform(-25, 25, (40, 6)) + [0, 20, -10, 0, 40, 0])
+    poses = robot.forward(joints)
+    poses[7, 0, 3] = 9.0
+    forces = [[30.0, 0, -50], [0, 40, -50], [0, 0, -80]]
+    samples = robot.joint_compliance * np.random.default_rng(4).uniform(0.8, 1.2, (5, 6))
+    sweep = scale.deviations(robot, poses, forces, samples, normal=[0, 0, 1])
+    assert sweep.evaluation_count == 5 * 40 * 3
+    frame = scale.run(sweep, tmp_path, items_per_part=27, workers=2).read().to_table()
+    assert frame["sample"].to_pylist() == np.repeat(np.arange(5), 120).tolist()
+    assert frame["case"].to_pylist() == [0, 1, 2] * 200
+    held = [robot.with_compliance(sample).hold(poses, forces, normal=[0, 0, 1]) for sample in samples]
+    wanted = np.concatenate([each.deviation for each in held]).reshape(-1, 3) * 1e6
+    missing = np.repeat(np.concatenate([~each.held for each in held]), 3)
+    assert 0 < missing.sum() < len(missing)
+    for axis, name in enumerate(("dx_um", "dy_um", "dz_um")):
+        column = frame[name].to_pylist()
+        assert [value is None for value in column] == missing.tolist()
+        assert [value for value in column if value is not None] == wanted[~missing, axis].tolist()
+
+
+def test_deviations_that_cannot_be_are_refused() -> None:
+    robot = armill.Robot.load("yaskawa/mh12")
+    pose = robot.forward(np.zeros((1, 6)))
+    with pytest.raises(armill.InputError, match=r"samples: .* shape \(n, 6\), given \(1, 5\)"):
+        scale.deviations(robot, pose, [0, 0, 1], np.ones(5))
+    with pytest.raises(armill.InputError, match=r"poses: expected shape \(n, 4, 4\)"):
+        scale.deviations(robot, pose[0], [0, 0, 1])
+    with pytest.raises(ValueError, match="forces"):
+        scale.deviations(robot, pose, [0, 0])
+
+
+def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> None:
+    robots = ["yaskawa/mh12", "fanuc/r2000ic"]
+    sweep = scale.studies(
+        [ring],
+        [{}, {"plane.centre_mm": [1050, 50, 700]}],
+        robots=robots,
+        columns={"mean_um": "paths.0.mean_in_plane_um", "roundness_um": "paths.0.roundness_um"},
+    )
+    frame = scale.run(sweep, tmp_path / "sweep", items_per_part=1).read().to_table()
+    changed = RING.replace("[1000, 0, 800]", "[1050, 50, 700]")
+    for row, (robot, text) in enumerate((robot, text) for robot in robots for text in (RING, changed)):
+        answer = armill.Study.from_text(text.replace("yaskawa/mh12", robot), ".").run().answer
+        assert frame["answer"][row].as_py() == answer["answer"]
+        assert frame["max_in_plane_um"][row].as_py() == answer["paths"][0]["max_in_plane_um"]
+        assert frame["roundness_um"][row].as_py() == answer["paths"][0]["roundness_um"]
+        assert frame["warnings"][row].as_py() == len(answer["warnings"])
+
+
+def test_a_change_that_cannot_be_is_told_before_anything_runs(ring: armill.Study) -> None:
+    with pytest.raises(armill.InputError, match="limit"):
+        scale.studies([ring], [{}, {"limit_um": -1}])
+
+
+def test_a_column_that_no_result_has_is_told(ring: armill.Study, tmp_path: Path) -> None:
+    sweep = scale.studies([ring], columns={"x": "paths.7.roundness_um"})
+    with pytest.raises(scale.SweepFailed, match=r"the result has no `paths\.7\.roundness_um`"):
+        scale.run(sweep, tmp_path / "sweep", items_per_part=1)
+
+
+def test_tables_are_written_as_they_are_read() -> None:
+    tomllib = pytest.importorskip("tomllib")
+    table = {"a": 1, "b c": {"d": [1.5, 1e-300, -0.0], "e": [{"f": True}, {}]}, "g": 'x"\\\n\x7f\u00b5\t', "h": []}
+    assert tomllib.loads(toml_of(table)) == table
+
+
+# ---- 10^8 evaluations
+
+
+@pytest.fixture(scope="session")
+def large(tmp_path_factory: pytest.TempPathFactory) -> scale.Plan:
+    """A ring of 360 points under 4 cases at 70 000 places: 1.008e8 evaluations in 70 parts."""
+    ring = armill.Study.from_text(RING, tmp_path_factory.mktemp("ring"))
+    axes = {"x": np.linspace(0.8, 1.1, 50), "y": np.linspace(-0.2, 0.2, 40), "spin": np.linspace(-0.6, 0.6, 35)}
+    plan = scale.plan(scale.placements(ring, **axes), items_per_part=1000)
+    assert plan.sweep.evaluation_count > 1e8
+    return plan
+
+
+@pytest.fixture(scope="session")
+def undisturbed(large: scale.Plan, tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """The parts of it that threads of one process make."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    scale.run(large, folder / "sweep")
+    found = sums(folder / "sweep")
+    shutil.rmtree(folder)
+    return found
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_hundred_million_on_dask_with_a_worker_killed_are_those_undisturbed(
+    large: scale.Plan, undisturbed: list[str], client: Any, tmp_path: Path
+) -> None:
+    pids = client.run(os.getpid)
+    killer = Killer(tmp_path, 10, lambda: next(iter(pids.values())))
+    done = scale.run(large, tmp_path, client)
+    assert 10 <= killer.join() < 70, "killed in the middle"
+    assert (done.part_count, done.rows) == (70, 70_000)
+    assert sums(tmp_path) == undisturbed
+    assert manifest(tmp_path)["complete"]
+
+
+@pytest.mark.filterwarnings("default")
+def test_a_hundred_million_on_ray_with_a_worker_killed_are_those_undisturbed(
+    large: scale.Plan, undisturbed: list[str], four_of_ray: Any, tmp_path: Path
+) -> None:
+    killer = Killer(tmp_path, 10, busy_of_ray(four_of_ray))
+    scale.run(large, tmp_path, "ray")
+    assert 10 <= killer.join() < 70, "killed in the middle"
+    assert sums(tmp_path) == undisturbed

@@ -1,0 +1,127 @@
+"""What is asked, its parts, and the rows that come out."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import armill
+from armill import scale
+from armill.scale.fingerprint import asked
+
+from . import works
+from .conftest import manifest, sums
+
+
+def test_items_are_all_combinations_and_the_last_axis_is_fastest() -> None:
+    block = scale.Sweep({"a": 3, "b": 4}, works.refuses).block(3, 9)
+    assert block["a"].tolist() == [0, 1, 1, 1, 1, 2]
+    assert block["b"].tolist() == [3, 0, 1, 2, 3, 0]
+    assert len(block) == 6
+
+
+@pytest.mark.parametrize(
+    ("axes", "told"),
+    [({}, "no axis"), ({"a": 0}, "length 0"), ({"a b": 3}, "no name"), ({"a": 2**40, "b": 2**40}, "more than can")],
+)
+def test_axes_that_cannot_be_are_refused(axes: dict[str, int], told: str) -> None:
+    with pytest.raises(armill.InputError, match=told) as error:
+        scale.Sweep(axes, works.refuses)
+    assert error.value.problems[0]["hint"]
+
+
+def test_parts_cover_the_items_once() -> None:
+    plan = scale.plan(works.waves(), items_per_part=37)
+    spans = [plan.span(part) for part in range(plan.part_count)]
+    assert [first for first, _ in spans] == [0, *(last for _, last in spans[:-1])]
+    assert spans[-1][1] == 1000
+
+
+def test_a_part_is_planned_to_take_longer_than_sending_it() -> None:
+    plan = scale.plan(works.waves(4000, 2500))
+    began = time.perf_counter()
+    plan.sweep.work(plan.sweep.block(*plan.span(0)))
+    assert time.perf_counter() - began > 0.02, "half of 50 ms, for clocks and neighbours"
+    assert plan.part_count > 4
+    assert "in all on one worker here" in str(plan)
+
+
+def test_rows_come_in_the_order_of_the_items_whatever_the_parts(tmp_path: Path) -> None:
+    few = scale.run(works.waves(), tmp_path / "few", items_per_part=333)
+    many = scale.run(works.waves(), tmp_path / "many", items_per_part=40, workers=3)
+    assert few.read().to_table().equals(many.read().to_table())
+    frame = many.read().to_table()
+    assert frame["row"].to_pylist() == np.repeat(np.arange(40), 25).tolist()
+    at = np.linspace(-3, 7, 40)[frame["row"].to_numpy()] + 0.1 * frame["column"].to_numpy()
+    assert np.array_equal(frame["height_um"].to_numpy(), np.sin(at))
+    assert frame["root_um"].null_count == int((at < 0).sum()) > 0
+    assert (many.rows, many.part_count, many.evaluation_count) == (1000, 25, 3000)
+
+
+def test_an_item_may_have_several_rows(tmp_path: Path) -> None:
+    done = scale.run(scale.Sweep({"i": 10}, works.squares), tmp_path, items_per_part=3)
+    frame = done.read().to_table()
+    assert frame["i"].to_pylist() == [i for i in range(10) for _ in range(2)]
+    assert frame["value"].to_pylist() == [sign * i for i in range(10) for sign in (1.0, -1.0)]
+
+
+@pytest.mark.parametrize(
+    ("columns", "told"),
+    [
+        ({"x": np.array([1.0, np.nan, 3.0])}, "`x` is nan at item 1: mask what is missing"),
+        ({"x": np.zeros(4)}, "4 rows are not so many for each of 3 items"),
+        ({"x": np.zeros(3), "y": np.zeros(6)}, "columns of one length are wanted, given x 3, y 6"),
+        ({"i": np.zeros(3)}, "columns have the names of axes: i"),
+        ({"x": np.zeros((3, 2))}, r"`x` has the shape \(3, 2\)"),
+        ({"x": np.array([None] * 3)}, "`x` holds object"),
+        ({}, "given none"),
+    ],
+)
+def test_columns_that_cannot_be_are_refused_with_their_items(tmp_path: Path, columns: dict[str, object], told: str) -> None:
+    sweep = scale.Sweep({"i": 3}, lambda _: columns)
+    with pytest.raises(scale.SweepFailed, match=rf"part 0 \(items 0 to 2\) failed: ValueError: .*{told}"):
+        scale.run(sweep, tmp_path, items_per_part=3)
+
+
+def test_what_is_asked_is_known_by_its_values() -> None:
+    same = works.waves()
+    assert asked(same) == asked(works.waves())
+    for other in (
+        works.waves(41),
+        works.waves(seconds=0.1),
+        scale.Sweep(same.axes, works.Waves(np.linspace(-3, 7.0000001, 40)), 3),
+        scale.Sweep(same.axes, same.work, 3, seed=1),
+        scale.Sweep(same.axes, works.squares, 3),
+    ):
+        assert asked(other) != asked(same)
+
+
+def test_functions_are_known_by_their_source_and_what_they_enclose() -> None:
+    def of(factor: float) -> scale.Sweep:
+        return scale.Sweep({"i": 3}, lambda block: {"x": factor * block["i"]})
+
+    assert asked(of(2)) == asked(of(2))
+    assert asked(of(2)) != asked(of(3))
+
+
+def test_the_manifest_tells_what_was_asked_and_what_is_there(tmp_path: Path) -> None:
+    done = scale.run(works.waves(), tmp_path, items_per_part=300)
+    told = manifest(tmp_path)
+    assert (told["format"], told["complete"], told["item_count"], told["items_per_part"]) == (1, True, 1000, 300)
+    assert told["asked"]["armill"] == armill.__version__
+    assert told["asked"]["axis row"] == "40"
+    assert told["asked"]["work.scale"].startswith("<f8 40, sha256:")
+    assert [part["sha256"] for part in told["parts"]] == sums(tmp_path)
+    assert [part["rows"] for part in told["parts"]] == [300, 300, 300, 100]
+    assert told["columns"] == [
+        ["row", "int32"],
+        ["column", "int32"],
+        ["height_um", "double"],
+        ["root_um", "double"],
+        ["name", "string"],
+    ]
+    left = sorted(path.name for path in done.folder.iterdir())
+    assert left == [".lock", "manifest.json", "parts"]

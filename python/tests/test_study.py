@@ -1,0 +1,168 @@
+"""A study checked, run and written, with the bytes of the command."""
+
+from __future__ import annotations
+
+import json
+import re
+import subprocess
+import time
+
+import numpy as np
+import pytest
+
+import armill
+from conftest import ROOT
+
+GROOVE = ROOT / "studies/mh12-groove"
+
+
+@pytest.fixture(scope="session")
+def result() -> armill.Result:
+    return armill.Study.load(GROOVE).run()
+
+
+def test_a_study_gives_the_bytes_of_the_command_on_any_number_of_threads(result, command, tmp_path):
+    asked = subprocess.run(
+        [command, "run", GROOVE, "--out", tmp_path / "out", "--no-pictures", "--json"],
+        capture_output=True,
+        check=True,
+    )
+    assert result.json.encode() == asked.stdout
+    assert result.json.encode() == (tmp_path / "out/result.json").read_bytes()
+    assert armill.Study.load(GROOVE).run(threads=1).json == result.json
+    text = (GROOVE / "study.toml").read_text()
+    assert armill.Study.from_text(text, GROOVE).run().json == result.json
+
+
+def test_the_answer_reads_as_values(result):
+    assert result.answer == json.loads(result.json)
+    assert result.sentence == result.answer["answer"] and result.warnings == result.answer["warnings"]
+    assert result.asks == armill.Study.load(GROOVE).asks
+
+
+def test_what_is_written_is_what_the_command_writes(result, command, tmp_path):
+    files = result.write(tmp_path / "here")
+    subprocess.run([command, "run", GROOVE, "--out", tmp_path / "there"], capture_output=True, check=True)
+    names = sorted(path.name for path in (tmp_path / "there").iterdir())
+    assert sorted(path.name for path in (tmp_path / "here").iterdir()) == names
+    assert {path.name for path in files} == set(names) - {".armill-files"}
+    for name in names:
+        assert (tmp_path / "here" / name).read_bytes() == (tmp_path / "there" / name).read_bytes(), name
+    written = armill.Study.load(GROOVE).run(tmp_path / "run", pictures=False)
+    assert (tmp_path / "run/result.json").read_text() == written.json
+    assert not list((tmp_path / "run").glob("*.svg"))
+    for name, svg in result.pictures.items():
+        assert (tmp_path / "there" / f"{name}.svg").read_text() == svg
+
+
+def test_the_live_page_answers_with_the_same_bytes(result, command, tmp_path):
+    import http.client
+    import urllib.parse
+
+    server = subprocess.Popen([command, "serve", GROOVE, "--no-open"], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    try:
+        assert server.stdout is not None
+        url = urllib.parse.urlsplit(server.stdout.readline().decode().strip())
+        token = urllib.parse.parse_qs(url.query or url.fragment)["token"][0]
+        page = http.client.HTTPConnection(url.hostname or "", url.port, timeout=60)
+        headers = {"Authorization": f"Bearer {token}", "Content-Type": "application/json"}
+        page.request("POST", "/api/answer", json.dumps({"text": (GROOVE / "study.toml").read_text()}), headers)
+        answered = page.getresponse()
+        body = answered.read()
+        page.close()
+        assert answered.status == 200, body
+        assert body.rstrip(b"\n") == result.json.encode().rstrip(b"\n")
+    finally:
+        server.terminate()
+        server.communicate()
+
+
+def test_tables_are_read_without_a_copy_by_pyarrow_pandas_and_polars(result):
+    import pandas
+    import polars
+    import pyarrow
+
+    for ask in result.asks:
+        table = result.table(ask)
+        arrow = pyarrow.table(table)
+        assert arrow.column_names == table.columns and arrow.num_rows == len(table) > 0
+        assert pyarrow.schema(table) == arrow.schema
+        described = arrow.schema.field(0).metadata
+        assert described[b"description"]
+        frame = polars.DataFrame(table)
+        assert frame.columns == table.columns and frame.height == len(table)
+        assert pandas.DataFrame.from_arrow(table).shape == (len(table), len(table.columns))
+        for name in table.columns:
+            assert frame[name].null_count() == arrow[name].null_count
+    # Two readers see the same memory.
+    table = result.table()
+    number = next(name for name in table.columns if name.endswith("_mm"))
+    one, two = (pyarrow.table(table)[number].chunk(0).buffers()[1] for _ in range(2))
+    assert one.address == two.address
+
+
+def test_a_table_holds_the_numbers_of_its_parquet_file(result, tmp_path):
+    import pyarrow
+    import pyarrow.parquet
+
+    result.write(tmp_path, pictures=False)
+    for ask in result.asks:
+        table = pyarrow.table(result.table(ask))
+        slug = re.sub(r"[\W_]+", "-", ask.lower()).strip("-")
+        written = pyarrow.parquet.read_table(tmp_path / f"{slug}.parquet")
+        assert written.column_names == table.column_names and written.num_rows == table.num_rows
+        for name in table.column_names:
+            ours, theirs = table[name], written[name]
+            if pyarrow.types.is_floating(ours.type):
+                # A file keeps the decimals that mean something.
+                a, b = (np.asarray(side.fill_null(0.0)) for side in (ours, theirs))
+                assert np.abs(a - b).max() <= 1e-3 * max(1.0, np.abs(a).max()), name
+
+
+def test_an_ask_that_is_not_there_is_told_with_those_there_are(result):
+    with pytest.raises(armill.InputError, match=f"(?s)no ask is called `x`.*{result.asks[0]}"):
+        result.table("x")
+
+
+def test_every_problem_of_a_study_is_told_as_the_command_tells_it(command, tmp_path):
+    text = (GROOVE / "study.toml").read_text() + '\n[[ask]]\nkind = "map"\nlimit = 3\nname = 7\n'
+    (tmp_path / "study.toml").write_text(text)
+    study = armill.Study.load(tmp_path)
+    assert len(study.problems) >= 2
+    for problem in study.problems:
+        assert problem["file"] == str(tmp_path / "study.toml") and problem["line"] > 1 and problem["message"]
+    asked = subprocess.run([command, "check", tmp_path, "--json"], capture_output=True, text=True)
+    assert asked.returncode == 2 and json.loads(asked.stdout)["problems"] == study.problems
+    for fails in (study.check, study.run, lambda: study.asks):
+        with pytest.raises(armill.InputError) as refused:
+            fails()
+        assert refused.value.problems == study.problems
+        assert str(refused.value).rstrip() == asked.stderr.rstrip()
+
+
+def test_progress_is_told_and_what_it_raises_stops_the_run(tmp_path):
+    text = (GROOVE / "study.toml").read_text()
+    fine = text.replace("step_mm = ", "step_mm = 2 # ", 1)
+    assert fine != text
+    study = armill.Study.from_text(fine, GROOVE)
+    told: list[int] = []
+
+    class Enough(Exception):
+        pass
+
+    def progress(count: int) -> None:
+        told.append(count)
+        if count > 0:
+            raise Enough
+
+    start = time.perf_counter()
+    with pytest.raises(Enough):
+        study.run(tmp_path / "out", progress=progress)
+    assert told == sorted(told) and 0 < told[-1] < study.point_count
+    assert time.perf_counter() - start < 30
+    assert not (tmp_path / "out/result.json").exists()
+
+
+def test_a_study_that_is_not_there_is_refused():
+    with pytest.raises(armill.InputError, match="no study at no/such"):
+        armill.Study.load("no/such")

@@ -1,0 +1,157 @@
+"""Any number of threads gives the same bits; Python goes on meanwhile; Ctrl-C stops the work."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import armill
+
+FORCES = [[3.0, -5.0, 5.0], [-20.0, 4.0, 1.0]]
+
+
+def many(mh12, count: int) -> np.ndarray:
+    low, high = mh12.limits.T
+    return low + np.random.default_rng(3).uniform(0.1, 0.9, (count, 6)) * (high - low)
+
+
+def test_any_number_of_threads_gives_the_same_bits(mh12):
+    joints = many(mh12, 5000)
+    poses = mh12.forward(joints)
+
+    def all_of(threads):
+        postures = mh12.inverse(poses, threads=threads)
+        held = mh12.hold(poses, FORCES, normal=[0, 0, 1], threads=threads)
+        return [
+            mh12.forward(joints, threads=threads),
+            mh12.jacobian(joints, threads=threads),
+            mh12.compliance(joints, threads=threads),
+            mh12.deviation(joints, FORCES, threads=threads),
+            mh12.shares(joints, FORCES, threads=threads),
+            postures.joints,
+            postures.pose,
+            held.joints,
+            held.deviation,
+            held.shares,
+            held.in_plane,
+        ]
+
+    witness = all_of(None)
+    for threads in (1, 2, 3):
+        assert all(np.array_equal(a, b) for a, b in zip(all_of(threads), witness))
+    # One after the other too: a block that is done at once is no other than one that is handed out.
+    assert np.array_equal(np.concatenate([mh12.deviation(q[None], FORCES) for q in joints[:50]]), witness[3][:50])
+
+
+def test_python_goes_on_while_armill_works(mh12):
+    joints = many(mh12, 400_000)
+    ticks, stop = 0, threading.Event()
+
+    def tick():
+        nonlocal ticks
+        while not stop.is_set():
+            ticks += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start, before = time.perf_counter(), ticks
+    mh12.shares(joints, FORCES, threads=1)
+    seconds, counted = time.perf_counter() - start, ticks - before
+    stop.set()
+    thread.join()
+    # With the lock held it would count none: one tick in five milliseconds is far less than it could.
+    assert counted > 3 and counted > 200 * seconds / 5, f"{counted} ticks in {seconds:.2f} s"
+
+
+def test_several_threads_of_python_ask_at_once(mh12):
+    joints = many(mh12, 3000)
+    witness = mh12.deviation(joints, FORCES)
+    found: list[np.ndarray | None] = [None] * 6
+
+    def ask(i: int) -> None:
+        found[i] = mh12.deviation(joints, FORCES, threads=1 + i % 3)
+
+    threads = [threading.Thread(target=ask, args=(i,)) for i in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(one, witness) for one in found)
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_a_child_of_a_fork_works_too(mh12):
+    joints = many(mh12, 3000)
+    mh12.forward(joints)
+    child = os.fork()
+    if child == 0:
+        ok = mh12.forward(joints).shape == (3000, 4, 4)
+        os._exit(0 if ok else 1)
+    for _ in range(600):
+        done, status = os.waitpid(child, os.WNOHANG)
+        if done:
+            break
+        time.sleep(0.05)
+    else:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+        pytest.fail("the child waits for threads that it does not have")
+    assert os.waitstatus_to_exitcode(status) == 0
+
+
+LONG = """
+import sys, numpy as np, armill
+robot = armill.Robot.load("yaskawa/mh12")
+joints = np.random.default_rng(1).uniform(-0.5, 0.5, (6_000_000, 6))
+forces = np.array([1.0, 2.0, 3.0])
+print("ready", flush=True)
+try:
+    {work}
+except armill.Cancelled as stopped:
+    assert isinstance(stopped, KeyboardInterrupt)
+    print("stopped:", stopped, flush=True)
+    # What follows an interrupt works as before.
+    assert robot.forward(joints[:1000]).shape == (1000, 4, 4)
+    sys.exit(7)
+"""
+
+
+@pytest.mark.parametrize("work", ["robot.shares(joints, forces, threads=1)"])
+def test_ctrl_c_stops_long_work(work):
+    process = subprocess.Popen([sys.executable, "-c", LONG.format(work=work)], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline() == "ready\n"
+    time.sleep(0.7)
+    asked = time.perf_counter()
+    process.send_signal(signal.SIGINT)
+    told, _ = process.communicate(timeout=60)
+    assert process.returncode == 7, told
+    assert told == "stopped: cancelled: nothing of this answer was written\n"
+    assert time.perf_counter() - asked < 5.0
+
+
+def test_a_handler_of_the_user_is_heard(mh12):
+    class Mine(Exception):
+        pass
+
+    def handler(*_):
+        raise Mine
+
+    joints = many(mh12, 2_000_000)
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(Mine):
+            mh12.shares(joints, FORCES, threads=1)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert isinstance(armill.Cancelled(), KeyboardInterrupt)

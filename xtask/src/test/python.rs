@@ -1,0 +1,98 @@
+//! The Python package: its wheel, its tests, its types.
+//!
+//! | step | fails where |
+//! |---|---|
+//! | environment | `target/python-venv` cannot be made |
+//! | tools | pip cannot install what `python/tests/requirements.txt` names |
+//! | wheel | the package does not build; in the development profile, so that what tests have built is used again |
+//! | installed | the wheel cannot be installed |
+//! | tests | a test fails, those of README and guide included |
+//! | types | the package is typed wrongly (mypy, pyright), or its stubs tell something else than it holds (stubtest) |
+//!
+//! Python with its module `venv` is installed by `apt-get` where it is missing and that is there; without it the steps fail.
+
+use super::install;
+use super::step::Step;
+use std::env;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+/// The environment of the tests.
+const VENV: &str = "target/python-venv";
+/// Where wheels go.
+const WHEELS: &str = "target/python-wheels";
+
+/// Installs what is missing, and gives the steps.
+pub fn steps() -> Vec<Step> {
+    if !has_venv() {
+        install(&["python3", "python3-venv"]);
+    }
+    let mut environment = Command::new("python3");
+    environment.args(["-m", "venv", VENV]);
+    let python = |arguments: &[&str]| in_package("python", arguments);
+    let wheels = at_root(WHEELS).to_string_lossy().into_owned();
+    let interpreter = at_root(VENV).join("bin/python").to_string_lossy().into_owned();
+    let wheel = [
+        "build",
+        "--profile",
+        "dev",
+        "--interpreter",
+        &interpreter,
+        "--out",
+        &wheels,
+    ];
+    let installed = [
+        "-m",
+        "pip",
+        "install",
+        "-q",
+        "--force-reinstall",
+        "--no-deps",
+        "--no-index",
+        "--find-links",
+        &wheels,
+        "armill",
+    ];
+    let tools = ["-m", "pip", "install", "-q", "-r", "tests/requirements.txt"];
+    vec![
+        Step::new("the Python package: environment", environment),
+        Step::new("the Python package: tools", python(&tools)),
+        Step::new("the Python package: wheel", in_package("maturin", &wheel)),
+        Step::new("the Python package: installed", python(&installed)),
+        Step::new("the Python package: tests", python(&["-m", "pytest"])),
+        Step::new("the Python package: types by mypy", python(&["-m", "mypy"])),
+        Step::new(
+            "the Python package: types by pyright",
+            in_package("pyright", &["--pythonpath", &interpreter]),
+        ),
+        Step::new(
+            "the Python package: stubs",
+            python(&["-m", "mypy.stubtest", "armill"]),
+        ),
+    ]
+}
+
+/// A program of the environment, in the folder of the package.
+fn in_package(program: &str, arguments: &[&str]) -> Command {
+    let mut command = Command::new(at_root(VENV).join("bin").join(program));
+    command
+        .args(arguments)
+        .current_dir("python")
+        .env("PYTHONDONTWRITEBYTECODE", "1");
+    command
+}
+
+/// A path of the repository that holds in any folder.
+fn at_root(path: &str) -> PathBuf {
+    env::current_dir().unwrap_or_default().join(path)
+}
+
+/// Whether Python can make an environment.
+fn has_venv() -> bool {
+    let mut command = Command::new("python3");
+    command
+        .args(["-c", "import ensurepip, venv"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
