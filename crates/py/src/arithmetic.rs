@@ -6,5 +6,9 @@ use pyo3::prelude::*;
 /// -> str: `fused` where a product and a sum are rounded once, `plain` where each is. Machines of one kind give the same bits.
 #[pyfunction]
 pub(crate) fn arithmetic() -> &'static str {
-    if Backend::fastest().fuses() { "fused" } else { "plain" }
+    if Backend::fastest().fuses() {
+        "fused"
+    } else {
+        "plain"
+    }
 }

@@ -27,7 +27,9 @@ pub(crate) fn drawn<'py>(
     study: &Study,
     ask: Option<String>,
 ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-    let place = placing(study, ask).map_err(|error| exception(py, &error))?.drawn();
+    let place = placing(study, ask)
+        .map_err(|error| exception(py, &error))?
+        .drawn();
     let numbers = place.part.into_iter().chain([place.spin]).chain(place.rail);
     let numbers: Vec<f64> = numbers.collect();
     array(py, &[numbers.len()], numbers)

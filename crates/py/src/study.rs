@@ -123,7 +123,11 @@ impl Study {
     ///
     /// Without the rail, (7,), where the arm stands on none.
     #[pyo3(signature = (ask=None))]
-    fn drawn_place<'py>(&self, py: Python<'py>, ask: Option<String>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
+    fn drawn_place<'py>(
+        &self,
+        py: Python<'py>,
+        ask: Option<String>,
+    ) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
         let study = self.checked(py).map_err(|error| exception(py, error))?;
         judged::drawn(py, &study, ask)
     }
