@@ -48,6 +48,7 @@ holes = { at_mm = [[0, 0, 0], [60, 20, 0], [-50, 60, 0], [20, -70, 0]] }
 [measured]
 ask = "groove"
 part = "part.csv"
+radius_mm = 100
 ballbar = ["run.csv"]
 `;
 /** A ball-bar run both ways, and a part: ellipses with what reverses. */
@@ -55,7 +56,7 @@ function measured(folder) {
   const um = (a) => 45 * Math.cos(2 * a - 0.7) + 18 * Math.cos(3 * a + 0.4);
   const rows = ["CCW", "CW"].flatMap((way) => Array.from({ length: 360 }, (_, k) => `${k},${(um((k * Math.PI) / 180) + (way === "CCW" ? 12 : -12) * Math.sign(Math.sin((k * Math.PI) / 180 - 0.3))).toFixed(4)},${way},1`));
   writeFileSync(join(folder, "run.csv"), `# radius_mm: 100\nangle_deg,radius_dev_um,direction,run\n${rows.join("\n")}\n`);
-  writeFileSync(join(folder, "part.csv"), `angle_deg,radial_um\n${Array.from({ length: 360 }, (_, k) => `${k},${(um((k * Math.PI) / 180) + 30 * Math.cos((2 * k * Math.PI) / 180)).toFixed(4)}`).join("\n")}\n`);
+  writeFileSync(join(folder, "part.csv"), `angle_deg,deviation_um\n${Array.from({ length: 360 }, (_, k) => `${k},${(um((k * Math.PI) / 180) + 30 * Math.cos((2 * k * Math.PI) / 180)).toFixed(4)}`).join("\n")}\n`);
 }
 let server, browser;
 before(async () => {

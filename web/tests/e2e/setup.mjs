@@ -35,7 +35,7 @@ export async function serve(edit = (text) => text) {
       });
       child.kill("SIGTERM");
     });
-  return { url: page?.url ?? url, folder, stop };
+  return { url: page?.url ?? url, folder, pid: child.pid, stop };
 }
 
 export const launch = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });

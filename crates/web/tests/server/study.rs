@@ -278,7 +278,7 @@ const ARM: &str = r#"<robot name="arm">
 fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
     let study = STUDY.replace(
         "\"yaskawa/mh12\"",
-        "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6] }",
+        "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6], source = \"made up\" }",
     );
     let folder = folder(&study);
     std::fs::write(folder.path().join("arm.urdf"), ARM).unwrap();
