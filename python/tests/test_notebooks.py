@@ -76,4 +76,4 @@ def test_the_place_is_found_and_kept_by_other_compliances():
     text, pictures = ran("placement-with-sensitivity")
     assert pictures == 2
     assert "as drawn  nominal 139.74 um (the study says 139.74)" in text
-    assert "the place found is better in 100.0 % of all draws" in text
+    assert "the place found is better in 100.0 % of all draws" in text and "U twice as soft" in text

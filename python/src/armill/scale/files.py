@@ -34,12 +34,6 @@ def write_whole(path: Path, data: bytes | memoryview) -> None:
 
 def sha256_of(path: Path) -> str:
     """path -> SHA-256 of the file in hexadecimal digits."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest() if hasattr(hashlib, "file_digest") else _digest(path)
-
-
-def _digest(path: Path) -> str:
-    """The same for Python 3.10."""
     whole = hashlib.sha256()
     with path.open("rb") as file:
         while piece := file.read(2**20):
