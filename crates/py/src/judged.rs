@@ -43,10 +43,10 @@ pub(crate) fn judge(
 ) -> PyResult<Judged> {
     let py = places.py();
     let wanted = "(n, 6), (n, 7) or (n, 8), or one without the first axis";
-    let given = Given::of(places, "places", wanted)?;
+    let given = Given::of(places, "places", &wanted)?;
     let length = given.shape().last().copied().unwrap_or(0);
     if !NUMBERS.contains(&length) || given.shape().len() > 2 {
-        return Err(wrong_shape(py, "places", wanted, given.shape()));
+        return Err(wrong_shape(py, "places", &wanted, given.shape()));
     }
     given.finite(py, "places")?;
     let batch = Batch::of(places, "places", &[length])?;
