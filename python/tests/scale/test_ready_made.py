@@ -122,7 +122,7 @@ def test_placements_that_cannot_be_are_refused(ring: armill.Study) -> None:
 
 
 def test_a_file_that_a_study_names_is_part_of_what_is_asked(tmp_path: Path) -> None:
-    robot = armill.Robot.load("yaskawa/mh12").to_toml()
+    robot = (Path(__file__).parents[3] / "robots/yaskawa/mh12.toml").read_text()
     (tmp_path / "arm.toml").write_text(robot)
     study = armill.Study.from_text(RING.replace("yaskawa/mh12", "arm.toml"), tmp_path)
     before = asked(scale.placements(study, x=[0.9]))
@@ -171,7 +171,7 @@ def test_studies_with_robots_and_changes(ring: armill.Study, tmp_path: Path) -> 
         [ring],
         [{}, {"plane.centre_mm": [1050, 50, 700]}],
         robots=robots,
-        columns={"mean_um": "paths.0.mean_in_plane_um", "roundness_um": "paths.0.roundness_um"},
+        columns={"full_um": "paths.0.max_full_um", "roundness_um": "paths.0.roundness_um"},
     )
     frame = scale.run(sweep, tmp_path / "sweep", items_per_part=1).read().to_table()
     changed = RING.replace("[1000, 0, 800]", "[1050, 50, 700]")
