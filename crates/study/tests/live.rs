@@ -6,10 +6,10 @@
 use std::path::Path;
 
 use armill_core::watch::Watch;
-use armill_formats::document::edit::Change;
 use armill_study::answer::answer;
 use armill_study::live::{
-    Place, PostureQuestion, Text, answer_json, changed, outline, pictures, postures, scene, table_csv, values,
+    ChangedValue, Place, PostureQuestion, Text, answer_json, changed, outline, pictures, postures, scene,
+    table_csv, values,
 };
 use armill_study::output::{self, Wanted};
 use armill_study::run::run;
@@ -114,9 +114,10 @@ fn a_broken_ask_is_told_and_leaves_the_others_alone() {
 #[test]
 fn a_change_in_an_ask_mends_it_and_comments_stay() {
     let commented = BROKEN.replace("limit_um = 100", "limit_um = 100 # of the drawing");
-    let change = Change {
-        path: "plane.step_mm".to_owned(),
+    let change = ChangedValue {
+        key: "plane.step_mm".to_owned(),
         value: json!(25),
+        whole: false,
     };
     let told = changed(of(&commented), Some("bad"), &[change]).unwrap();
     assert_eq!(told.text, commented.replace("step_mm = -1", "step_mm = 25"));

@@ -188,8 +188,13 @@ mod tests {
                     .position(|joint| joint.name == name)
                     .map(|i| q[i])
             };
-            let apart = hand.base_from_mesh(position).inverse() * forward(&robot, &q).base_from_flange;
-            assert!(apart.translation.vector.norm() + apart.rotation.angle() < 1e-12);
+            let (mesh, flange) = (
+                hand.base_from_mesh(position),
+                forward(&robot, &q).base_from_flange,
+            );
+            let turned = mesh.rotation.to_rotation_matrix().matrix() - flange.rotation.matrix();
+            let moved = mesh.translation.vector - flange.translation.vector;
+            assert!(moved.norm() + turned.norm() < 1e-12);
         }
     }
 
