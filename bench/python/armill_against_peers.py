@@ -56,7 +56,7 @@ def main():
         except ImportError as problem:
             print("skipped", peer.__name__.removeprefix("of_"), problem, sep="\t")
             continue
-        agree(who, ours[:FEW], run(joints[:FEW]))
+        agree(who, ours, run(joints))
         candidates.append((who, work, FEW, "one by one", lambda run=run: run(joints[:FEW])))
     print_rates(candidates, QUICK_ROUNDS if options.quick else ROUNDS)
     single_calls(robot, joints[0], tool)
