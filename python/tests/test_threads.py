@@ -111,7 +111,8 @@ def test_a_child_of_a_fork_works_too(mh12):
 LONG = """
 import sys, numpy as np, armill
 robot = armill.Robot.load("yaskawa/mh12")
-joints = np.random.default_rng(1).uniform(-0.5, 0.5, (20_000_000, 6))
+joints = np.random.default_rng(1).uniform(-0.5, 0.5, (6_000_000, 6))
+forces = np.array([1.0, 2.0, 3.0])
 print("ready", flush=True)
 try:
     {work}
@@ -124,11 +125,11 @@ except armill.Cancelled as stopped:
 """
 
 
-@pytest.mark.parametrize("work", ["robot.shares(joints, [1, 2, 3], threads=1)"])
+@pytest.mark.parametrize("work", ["robot.shares(joints, forces, threads=1)"])
 def test_ctrl_c_stops_long_work(work):
     process = subprocess.Popen([sys.executable, "-c", LONG.format(work=work)], stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None and process.stdout.readline() == "ready\n"
-    time.sleep(0.3)
+    time.sleep(0.7)
     asked = time.perf_counter()
     process.send_signal(signal.SIGINT)
     told, _ = process.communicate(timeout=60)

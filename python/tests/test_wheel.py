@@ -47,10 +47,10 @@ def test_the_wheel_is_for_every_python_from_3_10_and_typed(wheel):
 
 
 def test_the_import_needs_neither_numpy_nor_time():
-    code = "import time; t = time.perf_counter(); import armill; print(time.perf_counter() - t)"
+    code = "import sys, time; t = time.process_time(); import armill; print(time.process_time() - t); assert 'numpy' not in sys.modules"
     seconds = min(
         float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
         for _ in range(3)
     )
-    # The limit is 150 ms with numpy on a free machine; numpy itself takes two thirds of that where it is asked for.
+    # Of the processor, so that a busy machine does not count. numpy is loaded where it is first asked for.
     assert seconds < 0.15, f"{seconds * 1e3:.0f} ms"

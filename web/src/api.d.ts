@@ -1245,6 +1245,11 @@ export interface components {
             ask?: string | null;
             /** @description How it is written. */
             format?: components["schemas"]["TableFormat"];
+            /**
+             * @description In its place that of the budget of what was measured.
+             * @default false
+             */
+            measured: boolean;
         };
         /** @description How a table is written. */
         TableFormat: "csv";
@@ -3879,6 +3884,8 @@ export interface components {
             name: string;
             /** @description What it shows, in a sentence. */
             title: string;
+            /** @description Whether its numbers are those of the budget of what was measured, not of the table of the ask. */
+            measured: boolean;
             /** @description The picture. */
             svg: string;
         };

@@ -87,7 +87,7 @@ export const api = {
   mesh: async (text: string, file: string) => (await raw("POST", "/api/mesh", { text, file })).arrayBuffer(),
   pose: (text: string, ask: string | null, at: At, load_case: number, signal?: AbortSignal) => json<Pose>("POST", "/api/pose", { text, ask, at, case: load_case }, signal),
   pictures: (text: string, ask: string | null, signal?: AbortSignal) => json<{ pictures: Picture[] }>("POST", "/api/pictures", { text, ask }, signal),
-  table: async (text: string, ask: string | null) => (await raw("POST", "/api/table", { text, ask, format: "csv" })).blob(),
+  table: async (text: string, ask: string | null, measured = false) => (await raw("POST", "/api/table", { text, ask, format: "csv", measured })).blob(),
   png: async (text: string, ask: string | null, name: string) => (await raw("POST", "/api/picture.png", { text, ask, name })).blob(),
   robots: () => json<RobotRow[]>("GET", "/api/robots"),
   jobs: () => json<{ jobs: Job[] }>("GET", "/api/jobs"),

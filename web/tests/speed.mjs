@@ -9,8 +9,10 @@
 // | network | the page asks, to it has the text, without the server |
 // | parse, draw | JSON to values; values to colours, lines, panels |
 // | frame | the rest: the browser's own frame, styles, WebGL handed over |
+// | CPU | what each process computed for one change, whatever else the machine does: server, page, WebGL |
 // | GL | what WebGL still computes when the frame is handed over (a pixel is read back, which waits for it) |
 
+import { readFileSync } from "node:fs";
 import { client, launch, open, serve, settled } from "./e2e/setup.mjs";
 
 const CHANGES = 50;
@@ -23,6 +25,11 @@ posture = { branch = "front elbow-up no-flip" }
 `;
 
 const middle = (list, share) => [...list].sort((a, b) => a - b)[Math.min(list.length - 1, Math.floor(share * list.length))];
+/** CPU time of a process, ms; Linux counts in hundredths of a second. */
+const spent = (pid) => {
+  const fields = readFileSync(`/proc/${pid}/stat`, "utf8").split(") ")[1].split(" ");
+  return 10 * (Number(fields[11]) + Number(fields[12]));
+};
 const row = (name, list) => console.log(`${name.padEnd(22)} ${middle(list, 0.5).toFixed(1).padStart(7)} ${middle(list, 0.95).toFixed(1).padStart(7)} ms`);
 
 const server = await serve(() => STUDY);
@@ -40,6 +47,12 @@ try {
     if (view.answer.maps[0].grid.points !== 101 * 101) throw new Error(`${view.answer.maps[0].grid.points} points`);
   }
   const page = await open(browser, server.url);
+  const system = await browser.newBrowserCDPSession();
+  const cpu = async () => {
+    const { processInfo } = await system.send("SystemInfo.getProcessInfo");
+    const of = (type) => 1e3 * processInfo.filter((p) => p.type === type).reduce((sum, p) => sum + p.cpuTime, 0);
+    return { server: spent(server.pid), page: of("renderer"), WebGL: of("GPU") };
+  };
   const renderer = await page.evaluate(() => {
     const gl = document.querySelector(".stage canvas").getContext("webgl2");
     const told = gl.getExtension("WEBGL_debug_renderer_info");
@@ -47,7 +60,9 @@ try {
   });
   await page.locator("#field-x").focus();
   const found = { picture: [], server: [], network: [], parse: [], draw: [], frame: [], gl: [] };
+  let before = await cpu();
   for (let i = 0; i < CHANGES + 5; i++) {
+    if (i === 5) before = await cpu();
     await page.evaluate(() => {
       performance.clearMeasures();
       performance.clearResourceTimings();
@@ -76,6 +91,8 @@ try {
     for (const [name, value] of Object.entries({ picture, server: own, network: answer - own, parse, draw, frame: picture - answer - parse - draw, gl })) found[name].push(value);
   }
   console.log(`101 x 101 points, 4 cases, ${CHANGES} changes; answer ${(size / 1e3).toFixed(0)} kB; WebGL by ${renderer}`);
+  const after = await cpu();
+  console.log(`CPU of one change with its arm: ${Object.entries(after).map(([name, ms]) => `${name} ${((ms - before[name]) / CHANGES).toFixed(1)} ms`).join(", ")}`);
   console.log(`${"".padEnd(22)}  median     p95`);
   row("server, program asks", alone);
   for (const [name, list] of Object.entries(found)) row(name === "gl" ? "GL behind the frame" : name, list);

@@ -7,7 +7,7 @@
 //! | several numbers (`X,Y,Z`) | a list of them |
 //! | what may be given several times | a list with one element each time |
 //!
-//! Options have the names of their fields: those of the command with `_` for `-`. Each call becomes the words that one would
+//! Options have the names of the command, with `_` for `-`. Each call becomes the words that one would
 //! type, with `--json`, and goes the same way.
 
 use std::ffi::OsString;
@@ -102,7 +102,7 @@ pub fn options_of(name: &str) -> Option<(String, Vec<OptionOf>)> {
         .get_arguments()
         .filter(|arg| is_told(arg))
         .map(|arg| OptionOf {
-            name: arg.get_id().to_string(),
+            name: name_of(arg),
             is_operand: arg.is_positional(),
             help: help(arg.get_help()),
         });
@@ -125,6 +125,12 @@ fn is_told(arg: &Arg) -> bool {
     arg.get_id() != JSON && !matches!(arg.get_action(), ArgAction::Help | ArgAction::Version)
 }
 
+/// What a call names it by: as it is typed, with `_` for `-`; an operand by what it is.
+fn name_of(arg: &Arg) -> String {
+    let typed = arg.get_long().unwrap_or(arg.get_id().as_str());
+    typed.replace('-', "_")
+}
+
 /// The text of what clap refuses, without the word before it.
 fn bare(rendered: &StyledStr) -> String {
     let text = rendered.to_string();
@@ -139,24 +145,21 @@ fn words(call: &Call) -> Result<Vec<OsString>, Refused> {
         return usage(format!("no command `{}` answers in JSON", call.command));
     };
     let mut words = vec!["armill".to_owned(), call.command.clone(), format!("--{JSON}")];
+    let named: Vec<(String, &Arg)> = command
+        .get_arguments()
+        .filter(|arg| is_told(arg) && !arg.is_positional())
+        .map(|arg| (name_of(arg), arg))
+        .collect();
     for (name, told) in &call.options {
-        let mut options = command
-            .get_arguments()
-            .filter(|arg| is_told(arg) && !arg.is_positional());
-        let Some((arg, long)) =
-            options.find_map(|arg| Some((arg, arg.get_long()?)).filter(|_| arg.get_id() == name))
-        else {
-            let known: Vec<&str> = command
-                .get_arguments()
-                .filter(|arg| is_told(arg) && !arg.is_positional())
-                .map(|arg| arg.get_id().as_str())
-                .collect();
+        let Some((_, arg)) = named.iter().find(|(known, _)| known == name) else {
+            let known: Vec<&str> = named.iter().map(|(name, _)| name.as_str()).collect();
             return usage(format!(
                 "`{}` has no option `{name}`: there are {}",
                 call.command,
                 known.join(", ")
             ));
         };
+        let long = name.replace('_', "-");
         match (arg.get_action(), told) {
             (ArgAction::SetTrue, Told::Flag(true)) => words.push(format!("--{long}")),
             (ArgAction::SetTrue, Told::Flag(false)) => {}

@@ -7,7 +7,7 @@ use armill_cli::{Call, Listener, Refused, Told};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
 
-use crate::errors::{InputError, exception, wrong_type};
+use crate::errors::{exception, usage, wrong_type};
 use crate::threads::{Beats, watched};
 
 /// command name, operands, options -> (json, talk, holds): what the command prints on stdout with `--json`, what it says on
@@ -47,7 +47,7 @@ pub(crate) fn ask(
     let answer = watched(py, threads, (beats, tell), || armill_cli::ask(&call, &listener))?;
     match answer {
         Ok(answer) => Ok((answer.json, answer.talk, answer.holds)),
-        Err(Refused::Usage(text)) => Err(InputError::new_err(text)),
+        Err(Refused::Usage(text)) => Err(usage(py, text)),
         Err(Refused::Study(error)) => Err(exception(py, &error)),
     }
 }
@@ -85,13 +85,14 @@ fn told(name: &str, value: &Bound<'_, PyAny>) -> PyResult<Option<Told>> {
     Ok(Some(Told::List(all)))
 }
 
+/// Name, whether it is an operand, help.
+type OptionOf = (String, bool, String);
+
 /// command name -> (help, [(name, is_operand, help)]): what a command says of itself and of its options.
 #[pyfunction]
-pub(crate) fn options(name: &str) -> PyResult<(String, Vec<(String, bool, String)>)> {
+pub(crate) fn options(py: Python<'_>, name: &str) -> PyResult<(String, Vec<OptionOf>)> {
     let Some((about, options)) = armill_cli::options_of(name) else {
-        return Err(InputError::new_err(format!(
-            "no command `{name}` answers in JSON"
-        )));
+        return Err(usage(py, format!("no command `{name}` answers in JSON")));
     };
     let options = options.into_iter();
     Ok((

@@ -8,6 +8,7 @@ use std::fmt::{self, Display};
 
 use numpy::ndarray::{ArrayD, IxDyn};
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::errors::{Fault, refused, wrong_type};
@@ -72,6 +73,10 @@ fn copied<'py>(
     let py = value.py();
     let numpy = py.import("numpy")?;
     let array = numpy.call_method1("asarray", (value,)).map_err(|error| {
+        if !error.is_instance_of::<PyValueError>(py) && !error.is_instance_of::<PyTypeError>(py) {
+            // Such as an interrupt, which says nothing of the array.
+            return error;
+        }
         let kind = value
             .get_type()
             .name()

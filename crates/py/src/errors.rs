@@ -41,6 +41,12 @@ pub(crate) fn refused(py: Python<'_>, message: impl Into<String>, hint: impl Int
     exception(py, &StudyError::value(message, hint))
 }
 
+/// The exception of options that no command takes.
+pub(crate) fn usage(py: Python<'_>, text: String) -> PyErr {
+    let told = StudyError::value(text.as_str(), "see `armill.command_help`");
+    with_problems(py, text, &armill_cli::problems_json(&told))
+}
+
 /// The exception of a value of another type than is wanted.
 pub(crate) fn wrong_type(message: impl Into<String>) -> PyErr {
     PyTypeError::new_err(message.into())

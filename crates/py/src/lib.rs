@@ -15,6 +15,9 @@
 //!
 //! It computes nothing: no mechanics, no units but SI on both sides.
 
+// Options of Python are arguments by keyword.
+#![allow(clippy::too_many_arguments)]
+
 mod answer;
 mod arithmetic;
 mod arrays;
@@ -35,6 +38,7 @@ mod tool_path;
 #[pyo3::pymodule]
 mod _armill {
     /// The version of armill, which is that of the command.
+    #[allow(non_upper_case_globals)]
     #[pymodule_export]
     const __version__: &str = env!("CARGO_PKG_VERSION");
     #[pymodule_export]

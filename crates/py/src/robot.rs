@@ -9,9 +9,8 @@ use armill_core::nalgebra::Vector3;
 use armill_core::robot::{JointCompliance, Robot as Arm};
 use armill_core::source::StiffnessModel;
 use armill_core::source::stiffness_model::FREE_FALL;
+use armill_formats::robot::RobotDescription;
 use armill_formats::robot::format::Format;
-use armill_formats::robot::{RobotDescription, armill};
-use armill_formats::sources::Source;
 use numpy::PyArrayDyn;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -145,7 +144,6 @@ impl Robot {
     /// keeps it.
     #[staticmethod]
     #[pyo3(signature = (*, a1, a2, b, c1, c2, c3, c4, offsets=[0.0; 6], signs=[1; 6], name="robot"))]
-    #[allow(clippy::too_many_arguments)]
     fn from_opw(
         py: Python<'_>,
         a1: f64,
@@ -225,7 +223,6 @@ impl Robot {
         compliance: &Bound<'_, PyAny>,
         standard_uncertainty: Optional<'_, '_>,
     ) -> PyResult<Robot> {
-        const KEY: &str = "given";
         let values = self.one_a_joint(compliance, "compliance")?;
         let doubts = match standard_uncertainty {
             Some(doubts) => self.one_a_joint(doubts, "standard_uncertainty")?,
@@ -239,24 +236,13 @@ impl Robot {
         let robot = description.robot.with_other_compliance(given.collect());
         description.robot =
             robot.map_err(|error| refused(py, error.to_string(), "rad/(N m), one a joint, 0 or more"))?;
-        for note in &mut description.joint_notes {
-            note.compliance_source = Some(KEY.to_owned());
-            note.compliance_u_source = Some(KEY.to_owned());
-        }
-        description.sources.retain(|source| source.key != KEY);
-        description.sources.push(Source {
-            key: KEY.to_owned(),
-            what: "joint compliances given by the caller".to_owned(),
-            place: "with_compliance".to_owned(),
-            licence: "the user's numbers".to_owned(),
-        });
         let source = self.source.with_compliance(values, doubts);
         Ok(Robot::of(source, description))
     }
 
-    /// -> str: the robot as a robot file of armill.
-    fn to_toml(&self) -> String {
-        armill::write(&self.description)
+    /// -> str: the robot as a robot file of armill, seven digits of each compliance that was given.
+    fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
+        self.source.toml(py)
     }
 
     /// (n, dof) joints -> (n, 4, 4) poses, base_from_tool.
@@ -368,7 +354,6 @@ impl Robot {
     /// with the least deviation. `normal` (3,) is the outward normal of the plane that deviations are split on; without,
     /// the plane across the tool, which must then point the same way everywhere.
     #[pyo3(signature = (poses, forces, tool=None, *, branch="nominal", normal=None, home=None, threads=None))]
-    #[allow(clippy::too_many_arguments)]
     fn hold(
         &self,
         poses: &Bound<'_, PyAny>,

@@ -4,7 +4,9 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
+use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 use armill_formats::robot::format::{self, Format, Wanted};
+use armill_formats::robot::spring_tables::Yields;
 use armill_formats::robot::{RobotDescription, armill};
 use armill_study::{library, robots};
 use pyo3::prelude::*;
@@ -116,6 +118,45 @@ impl RobotSource {
         };
         let found = format::read(&self.path, &self.name, &self.bytes, &wanted);
         found.map_err(|problems| exception(py, &problems.into()))
+    }
+
+    /// The robot as a robot file of ours: its own text where it is one, with the compliances that were given in it.
+    ///
+    /// # Errors
+    /// Springs beside the drives, which stand in no list of joint compliances.
+    pub(crate) fn toml(&self, py: Python<'_>) -> PyResult<String> {
+        let found = self.read(py)?;
+        let text = match self.format {
+            Format::Armill => String::from_utf8_lossy(&self.bytes).into_owned(),
+            _ => armill::write(&found),
+        };
+        let Some((values, doubts)) = &self.compliance else {
+            return Ok(text);
+        };
+        if !found.robot.structure().springs.is_empty() {
+            let message = format!("robot `{}` has springs beside its drives", self.name);
+            return Err(refused(py, message, "change the compliances in its robot file"));
+        }
+        let joints = found.robot.joints().iter().enumerate();
+        let springs = joints
+            .zip(values.iter().zip(doubts))
+            .map(|((index, joint), (value, doubt))| IdentifiedSpring {
+                at: joint.name.clone(),
+                yields: match found.robot.slides(index) {
+                    true => Yields::SlidingDrive,
+                    false => Yields::Drive,
+                },
+                compliance: *value,
+                standard_uncertainty: *doubt,
+            });
+        let identified = Identified {
+            springs: springs.collect(),
+            covariance: Vec::new(),
+            what: "joint compliances given by the caller".to_owned(),
+            place: "Robot.with_compliance".to_owned(),
+        };
+        let written = with_springs(&self.path.to_string_lossy(), &text, &identified);
+        written.map_err(|problems| exception(py, &problems.into()))
     }
 
     /// As Python keeps it.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 
-use armill_core::nalgebra::Vector3;
+use armill_core::nalgebra::{Unit, Vector3};
 use armill_core::path::{Course, Move, Operation, Pace, Step};
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{Wanted, read};
@@ -119,9 +119,7 @@ impl ToolPath {
     /// -> (n, 3) tool axes at the ends, from the tip towards the spindle; zeros where the program tells none.
     #[getter]
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f64>>> {
-        self.vectors(py, |told| {
-            told.axis.map_or_else(Vector3::zeros, |axis| axis.into_inner())
-        })
+        self.vectors(py, |told| told.axis.map_or_else(Vector3::zeros, Unit::into_inner))
     }
 
     /// -> (n,) bool: whether the tool cuts on the way.

@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, Place, PostureQuestion, Text, answer_json, mesh_bytes, picture_svg, pictures, postures,
-    scene, table_csv, values, view,
+    ChangedValue, Place, PostureQuestion, Text, answer_json, measured_csv, mesh_bytes, picture_svg, pictures,
+    postures, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -98,6 +98,9 @@ pub(crate) struct OfTable {
     /// How it is written.
     #[serde(default)]
     pub format: TableFormat,
+    /// In its place that of the budget of what was measured.
+    #[serde(default)]
+    pub measured: bool,
 }
 
 /// How a table is written.
@@ -217,7 +220,10 @@ async fn table(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfTable>) -> 
     answered(
         state,
         (of.text, HeaderMap::new(), "text/csv; charset=utf-8"),
-        move |text, watch| table_csv(text, of.ask.as_deref(), watch),
+        move |text, watch| match of.measured {
+            true => measured_csv(text, watch),
+            false => table_csv(text, of.ask.as_deref(), watch),
+        },
     )
     .await
 }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json as _json
-from typing import Any
+from typing import Any, cast
 
 
 class Answer:
@@ -30,15 +30,18 @@ class Answer:
     def __getitem__(self, key: str | int) -> Any:
         return self.data[key]
 
+    def _keys(self) -> list[str]:
+        data = self.data
+        return list(cast("dict[str, Any]", data)) if isinstance(data, dict) else []
+
     def __getattr__(self, name: str) -> Any:
         # What Python itself asks for, such as `__deepcopy__`, is never a key.
-        if not name.startswith("_") and isinstance(self.data, dict) and name in self.data:
+        if not name.startswith("_") and name in self._keys():
             return self.data[name]
         raise AttributeError(f"the answer has no `{name}`: see `answer.data`")
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(self.data if isinstance(self.data, dict) else [])]
+        return [*super().__dir__(), *self._keys()]
 
     def __repr__(self) -> str:
-        keys = ", ".join(self.data) if isinstance(self.data, dict) else f"{len(self.data)} rows"
-        return f"<armill.Answer: {keys}>"
+        return f"<armill.Answer: {', '.join(self._keys()) or f'{len(self.data)} rows'}>"

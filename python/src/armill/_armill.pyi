@@ -8,6 +8,24 @@ from typing import Any, Literal, SupportsFloat, TypeAlias, final
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "Cancelled",
+    "Fault",
+    "Held",
+    "InputError",
+    "Postures",
+    "Result",
+    "Robot",
+    "Study",
+    "Table",
+    "ToolPath",
+    "__version__",
+    "ask",
+    "command",
+    "options",
+    "read_path",
+]
+
 __version__: str
 
 _Path: TypeAlias = str | PathLike[str]

@@ -125,6 +125,7 @@ export class Arm {
     const profile = [[0, 0], [1.9, 0], [1.9, 0.22], [1.75, 0.3], [1.35, 0.36], [1.22, 1.1], [1.1, 1.25], [0, 1.25]].map(([r, z]) => new THREE.Vector2(r! * thick, z! * thick));
     const lathe = new THREE.LatheGeometry(profile, 56).rotateX(Math.PI / 2).translate(base.x, base.y, base.z);
     this.add(lathe, HOUSING);
+    this.limbs.push({ from: base, to: base.clone().setZ(base.z + 1.2 * thick), radius: 1.5 * thick });
   }
 
   private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number): void {

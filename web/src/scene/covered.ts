@@ -8,12 +8,13 @@ export interface Limb {
   radius: number;
 }
 
-/** Whether a limb stands between the eye and the point; what touches the point itself does not. */
-export function isCovered(limbs: Limb[], eye: THREE.Vector3, at: THREE.Vector3): boolean {
+/** Whether a limb, so much stouter, stands between the eye and the point; what touches the point itself does not. */
+export function isCovered(limbs: Limb[], eye: THREE.Vector3, at: THREE.Vector3, stouter = 1): boolean {
   const sight = at.clone().sub(eye);
   const distance = sight.length();
   if (distance === 0) return false;
-  return limbs.some(({ from, to, radius }) => {
+  return limbs.some(({ from, to, radius: thin }) => {
+    const radius = thin * stouter;
     // As far as the point stands free of the limb's own thickness.
     const reach = Math.max(0, 1 - (1.2 * radius) / distance);
     return apart(eye, sight.clone().multiplyScalar(reach), from, to.clone().sub(from)) < radius;

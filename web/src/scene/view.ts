@@ -44,6 +44,9 @@ export type Under = { kind: "map"; index: number; y_mm: number; z_mm: number } |
 /** mm in the picture for 1 µm/N. */
 export const ELLIPSOID = 8;
 
+/** A robot's own shape is so much stouter than the drawn arm. */
+const STOUT = 1.7;
+
 export class SceneView {
   readonly stage: Stage;
   scale: Scale | null = null;
@@ -70,7 +73,7 @@ export class SceneView {
   constructor(private readonly host: HTMLElement, private readonly live: Live) {
     this.stage = new Stage(host);
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
-    this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at);
+    this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
     this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
     live.listen((topic) => {
       if (topic === "answer") this.drawAnswer();
@@ -158,6 +161,7 @@ export class SceneView {
     for (const hidden of [this.force, this.deviation, this.in_plane, this.normal, this.ellipsoid]) hidden.group.visible = false;
     if (drawing && this.new_subject) {
       this.new_subject = false;
+      this.stage.floor(0, this.reach());
       this.look("overview");
       this.magnify();
     }

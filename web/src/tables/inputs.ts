@@ -42,7 +42,7 @@ export function input(path: string, field: Field, value: unknown, taken: (value:
   });
   const root = h(
     "div",
-    { class: `row ${field.kind.of}`, "data-path": path },
+    { class: "row", "data-path": path },
     h("label", { for: `table-${path}`, title: field.about }, name, field.needed ? h("small", {}, " needed") : null),
     h("span", { class: "entry" }, boxes, unit ? h("span", { class: "unit" }, unit) : null),
     error,

@@ -104,7 +104,7 @@ export function jobsTab(live: Live, { go, table }: { go: (tab: string) => void; 
     const tick = (job: Job) => {
       time.textContent = `${ago(job.started_s_ago)}, ${duration(job.seconds)}`;
       const counted = job.of && !over(job) ? `${job.done} of ${job.of}` : "";
-      fill(words, counted, job.best ? [counted ? " · " : "", h("span", {}, "best so far "), h("b", {}, job.best)] : null);
+      fill(words, counted, job.best ? [counted ? " · " : "", over(job) || job.kind !== "place" ? null : h("span", {}, "best so far "), h("b", {}, job.best)] : null);
       if (bar && job.of) bar.value = Math.min(1, job.done / job.of);
     };
     const root = h(

@@ -11,7 +11,7 @@ import type { Tab } from "./tab";
 export function picturesTab(live: Live): Tab {
   const list = h("div", { class: "gallery" });
   const status = h("p", { class: "note", role: "status" });
-  const csv = h("button", { type: "button", class: "quiet", onclick: () => void saveTable() }, "Table as CSV");
+  const csv = h("button", { type: "button", class: "quiet", onclick: () => void saveTable(plainName(live.ask ?? "study"), false) }, "Table as CSV");
   const title = h("h1", {});
   const large = h("dialog", { class: "large", onclick: () => large.close() });
   const root = h("div", { class: "page" }, h("header", { class: "page-head" }, title, csv), status, list, large);
@@ -19,9 +19,9 @@ export function picturesTab(live: Live): Tab {
   let drawn = "";
   let visible = false;
 
-  const saveTable = async () => {
+  const saveTable = async (name: string, measured: boolean) => {
     try {
-      download(`${plainName(live.ask ?? "study")}.csv`, await api.table(live.text, live.ask));
+      download(`${name}.csv`, await api.table(live.text, live.ask, measured));
     } catch (error) {
       status.textContent = error instanceof Error ? error.message : String(error);
     }
@@ -49,6 +49,7 @@ export function picturesTab(live: Live): Tab {
         h("span", {}, picture.title),
         h("button", { type: "button", class: "quiet small", onclick: () => download(`${picture.name}.svg`, new Blob([picture.svg], { type: "image/svg+xml" })) }, "SVG"),
         h("button", { type: "button", class: "quiet small", onclick: () => void savePng(picture, image) }, "PNG"),
+        h("button", { type: "button", class: "quiet small", title: picture.measured ? "The curves of the budget, a row an angle" : "The points of the question, of which this is drawn", onclick: () => void saveTable(picture.name, picture.measured) }, "CSV"),
       ),
     );
   };

@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { launch, open, serve, settled } from "./setup.mjs";
+import { launch, open, serve, settled, um } from "./setup.mjs";
 
 let browser;
 before(async () => {
@@ -53,7 +53,7 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     await page.waitForSelector(".job.done", { timeout: 240_000 });
     const placed = json(folder, "place/placement.json");
     const words = await page.locator(".job.done").innerText();
-    assert.ok(words.includes(`${placed.found.cost_um.toFixed(1)} um`), `${words} tells ${placed.found.cost_um}`);
+    assert.ok(words.includes(`at most ${placed.found.cost_um.toFixed(1)} ± `), `${words} tells ${placed.found.cost_um}`);
     for (const name of ["place/placement.json", "place/result.json", "place/report.html"]) assert.ok(existsSync(join(folder, name)), name);
     assert.ok(!existsSync(join(folder, "place/place.rounds")));
     // Every file of the card can be opened.
@@ -66,7 +66,7 @@ test("a small placement runs to its end: its place is told, shown, and lies in t
     assert.notEqual(placed.place.centre_mm[0], 1000);
     // The path there is what the placement found.
     const worst = await page.locator("[data-follow=worst] .extreme-value").innerText();
-    assert.ok(worst.startsWith(placed.found.cost_um.toFixed(1)), `${worst}, ${placed.found.cost_um}`);
+    assert.ok(worst.startsWith(um(placed.found.cost_um)), `${worst}, ${placed.found.cost_um}`);
   }));
 
 test("a placement goes on over a reload and is shown again; cancelled it leaves no answer, and the next one ends", () =>
@@ -108,7 +108,7 @@ test("compliances are identified from a table that was dropped, and the study ta
   at(SMALL, async (page, folder) => {
     // A plan whose readings are what a typical arm would show.
     execFileSync(process.env.ARMILL_BIN, ["identify", "--plan", "14", "--robot", "yaskawa/mh12", "--out", join(folder, "..", "armill-plan.csv")], { stdio: "ignore" });
-    const rows = readFileSync(join(folder, "..", "armill-plan.csv"), "utf8").trim().split("\n").map((row) => row.split(","));
+    const rows = readFileSync(join(folder, "..", "armill-plan.csv"), "utf8").trim().split(/\r?\n/).map((row) => row.split(","));
     const [first, expected] = [rows[0].indexOf("dx_mm"), rows[0].indexOf("expected_dx_mm")];
     for (const row of rows.slice(1)) for (let k = 0; k < 3; k++) row[first + k] = row[expected + k];
     await page.click("#tab-files");

@@ -68,13 +68,13 @@ test("distance and tilt: each change shows the map of the changed study", async 
 test("scrubbing does not pile up: the last value is shown, most between are never asked", async () => {
   const page = await open(browser, server.url);
   let asked = 0;
-  page.on("request", (r) => r.url().endsWith("/api/answer") && asked++);
+  page.on("request", (r) => r.url().endsWith("/api/view") && asked++);
   await page.locator("#field-x").focus();
   for (let i = 0; i < 60; i++) await page.keyboard.press("ArrowUp", { delay: 5 });
   await settled(page);
   assert.equal(await page.locator("#field-x").inputValue(), "1400");
   await showsAnswer(page, await changed("Fig. 6", ["plane.centre_mm", [1400, 0, 1000]]), "Fig. 6");
-  assert.ok(asked < 60, `${asked} answers were asked for`);
+  assert.ok(asked > 0 && asked < 60, `${asked} answers were asked for`);
   await page.context().close();
 });
 

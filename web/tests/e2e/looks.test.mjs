@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from 
 import { createRequire } from "node:module";
 import { after, before, test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { launch, open, serve, settled } from "./setup.mjs";
+import { difference, launch, open, serve, settled } from "./setup.mjs";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 const KEPT = new URL("./pictures/", import.meta.url).pathname;
@@ -113,6 +113,11 @@ const VIEWS = {
     await settled(page);
   },
   study: (page) => page.click("#tab-study"),
+  fields: async (page) => {
+    await page.click("#tab-study");
+    await page.waitForSelector(".problems .fine");
+    for (const table of ["place", "posture", "posture.search"]) await page.locator(`[data-table="${table}"] > summary`).click();
+  },
   jobs: (page) => page.click("#tab-jobs"),
 };
 for (const dark of [false, true])
@@ -132,25 +137,3 @@ for (const dark of [false, true])
       assert.ok(apart < 0.02, `mean difference ${apart.toFixed(4)}; KEEP_PICTURES=1 keeps the new one, after a look at it`);
       await page.context().close();
     });
-
-/** Mean difference of two pictures, 0 to 1, at a quarter of their size: fonts may be drawn a little otherwise. */
-async function difference(page, a, b) {
-  return page.evaluate(
-    async ([first, second]) => {
-      const pixels = async (data) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${data}`;
-        await image.decode();
-        const canvas = document.createElement("canvas");
-        [canvas.width, canvas.height] = [image.width / 4, image.height / 4];
-        const context = canvas.getContext("2d");
-        context.drawImage(image, 0, 0, canvas.width, canvas.height);
-        return context.getImageData(0, 0, canvas.width, canvas.height).data;
-      };
-      const [p, q] = [await pixels(first), await pixels(second)];
-      if (p.length !== q.length) return 1;
-      return p.reduce((sum, v, i) => sum + Math.abs(v - q[i]), 0) / p.length / 255;
-    },
-    [a.toString("base64"), b.toString("base64")],
-  );
-}

@@ -61,7 +61,10 @@ pub fn steps() -> Vec<Step> {
         Step::new("the Python package: installed", python(&installed)),
         Step::new("the Python package: tests", python(&["-m", "pytest"])),
         Step::new("the Python package: types by mypy", python(&["-m", "mypy"])),
-        Step::new("the Python package: types by pyright", in_package("pyright", &[])),
+        Step::new(
+            "the Python package: types by pyright",
+            in_package("pyright", &["--pythonpath", &interpreter]),
+        ),
         Step::new(
             "the Python package: stubs",
             python(&["-m", "mypy.stubtest", "armill"]),

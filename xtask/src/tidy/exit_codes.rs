@@ -16,7 +16,7 @@ pub const RULE: Rule = Rule {
 
 /// Where they are told; the first is the witness.
 const PLACES: &[&str] = &[
-    "crates/cli/src/main.rs",
+    "crates/cli/src/lib.rs",
     "ARCHITECTURE.md",
     "docs/guide/results.md",
 ];

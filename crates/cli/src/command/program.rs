@@ -72,8 +72,12 @@ fn within(option: &str, value: f64, [least, most]: [f64; 2]) -> Result<f64, Stud
 pub(super) fn save(folder: &std::path::Path, written: &Written) -> Result<(), StudyError> {
     create_folder(folder)?;
     for (name, bytes) in &written.files {
-        write_atomically(folder.join(name), bytes)?;
-        say(&format!("program {}", folder.join(name).display()));
+        let path = folder.join(name);
+        write_atomically(&path, bytes)?;
+        say(&format!(
+            "program {}",
+            path.strip_prefix(".").unwrap_or(&path).display()
+        ));
     }
     written
         .notes

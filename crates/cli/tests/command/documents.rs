@@ -106,6 +106,9 @@ fn guide_runs() {
         "budget",
         "live-page",
         "python",
+        "cam-to-robot",
+        "many-machines",
+        "plotting",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -116,7 +119,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 19, "name the new page in `guide_runs`");
+    assert_eq!(pages, 22, "name the new page in `guide_runs`");
 }
 
 #[test]

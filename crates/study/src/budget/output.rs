@@ -30,13 +30,29 @@ use crate::output::{Picture, prepare, slug, write_pictures};
 pub fn write(told: &BudgetAnswer, combined: &Combined, out: &Path) -> Result<Vec<PathBuf>, StudyError> {
     prepare(out)?;
     let table = out.join("budget.csv");
-    write_atomically(&table, &csv::write(&table_of(told, combined)?))?;
+    write_atomically(&table, &table_csv(told, combined)?)?;
     let pictures = pictures(told, combined);
     write_pictures(&format!("{}-", slug(&told.ask)), &pictures, out)?;
     let named = pictures
         .iter()
         .map(|picture| out.join(format!("{}.svg", picture.name)));
     Ok(std::iter::once(table).chain(named).collect())
+}
+
+/// The table of all curves, a row an angle, as CSV.
+///
+/// # Errors
+/// A table that cannot be made, which would be a fault of armill.
+pub fn table_csv(told: &BudgetAnswer, combined: &Combined) -> Result<Vec<u8>, StudyError> {
+    Ok(csv::write(&table_of(told, combined)?))
+}
+
+/// Whether a picture of this name is one of [`pictures`] of this ask.
+pub(crate) fn is_of_budget(name: &str, ask: &str) -> bool {
+    let what = name
+        .strip_prefix(&slug(ask))
+        .and_then(|rest| rest.strip_prefix('-'));
+    matches!(what, Some("budget" | "measured" | "waves"))
 }
 
 /// The pictures: bars; with a part the circle and its waves.

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::Text;
 use crate::answer::answer;
+use crate::budget::output::is_of_budget;
 use crate::error::StudyError;
 use crate::output::{self, Picture};
 use crate::run::run;
@@ -24,6 +25,8 @@ pub struct PictureAnswer {
     pub name: String,
     /// What it shows, in a sentence.
     pub title: String,
+    /// Whether its numbers are those of the budget of what was measured, not of the table of the ask.
+    pub measured: bool,
     /// The picture.
     pub svg: String,
 }
@@ -48,19 +51,34 @@ pub fn table_csv(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<
     output::table_csv(&study, done.first().ok_or_else(no_ask)?)
 }
 
+/// The table of the budget of what was measured, as `armill budget --out` writes it.
+///
+/// # Errors
+/// As of [`answer_json`]; a study in which nothing was measured.
+pub fn measured_csv(text: Text<'_>, watch: Watch<'_>) -> Result<Vec<u8>, StudyError> {
+    let (combined, told) = crate::budget::budget(&text.study(None)?, watch)?;
+    crate::budget::output::table_csv(&told, &combined)
+}
+
 /// The pictures of this ask, or of all, as `armill run` draws them.
 ///
 /// # Errors
 /// As of [`answer_json`].
 pub fn pictures(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<PicturesAnswer, StudyError> {
+    let study = text.study(ask)?;
+    let done = run(&study, watch)?;
     let told = |Picture { name, caption, svg }| PictureAnswer {
+        measured: study
+            .experiment
+            .as_ref()
+            .is_some_and(|of| is_of_budget(&name, &of.ask)),
         name,
         title: caption,
         svg,
     };
-    let pictures = drawn(text, ask, watch)?.into_iter().map(told);
+    let pictures = output::pictures(&study, &done, &answer(&study, &done));
     Ok(PicturesAnswer {
-        pictures: pictures.collect(),
+        pictures: pictures.into_iter().map(told).collect(),
     })
 }
 
@@ -74,7 +92,7 @@ pub fn picture_svg(
     name: &str,
     watch: Watch<'_>,
 ) -> Result<String, StudyError> {
-    let pictures = drawn(text, ask, watch)?;
+    let pictures = pictures(text, ask, watch)?.pictures;
     let names: Vec<String> = pictures
         .iter()
         .map(|picture| format!("`{}`", picture.name))
@@ -84,12 +102,6 @@ pub fn picture_svg(
         let hint = format!("there are: {}", names.join(", "));
         StudyError::value(format!("no picture is called `{name}`"), hint)
     })
-}
-
-fn drawn(text: Text<'_>, ask: Option<&str>, watch: Watch<'_>) -> Result<Vec<Picture>, StudyError> {
-    let study = text.study(ask)?;
-    let done = run(&study, watch)?;
-    Ok(output::pictures(&study, &done, &answer(&study, &done)))
 }
 
 /// A study always has an ask, its own or the map that it means.

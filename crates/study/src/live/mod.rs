@@ -37,7 +37,9 @@ mod tables;
 mod values;
 mod view;
 
-pub use answered::{PictureAnswer, PicturesAnswer, answer_json, picture_svg, pictures, table_csv};
+pub use answered::{
+    PictureAnswer, PicturesAnswer, answer_json, measured_csv, picture_svg, pictures, table_csv,
+};
 pub use file_kind::{FileKind, kind_of};
 pub use meshes::{DrawnMesh, mesh_bytes};
 pub use outline::{ChangedAnswer, ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline};

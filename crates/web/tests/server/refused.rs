@@ -377,6 +377,38 @@ fn a_client_that_dribbles_is_cut_off() {
 }
 
 #[test]
+fn a_body_that_stalls_is_answered_and_given_up() {
+    let folder = folder(STUDY);
+    let served = serve(folder.path());
+    let begun = Instant::now();
+    let stalled: Vec<_> = [("POST", "/api/check"), ("PUT", "/api/files/slow.csv")]
+        .map(|(method, path)| {
+            let mut stream = served.connect();
+            write!(
+                stream,
+                "{method} {path} HTTP/1.1\r\nHost: 127.0.0.1:{}\r\nAuthorization: Bearer {}\r\nContent-Length: 1000\r\nConnection: close\r\n\r\n{{\"text\":",
+                served.port, served.token
+            )
+            .unwrap();
+            stream
+        })
+        .into_iter()
+        .collect();
+    // The others are answered meanwhile.
+    assert_eq!(served.get("/api/study").status, 200);
+    for mut stream in stalled {
+        assert_eq!(read(&mut stream).status, 408);
+    }
+    let waited = begun.elapsed();
+    assert!(
+        waited > Duration::from_secs(5) && waited < Duration::from_secs(40),
+        "{waited:?}"
+    );
+    // Nothing of it was kept.
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[test]
 fn odd_questions_are_refused_in_words() {
     let folder = folder(STUDY);
     let served = serve(folder.path());

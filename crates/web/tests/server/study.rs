@@ -265,20 +265,23 @@ fn tables_and_schema_are_what_fields_are_made_of() {
     assert!(broken["values"].is_null() && broken["problems"][0]["line"] == 1);
 }
 
-/// An arm of two joints whose links are named meshes.
+/// An arm whose first two links name meshes.
 const ARM: &str = r#"<robot name="arm">
 <link name="foot"><visual><geometry><mesh filename="package://arm/meshes/foot.stl" scale="0.001 0.001 0.001"/></geometry></visual></link>
 <link name="rod"><visual><geometry><mesh filename="package://arm/meshes/rod.stl"/></geometry></visual></link>
 <joint name="A" type="revolute"><parent link="foot"/><child link="rod"/><origin xyz="0 0 0.4"/><axis xyz="0 0 1"/><limit lower="-3" upper="3"/></joint>
-<link name="slide"/>
-<joint name="B" type="prismatic"><parent link="rod"/><child link="slide"/><origin xyz="0.5 0 0"/><axis xyz="1 0 0"/><limit lower="0" upper="1"/></joint>
+<link name="l2"/><joint name="B" type="revolute"><parent link="rod"/><child link="l2"/><origin xyz="0.1 0 0"/><axis xyz="0 1 0"/><limit lower="-3" upper="3"/></joint>
+<link name="l3"/><joint name="C" type="revolute"><parent link="l2"/><child link="l3"/><origin xyz="0 0 0.6"/><axis xyz="0 1 0"/><limit lower="-3" upper="3"/></joint>
+<link name="l4"/><joint name="D" type="revolute"><parent link="l3"/><child link="l4"/><origin xyz="0.2 0 0.2"/><axis xyz="1 0 0"/><limit lower="-3" upper="3"/></joint>
+<link name="l5"/><joint name="E" type="revolute"><parent link="l4"/><child link="l5"/><origin xyz="0.4 0 0"/><axis xyz="0 1 0"/><limit lower="-3" upper="3"/></joint>
+<link name="l6"/><joint name="F" type="revolute"><parent link="l5"/><child link="l6"/><origin xyz="0.1 0 0"/><axis xyz="1 0 0"/><limit lower="-3" upper="3"/></joint>
 </robot>"#;
 
 #[test]
 fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
     let study = STUDY.replace(
         "\"yaskawa/mh12\"",
-        "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6] }",
+        "\"arm.urdf\"\ncompliance = { rad_per_n_m = [1e-6, 1e-6, 1e-6, 1e-6, 1e-6, 1e-6], source = \"made up\" }",
     );
     let folder = folder(&study);
     std::fs::write(folder.path().join("arm.urdf"), ARM).unwrap();
@@ -288,7 +291,7 @@ fn meshes_are_handed_out_where_the_robot_names_them_and_nowhere_else() {
         served
             .post(
                 "/api/pose",
-                json!({ "text": study, "ask": "plate", "at": { "joints_deg": [90, 100] } }),
+                json!({ "text": study, "ask": "plate", "at": { "joints_deg": [90, 0, 0, 0, 0, 0] } }),
             )
             .json()
     };

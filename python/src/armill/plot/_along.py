@@ -1,0 +1,63 @@
+"""The deviation over the length of a path."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from armill.plot._answers import Source
+from armill.plot._setting import breaks, words
+from armill.plot._style import BLUE, GREEN, HALO, INK, LIMIT, ORANGE, PINK, legend_below, one, picture, title
+
+_PARTS = (
+    ("in_plane_um", "in-plane, across the tool", INK, "-", 1.9),
+    ("along_um", "along the track", BLUE, "--", 1.3),
+    ("cross_um", "across the track, to its left", ORANGE, "-", 1.3),
+    ("axial_um", "along the tool, away from the part", GREEN, "-.", 1.3),
+)
+
+
+@picture
+def along(source: Any, ask: str | None = None, *, table: Any = None, ax: Axes | None = None) -> Axes:
+    """Result, name of a path -> axes: the deviation and its parts over the length of the path, µm over mm.
+
+    The worst points are numbered, the worst first. Parts are those of the deciding load case.
+    """
+    found = Source(source, "along", table)
+    answer = found.one("paths", ask)
+    columns = found.columns(answer["name"], ["x_mm", "y_mm", "z_mm", "distance_mm", *(name for name, *_ in _PARTS)])
+    ax = one(ax, (7.6, 4.6))
+    # Cuts that lie apart are not joined by a line.
+    gaps = breaks(columns)
+    distance = np.insert(columns["distance_mm"].astype(float), gaps, np.nan)
+    for name, label, colour, dashes, width in _PARTS:
+        values = np.insert(columns[name].astype(float), gaps, np.nan)
+        ax.plot(distance, values, color=colour, linestyle=dashes, linewidth=width, label=label)
+    limit = answer["setting"]["limit_um"]
+    ax.axhline(limit, color=LIMIT, linewidth=2.2, label=f"limit {limit:g} µm", zorder=1.5)
+    ax.axhline(0.0, color=INK, linewidth=0.6, zorder=1)
+    _mark_worst(ax, answer["worst_points"])
+    unreached = ~np.isfinite(columns["in_plane_um"].astype(float))
+    if unreached.any():
+        here = columns["distance_mm"].astype(float)[unreached]
+        ax.plot(here, np.zeros(len(here)), "x", color=PINK, markersize=4, label=f"not reached ({len(here)} points)")
+    told = distance[np.isfinite(distance)]
+    ax.set_xlim(0.0, float(told.max()) if len(told) else 1.0)
+    ax.margins(y=0.12)
+    ax.set_xlabel("along the path (mm)")
+    ax.set_ylabel("deviation (µm)")
+    title(ax, f"{answer['name']}: deviation along the path", words(answer))
+    legend_below(ax, columns=2, drop=-0.15)
+    return ax
+
+
+def _mark_worst(ax: Axes, worst: list[Any]) -> None:
+    for i, point in enumerate(worst, start=1):
+        place = (point["distance_mm"], point["point"]["in_plane_um"])
+        label = f"worst points: 1 by {point['cause']}" if i == 1 else None
+        ax.plot(*place, "o", markersize=5, markerfacecolor="white", markeredgecolor=INK, zorder=4, clip_on=False, label=label)
+        ax.annotate(
+            str(i), place, xytext=(0, 7), textcoords="offset points", fontsize=9, fontweight="bold", ha="center", path_effects=HALO
+        )

@@ -1,0 +1,66 @@
+"""The deviation over a plane."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from armill.plot import _plane
+from armill.plot._answers import Source
+from armill.plot._setting import words
+from armill.plot._style import AMBER, INK, LIMIT, number, one, picture, rounded, title
+
+
+@picture
+def map(
+    source: Any,
+    ask: str | None = None,
+    *,
+    value: str = "in_plane_um",
+    levels: Sequence[float] | None = None,
+    ax: Axes | None = None,
+) -> Axes:
+    """Result, name of a map -> axes: contours of the deviation over a plane, µm.
+
+    The limit is bold; where the arm does not hold the tool the plane is hatched, with the reason in the legend. `value` is a list
+    of the grid: in_plane_um, in_plane_u_um, normal_um, full_um. The plane is seen from the tool side, so y' grows to the left.
+    """
+    answer = Source(source, "map").one("maps", ask)
+    _, _, values = _plane.grid(answer, value)
+    reached = bool(np.isfinite(values).any())
+    told = rounded(*((np.nanmin(values), np.nanmax(values)) if reached else (0.0, 1.0)))
+    steps = np.unique(np.asarray(levels, dtype=float)) if levels is not None else told
+    ax = one(ax, (6.4, 6.6))
+    filled = _plane.fill(ax, answer, value, steps)
+    _plane.name_axes(ax)
+    title(ax, answer["name"], words(answer))
+    handles: list[Any] = []
+    bar = ax.figure.colorbar(filled, ax=ax, label=_plane.VALUES[value], shrink=0.8) if reached else None
+    if bar is not None and value == "in_plane_um":
+        limit = answer["setting"]["limit_um"]
+        _plane.mark_limit(bar.ax, limit)
+        beyond = "" if _plane.limit_line(ax, answer) else ", nowhere crossed"
+        handles.append(Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm{beyond}"))
+        for key, label, marker, face in (("best", "least", "D", AMBER), ("worst", "largest", "o", "white")):
+            point = answer[key]
+            place = point["in_plane_mm"]
+            told_um = f"{label} {number(point['in_plane_um'])} µm"
+            handles.extend(
+                ax.plot(
+                    *place, marker, markersize=7, markerfacecolor=face, markeredgecolor=INK, markeredgewidth=1.4,
+                    linestyle="none", label=told_um, zorder=6, clip_on=False,
+                )
+            )
+    handles += _plane.reason_handles([answer])
+    if handles:
+        ax.legend(
+            handles=handles, loc="upper left", bbox_to_anchor=(0.0, -0.12), ncols=2,
+            borderaxespad=0.0, columnspacing=1.4, handlelength=2.4,
+        )
+    # Last, when the axes have their size: labels are kept apart in it.
+    _plane.lines(ax, answer, value, steps, labelled=True)
+    return ax

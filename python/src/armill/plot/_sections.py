@@ -1,0 +1,88 @@
+"""Many planes on one sheet."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.lines import Line2D
+
+from armill.plot import _plane
+from armill.plot._answers import Json, Missing, Source
+from armill.plot._setting import words
+from armill.plot._style import LIMIT, picture, rounded, several
+
+
+@picture
+def sections(
+    source: Any,
+    ask: str | None = None,
+    *,
+    levels: Sequence[float] | None = None,
+    ax: Sequence[Axes] | None = None,
+) -> list[Axes]:
+    """Result, name of an ask for sections -> list of axes, one a plane: deviation over distances or tilts, µm.
+
+    All planes have the same levels. `ax` takes as many axes as there are planes.
+    """
+    found = Source(source, "sections")
+    planes, name = _of_one_ask(found.need("maps", "armill run"), ask)
+    values = [_plane.grid(plane, "in_plane_um")[2] for plane in planes]
+    known = np.concatenate([each[np.isfinite(each)] for each in values])
+    if not known.size:
+        raise Missing(f"sections: no point of {name!r} is reached")
+    steps = np.asarray(levels, dtype=float) if levels is not None else rounded(known.min(), known.max(), 9)
+    columns = 4 if len(planes) in (4, 7, 8) or len(planes) > 9 else min(3, len(planes))
+    rows = -(-len(planes) // columns)
+    size = (2.35 * columns + 1.2, 2.45 * rows + 1.3)
+    axes = several(ax, len(planes), size, columns, sharex=True, sharey=True)
+    bands: list[Any] = []
+    for i, (each, plane) in enumerate(zip(axes, planes)):
+        drawn = _plane.fill(each, plane, "in_plane_um", steps)
+        bands += [drawn] if np.isfinite(values[i]).any() else []
+        _plane.lines(each, plane, "in_plane_um", steps, labelled=False)
+        _plane.limit_line(each, plane)
+        label = plane["name"].removeprefix(f"{name}: ")
+        held = 100 * plane["fraction_within"]
+        each.set_title(f"{label}\n{held:.0f} % within", loc="left", fontsize=9)
+        each.label_outer()
+    figure = axes[0].figure
+    for i, each in enumerate(axes):
+        if i % columns == 0:
+            each.set_ylabel("z′ (mm)")
+        if i + columns >= len(planes):
+            each.set_xlabel("y′ (mm)")
+            each.tick_params(labelbottom=True)
+    limit = planes[0]["setting"]["limit_um"]
+    bar = figure.colorbar(bands[0], ax=axes, label=_plane.VALUES["in_plane_um"], shrink=0.8, aspect=28)
+    _plane.mark_limit(bar.ax, limit)
+    handles = [Line2D([], [], color=LIMIT, linewidth=2.6, label=f"limit {limit:g} µm"), *_plane.reason_handles(planes)]
+    if ax is None:
+        figure.suptitle(f"{name}: {_shared(planes[0])}", x=0.01, ha="left", fontsize=11, fontweight="bold")
+        figure.legend(handles=handles, loc="outside lower left", ncols=min(3, len(handles)), handlelength=2.4)
+    else:
+        axes[0].legend(handles=handles, loc="best")
+    return axes
+
+
+def _of_one_ask(maps: list[Json], ask: str | None) -> tuple[list[Json], str]:
+    """The planes `ASK: ...` of one ask, and its name."""
+    names = list(dict.fromkeys(plane["name"].rsplit(": ", 1)[0] for plane in maps if ": " in plane["name"]))
+    if not names:
+        raise Missing("sections: the answer has no sections: an ask of kind `sections` gives them")
+    name = names[0] if ask is None else ask
+    planes = [plane for plane in maps if plane["name"].startswith(f"{name}: ")]
+    if not planes:
+        raise Missing(f"sections: no sections are called {name!r}; there are {', '.join(map(repr, names))}")
+    return planes, name
+
+
+def _shared(plane: Json) -> str:
+    """What all planes have in common, in words."""
+    parts = [part for part in words(plane).split(", ") if not part.startswith("tilt ")]
+    return ", ".join(parts)
+
+
+
