@@ -2020,7 +2020,7 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load and tool length.
+             * @description Its standard uncertainty, from compliances, load, tool length and repeatability.
              */
             in_plane_u_um: number;
             /**
@@ -2197,6 +2197,11 @@ export interface components {
              * @description Standard uncertainty of the place of the TCP along the tool axis.
              */
             tool_length_u_mm: number;
+            /**
+             * Format: double
+             * @description Standard deviation of where the tool comes to rest from time to time, along any axis; zero where it is not known.
+             */
+            scatter_um: number;
             /**
              * Format: double
              * @description The tolerance.
@@ -2975,6 +2980,11 @@ export interface components {
             state: string;
             /** @description Why no posture stands, in words; none where one does. */
             reason: string | null;
+            /**
+             * @description What is against the posture that is told where no turn and branch stands: `singular`, `outside_joint_limits`; none
+             *     where one does.
+             */
+            in_the_way: string | null;
             /** @description Branch of the posture. */
             branch: string | null;
             /**
@@ -3093,7 +3103,8 @@ export interface components {
             ];
             /**
              * Format: double
-             * @description Standard deviation of ball-bar runs the same way; none where no way has two.
+             * @description Standard deviation of ball-bar runs the same way; where no way has two, of the arm as robot file or study tell it;
+             *     none where neither does.
              */
             repeatability_um: number | null;
             /** @description What they make together. */
@@ -3591,7 +3602,7 @@ export interface components {
                 number,
                 number
             ][] | null;
-            /** @description Standard uncertainty of the displacement from those of the compliances. */
+            /** @description Standard uncertainty of the displacement, from those of the compliances and the repeatability of the arm. */
             deviation_u_um: [
                 number,
                 number,
@@ -3847,7 +3858,7 @@ export interface components {
             in_plane_um: number;
             /**
              * Format: double
-             * @description Its standard uncertainty, from compliances, load and tool length; of postures with a name.
+             * @description Its standard uncertainty, from compliances, load, tool length and repeatability; of postures with a name.
              */
             in_plane_u_um: number | null;
             /**
