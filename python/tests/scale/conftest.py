@@ -16,6 +16,9 @@ import pytest
 
 pytest.importorskip("pyarrow", reason='sweeps need pyarrow: pip install "armill[scale]"')
 
+# Processes that are started here find the works of these tests as this one does.
+os.environ["PYTHONPATH"] = os.pathsep.join([str(Path(__file__).parents[1]), *filter(None, [os.environ.get("PYTHONPATH")])])
+
 
 def sums(folder: Path) -> list[str]:
     """SHA-256 of all parts."""
@@ -53,6 +56,14 @@ class Killer:
         return self.there
 
 
+def at_work(pid: int) -> bytes:
+    """What this process says it is at; nothing where it has ended."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_bytes()
+    except OSError:
+        return b""
+
+
 def busy_of_ray(ray: Any) -> Callable[[], int]:
     """Gives a process of Ray that is at work on a part."""
 
@@ -68,7 +79,7 @@ def busy_of_ray(ray: Any) -> Callable[[], int]:
         while time.monotonic() < until:
             for pid in pids:
                 # Ray writes there what a process is at.
-                if Path(f"/proc/{pid}/cmdline").read_bytes().startswith(b"ray::_part"):
+                if at_work(pid).startswith(b"ray::_part"):
                     return pid
         raise AssertionError("no process of ray is at work on a part")
 

@@ -67,7 +67,7 @@ pub fn steps() -> Vec<Step> {
         ),
         Step::new(
             "the Python package: stubs",
-            python(&["-m", "mypy.stubtest", "armill"]),
+            python(&["-m", "mypy.stubtest", "armill._armill"]),
         ),
     ]
 }
