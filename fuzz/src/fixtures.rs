@@ -1,7 +1,7 @@
 //! Good inputs to begin with: our own robots and studies, and small texts that use every part of a format; those of robots
 //! are files in `crates/formats/tests/seeds/`, which the tests change at random too.
 
-use armill_study::library::{MATERIALS, ROBOTS, STUDIES};
+use armill_study::library::{MATERIALS, ROBOTS, example_studies};
 
 /// Four arms in URDF: two of makers, one with every oddity, one of a single joint.
 pub fn urdf() -> Vec<Vec<u8>> {
@@ -27,7 +27,7 @@ pub fn studies() -> Vec<Vec<u8>> {
         EVERY_TABLE,
         EVERY_PROGRAM,
     ]);
-    all.extend(STUDIES.iter().map(|study| study.text.into()));
+    all.extend(example_studies().map(|study| study.text.into()));
     all
 }
 
