@@ -35,7 +35,11 @@ pub fn meshes(bytes: &[u8]) {
         Ok(found) => {
             for mesh in found {
                 let at = mesh.base_from_mesh(|_| Some(0.1));
-                assert!((at * Vector3::new(1.0, 2.0, 3.0)).iter().all(|value| value.is_finite()));
+                assert!(
+                    (at * Vector3::new(1.0, 2.0, 3.0))
+                        .iter()
+                        .all(|value| value.is_finite())
+                );
                 assert!(mesh.scale.iter().all(|factor| factor.is_finite()));
             }
         }
