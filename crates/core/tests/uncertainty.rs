@@ -158,6 +158,7 @@ fn all_that_is_not_known_scatters_the_deviation_as_it_is_told() {
     cell.model.structure.repeatability = repeatability::deviation_of(160e-6);
     let (held, joints) = cell.told();
     let (mean, spread) = cell.drawn(&joints, normal);
+    // The draws know a standard deviation to 0.5 %; the rest is the second order of unknowns of a quarter.
     assert!(
         (held.in_plane_uncertainty - spread).abs() < 0.02 * spread,
         "{held:?} {spread}"
@@ -185,9 +186,10 @@ fn of_compliances_known_to_a_factor_the_spread_is_told_and_its_shape_is_not() {
     let cell = Cell::new(1.0);
     let (held, joints) = cell.told();
     let (mean, spread) = cell.drawn(&joints, log_normal);
-    // A length is longer on the mean than that of the mean vector, and what is across adds to its spread.
+    // Measured 0.99 and 1.12, told in docs/theory/deviation.md: a length is longer on the mean than that of the mean vector,
+    // and what is across adds to its spread.
     assert!(
-        (held.in_plane_uncertainty / spread - 1.0).abs() < 0.15,
+        (held.in_plane_uncertainty / spread - 1.0).abs() < 0.05,
         "{held:?} {spread}"
     );
     assert!((1.0..1.2).contains(&(mean / held.in_plane)), "{mean} {held:?}");
@@ -203,5 +205,6 @@ fn an_arm_that_scatters_by_it_has_the_pose_repeatability_of_its_data_sheet() {
         .map(|_| at(Vector3::from_fn(|_, _| sigma * stream.normal())))
         .collect();
     let told = pose_accuracy(&at(Vector3::zeros()), &reached).unwrap();
+    // Three deviations of 20 000 distances are known to 1 %.
     assert!((told.repeatability.unwrap() - 80e-6).abs() < 1e-6, "{told:?}");
 }

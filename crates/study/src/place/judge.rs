@@ -148,6 +148,7 @@ circle = {{ radius_mm = 100 }}
             .iter()
             .zip(wanted)
             .map(|(told, wanted)| (told - wanted).abs());
+        // The last digit, from mm into m.
         assert!(apart.fold(0.0, f64::max) < 1e-15, "{drawn:?}");
         assert_eq!((drawn.spin, drawn.rail), (0.0, None));
     }
