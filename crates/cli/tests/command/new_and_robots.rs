@@ -369,9 +369,10 @@ fn the_arm_of_the_measured_example_is_what_its_tests_give() {
     );
     // Six drives and thirteen springs, each with its standard uncertainty.
     assert_eq!(shipped.len(), 38);
-    for (shipped, again) in shipped.iter().zip(&again) {
+    assert_eq!(again.len(), 38);
+    for (here, there) in shipped.iter().zip(&again) {
         // Seven digits are written; the rest is for other processors.
-        assert!((shipped / again - 1.0).abs() < 1e-4, "{shipped} {again}");
+        assert!((here / there - 1.0).abs() < 1e-4, "{here} {there}");
     }
     // The prediction and the published stiffness beside it.
     let run = cell.armill(&["run", "arm", "--no-pictures"]).fine();
