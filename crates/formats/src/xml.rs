@@ -9,6 +9,7 @@ use std::ops::Range;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::document::{Problem, Problems, Source, unreadable};
+use crate::whole::MOST_BYTES;
 
 /// More elements, attributes and texts than this are no robot and no result: the largest robot of ROS-Industrial has 2000.
 const MOST_NODES: u32 = 1_000_000;
@@ -16,9 +17,6 @@ const MOST_NODES: u32 = 1_000_000;
 const MOST_ATTRIBUTES: usize = 200;
 /// Elements within elements: robots have five, xacro with conditions ten. What walks the tree calls itself for each.
 const MOST_LEVELS: usize = 64;
-
-/// Larger than this is no file that is read as a whole, in bytes: results have some kB.
-const MOST_BYTES: u64 = 64 << 20;
 
 /// The text of the XML file `path`.
 ///

@@ -8,6 +8,7 @@ use armill_formats::robot::armill::{Identified, IdentifiedSpring, with_springs};
 use armill_formats::robot::format::{self, Format, Wanted};
 use armill_formats::robot::spring_tables::Yields;
 use armill_formats::robot::{RobotDescription, armill};
+use armill_formats::whole;
 use armill_study::{library, robots};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -201,7 +202,7 @@ fn stem(path: &Path) -> String {
 }
 
 fn read(py: Python<'_>, path: &Path) -> PyResult<Vec<u8>> {
-    std::fs::read(path).map_err(|error| {
+    whole::read(path).map_err(|error| {
         let message = format!("cannot read robot file {}: {error}", path.display());
         refused(py, message, "is the path right?")
     })

@@ -48,10 +48,11 @@ impl Study {
 type Parts<'py> = (String, PathBuf, Bound<'py, PyBytes>);
 
 /// What is written beside `result.json`.
-fn wanted(pictures: bool, csv: bool) -> Wanted {
+fn wanted(pictures: bool, csv: bool) -> Wanted<'static> {
     Wanted {
         pictures: if pictures { Pictures::Drawn } else { Pictures::None },
         csv: if csv { Csv::Every } else { Csv::MapsAndPaths },
+        opening: None,
     }
 }
 

@@ -3,7 +3,7 @@
 //! Order of the page, each part but the title left out where it is empty:
 //!
 //! ```text
-//! title · question · answer · warnings · sections, paragraphs, lists, figures, tables · inputs and their sources
+//! title · question · answer · warnings · contents · sections, paragraphs, lists, figures, tables · inputs and their sources
 //! ```
 //!
 //! Figures and tables are numbered in the order of adding, apart from each other; the table of inputs has no
@@ -85,6 +85,8 @@ pub struct Report {
     warnings: Vec<String>,
     inputs: Vec<Input>,
     body: String,
+    /// Heading of each section, with the captions of its figures.
+    sections: Vec<(String, Vec<String>)>,
     figures: usize,
     tables: usize,
 }
@@ -130,14 +132,17 @@ impl Report {
     /// A heading; what follows belongs to it.
     #[must_use]
     pub fn section(mut self, heading: &str) -> Self {
-        self.body.push_str(&format!("<h2>{}</h2>\n", escape(heading)));
+        self.sections.push((heading.to_owned(), Vec::new()));
+        let number = self.sections.len();
+        self.body
+            .push_str(&format!("<h2 id=\"s{number}\">{}</h2>\n", escape(heading)));
         self
     }
 
-    /// A paragraph of plain text.
+    /// A paragraph of plain text; what stands between backticks is code.
     #[must_use]
     pub fn paragraph(mut self, text: &str) -> Self {
-        self.body.push_str(&format!("<p>{}</p>\n", escape(text)));
+        self.body.push_str(&format!("<p>{}</p>\n", prose(text)));
         self
     }
 
@@ -154,11 +159,18 @@ impl Report {
     #[must_use]
     pub fn picture(mut self, svg: &str, caption: &str) -> Self {
         self.figures += 1;
+        if let Some((_, captions)) = self.sections.last_mut() {
+            captions.push(format!(
+                "<a href=\"#f{}\">{}</a>",
+                self.figures,
+                escape(short(caption))
+            ));
+        }
         self.body.push_str(&format!(
-            "<figure>\n<div class=\"card\">{}</div>\n<figcaption><b>Figure {}.</b> {}</figcaption>\n</figure>\n",
+            "<figure id=\"f{1}\">\n<div class=\"card\">{0}</div>\n<figcaption><b>Figure {1}.</b> {2}</figcaption>\n</figure>\n",
             svg.trim(),
             self.figures,
-            escape(caption)
+            prose(caption)
         ));
         self
     }
@@ -173,16 +185,36 @@ impl Report {
         self
     }
 
+    /// Where what is, of a report that takes more than a look to find it.
+    fn contents(&self) -> String {
+        if self.figures < MANY_FIGURES {
+            return String::new();
+        }
+        let sections = self.sections.iter().enumerate().map(|(k, (heading, captions))| {
+            let figures: String = captions.iter().map(|link| format!("<li>{link}</li>")).collect();
+            let inner = match captions.is_empty() {
+                true => String::new(),
+                false => format!("<ul>{figures}</ul>"),
+            };
+            format!(
+                "<li><a href=\"#s{}\">{}</a>{inner}</li>\n",
+                k + 1,
+                escape(heading)
+            )
+        });
+        format!("<ul class=\"contents\">\n{}</ul>\n", sections.collect::<String>())
+    }
+
     /// The report as a complete HTML document in one string, without anything to load: no script, font, picture
     /// or style from elsewhere.
     pub fn to_html(&self) -> String {
         let title = escape(&self.title);
         let mut main = format!("<h1>{title}</h1>\n");
         if !self.question.is_empty() {
-            main.push_str(&format!("<p class=\"question\">{}</p>\n", escape(&self.question)));
+            main.push_str(&format!("<p class=\"question\">{}</p>\n", prose(&self.question)));
         }
         if !self.answer.is_empty() {
-            main.push_str(&format!("<p class=\"answer\">{}</p>\n", escape(&self.answer)));
+            main.push_str(&format!("<p class=\"answer\">{}</p>\n", prose(&self.answer)));
         }
         if !self.warnings.is_empty() {
             let items = list_html(&self.warnings);
@@ -190,6 +222,7 @@ impl Report {
                 "<aside class=\"warnings\" role=\"note\">\n<b>Before you use this</b>\n{items}</aside>\n"
             ));
         }
+        main.push_str(&self.contents());
         main.push_str(&self.body);
         if !self.inputs.is_empty() {
             main.push_str("<h2>Inputs and their sources</h2>\n");
@@ -201,9 +234,32 @@ impl Report {
     }
 }
 
+/// The first clause of a caption.
+fn short(caption: &str) -> &str {
+    let end = caption.find([',', ';']).unwrap_or(caption.len());
+    caption[..end].trim_end_matches('.')
+}
+
+/// Text of the terminal as a page shows it: escaped, code between backticks, and a sign for `+-`.
+fn prose(text: &str) -> String {
+    let text = escape(text).replace("+-", "±");
+    let parts: Vec<&str> = text.split('`').collect();
+    if parts.len() % 2 == 0 {
+        return text;
+    }
+    let shown = parts.iter().enumerate().map(|(k, part)| match k % 2 {
+        0 => (*part).to_owned(),
+        _ => format!("<code>{part}</code>"),
+    });
+    shown.collect()
+}
+
+/// Figures from which on a report has a list of what is in it.
+const MANY_FIGURES: usize = 8;
+
 /// Items as an unordered list, escaped.
 fn list_html(items: &[String]) -> String {
-    let items = items.iter().map(|item| format!("<li>{}</li>\n", escape(item)));
+    let items = items.iter().map(|item| format!("<li>{}</li>\n", prose(item)));
     format!("<ul>\n{}</ul>\n", items.collect::<String>())
 }
 

@@ -37,6 +37,10 @@ pub struct CompensationAnswer {
     pub paths: Vec<CompensatedPath>,
     /// Whether the joint compliances are assumed, not measured: so are the corrections then.
     pub compliance_assumed: bool,
+    /// Whether the robot file tells gaps of its joints: backlash is in the correction then.
+    pub backlash: bool,
+    /// Whether the study names the arm as it was measured: its geometry is in the correction then.
+    pub geometry: bool,
 }
 
 /// One path, before and after.

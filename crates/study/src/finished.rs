@@ -75,7 +75,7 @@ impl Finished {
     ///
     /// # Errors
     /// A file cannot be written.
-    pub fn write(&mut self, out: &Path, wanted: Wanted) -> Result<Vec<PathBuf>, StudyError> {
+    pub fn write(&mut self, out: &Path, wanted: Wanted<'_>) -> Result<Vec<PathBuf>, StudyError> {
         output::prepare(out)?;
         self.with(|study, done, answer| output::write(study, done, answer, (out, wanted), &|_| ()))
     }

@@ -6,6 +6,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use armill_formats::toolpath::format::{Format, HEAD_BYTES};
+use armill_formats::whole;
 
 use crate::error::StudyError;
 use crate::file::format::StudyFile;
@@ -56,7 +57,7 @@ pub fn find(given: &Path) -> Result<FoundStudy, StudyError> {
         return example(given, &shown);
     }
     refuse_program(&file)?;
-    let bytes = std::fs::read(&file).map_err(|error| {
+    let bytes = whole::read(&file).map_err(|error| {
         StudyError::value(format!("cannot read {shown}: {error}"), "give a readable file")
     })?;
     let folder = file.parent().map_or_else(|| PathBuf::from("."), Path::to_owned);

@@ -12,7 +12,7 @@
 //! | `POST /api/pictures`, `POST /api/picture.png` | its pictures, and one in pixels |
 //! | `GET /api/robots` | as `armill robots --json` |
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
@@ -22,6 +22,7 @@ use armill_study::live::{
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
 use axum::Router;
+use axum::body::Bytes;
 use axum::extract::State as Shared;
 use axum::http::HeaderMap;
 use axum::response::Response;
@@ -249,8 +250,17 @@ async fn picture_png(Shared(state): Shared<Arc<State>>, Asked(of): Asked<OfPictu
     .await
 }
 
+/// The library is built in: its list is made once.
+static LIBRARY: OnceLock<Bytes> = OnceLock::new();
+
 async fn robots(Shared(state): Shared<Arc<State>>) -> Result<Response, ApiError> {
-    let bytes = state.work.done(|_| as_json(&library_rows()?)).await?;
+    let bytes = match LIBRARY.get() {
+        Some(bytes) => bytes.clone(),
+        None => {
+            let made = state.work.done(|_| as_json(&library_rows()?)).await?;
+            LIBRARY.get_or_init(|| made.into()).clone()
+        }
+    };
     Ok(typed(JSON, bytes))
 }
 

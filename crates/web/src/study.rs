@@ -9,12 +9,13 @@
 //! | `POST /api/tables` | the values of a text, each with its place |
 //! | `GET /api/schema` | which tables and values a study may have, as `armill check --schema` prints it |
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use armill_formats::document::{Problem, schema_json};
 use armill_study::file::format::StudyFile;
 use armill_study::live::{ChangedValue, OutlineAnswer, OutlinedAsk, changed, outline, tables};
 use axum::Router;
+use axum::body::Bytes;
 use axum::extract::State as Shared;
 use axum::http::StatusCode;
 use axum::response::Response;
@@ -167,6 +168,9 @@ async fn of_tables(Shared(state): Shared<Arc<State>>, Asked(checked): Asked<Chec
     Ok(json(StatusCode::OK, &state.work.done(work).await?))
 }
 
+/// Made once: it is that of the program.
+static SCHEMA: LazyLock<Bytes> = LazyLock::new(|| schema_json::<StudyFile>().into());
+
 async fn schema() -> Response {
-    typed("application/json", schema_json::<StudyFile>())
+    typed("application/json", SCHEMA.clone())
 }

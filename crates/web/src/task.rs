@@ -185,7 +185,7 @@ impl Job {
     }
 
     /// Runs a study and writes its results.
-    fn results(&self, study: &Study, out: &Path, wanted: Wanted) -> Result<Outcome, StudyError> {
+    fn results(&self, study: &Study, out: &Path, wanted: Wanted<'_>) -> Result<Outcome, StudyError> {
         output::prepare(out)?;
         let done = self.counted(point_count(study), |watch| run(study, watch))?;
         let answer = answer(study, &done);
@@ -210,7 +210,12 @@ impl Job {
         let placement = out.join("placement.json");
         write_atomically(&placement, json.as_bytes())?;
         output::write_pictures("placement-", &placed.pictures, out)?;
-        let (_, mut files) = self.results(&placed.study(found)?, out, Wanted::USUAL)?;
+        let opening = placed.opening();
+        let wanted = Wanted {
+            opening: Some(&opening),
+            ..Wanted::USUAL
+        };
+        let (_, mut files) = self.results(&placed.study(found)?, out, wanted)?;
         let pictures = placed
             .pictures
             .iter()

@@ -5,6 +5,7 @@
 
 use armill_formats::file::write_atomically;
 use armill_study::advise::advise;
+use armill_study::output::Opening;
 use armill_study::place::{Journal, Placing};
 use armill_study::{StudyError, output, studies};
 
@@ -43,7 +44,13 @@ pub(crate) fn run(arguments: &AdviseArguments) -> Result<Outcome, StudyError> {
     };
     output::write_pictures("placement-", drawn, out)?;
     let sentences = advice.answer.advice.join("\n");
-    let outcome = results((&advice.study, beside.clone()), &arguments.run, |_| sentences)?;
+    let opening = Opening {
+        heading: "What to do",
+        sentences: advice.answer.advice.clone(),
+        pictures: advice.pictures,
+    };
+    let options = (&arguments.run, Some(&opening));
+    let outcome = results((&advice.study, beside.clone()), options, |_| sentences)?;
     journal.done();
     Ok(outcome)
 }

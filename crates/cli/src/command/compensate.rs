@@ -3,6 +3,9 @@
 //! `--out` (`compensated` beside the study) takes a table and a picture a path; stdout a line each, before and
 //! after. `--program` takes the path as a program of the robot, in the language of its ending.
 
+use std::fmt::Write as _;
+
+use armill_core::source::StiffnessModel;
 use armill_formats::file::write_atomically;
 use armill_study::compensate::{CompensatedPath, CompensationAnswer, compensate};
 use armill_study::in_place::check_folder;
@@ -53,7 +56,10 @@ pub(crate) fn run(arguments: &CompensateArguments) -> Result<Outcome, StudyError
         let written = program(&study, one.setting, (&one.path.0, &one.path.1), wanted)?;
         save(folder, &written)?;
     }
+    let any = |known: fn(&StiffnessModel) -> bool| commanded.iter().any(|one| known(&one.setting.model));
     let answer = CompensationAnswer {
+        backlash: any(|model| model.structure.gaps().next().is_some()),
+        geometry: any(|model| model.actual.is_some()),
         paths: commanded.into_iter().map(|one| one.told).collect(),
         compliance_assumed: study.compliance_is_assumed(),
     };
@@ -108,7 +114,23 @@ fn as_text(answer: &CompensationAnswer) -> String {
         ));
     }
     lines.extend(answer.paths.iter().flat_map(in_place));
-    lines.push("Elastic deviation alone, as predicted: backlash and calibration are not in it.".to_owned());
+    let parts = [
+        (answer.backlash, "backlash"),
+        (answer.geometry, "the geometry of the arm"),
+    ];
+    let named = |counts: bool| {
+        parts
+            .iter()
+            .filter(move |part| part.0 == counts)
+            .map(|part| part.1)
+    };
+    let within = ["elastic deviation"].into_iter().chain(named(true));
+    let mut known = format!("As predicted of {}", within.collect::<Vec<_>>().join(", "));
+    let without: Vec<&str> = named(false).collect();
+    if !without.is_empty() {
+        let _ = write!(known, "; {}: not known, not in it", without.join(", "));
+    }
+    lines.push(known + ".");
     if answer.compliance_assumed {
         lines.push(
             "The joint compliances are assumed, not measured: do not send such a path to a robot.".to_owned(),

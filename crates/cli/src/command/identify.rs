@@ -19,6 +19,7 @@ use armill_core::nalgebra::Vector3;
 use armill_formats::file::write_atomically;
 use armill_formats::measurement::load_tests;
 use armill_formats::robot::RobotDescription;
+use armill_formats::whole;
 use armill_study::identify::answer::{ErrorsAnswer, PointAnswer};
 use armill_study::identify::robot_file::robot_file;
 use armill_study::identify::{
@@ -117,10 +118,13 @@ fn plan_text(plan: &PlanAnswer) -> String {
         plan.robot
     );
     for spring in &plan.springs {
+        let percent = spring.relative_u_ratio * 100.0;
         let known = if spring.fraction_known_from_tests < 0.5 {
             "hardly anything".to_owned()
+        } else if percent < 1.0 {
+            "within 1 %".to_owned()
         } else {
-            format!("within {:.0} %", spring.relative_u_ratio * 100.0)
+            format!("within {percent:.0} %")
         };
         let _ = write!(text, "\n  {:<14} {known}", spring.name);
     }
@@ -135,7 +139,7 @@ fn from_tests(
     tests: &Path,
 ) -> Result<Outcome, StudyError> {
     let shown = tests.display().to_string();
-    let bytes = std::fs::read(tests).map_err(|error| {
+    let bytes = whole::read(tests).map_err(|error| {
         StudyError::value(
             format!("cannot read {shown}: {error}"),
             "a table of load tests, CSV; `armill identify --plan 20 --robot ...` makes one to fill in",

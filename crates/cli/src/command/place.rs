@@ -47,7 +47,8 @@ pub(crate) fn run(arguments: &PlaceArguments) -> Result<Outcome, StudyError> {
     };
     output::write_pictures("placement-", drawn, out)?;
     let there = placed.study(&found)?;
-    let outcome = results((&there, beside.clone()), &arguments.run, |_| {
+    let opening = placed.opening();
+    let outcome = results((&there, beside.clone()), (&arguments.run, Some(&opening)), |_| {
         let lines = placed.answer.sentences().join("\n");
         format!("{lines}\n\n{}", placed.answer.study_lines())
             .trim_end()

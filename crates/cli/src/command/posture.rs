@@ -19,7 +19,11 @@ pub(crate) fn run(arguments: &PostureArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     let mut study = found.read()?;
     study.search_postures(wanted(arguments)?.as_ref())?;
-    results((&study, found.folder.join("posture")), &arguments.run, summary)
+    results(
+        (&study, found.folder.join("posture")),
+        (&arguments.run, None),
+        summary,
+    )
 }
 
 /// What the options ask for; `None` where they leave all to the study.

@@ -7,7 +7,7 @@
 use std::path::{Path, PathBuf};
 
 use armill_study::answer::{StudyAnswer, answer};
-use armill_study::output::{self, Csv, Pictures, Wanted};
+use armill_study::output::{self, Csv, Opening, Pictures, Wanted};
 use armill_study::run::{point_count, run as run_study};
 use armill_study::{Study, StudyError, studies};
 
@@ -26,24 +26,24 @@ pub(crate) fn run(arguments: &RunArguments) -> Result<Outcome, StudyError> {
     let found = studies::find(&arguments.run.study)?;
     results(
         (&found.read()?, found.folder.join("out")),
-        &arguments.run,
+        (&arguments.run, None),
         summary,
     )
 }
 
-/// Runs a study, writes all of its results into the folder that the options name, or that one, and says what came out, in
-/// words those of `summary`.
+/// Runs a study, writes all of its results into the folder that the options name, or that one, with `opening` before the
+/// report, and says what came out, in words those of `summary`.
 ///
 /// # Errors
 /// A folder where nothing can be written, told before any work is done; a fault while results are written.
 pub(super) fn results(
     (study, beside): (&Study, PathBuf),
-    options: &RunOptions,
+    (options, opening): (&RunOptions, Option<&Opening>),
     summary: impl FnOnce(&StudyAnswer) -> String,
 ) -> Result<Outcome, StudyError> {
     let out = options.out.clone().unwrap_or(beside);
     output::prepare(&out)?;
-    let answer = in_pool(options.threads, || work(study, &out, options))??;
+    let answer = in_pool(options.threads, || work(study, &out, (options, opening)))??;
     if options.json {
         print(output::json(&answer)?.trim_end())?;
     } else {
@@ -77,11 +77,18 @@ pub(super) fn in_pool<T: Send>(
 }
 
 /// From the study to its answer and its files, under a bar.
-fn work(study: &Study, out: &Path, options: &RunOptions) -> Result<StudyAnswer, StudyError> {
+fn work(
+    study: &Study,
+    out: &Path,
+    (options, opening): (&RunOptions, Option<&Opening>),
+) -> Result<StudyAnswer, StudyError> {
     let progress = Progress::new(point_count(study));
     let found = progress.watch(|watch| run_study(study, watch))?;
     let answer = answer(study, &found);
-    let mut wanted = Wanted::USUAL;
+    let mut wanted = Wanted {
+        opening,
+        ..Wanted::USUAL
+    };
     if options.no_pictures {
         wanted.pictures = Pictures::None;
     }

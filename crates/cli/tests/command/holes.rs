@@ -79,6 +79,8 @@ fn a_hole_that_only_a_straight_wrist_holds_is_told_with_a_warning_and_lost_to_a_
         .fine()
         .json();
     assert_eq!(json["holes"][0]["each"][0]["in_the_way"], "singular", "{json}");
+    assert_eq!(json["holes"][0]["refused"], 1);
+    assert_eq!(json["holes"][0]["fraction_within"], 0.0);
     let warned = json["warnings"].to_string();
     assert!(
         warned.contains("panel: for 1 of 1 holes every turn and branch is refused, hole 1 first (singular)"),

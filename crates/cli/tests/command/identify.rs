@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::cell::armill;
+use crate::cell::{MH12_URDF, armill, numbers};
 
-/// A plan for the drives of the MH12 whose readings are those of a typical arm, 2e-6 rad/(N m) at every joint.
+/// A plan for the drives of an MH12 of which no compliance is known, whose readings are those of a typical arm, 2e-6
+/// rad/(N m) at every joint.
 fn filled_in(folder: &Path) {
+    std::fs::write(folder.join("mh12.urdf"), MH12_URDF).unwrap();
     let (code, _, stderr) = armill(
         folder,
         &[
@@ -16,7 +18,7 @@ fn filled_in(folder: &Path) {
             "--plan",
             "14",
             "--robot",
-            "yaskawa/mh12",
+            "mh12.urdf",
             "--tool-mm",
             "0,60,150",
             "--unknowns",
@@ -92,6 +94,52 @@ fn a_plan_filled_in_gives_the_springs_back_and_a_robot_that_predicts() {
     let (code, stdout, stderr) = armill(folder.path(), &pose);
     assert_eq!(code, 0, "{stderr}");
     assert!(stdout.contains("deviation"), "{stdout}");
+}
+
+#[test]
+fn a_plan_expects_what_the_compliances_of_the_robot_file_give() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = [
+        "identify",
+        "--plan",
+        "3",
+        "--robot",
+        "yaskawa/mh12",
+        "--tool-mm",
+        "0,60,150",
+        "--json",
+    ];
+    let (code, stdout, stderr) = armill(folder.path(), &plan);
+    assert_eq!(code, 0, "{stderr}");
+    let answer: Value = serde_json::from_str(&stdout).unwrap();
+    for test in answer["tests"].as_array().unwrap() {
+        let list = |key: &str| {
+            let all = numbers(&test[key]);
+            all.iter().map(ToString::to_string).collect::<Vec<_>>().join(",")
+        };
+        let (joints, force) = (list("joints_deg"), list("force_n"));
+        let pose = [
+            "pose",
+            "yaskawa/mh12",
+            "--joints-deg",
+            &joints,
+            "--wrench-n",
+            &force,
+            "--tool-mm",
+            "0,60,150",
+            "--json",
+        ];
+        let (code, stdout, stderr) = armill(folder.path(), &pose);
+        assert_eq!(code, 0, "{stderr}");
+        let posture: Value = serde_json::from_str(&stdout).unwrap();
+        let (expected, told) = (
+            numbers(&test["expected_mm"]),
+            numbers(&posture["postures"][0]["deviation_um"]),
+        );
+        for (mm, um) in expected.iter().zip(&told) {
+            assert!((mm - um / 1e3).abs() < 1e-9 * (1.0 + mm.abs()), "{test} {told:?}");
+        }
+    }
 }
 
 #[test]

@@ -6,8 +6,15 @@ use std::time::{Duration, Instant};
 
 use crate::cell::{ARMILL, Cell, SMALL, files_in, what_is_half};
 
-/// Moments at which a run is killed, evenly over the time that an undisturbed one takes.
-const MOMENTS: u32 = 8;
+/// Moments at which a run is killed, shares of the time that an undisturbed one takes: scattered by the golden ratio, the
+/// last one early, so that there are some of every kind. `ARMILL_KILLS=100` asks for more than the few that every test
+/// run has time for.
+fn moments() -> Vec<f64> {
+    let count = std::env::var("ARMILL_KILLS").map_or(8, |count| count.parse().expect("ARMILL_KILLS=100"));
+    (0..count)
+        .map(|k| (f64::from(k) * 0.618_033_988_75).fract())
+        .collect()
+}
 
 /// Two asks: enough files to be killed among, few enough to be drawn often.
 const ASKS: &str = r#"
@@ -53,10 +60,10 @@ fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
     assert!(undisturbed.len() > 20);
 
     let mut caught = Vec::new();
-    for moment in 0..MOMENTS {
-        let out = format!("killed {moment}");
+    for (k, moment) in moments().into_iter().enumerate() {
+        let out = format!("killed {k}");
         let mut child = start(&cell, &out);
-        std::thread::sleep(whole_time * moment / MOMENTS);
+        std::thread::sleep(whole_time.mul_f64(moment));
         child.kill().unwrap();
         child.wait().unwrap();
         let left = finished_files(&cell.at(&out));
@@ -64,13 +71,13 @@ fn a_killed_run_leaves_no_half_file_and_can_be_repeated() {
             .iter()
             .filter_map(|(name, bytes)| what_is_half(name, bytes))
             .collect();
-        assert!(half.is_empty(), "after {moment}/{MOMENTS}: {half:?}");
+        assert!(half.is_empty(), "after {moment:.3}: {half:?}");
         // What is there is what would have been there: every file is final when it gets its name.
         for (name, bytes) in &left {
             let whole = undisturbed.iter().find(|(other, _)| other == name);
             assert!(
                 whole.is_some_and(|(_, whole)| whole == bytes),
-                "after {moment}/{MOMENTS}: {name}"
+                "after {moment:.3}: {name}"
             );
         }
         if left.iter().any(|(name, _)| name == "result.json") {
@@ -145,4 +152,65 @@ fn a_run_killed_while_it_computes_has_written_nothing() {
         assert!(!child.wait().unwrap().success(), "it was over within {wait} ms");
         assert_eq!(finished_files(&cell.at("out")), []);
     }
+}
+
+#[test]
+fn a_search_killed_again_and_again_ends_at_the_same_place() {
+    let ring = "[[ask]]\nkind = \"path\"\nname = \"groove\"\ncircle.radius_mm = 60\nstep_mm = 20\n";
+    let free =
+        "[place]\nx_mm = [700, 1200]\nz_mm = [500, 1100]\ntilt_deg = [-30, 60]\nroll_deg = [-90, 90]\n";
+    let cell = Cell::with_study(&format!("{SMALL}{ring}{free}"));
+    let place = |out: &str| {
+        let mut command = Command::new(ARMILL);
+        command
+            .args(["place", "study.toml", "--out", out])
+            .current_dir(cell.path())
+            .stdout(Stdio::null())
+            .stderr(Stdio::null());
+        command.spawn().unwrap()
+    };
+    let begun = Instant::now();
+    assert!(place("undisturbed").wait().unwrap().success());
+    let whole_time = begun.elapsed();
+    // How many rounds were done before is told, and is all that may differ.
+    let found = |out: &str| {
+        let mut files = finished_files(&cell.at(out));
+        for (name, bytes) in &mut files {
+            if name == "placement.json" {
+                let mut answer: serde_json::Value = serde_json::from_slice(bytes).unwrap();
+                answer["rounds_taken_up"] = 0.into();
+                *bytes = answer.to_string().into_bytes();
+            }
+        }
+        files
+    };
+    let undisturbed = found("undisturbed");
+    let mut ended = 0;
+    for moment in moments() {
+        let mut child = place("killed");
+        std::thread::sleep(whole_time.mul_f64(moment));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let left = finished_files(&cell.at("killed"));
+        let half = |(name, bytes): &(String, Vec<u8>)| what_is_half(name, bytes);
+        let half: Vec<String> = left
+            .iter()
+            .filter(|file| !is_journal(&file.0))
+            .filter_map(half)
+            .collect();
+        assert!(half.is_empty(), "after {moment:.3}: {half:?}");
+        if left.iter().any(|(name, _)| name == "result.json") {
+            assert!(found("killed") == undisturbed, "after {moment:.3}");
+            std::fs::remove_dir_all(cell.at("killed")).unwrap();
+            ended += 1;
+        }
+    }
+    println!("{ended} searches came to their end, over several kills each");
+    assert!(place("killed").wait().unwrap().success());
+    assert!(found("killed") == undisturbed);
+}
+
+/// Whether a file is the notes of a search that is on its way: it grows line by line, and a line cut short is left out.
+fn is_journal(name: &str) -> bool {
+    name.ends_with(".rounds")
 }

@@ -2,7 +2,7 @@
 //!
 //! `cell` is where they run. What a user meets first: `new_and_robots`, `documents` (every page is run). Commands: `run`,
 //! `pose`, `place`, `advise`, `springs`, `assumed`, `robots_check`, `import`, `materials`, `identify`, `calibrate`, `forces`, `roundness`, `ballbar`, `budget`, `path_accuracy`, `compare`, `holes`, `unloaded` (backlash). What goes wrong: `refused`,
-//! `terminal`, `killed`.
+//! `terminal`, `killed`, `rough` (places and inputs).
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
@@ -31,6 +31,7 @@ mod pose;
 mod posture;
 mod refused;
 mod robots_check;
+mod rough;
 mod roundness;
 mod run;
 mod serve;

@@ -44,6 +44,12 @@ fn the_place_is_told_in_words_files_and_lines_that_lay_the_path_there() {
     for picture in ["placement-margin.svg", "placement-x-tilt.svg", "report.html"] {
         assert!(cell.at(&format!("place/{picture}")).exists(), "{picture}");
     }
+    let report = std::fs::read_to_string(cell.at("place/report.html")).unwrap();
+    let first = said.out.lines().next().unwrap();
+    assert!(
+        report.contains("<h2 id=\"s1\">The place</h2>") && report.contains(first),
+        "{first}"
+    );
     // Where nothing is kept that the search needed on its way.
     assert!(!cell.at("place/place.rounds").exists());
     // The lines that were told, pasted into the ask.

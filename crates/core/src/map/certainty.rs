@@ -28,7 +28,7 @@ pub fn probability_within(held: &Held, limit: f64) -> f64 {
     0.5 * libm::erfc(-room / (held.in_plane_uncertainty * std::f64::consts::SQRT_2))
 }
 
-/// How sure a map is of its region.
+/// How sure a map is of its region: of points inside the joint limits alone.
 #[derive(Clone, Debug)]
 pub struct Certainty {
     /// Where the deviation holds the limit with [`COVERAGE`] uncertainties to spare.
@@ -39,20 +39,16 @@ pub struct Certainty {
     pub fraction_surely: f64,
     /// Points in the second over all points.
     pub fraction_possibly: f64,
-    /// Mean probability of all points to be within; a point without posture is not.
+    /// Mean probability of all points to be within; a point without posture inside the joint limits is not.
     pub expected_fraction: f64,
 }
 
 impl PlaneMap {
     /// How sure the map is of what holds `limit` (m).
     pub fn certainty(&self, limit: f64) -> Certainty {
-        let points = &self.answers.points;
-        let away = |uncertainties: f64| -> Vec<Option<f64>> {
-            let value = |held: &Held| held.in_plane + uncertainties * held.in_plane_uncertainty;
-            points
-                .iter()
-                .map(|point| Some(value(point.as_ref().ok()?)))
-                .collect()
+        let points = self.answers.points.len().max(1) as f64;
+        let away = |uncertainties: f64| {
+            self.inside_joint_limits(|held| held.in_plane + uncertainties * held.in_plane_uncertainty)
         };
         let (most, least) = (away(COVERAGE), away(-COVERAGE));
         let fraction = |values: &[Option<f64>]| {
@@ -60,16 +56,13 @@ impl PlaneMap {
                 .iter()
                 .filter(|value| value.is_some_and(|v| v <= limit))
                 .count();
-            within as f64 / points.len().max(1) as f64
+            within as f64 / points
         };
-        let probabilities = self
-            .answers
-            .held()
-            .map(|(_, held)| probability_within(held, limit));
+        let probabilities = self.inside_joint_limits(|held| probability_within(held, limit));
         Certainty {
             fraction_surely: fraction(&most),
             fraction_possibly: fraction(&least),
-            expected_fraction: probabilities.sum::<f64>() / points.len().max(1) as f64,
+            expected_fraction: probabilities.iter().flatten().sum::<f64>() / points,
             surely: region_within(&self.grid, &most, limit),
             possibly: region_within(&self.grid, &least, limit),
         }

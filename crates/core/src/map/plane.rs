@@ -3,7 +3,7 @@
 use nalgebra::Point2;
 
 use crate::frame::Isometry;
-use crate::kernel::{Answers, Question, evaluate};
+use crate::kernel::{Answers, Held, Question, evaluate};
 use crate::robot::Unreachable;
 use crate::watch::{Cancelled, Watch};
 use crate::workpiece::{Grid, Plane};
@@ -102,9 +102,18 @@ impl PlaneMap {
             .collect()
     }
 
-    /// The region within `limit` (m).
+    /// The region within `limit` (m), of points inside the joint limits.
     pub fn region(&self, limit: f64) -> Region {
-        region_within(&self.grid, &self.in_plane(), limit)
+        region_within(&self.grid, &self.inside_joint_limits(|held| held.in_plane), limit)
+    }
+
+    /// `value` of each point that a part can be cut at: `None` without posture, or outside joint limits.
+    pub(super) fn inside_joint_limits(&self, value: impl Fn(&Held) -> f64) -> Vec<Option<f64>> {
+        let of = |point: &Result<Held, Unreachable>| {
+            let held = point.as_ref().ok().filter(|held| held.within_limits());
+            held.map(&value)
+        };
+        self.answers.points.iter().map(of).collect()
     }
 }
 

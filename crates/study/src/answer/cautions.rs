@@ -26,7 +26,7 @@ pub(super) fn of_holes(holes: &HolesAnswer) -> Vec<String> {
     let strained = strained.next().map(|(first, why)| {
         format!(
             "{name}: for {} of {count} holes every turn and branch is refused, hole {first} first ({}): they are told as they can \
-             be held, and `armill place` counts them as lost.",
+             be held, and count as lost.",
             1 + strained.count(),
             why.replace('_', " ")
         )

@@ -38,7 +38,10 @@ pub struct HolesAnswer {
     pub unreached: usize,
     /// Holes by reason; they add up to all.
     pub counts: CountsAnswer,
-    /// Holes within the limit over all holes.
+    /// Holes that no turn and branch holds clear of singularities and inside joint limits; they are told in a posture that
+    /// is refused.
+    pub refused: usize,
+    /// Holes within the limit in a posture that is not refused, over all holes.
     pub fraction_within: f64,
     /// Mean deviation across the hole, of those that are reached.
     pub mean_in_plane_um: Option<f64>,
@@ -135,6 +138,16 @@ pub(super) fn answer(study: &Study, name: &str, ask: &HolesAsk, found: &HolesFou
     };
     order.sort_by(|a, b| key(*b).total_cmp(&key(*a)));
     let worst = order.iter().filter(|index| answers.points[**index].is_ok());
+    let is_refused = |index: usize| {
+        found
+            .stands
+            .get(index)
+            .is_some_and(|stand| *stand != Stand::Holds)
+    };
+    let good = held
+        .iter()
+        .filter(|(index, held)| held.in_plane <= setting.limit && !is_refused(*index))
+        .count();
     let source = match &path.source {
         PathSource::Program { file, .. } => Some(file.clone()),
         PathSource::Holes { file } => file.clone(),
@@ -146,7 +159,8 @@ pub(super) fn answer(study: &Study, name: &str, ask: &HolesAsk, found: &HolesFou
         branch: ask.branch(),
         holes: count,
         unreached: count - held.len(),
-        fraction_within: counts.fraction_within(),
+        refused: held.iter().filter(|(index, _)| is_refused(*index)).count(),
+        fraction_within: good as f64 / count.max(1) as f64,
         counts: CountsAnswer::of(&counts),
         mean_in_plane_um: (!held.is_empty()).then_some(mean * 1e6),
         max_in_plane_um: answers.worst().map(|(_, held)| held.in_plane * 1e6),

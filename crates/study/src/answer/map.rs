@@ -38,9 +38,9 @@ pub struct MapAnswer {
     pub worst: Option<PointAnswer>,
     /// The point with the least in-plane deviation.
     pub best: Option<PointAnswer>,
-    /// The region within the limit.
+    /// The region within the limit, inside the joint limits.
     pub region: RegionAnswer,
-    /// How sure that is.
+    /// How sure that is: points outside joint limits count as not held.
     pub certainty: CertaintyAnswer,
     /// What all points share.
     pub setting: SettingAnswer,

@@ -317,7 +317,7 @@ fn warnings(
             ));
         } else if map.outside_joint_limits > 0 {
             warnings.push(format!(
-                "{}: {} of {} points stand outside joint limits in the branch {}; they are counted as if they did not.",
+                "{}: {} of {} points stand outside joint limits in the branch {}; the fraction counts them, the region and what fits do not.",
                 map.name, map.outside_joint_limits, map.grid.points, map.branch
             ));
         }
@@ -354,11 +354,21 @@ fn warnings(
 impl StudyAnswer {
     /// Whether every point of every map, path, box and set of holes holds the limit.
     ///
-    /// A point that is not reached does not hold it; one that is reached outside joint limits may.
+    /// A point that is not reached, or only outside joint limits, does not hold it.
     pub fn holds_everywhere(&self) -> bool {
-        let maps = self.maps.iter().map(|map| map.fraction_within);
-        let paths = self.paths.iter().map(|path| path.fraction_within);
-        let volumes = self.volumes.iter().map(|volume| volume.fraction_within);
+        let maps = self
+            .maps
+            .iter()
+            .map(|map| map.fraction_within_and_inside_joint_limits);
+        let whole = |path: &PathAnswer| match path.outside_joint_limits {
+            0 => path.fraction_within,
+            _ => 0.0,
+        };
+        let paths = self.paths.iter().map(whole);
+        let volumes = self
+            .volumes
+            .iter()
+            .map(|volume| volume.fraction_within_and_inside_joint_limits);
         let holes = self.holes.iter().map(|holes| holes.fraction_within);
         maps.chain(paths)
             .chain(volumes)

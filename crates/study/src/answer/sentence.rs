@@ -80,7 +80,8 @@ fn of_map(study: &Study, map: &MapAnswer) -> String {
     let limits = match map.outside_joint_limits {
         0 => String::new(),
         n => format!(
-            " (at {n} of {} points only outside joint limits)",
+            " ({:.1} % inside joint limits: {n} of {} points stand outside)",
+            map.fraction_within_and_inside_joint_limits * 100.0,
             map.grid.points
         ),
     };
@@ -137,14 +138,15 @@ fn of_holes(study: &Study, holes: &HolesAnswer) -> String {
             holes.holes, holes.name, holes.branch
         );
     };
-    let lost = match holes.unreached {
+    let lost = match holes.unreached + holes.refused {
         0 => String::new(),
         n => format!("; {n} cannot be drilled"),
     };
+    let good = (holes.fraction_within * holes.holes as f64).round();
     format!(
         "{}: {} of {} holes hold {} µm, each in its best posture; hole {} comes out {} ± {} µm beside its place, mostly by {}; holes are up to {} µm too deep or too shallow{lost}.",
         holes.name,
-        holes.counts.within,
+        good,
         holes.holes,
         micrometres(holes.setting.limit_um),
         worst.hole,

@@ -52,7 +52,7 @@ pub(super) fn warnings(
     if dirt > 0 {
         warnings.push(match question.without_outliers {
             true => format!("{dirt} outliers were left out"),
-            false => format!("{dirt} samples are off their neighbours and count: dirt? --leave-out-outliers leaves them out"),
+            false => format!("{dirt} samples are off their neighbours and count: dirt (--leave-out-outliers leaves them out), or the step of a joint that turns back there (`armill backlash` tells which)"),
         });
     }
     if told.runs.iter().any(|run| run.shown.circular_um.is_none()) {

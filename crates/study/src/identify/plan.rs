@@ -5,11 +5,16 @@
 //! ```
 //!
 //! A row a test. `dx_mm` to `dz_mm` are empty, for what the gauge will show: loaded minus unloaded, base axes. Expected
-//! displacements are those of a typical arm. Sliding joints are in mm, and their columns say so.
+//! displacements are those of the drives as the robot file knows them, else of a typical arm. Sliding joints are in mm, and
+//! their columns say so.
 
-use armill_core::identify::{Floor, PlanQuestion, plan as core_plan};
-use armill_core::nalgebra::Vector3;
+use armill_core::frame::Isometry;
+use armill_core::identify::{Floor, PlanQuestion, PlannedTest, plan as core_plan};
+use armill_core::nalgebra::{UnitQuaternion, Vector3};
 use armill_core::robot::Robot;
+use armill_core::robot::inverse::posture_at;
+use armill_core::source::elastic::displacement;
+use armill_core::spatial::Wrench;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -39,7 +44,7 @@ pub struct PlannedTestAnswer {
     pub joints_deg: Vec<f64>,
     /// Pull on the tool, base axes.
     pub force_n: [f64; 3],
-    /// Displacement of a typical arm.
+    /// Displacement that the drives of the robot file give, or those of a typical arm where it knows none.
     pub expected_mm: [f64; 3],
 }
 
@@ -105,10 +110,10 @@ pub fn plan(
                 .joints
                 .iter()
                 .enumerate()
-                .map(|(i, q)| (if robot.slides(i) { q * 1e3 } else { q.to_degrees() }).round())
+                .map(|(i, q)| rounded(robot, i, *q))
                 .collect(),
             force_n: test.force.into(),
-            expected_mm: (test.expected * 1e3).into(),
+            expected_mm: (expected(robot, question, test) * 1e3).into(),
         })
         .collect();
     let mut postures: Vec<&Vec<f64>> = tests.iter().map(|test| &test.joints_deg).collect();
@@ -130,6 +135,32 @@ pub fn plan(
         tests,
         springs,
     })
+}
+
+/// What the table counts joint `i` in, of rad (m): degrees, mm.
+fn scale(robot: &Robot, i: usize) -> f64 {
+    if robot.slides(i) { 1e3 } else { 1f64.to_degrees() }
+}
+
+/// Joint `i` as the table has it: whole degrees (mm).
+fn rounded(robot: &Robot, i: usize, q: f64) -> f64 {
+    (q * scale(robot, i)).round()
+}
+
+/// What the gauge is likely to show where the table puts the arm, m, base axes: of the arm's own drives where they are known.
+fn expected(robot: &Robot, question: &Question, test: &PlannedTest) -> Vector3<f64> {
+    let Some(compliance) = robot.compliance() else {
+        return test.expected;
+    };
+    let flange_from_tool = Isometry::from_parts(question.tool_point.into(), UnitQuaternion::identity());
+    let joints: Vec<f64> = test
+        .joints
+        .iter()
+        .enumerate()
+        .map(|(i, q)| rounded(robot, i, *q) / scale(robot, i))
+        .collect();
+    let posture = posture_at(robot, &joints, &flange_from_tool);
+    displacement(&posture.screws, compliance, &Wrench::from_force(test.force))
 }
 
 /// The plan as CSV, with empty cells for what will be measured.

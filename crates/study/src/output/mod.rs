@@ -45,22 +45,36 @@ use crate::file::resolve::Study;
 use crate::run::Done;
 
 /// What to write beside `result.json`, Parquet and VTK.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Wanted {
+#[derive(Clone, Copy, Debug)]
+pub struct Wanted<'a> {
     /// Whether there are pictures and a report.
     pub pictures: Pictures,
     /// Which asks get a CSV.
     pub csv: Csv,
+    /// What the report begins with, where the study was changed before it was run.
+    pub opening: Option<&'a Opening>,
 }
 
-impl Wanted {
+/// The first chapter of a report: what was looked for and found before the study was run.
+#[derive(Clone, Debug)]
+pub struct Opening {
+    /// Its heading.
+    pub heading: &'static str,
+    /// What was found, a sentence each.
+    pub sentences: Vec<String>,
+    /// Pictures of the search.
+    pub pictures: Vec<Picture>,
+}
+
+impl Wanted<'static> {
     /// What a run writes unless it is told otherwise.
-    pub const USUAL: Wanted = Wanted {
+    pub const USUAL: Wanted<'static> = Wanted {
         pictures: Pictures::Drawn,
         csv: Csv::MapsAndPaths,
+        opening: None,
     };
     /// No pictures, no report.
-    pub const TABLES: Wanted = Wanted {
+    pub const TABLES: Wanted<'static> = Wanted {
         pictures: Pictures::None,
         ..Wanted::USUAL
     };
@@ -138,7 +152,7 @@ pub fn write(
     study: &Study,
     done: &[Done<'_>],
     answer: &StudyAnswer,
-    (out, wanted): (&Path, Wanted),
+    (out, wanted): (&Path, Wanted<'_>),
     note: &(dyn Fn(&str) + Sync),
 ) -> Result<Vec<PathBuf>, StudyError> {
     let drawn = match wanted.pictures {
@@ -159,7 +173,10 @@ pub fn write(
         let pictures = || match wanted.pictures {
             Pictures::Drawn => {
                 save_pictures(&drawn, files)?;
-                files.save(REPORT, report::html(study, answer, &drawn).as_bytes())
+                files.save(
+                    REPORT,
+                    report::html(study, answer, (&drawn, wanted.opening)).as_bytes(),
+                )
             }
             Pictures::None => Ok(()),
         };

@@ -174,9 +174,14 @@ pub(super) fn map_pictures(
         Picture {
             name: format!("{slug}-region"),
             caption: format!(
-                "{}: {:.1} % of the points hold {limit_um:.0} µm.",
+                "{}: {:.1} % of the points hold {limit_um:.0} µm{}.",
                 answer.name,
-                answer.fraction_within * 100.0
+                answer.fraction_within_and_inside_joint_limits * 100.0,
+                if answer.outside_joint_limits > 0 {
+                    " inside the joint limits; those outside are not in the region"
+                } else {
+                    ""
+                }
             ),
             svg: region.to_svg(),
         },

@@ -6,7 +6,7 @@ use super::answer::PlacementAnswer;
 use crate::error::StudyError;
 use crate::file::format::{AskKind, PlaneChange, PostureTable, StudyFile};
 use crate::file::resolve::{Study, Subject};
-use crate::output::Picture;
+use crate::output::{Opening, Picture};
 use crate::studies::FoundStudy;
 
 /// What a search has found.
@@ -26,6 +26,15 @@ impl Found {
     pub fn is_better(&self) -> bool {
         let (there, drawn) = (&self.answer.found, &self.answer.as_drawn);
         (there.lost_points, there.cost_um) < (drawn.lost_points, drawn.cost_um)
+    }
+
+    /// What a report about the path there begins with.
+    pub fn opening(&self) -> Opening {
+        Opening {
+            heading: "The place",
+            sentences: self.answer.sentences(),
+            pictures: self.pictures.clone(),
+        }
     }
 
     /// The study with its path, alone, laid there and its tool turned as it was judged.

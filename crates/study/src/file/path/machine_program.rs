@@ -9,6 +9,7 @@ use armill_formats::toolpath::LengthUnit;
 use armill_formats::toolpath::apt::Dialect;
 use armill_formats::toolpath::format::{self, Wanted};
 use armill_formats::toolpath::gcode::ToolTable;
+use armill_formats::whole;
 
 use super::program::{
     BESIDE_STUDY, DialectName, MOST_POINTS, ProgramFile, ProgramTable, ReadProgram, RotariesName, UnitName,
@@ -75,7 +76,7 @@ pub(super) fn read(
     let subroutine = |name: &str| {
         let plain = name.chars().all(|c| c.is_alphanumeric() || "-_".contains(c));
         let path = beside.join(format!("{name}.ngc"));
-        plain.then(|| std::fs::read_to_string(path).ok()).flatten()
+        plain.then(|| whole::read_text(&path).ok()).flatten()
     };
     let wanted = Wanted {
         unit,
@@ -112,5 +113,5 @@ fn text_of(places: &mut Places<'_>, key: &str, path: &Path) -> Option<String> {
         let message = format!("cannot read {}: {error}", path.display());
         places.problem(key, message, BESIDE_STUDY);
     };
-    std::fs::read_to_string(path).map_err(tell).ok()
+    whole::read_text(path).map_err(tell).ok()
 }

@@ -44,7 +44,7 @@ fn numbers(holes: &HolesAnswer) -> Table {
             holes.name.clone(),
             told(&holes.file),
             holes.holes.to_string(),
-            holes.unreached.to_string(),
+            (holes.unreached + holes.refused).to_string(),
             percent(holes.fraction_within),
             um(holes.mean_in_plane_um),
             um(holes.max_in_plane_um),

@@ -16,13 +16,18 @@ mod volumes;
 
 use armill_report::html::Report;
 
+use super::Opening;
 use super::pictures::Picture;
 use crate::answer::StudyAnswer;
 use crate::budget;
 use crate::file::resolve::Study;
 
 /// The whole page: a chapter only where the study asked for it, pictures in the order given.
-pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) -> String {
+pub(super) fn html(
+    study: &Study,
+    answer: &StudyAnswer,
+    (pictures, opening): (&[Picture], Option<&Opening>),
+) -> String {
     let mut report = Report::new(&answer.title).answer(&answer.answer);
     if let Some(question) = &answer.question {
         report = report.question(question);
@@ -31,6 +36,12 @@ pub(super) fn html(study: &Study, answer: &StudyAnswer, pictures: &[Picture]) ->
         report = report.warning(warning);
     }
     report = report.inputs(inputs::rows(study, answer));
+    if let Some(opening) = opening {
+        report = report.section(opening.heading).list(&opening.sentences);
+        for picture in &opening.pictures {
+            report = report.picture(&picture.svg, &picture.caption);
+        }
+    }
     if !answer.statements.is_empty() {
         report = report.section("What others state, and what was found here").paragraph(
             "A reading is consistent with a statement if its largest in-plane deviation is within the stated bound. \

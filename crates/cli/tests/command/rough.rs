@@ -1,0 +1,183 @@
+//! Places and inputs that are not as one wishes: odd names, another locale, Windows' line ends, a disk that is full, files
+//! of gigabytes, and nobody at the other end of any stream.
+
+use std::process::Command;
+
+use crate::cell::{ARMILL, Cell, EVERY_KIND, MH12_URDF, SMALL, what_is_half};
+
+/// A program of a machine with a line and an arc.
+const PROGRAM: &str = "G21 G90\nG0 X-60 Y0 Z20\nG1 Z0 F300\nG1 X60\nG3 X-60 Y0 I-60 J0\nM2\n";
+
+/// What the study of a robot file and a program asks.
+const ASK: &str = "\n[[ask]]\nkind = \"path\"\nname = \"part\"\nprogram.file = \"part.nc\"\nstep_mm = 5\n";
+
+/// [`SMALL`] of a robot that lies beside it.
+fn with_own_robot() -> String {
+    let own = SMALL.replace("\"yaskawa/mh12\"", "\"mh12.urdf\"");
+    let compliance = "[compliance]\nrad_per_n_m = [2.1e-6, 2.5e-6, 4.0e-5, 6.0e-5, 6.0e-5, 8.0e-5]\n";
+    format!("{own}\n{compliance}{ASK}")
+}
+
+/// `command`, run by the shell in the folder of `cell` with `$ARMILL` set: exit code and stderr.
+#[cfg(unix)]
+fn shell(cell: &Cell, command: &str) -> (Option<i32>, String) {
+    let output = Command::new("sh")
+        .args(["-c", command])
+        .env("ARMILL", ARMILL)
+        .current_dir(cell.path())
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    (output.status.code(), said)
+}
+
+#[test]
+fn odd_names_and_a_locale_with_decimal_commas_change_no_byte() {
+    let text = format!("{SMALL}{EVERY_KIND}");
+    let (plain, odd) = (Cell::with_study(&text), Cell::new());
+    plain.armill(&["run", "study.toml"]).fine();
+    let folder = "Fräsen – Zelle 1/試験";
+    odd.file(&format!("{folder}/study.toml"), &text);
+    let status = Command::new(ARMILL)
+        .args(["run", folder, "--out", "Ausgabe von heute"])
+        .envs([
+            ("LC_ALL", "de_DE.UTF-8"),
+            ("LC_NUMERIC", "de_DE.UTF-8"),
+            ("LANG", "de_DE.UTF-8"),
+        ])
+        .current_dir(odd.path())
+        .output()
+        .unwrap();
+    assert!(
+        status.status.success(),
+        "{}",
+        String::from_utf8_lossy(&status.stderr)
+    );
+    let (here, there) = (plain.files("out"), odd.files("Ausgabe von heute"));
+    assert!(here.len() > 20 && here.keys().eq(there.keys()));
+    for (name, bytes) in &here {
+        assert!(there[name] == *bytes, "{name}");
+    }
+}
+
+#[test]
+fn line_ends_of_windows_change_no_byte() {
+    let [plain, windows] = [false, true].map(|crlf| {
+        let cell = Cell::new();
+        for (name, text) in [
+            ("study.toml", with_own_robot()),
+            ("mh12.urdf", MH12_URDF.to_owned()),
+            ("part.nc", PROGRAM.to_owned()),
+        ] {
+            cell.file(name, if crlf { text.replace('\n', "\r\n") } else { text });
+        }
+        cell.armill(&["run", "study.toml"]).fine();
+        cell.files("out")
+    });
+    assert!(plain.keys().eq(windows.keys()) && plain.contains_key("result.json"));
+    for (name, bytes) in &plain {
+        assert!(windows[name] == *bytes, "{name}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_disk_that_is_full_is_told_and_leaves_no_half_file() {
+    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    // No file may grow beyond 8 KiB: the write that goes over it fails, as on a full disk.
+    let (code, said) = shell(
+        &cell,
+        "trap '' XFSZ; ulimit -f 16; exec \"$ARMILL\" run study.toml",
+    );
+    assert_eq!(code, Some(2), "{said}");
+    assert!(said.contains("error: ") && said.contains("out/"), "{said}");
+    let left = cell.files("out");
+    assert!(!left.contains_key("result.json"));
+    let half: Vec<String> = left
+        .iter()
+        .filter_map(|(name, bytes)| what_is_half(name, bytes))
+        .collect();
+    assert!(half.is_empty(), "{half:?}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_folder_that_takes_no_file_is_told() {
+    let cell = Cell::with_study(SMALL);
+    // Not even root makes a folder there.
+    cell.armill(&["run", "study.toml", "--out", "/proc/armill"])
+        .refused(&["/proc/armill"]);
+    cell.armill(&["new", "/proc/armill"]).refused(&["/proc/armill"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn without_any_stream_the_work_is_done() {
+    let cell = Cell::with_study(&format!("{SMALL}{EVERY_KIND}"));
+    let (code, _) = shell(&cell, "exec \"$ARMILL\" run study.toml <&- >&- 2>&-");
+    assert_eq!(code, Some(0));
+    let closed = cell.files("out");
+    cell.armill(&["run", "study.toml"]).fine();
+    assert!(closed == cell.files("out"));
+    for command in [
+        "robots",
+        "check study.toml",
+        "pose yaskawa/mh12 --at-mm 1000,0,800",
+    ] {
+        assert_eq!(
+            shell(&cell, &format!("exec \"$ARMILL\" {command} <&- >&- 2>&-")).0,
+            Some(0),
+            "{command}"
+        );
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn gigabytes_are_refused_before_they_fill_the_memory() {
+    let cell = Cell::new();
+    // Holes take no room on the disk.
+    let sparse = |name: &str, bytes: u64| {
+        let file = std::fs::File::create(cell.at(name)).unwrap();
+        file.set_len(bytes).unwrap();
+    };
+    for name in ["big.toml", "big.urdf", "big.xacro", "big.csv"] {
+        sparse(name, 4 << 30);
+    }
+    let own = SMALL.replace("yaskawa/mh12", "big.urdf");
+    cell.file("study.toml", own);
+    for command in [
+        "check big.toml",
+        "check study.toml",
+        "robots big.toml",
+        "robots import big.urdf",
+        "robots import big.xacro",
+        "identify big.csv --robot yaskawa/mh12",
+    ] {
+        let (code, said) = shell(&cell, &format!("ulimit -v 1500000; exec \"$ARMILL\" {command}"));
+        assert_eq!(code, Some(2), "{command}: {said}");
+        assert!(
+            said.contains("more than 64 MiB") || said.contains("robot file"),
+            "{command}: {said}"
+        );
+    }
+    // Records are read as they come.
+    for name in ["record.csv", "record.b5r", "record.qif"] {
+        sparse(name, 200 << 20);
+    }
+    for command in [
+        "roundness record.csv",
+        "roundness record.qif",
+        "ballbar record.csv",
+        "ballbar record.b5r",
+        "forces record.csv",
+        "calibrate record.csv --robot yaskawa/mh12",
+    ] {
+        let (code, said) = shell(&cell, &format!("ulimit -v 1500000; exec \"$ARMILL\" {command}"));
+        assert_eq!(code, Some(2), "{command}: {said}");
+        assert!(
+            said.contains("error: ") && !said.contains("panicked"),
+            "{command}: {said}"
+        );
+    }
+}
