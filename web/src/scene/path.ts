@@ -7,7 +7,7 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { ScenePoints } from "../types";
 import { along, viridis, type Scale } from "./colour";
-import { fat } from "./plate";
+import { fat } from "./lines";
 
 const MOST_BEADS = 4000;
 
@@ -69,7 +69,7 @@ export class PathView {
       if (joined && before && leap < 0.4 * Math.hypot(...d)) rim.push(...before, ...end);
     });
     for (const [line, width, opacity] of [[whiskers, 1.3, 0.55], [rim, 2.2, 1]] as const) {
-      const object = fat(width, 0xcc3fa0, opacity);
+      const object = fat({ width, colour: 0xcc3fa0, opacity });
       object.visible = line.length > 0;
       if (line.length > 0) object.geometry = new LineSegmentsGeometry().setPositions(line);
       this.group.add(object);

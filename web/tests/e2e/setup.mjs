@@ -78,7 +78,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
 export async function settled(page) {
   await page.waitForTimeout(60);
   await page.waitForFunction(
-    () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && !document.querySelector(".pace.busy") && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
+    () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && document.querySelector("main")?.getAttribute("aria-busy") !== "true" && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
     null,
     { timeout: 60_000 },
   );
