@@ -170,12 +170,12 @@ const limb = (length: number, r0: number, r1: number): Shape => ({
   make: () => new THREE.CylinderGeometry(r1, r0, Math.max(length, 0.01), 40).translate(0, length / 2, 0),
 });
 
-const ball = (radius: number): Shape => ({ measures: told("ball", radius), make: () => new THREE.SphereGeometry(radius, 32, 20) });
+const ball = (radius: number): Shape => ({ measures: told("ball", radius), make: () => new THREE.SphereGeometry(radius, 28, 18) });
 
 /** Round y. */
 const ring = (radius: number, thick: number): Shape => ({
   measures: told("ring", radius, thick),
-  make: () => new THREE.TorusGeometry(radius, thick, 10, 44).rotateX(Math.PI / 2),
+  make: () => new THREE.TorusGeometry(radius, thick, 8, 40).rotateX(Math.PI / 2),
 });
 
 /** A cylinder with bevelled edges; `half` its half length. */

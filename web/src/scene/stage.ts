@@ -17,7 +17,7 @@ export interface Subject {
 }
 
 /** What is asked of WebGL. */
-const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: true, depth: true, stencil: false };
+const CONTEXT = { alpha: true, antialias: true };
 /** So long a picture of the processor rests before it is drawn finely. */
 const REST_MS = 300;
 
@@ -37,11 +37,15 @@ export class Stage {
   private rests: ReturnType<typeof setTimeout> | undefined;
 
   constructor(readonly host: HTMLElement) {
-    const canvas = document.createElement("canvas");
-    // None where the processor would have to draw.
-    const card = canvas.getContext("webgl2", { ...CONTEXT, failIfMajorPerformanceCaveat: true });
-    this.by_card = card !== null;
-    this.renderer = new THREE.WebGLRenderer({ ...CONTEXT, canvas, ...(card ? { context: card } : { antialias: false }) });
+    let renderer = new THREE.WebGLRenderer(CONTEXT);
+    this.by_card = !isProcessor(renderer.getContext());
+    if (!this.by_card) {
+      // Whether edges are smoothed is told when a context is made.
+      renderer.dispose();
+      renderer.forceContextLoss();
+      renderer = new THREE.WebGLRenderer({ ...CONTEXT, antialias: false });
+    }
+    this.renderer = renderer;
     this.renderer.setClearAlpha(0);
     host.append(this.renderer.domElement);
     this.renderer.domElement.setAttribute("aria-hidden", "true");
@@ -160,4 +164,10 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
+}
+
+/** Whether the processor draws: there is no graphics card, or none that the browser would use. */
+function isProcessor(gl: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const told = gl.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(told?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
 }

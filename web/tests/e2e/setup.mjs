@@ -11,7 +11,7 @@ import { chromium } from "playwright-core";
 import { before } from "../../dev/server.mjs";
 
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
-const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
 
 /** `edit`: what the study is to be instead. */
 export async function serve(edit = (text) => text) {
