@@ -233,13 +233,15 @@ export class Live {
     this.error = null;
     this.tell("answer", "pose");
     performance.measure("armill:draw", { start: begun });
-    requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      // The scene asked for this frame before: its commands are with WebGL now.
+      performance.measure("armill:submitted", { start: job.since });
       setTimeout(() => {
         this.took_ms = performance.now() - job.since;
         performance.measure("armill:picture", { start: job.since });
         this.tell("busy");
-      }),
-    );
+      });
+    });
     if (mended) this.tell("error");
     if (!stands && this.standing !== null) this.stand();
   }
