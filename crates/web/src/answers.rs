@@ -16,8 +16,8 @@ use std::sync::Arc;
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, Place, PostureQuestion, Stand, Text, answer_json, measured_csv, mesh_bytes, picture_svg, pictures,
-    postures, scene, table_csv, values, view,
+    ChangedValue, Place, PostureQuestion, Stand, Text, answer_json, measured_csv, mesh_bytes, picture_svg,
+    pictures, postures, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -173,7 +173,12 @@ async fn of_view(
 ) -> Answered {
     let headers = for_itself(&headers, "view");
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        as_json(&view(text, of.ask.as_deref(), (&of.changes, of.stand.as_ref()), watch)?)
+        as_json(&view(
+            text,
+            of.ask.as_deref(),
+            (&of.changes, of.stand.as_ref()),
+            watch,
+        )?)
     })
     .await
 }

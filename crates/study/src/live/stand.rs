@@ -4,8 +4,8 @@ use armill_core::watch::Watch;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::posture::{Place, PosturesAnswer, postures_of};
 use super::Text;
+use super::posture::{Place, PosturesAnswer, postures_of};
 use crate::answer::{PointAnswer, StudyAnswer};
 use crate::error::{ErrorKind, StudyError};
 use crate::file::resolve::{Parsed, Study};

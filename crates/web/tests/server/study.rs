@@ -230,7 +230,10 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             "/api/pose",
             json!({ "text": text, "ask": ask, "at": stands["at"], "case": stands["case"] }),
         );
-        assert!(body.contains(&format!("\"pose\":{}", pose.text().trim_end())), "{ask}");
+        assert!(
+            body.contains(&format!("\"pose\":{}", pose.text().trim_end())),
+            "{ask}"
+        );
         // Nobody has to ask where it stands.
         assert!(served.post("/api/view", of).json()["stands"].is_null());
     }
