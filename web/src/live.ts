@@ -179,7 +179,7 @@ export class Live {
     return this.answer?.maps[this.section] ?? this.answer?.maps[0] ?? null;
   }
   get setting(): Setting | null {
-    return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? null;
+    return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? this.answer?.holes[0]?.setting ?? null;
   }
   get worst(): Point | null {
     const a = this.answer;

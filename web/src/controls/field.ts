@@ -74,7 +74,11 @@ export class NumberField {
     const text = String(this.value);
     // Writing what stands there already costs as much.
     if (this.box.value !== text) this.box.value = text;
-    if (this.slider && this.slider.value !== text) this.slider.value = text;
+    if (!this.slider || this.slider.value === text) return;
+    // A cell beyond the usual: the slider reaches as far again.
+    if (this.value > Number(this.slider.max)) this.slider.max = String(2 * this.value);
+    if (this.value < Number(this.slider.min)) this.slider.min = String(Math.min(this.value, 2 * this.value));
+    this.slider.value = text;
   }
 
   private typed(): void {

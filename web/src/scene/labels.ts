@@ -17,7 +17,12 @@ interface Group {
   used: number;
 }
 
+/** Left, top, right, bottom in the picture. */
+export type Box = [number, number, number, number];
+
 export class Labels {
+  /** Where no label may stand: what lies over the picture. */
+  keep_out: Box[] = [];
   private readonly layer = document.createElement("div");
   private readonly hidden = new Set<string>();
   private readonly groups = new Map<string, Group>();
@@ -60,7 +65,7 @@ export class Labels {
    * what `covered` says lies behind something.
    */
   place(camera: THREE.Camera, size: THREE.Vector2, covered: (group: string, at: THREE.Vector3) => boolean): void {
-    const taken: [number, number, number, number][] = [];
+    const taken: Box[] = [...this.keep_out];
     const point = new THREE.Vector3();
     for (const [name, { all, used }] of this.groups) {
       all.forEach((label, i) => {
@@ -69,7 +74,7 @@ export class Labels {
         const x = ((point.x + 1) / 2) * size.x;
         const y = ((1 - point.y) / 2) * size.y;
         const [w, h] = [text.length * 6.2 + 10, 17];
-        const box: [number, number, number, number] = [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
+        const box: Box = [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
         const outside = i >= used || this.hidden.has(name) || point.z > 1 || point.z < -1 || box[0] < 0 || box[1] < 0 || box[2] > size.x || box[3] > size.y;
         const shown = !(outside || taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1]) || covered(name, at));
         if (shown !== label.shown) label.element.style.visibility = (label.shown = shown) ? "visible" : "hidden";

@@ -68,6 +68,16 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     slider.value = String(Math.log10(view.show.magnified));
   };
   view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
+  const cards = [views, shown, scales, legendBox];
+  const keepOut = new ResizeObserver(() => {
+    const host = view.stage.host.getBoundingClientRect();
+    view.stage.labels.keep_out = cards.map((card) => {
+      const { left, top, right, bottom } = card.getBoundingClientRect();
+      return [left - host.left, top - host.top, right - host.left, bottom - host.top];
+    });
+    view.stage.draw();
+  });
+  for (const element of [view.stage.host, ...cards]) keepOut.observe(element);
   return h("div", { class: "overlay" }, views, shown, scales, legendBox, tip);
 }
 
