@@ -1176,36 +1176,29 @@ export interface components {
             ask?: string | null;
             /** @description What changes; nothing if left out. */
             changes?: components["schemas"]["ChangedValue"][];
+            /** @description Where the arm is to stand in it; nowhere if left out. */
+            stand?: components["schemas"]["Stand"] | null;
         };
-        /** @description A shape of the robot. */
-        OfMesh: {
-            /** @description The text of the study. */
-            text: string;
-            /** @description The file, as the robot's file names it. */
-            file: string;
-        };
-        /** @description An ask of a text. */
-        OfAsk: {
-            /** @description The text of the study. */
-            text: string;
-            /** @description Its ask; all of them, or the first, where none is named. */
-            ask?: string | null;
-        };
-        /** @description A place of an ask. */
-        OfPlace: {
-            /** @description The text of the study. */
-            text: string;
-            /** @description Its ask; the first where none is named. */
-            ask?: string | null;
-            /** @description Where the tool is. */
-            at: components["schemas"]["Place"];
+        /** @description Where the arm is to stand. */
+        Stand: {
+            /** @description At which point. */
+            follow: components["schemas"]["Follow"];
+            /** @description The place, where that is followed. */
+            at?: components["schemas"]["Place"] | null;
             /**
              * Format: uint
-             * @description Load case, from 1.
-             * @default 1
+             * @description Of sections the one whose worst or best point is meant, from 0.
+             * @default 0
              */
-            case: number;
+            section: number;
+            /**
+             * Format: uint
+             * @description Load case, from 1; if left out the one that decides at the worst or best point, at a place the first.
+             */
+            case?: number | null;
         };
+        /** @description What the arm follows while values change. */
+        Follow: "worst" | "best" | "place";
         /** @description Where the tool is: one of these. */
         Place: {
             /**
@@ -1236,6 +1229,35 @@ export interface components {
              * @description Of sections which one, from 0; the first if left out.
              */
             section?: number | null;
+        };
+        /** @description A shape of the robot. */
+        OfMesh: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description The file, as the robot's file names it. */
+            file: string;
+        };
+        /** @description An ask of a text. */
+        OfAsk: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Its ask; all of them, or the first, where none is named. */
+            ask?: string | null;
+        };
+        /** @description A place of an ask. */
+        OfPlace: {
+            /** @description The text of the study. */
+            text: string;
+            /** @description Its ask; the first where none is named. */
+            ask?: string | null;
+            /** @description Where the tool is. */
+            at: components["schemas"]["Place"];
+            /**
+             * Format: uint
+             * @description Load case, from 1.
+             * @default 1
+             */
+            case: number;
         };
         /** @description The table of an ask. */
         OfTable: {
@@ -1577,6 +1599,10 @@ export interface components {
             scene: components["schemas"]["SceneAnswer"];
             /** @description As `armill run --json` tells it of that ask. */
             answer: components["schemas"]["StudyAnswer"];
+            /** @description Where its worst and best points are: of sections those of each, else of one. */
+            extremes: components["schemas"]["ExtremesAnswer"][];
+            /** @description The arm where it was to stand; `null` where nobody asked, and where there is no such place. */
+            stands: components["schemas"]["StandsAnswer"] | null;
         };
         /** @description Every setting of one ask; `null` where there is none. */
         ValuesAnswer: {
@@ -3408,6 +3434,25 @@ export interface components {
             where: string;
             /** @description Under which licence, or that it is a fact. */
             licence: string;
+        };
+        /** @description The places of the worst and the best point; none where no point is reached, no best along a path and of holes. */
+        ExtremesAnswer: {
+            /** @description Where the deviation is largest. */
+            worst: components["schemas"]["Place"] | null;
+            /** @description Where it is least. */
+            best: components["schemas"]["Place"] | null;
+        };
+        /** @description The arm where it was to stand. */
+        StandsAnswer: {
+            /** @description The place. */
+            at: components["schemas"]["Place"];
+            /**
+             * Format: uint
+             * @description The load case, from 1.
+             */
+            case: number;
+            /** @description Every posture there, as `/api/pose` answers. */
+            pose: components["schemas"]["PosturesAnswer"];
         };
         /** @description Every posture at one place, as `armill pose --json` tells it, and how each is drawn. */
         PosturesAnswer: {

@@ -26,15 +26,61 @@ export function fill(element: Element, ...children: Child[]): void {
   if (focused !== undefined) element.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
 }
 
+/**
+ * As `fill`, with what is there already: nodes of the same kind stay and take on what is new, so that a number that changes
+ * costs its text and no more. For children that are made anew each time, kept by nobody and listening to clicks alone.
+ */
+export function renew(element: Element, ...children: Child[]): void {
+  const focused = element.contains(document.activeElement) ? (document.activeElement as HTMLElement).dataset.key : undefined;
+  const made = document.createDocumentFragment();
+  add(made, children);
+  match(element, made);
+  if (focused === undefined || (document.activeElement as HTMLElement).dataset.key === focused) return;
+  element.querySelector<HTMLElement>(`[data-key="${CSS.escape(focused)}"]`)?.focus({ preventScroll: true });
+}
+
+/** The children of `made` in the place of those of `there`. */
+function match(there: Node, made: Node): void {
+  let old = there.firstChild;
+  for (let node = made.firstChild; node !== null; ) {
+    const following = node.nextSibling;
+    if (old === null) there.appendChild(node);
+    else {
+      const beside: ChildNode | null = old.nextSibling;
+      if (old.nodeName === node.nodeName) take(old, node);
+      else old.replaceWith(node);
+      old = beside;
+    }
+    node = following;
+  }
+  while (old !== null) {
+    const beside: ChildNode | null = old.nextSibling;
+    old.remove();
+    old = beside;
+  }
+}
+
+/** What is new in `made`. */
+function take(old: Node, made: Node): void {
+  if (!(old instanceof Element && made instanceof Element)) {
+    if (old.nodeValue !== made.nodeValue) old.nodeValue = made.nodeValue;
+    return;
+  }
+  for (const { name, value } of made.attributes) if (old.getAttribute(name) !== value) old.setAttribute(name, value);
+  if (old.attributes.length > made.attributes.length) for (const { name } of [...old.attributes]) if (!made.hasAttribute(name)) old.removeAttribute(name);
+  (old as HTMLElement).onclick = (made as HTMLElement).onclick;
+  match(old, made);
+}
+
 function set(element: Element, attributes: Attributes): void {
   for (const [name, value] of Object.entries(attributes)) {
-    if (typeof value === "function") element.addEventListener(name.replace(/^on/, ""), value as EventListener);
+    if (typeof value === "function") (element as unknown as Record<string, unknown>)[name] = value;
     else if (value === true) element.setAttribute(name, "");
     else if (value !== false && value !== null && value !== undefined) element.setAttribute(name, String(value));
   }
 }
 
-function add(element: Element, children: Child[]): void {
+function add(element: Element | DocumentFragment, children: Child[]): void {
   for (const child of children) {
     if (Array.isArray(child)) add(element, child);
     else if (child instanceof Node) element.append(child);

@@ -1,16 +1,15 @@
 // What is on the screen: one study text, one ask, its answer, and where the robot stands. Panels and scene listen.
 //
-// A change of a control goes /api/view -> /api/pose; newest wins. The text that comes back becomes the text of the next
-// change, so that comments and order stay as the user wrote them.
+// A change of a control is one question, /api/view, whose answer tells map and arm at once, and one picture; newest wins.
+// Where the robot is sent elsewhere on the same map, /api/pose is asked alone. The text that comes back becomes the text of
+// the next change, so that comments and order stay as the user wrote them.
 
 import { api, Refused } from "./server";
 import { Newest } from "./newest";
 import { choosePosture, decidingCase } from "./posture";
-import type { Answer, Ask, At, Change, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
+import type { Answer, Ask, At, Change, Extremes, Follow, MapAnswer, Point, Pose, Scene, Setting, Study, Values, View } from "./types";
 
 export type Topic = "study" | "answer" | "pose" | "moving" | "busy" | "error" | "view";
-/** Where the robot stands: the worst or best point of what is shown, or a place that the user chose. */
-export type Follow = "worst" | "best" | "place";
 
 interface Job {
   ask: string | null;
@@ -18,6 +17,8 @@ interface Job {
 }
 interface Result {
   sent: Map<string, unknown>;
+  /** Which wish the arm of the view stands for. */
+  wish: number;
   view: View;
 }
 
@@ -29,6 +30,8 @@ export class Live {
   answer: Answer | null = null;
   values: Values | null = null;
   scene: Scene | null = null;
+  /** Where the worst and best points are: of sections those of each. */
+  extremes: Extremes[] = [];
   pose: Pose | null = null;
   posture = 0;
   load_case = 1;
@@ -46,9 +49,11 @@ export class Live {
   took_ms: number | null = null;
 
   private pending = new Map<string, unknown>();
-  private listeners: ((topic: Topic) => void)[] = [];
+  private listeners: { topics: Topic[]; told: () => void }[] = [];
   private wanted_branch: string | null = null;
   private fixed_case: number | null = null;
+  /** Counts how often the robot was sent elsewhere. */
+  private wish = 0;
   private input_at = 0;
 
   private readonly answers = new Newest<Job, Result>({
@@ -62,7 +67,10 @@ export class Live {
   });
   private readonly poses = new Newest<{ at: At; load_case: number }, Pose>({
     work: ({ at, load_case }, signal) => api.pose(this.text, this.ask, at, load_case, signal),
-    done: (pose, { at, load_case }) => this.takePose(pose, at, load_case),
+    done: (pose, { at, load_case }) => {
+      this.takePose(pose, at, load_case);
+      this.tell("pose");
+    },
     failed: (error) => {
       if (error instanceof Refused && error.kind === "superseded") return;
       this.pose_error = error instanceof Error ? error.message : String(error);
@@ -75,11 +83,12 @@ export class Live {
     },
   });
 
-  listen(listener: (topic: Topic) => void): void {
-    this.listeners.push(listener);
+  listen(topics: Topic[], told: () => void): void {
+    this.listeners.push({ topics, told });
   }
-  tell(topic: Topic): void {
-    for (const listener of this.listeners) listener(topic);
+  /** Each listener once, whatever of it concerns it. */
+  tell(...news: Topic[]): void {
+    for (const { topics, told } of this.listeners) if (topics.some((topic) => news.includes(topic))) told();
   }
 
   // ---- What the user does ----
@@ -170,7 +179,7 @@ export class Live {
     return this.answer?.maps[this.section] ?? this.answer?.maps[0] ?? null;
   }
   get setting(): Setting | null {
-    return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? null;
+    return this.map?.setting ?? this.answer?.paths[0]?.setting ?? this.answer?.volumes[0]?.setting ?? this.answer?.holes[0]?.setting ?? null;
   }
   get worst(): Point | null {
     const a = this.answer;
@@ -182,7 +191,7 @@ export class Live {
 
   /** The point of the answer that the robot stands at, where it shows that posture and case. */
   get told(): Point | null {
-    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+    const point = this.followed;
     const same = point?.branch === (this.pose?.answer.postures[this.posture]?.branch ?? null) && point?.deciding_case === this.load_case;
     return same ? point : null;
   }
@@ -197,10 +206,13 @@ export class Live {
   private async ask_server(job: Job, signal: AbortSignal): Promise<Result> {
     const sent = new Map(this.pending);
     const changes: Change[] = [...sent].map(([key, value]) => ({ key: key.trimStart(), value, whole: key.startsWith("\n") }));
-    return { sent, view: await api.view(this.text, job.ask, changes, signal) };
+    const wish = this.wish;
+    const there = this.follow === "place";
+    const stand = { follow: this.follow, at: there ? this.at : null, section: this.section, case: this.fixed_case ?? (there ? this.load_case : null) };
+    return { sent, wish, view: await api.view(this.text, job.ask, changes, stand, signal) };
   }
 
-  private take({ sent, view }: Result, job: Job): void {
+  private take({ sent, wish, view }: Result, job: Job): void {
     if (job.ask !== this.ask) return;
     for (const [key, value] of sent) if (this.pending.get(key) === value) this.pending.delete(key);
     this.text = view.text;
@@ -208,20 +220,30 @@ export class Live {
     this.answer = view.answer;
     if (this.settled) this.values = view.values;
     this.scene = view.scene;
-    this.error = null;
+    this.extremes = view.extremes;
     if (this.section >= Math.max(1, view.answer.maps.length)) this.section = 0;
     const begun = performance.now();
-    this.tell("answer");
+    const stands = wish === this.wish ? view.stands : null;
+    if (stands) {
+      this.poses.cancel();
+      this.at = stands.at;
+      this.takePose(stands.pose, stands.at, stands.case);
+    } else if (this.standing === null) this.pose = null;
+    const mended = this.error !== null;
+    this.error = null;
+    this.tell("answer", "pose");
     performance.measure("armill:draw", { start: begun });
-    requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      // The scene asked for this frame before: its commands are with WebGL now.
+      performance.measure("armill:submitted", { start: job.since });
       setTimeout(() => {
         this.took_ms = performance.now() - job.since;
         performance.measure("armill:picture", { start: job.since });
         this.tell("busy");
-      }),
-    );
-    this.tell("error");
-    this.stand();
+      });
+    });
+    if (mended) this.tell("error");
+    if (!stands && this.standing !== null) this.stand();
   }
 
   private fail(error: unknown): void {
@@ -234,29 +256,22 @@ export class Live {
     this.tell("error");
   }
 
-  private stand(): void {
-    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
-    if (this.follow !== "place") {
-      if (!point) {
-        this.pose = null;
-        this.tell("pose");
-        return;
-      }
-      this.at = this.placeOf(point);
-    }
-    if (this.at) this.poses.submit({ at: this.at, load_case: this.fixed_case ?? point?.deciding_case ?? this.load_case });
+  /** Where the robot is to stand; null where what it follows is not there. */
+  private get standing(): At | null {
+    if (this.follow === "place") return this.at;
+    return (this.extremes[this.section] ?? this.extremes[0])?.[this.follow] ?? null;
   }
 
-  /** A point of the answer as a place to stand: of a path by its number, so that attitude and load are its own. */
-  private placeOf(point: Point): At {
-    const points = this.scene?.points;
-    if (points) {
-      // Points of the scene lie in base, those of the answer in the frame that coordinates count from.
-      const shift = this.scene!.base_mm;
-      const off = points.xyz_mm.map((p, i) => Math.hypot(...p.map((x, k) => x - shift[k]! - point.xyz_mm[k]!)) + Math.abs((points.columns.in_plane_um[i] ?? 1e9) - point.in_plane_um));
-      return { point: off.reduce((best, v, i) => (v < off[best]! ? i : best), 0) };
+  /** Sends the robot there, on what is shown already. */
+  private stand(): void {
+    this.wish++;
+    this.at = this.standing;
+    if (this.at === null) {
+      this.pose = null;
+      this.tell("pose");
+      return;
     }
-    return this.onPlate(point.in_plane_mm[0], point.in_plane_mm[1]);
+    this.poses.submit({ at: this.at, load_case: this.fixed_case ?? this.followed?.deciding_case ?? this.load_case });
   }
 
   /** A place on the plate that is shown. */
@@ -264,10 +279,14 @@ export class Live {
     return this.answer!.maps.length > 1 ? { y_mm, z_mm, section: this.section } : { y_mm, z_mm };
   }
 
+  /** The answer's point that the robot follows, where it follows one. */
+  private get followed(): Point | null {
+    return this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
+  }
+
   private takePose(pose: Pose, at: At, load_case: number): void {
-    const point = this.follow === "worst" ? this.worst : this.follow === "best" ? this.best : null;
     this.pose_error = pose.answer.postures.length === 0 ? (pose.answer.unreachable?.message ?? "The robot has no posture there.") : null;
-    this.posture = choosePosture(pose, this.wanted_branch ?? point?.branch ?? null, this.values?.branch_meant ?? null);
+    this.posture = choosePosture(pose, this.wanted_branch ?? this.followed?.branch ?? null, this.values?.branch_meant ?? null);
     const decides = decidingCase(pose.in_plane[this.posture] ?? []);
     if (this.fixed_case === null && decides !== null && decides !== load_case) {
       this.load_case = decides;
@@ -276,6 +295,5 @@ export class Live {
     }
     this.load_case = load_case;
     this.pose = pose;
-    this.tell("pose");
   }
 }

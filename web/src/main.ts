@@ -16,6 +16,9 @@ import { studyTab } from "./tabs/study";
 import type { Tab } from "./tabs/tab";
 import { startTheme, switchTheme, theme } from "./theme";
 
+/** So long nothing changes before the pace is told. */
+const PAUSE_MS = 150;
+
 const app = document.getElementById("app")!;
 takeToken();
 startTheme(() => undefined);
@@ -75,27 +78,34 @@ async function start(): Promise<void> {
   };
   startTheme(themed);
   const banner = h("div", { class: "banner", role: "alert", hidden: true });
-  live.listen((topic) => {
-    if (topic === "study" || topic === "answer") {
-      title.textContent = live.study?.title ?? live.study?.file ?? "";
-      document.title = `${live.study?.title ?? "study"} – armill`;
-      changed.hidden = !live.study || live.text === live.study.text;
-      keep.hidden = changed.hidden || !live.study?.writable;
-    }
-    if (topic === "busy") {
+  live.listen(["study"], () => {
+    title.textContent = live.study?.title ?? live.study?.file ?? "";
+    document.title = `${live.study?.title ?? "study"} – armill`;
+  });
+  live.listen(["study", "answer"], () => {
+    changed.hidden = !live.study || live.text === live.study.text;
+    keep.hidden = changed.hidden || !live.study?.writable;
+  });
+  // Telling the pace costs a frame of its own: it waits until nothing is scrubbed.
+  let tells: ReturnType<typeof setTimeout> | undefined;
+  live.listen(["busy"], () => {
+    content.setAttribute("aria-busy", String(live.busy));
+    clearTimeout(tells);
+    tells = setTimeout(() => {
       pace.textContent = live.busy ? "computing …" : live.took_ms === null ? "" : `${fixed(live.took_ms, 0)} ms`;
       pace.classList.toggle("busy", live.busy);
-    }
-    if (topic === "error") {
-      banner.hidden = live.error === null || (live.error_at_field && current?.id === "live");
-      if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Not answered: "), live.error.message, h("span", {}, live.answer ? " What is shown is the last sound answer." : ""));
-    }
+    }, PAUSE_MS);
   });
+  live.listen(["error"], () => {
+    banner.hidden = live.error === null || (live.error_at_field && current?.id === "live");
+    if (live.error) fill(banner, h("b", {}, live.error.status === 0 ? "No connection. " : "Not answered: "), live.error.message, h("span", {}, live.answer ? " What is shown is the last sound answer." : ""));
+  });
+  const content = h("main", {}, tabs.map((t) => t.root));
   fill(
     app,
     h("header", { class: "top" }, h("a", { class: "brand", href: "#live", onclick: (e: Event) => (e.preventDefault(), go("live")) }, "armill"), title, changed, keep, nav, pace, sun),
     banner,
-    h("main", {}, tabs.map((t) => t.root)),
+    content,
   );
   go(location.hash.slice(1) || "live");
   const study = await asked;

@@ -1,7 +1,7 @@
 // The server: one function a call. The token comes with the URL that armill opened and stays in this tab.
 
 import type { Schema } from "./tables/schema";
-import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
+import type { At, Change, Changed, Checked, Job, Picture, Pose, Problem, RobotRow, Stand, StoredFile, Study, Tables, TakenIn, View, Wrong } from "./types";
 
 export class Refused extends Error {
   constructor(
@@ -74,9 +74,9 @@ export const api = {
   schema: () => json<Schema>("GET", "/api/schema"),
   tables: (text: string, signal?: AbortSignal) => json<Tables>("POST", "/api/tables", { text }, signal),
   change: (text: string, ask: string | null, changes: Change[], signal?: AbortSignal) => json<Changed>("POST", "/api/change", { text, ask, changes }, signal),
-  view: async (text: string, ask: string | null, changes: Change[], signal?: AbortSignal) => {
+  view: async (text: string, ask: string | null, changes: Change[], stand: Stand, signal?: AbortSignal) => {
     const asked = performance.now();
-    const response = await raw("POST", "/api/view", { text, ask, changes }, signal);
+    const response = await raw("POST", "/api/view", { text, ask, changes, stand }, signal);
     const body = await response.text();
     const got = performance.now();
     const view = JSON.parse(body) as View;

@@ -32,6 +32,10 @@ export type Values = Schemas["ValuesAnswer"];
 export type MapGrid = Schemas["GridAnswer"];
 
 export type At = Schemas["Place"];
+export type Stand = Schemas["Stand"];
+/** What the robot follows: the worst or best point of what is shown, or a place that the user chose. */
+export type Follow = Schemas["Follow"];
+export type Extremes = Schemas["ExtremesAnswer"];
 export type ArmDrawing = Schemas["DrawnPosture"];
 export type DrawnMesh = Schemas["DrawnMesh"];
 /** Uncertainty, shares and permissible forces come where the posture has a named branch. */
@@ -71,6 +75,9 @@ export interface View {
   values: Values;
   scene: Scene;
   answer: Answer;
+  extremes: Extremes[];
+  /** The arm where it was asked to stand; null where there is no such place. */
+  stands: { at: At; case: number; pose: Pose } | null;
 }
 
 export type RobotRow = Schemas["RobotRow"];

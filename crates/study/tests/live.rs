@@ -8,8 +8,8 @@ use std::path::Path;
 use armill_core::watch::Watch;
 use armill_study::answer::answer;
 use armill_study::live::{
-    ChangedValue, Place, PostureQuestion, Text, answer_json, changed, outline, pictures, postures, scene,
-    table_csv, values,
+    ChangedValue, Follow, Place, PostureQuestion, Stand, Text, answer_json, changed, outline, pictures,
+    postures, scene, table_csv, values, view,
 };
 use armill_study::output::{self, Wanted};
 use armill_study::run::run;
@@ -239,6 +239,69 @@ fn points_of_a_path_lie_on_its_plate_and_deviate_as_its_table_says() {
         .map(|case| case.in_plane_um)
         .fold(0.0, f64::max);
     assert!((most - points.columns["in_plane_um"][7].as_f64().unwrap()).abs() < 2e-3);
+}
+
+#[test]
+fn the_arm_of_a_view_stands_where_the_answer_says() {
+    let holes = "[[ask]]\nkind = \"holes\"\nname = \"rivets\"\nholes = { at_mm = [[0, 0, 0], [40, 20, 0]] }\nposture = { search = { turns_deg = [0, 0] } }\n";
+    let study = format!("{CIRCLE}{holes}");
+    let shown = |ask: &str, follow: Follow, section: usize| {
+        let stand = Stand {
+            follow,
+            at: None,
+            section,
+            case: None,
+        };
+        view(of(&study), Some(ask), (&[], Some(&stand)), Watch::NONE).unwrap()
+    };
+    for (ask, follow, section, part) in [
+        ("far", Follow::Worst, 1, "/maps/1/worst"),
+        ("far", Follow::Best, 0, "/maps/0/best"),
+        ("rim", Follow::Worst, 0, "/paths/0/worst"),
+        ("box", Follow::Best, 0, "/volumes/0/best"),
+        ("rivets", Follow::Worst, 0, "/holes/0/worst_holes/0/point"),
+    ] {
+        let told = shown(ask, follow, section);
+        let answer = serde_json::to_value(&told.answer).unwrap();
+        let point = answer.pointer(part).unwrap();
+        let stands = told.stands.unwrap();
+        assert_eq!(json!(stands.case), point["deciding_case"], "{ask}");
+        // Whose posture is that, and does it deviate as the answer says there?
+        let near = stands.pose.answer.postures.iter().zip(&stands.pose.in_plane);
+        let most = |cases: &[Option<armill_study::live::CaseAnswer>]| {
+            let told = cases.iter().flatten().map(|case| case.in_plane_um);
+            told.fold(0.0, f64::max)
+        };
+        let off = near
+            .filter(|(posture, _)| json!(posture.branch) == point["branch"])
+            .map(|(_, cases)| (most(cases) - point["in_plane_um"].as_f64().unwrap()).abs())
+            .fold(f64::INFINITY, f64::min);
+        assert!(off < 2e-3, "{ask}: {off}");
+        // A place to ask for alone.
+        let question = PostureQuestion {
+            ask: Some(ask),
+            at: stands.at,
+            case: stands.case,
+        };
+        let alone = postures(of(&study), &question, Watch::NONE).unwrap();
+        assert_eq!(
+            serde_json::to_value(&alone).unwrap(),
+            serde_json::to_value(&stands.pose).unwrap()
+        );
+    }
+    // A path has no best point, and none of its points has this number.
+    assert!(shown("rim", Follow::Best, 0).stands.is_none());
+    let gone = Stand {
+        follow: Follow::Place,
+        at: Some(Place {
+            point: Some(360),
+            ..Place::default()
+        }),
+        section: 0,
+        case: None,
+    };
+    let told = view(of(CIRCLE), Some("rim"), (&[], Some(&gone)), Watch::NONE).unwrap();
+    assert!(told.stands.is_none() && told.extremes[0].worst.is_some());
 }
 
 #[test]

@@ -3,7 +3,7 @@
 //! | path | answers |
 //! |---|---|
 //! | `POST /api/answer` | as `armill run --json` of one ask, or of all |
-//! | `POST /api/view` | answer, values and scene of an ask at once, after values are changed |
+//! | `POST /api/view` | answer, values, scene of an ask and how the arm stands in it at once, after values are changed |
 //! | `POST /api/values` | the settings that an ask resolves to |
 //! | `POST /api/pose` | the arm at one place of an ask |
 //! | `POST /api/scene` | what of an ask can be drawn in space |
@@ -16,8 +16,8 @@ use std::sync::{Arc, OnceLock};
 
 use armill_core::watch::Watch;
 use armill_study::live::{
-    ChangedValue, Place, PostureQuestion, Text, answer_json, measured_csv, mesh_bytes, picture_svg, pictures,
-    postures, scene, table_csv, values, view,
+    ChangedValue, Place, PostureQuestion, Stand, Text, answer_json, measured_csv, mesh_bytes, picture_svg,
+    pictures, postures, scene, table_csv, values, view,
 };
 use armill_study::robot_answers::library_rows;
 use armill_study::{StudyError, output};
@@ -57,6 +57,8 @@ pub(crate) struct OfView {
     /// What changes; nothing if left out.
     #[serde(default)]
     pub changes: Vec<ChangedValue>,
+    /// Where the arm is to stand in it; nowhere if left out.
+    pub stand: Option<Stand>,
 }
 
 /// A shape of the robot.
@@ -172,7 +174,12 @@ async fn of_view(
 ) -> Answered {
     let headers = for_itself(&headers, "view");
     answered(state, (of.text, headers, JSON), move |text, watch| {
-        as_json(&view(text, of.ask.as_deref(), &of.changes, watch)?)
+        as_json(&view(
+            text,
+            of.ask.as_deref(),
+            (&of.changes, of.stand.as_ref()),
+            watch,
+        )?)
     })
     .await
 }

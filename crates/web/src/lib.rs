@@ -36,4 +36,5 @@ mod task;
 mod work;
 
 pub use openapi::document as openapi_document;
+pub use page::has_page;
 pub use server::{Options, Server, open_browser};

@@ -16,7 +16,7 @@ use crate::server::State;
 
 /// The files of `web/dist`, which `cargo xtask web` makes.
 #[derive(RustEmbed)]
-#[folder = "$CARGO_MANIFEST_DIR/../../web/dist"]
+#[folder = "../../web/dist"]
 #[allow_missing = true]
 struct Built;
 
@@ -24,6 +24,11 @@ struct Built;
 const NOT_BUILT: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>armill</title>\
 <p>This armill was built without its page. In the sources, with Node installed: <code>cargo xtask web</code>, then build \
 again. Everything under <code>/api</code> works as it is.</p></html>";
+
+/// Whether the page was built into this program.
+pub fn has_page() -> bool {
+    Built::get("index.html").is_some()
+}
 
 pub(crate) fn routes() -> Router<Arc<State>> {
     Router::new()
@@ -60,5 +65,17 @@ pub(crate) fn kind(path: &str) -> &'static str {
         "woff2" => "font/woff2",
         "wasm" => "application/wasm",
         _ => "application/octet-stream",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    #[test]
+    fn a_page_that_was_built_is_in_the_program() {
+        let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/dist/index.html");
+        assert_eq!(has_page(), built.is_file());
     }
 }

@@ -91,14 +91,12 @@ export function controls(live: Live): HTMLElement {
     spin.set(v.kind === "path" ? v.spin_deg : null);
     robot.set(v.robot, robots.map((r) => ({ value: r.name, text: `${r.title}${r.compliance ? "" : " – no compliance known"}` })));
   };
-  live.listen((topic) => {
-    if (topic === "answer" || topic === "study") fill();
-    if (topic === "error") {
-      for (const control of all) control.clear();
-      if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
-        told(live.error, all, last);
-        live.error_at_field = true;
-      }
+  live.listen(["answer", "study"], fill);
+  live.listen(["error"], () => {
+    for (const control of all) control.clear();
+    if (live.error && last && live.error.status >= 400 && live.error.status < 500) {
+      told(live.error, all, last);
+      live.error_at_field = true;
     }
   });
   void api.robots().then((rows) => {

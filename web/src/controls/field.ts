@@ -60,6 +60,7 @@ export class NumberField {
   }
 
   clear(): void {
+    if (!this.error.hasChildNodes()) return;
     this.box.removeAttribute("aria-invalid");
     this.error.replaceChildren();
   }
@@ -70,8 +71,14 @@ export class NumberField {
 
   private write(): void {
     if (this.value === null) return;
-    this.box.value = String(this.value);
-    if (this.slider) this.slider.value = String(this.value);
+    const text = String(this.value);
+    // Writing what stands there already costs as much.
+    if (this.box.value !== text) this.box.value = text;
+    if (!this.slider || this.slider.value === text) return;
+    // A cell beyond the usual: the slider reaches as far again.
+    if (this.value > Number(this.slider.max)) this.slider.max = String(2 * this.value);
+    if (this.value < Number(this.slider.min)) this.slider.min = String(Math.min(this.value, 2 * this.value));
+    this.slider.value = text;
   }
 
   private typed(): void {

@@ -43,7 +43,7 @@ export function branches(live: Live): HTMLElement {
       h("p", { class: "note" }, "In-plane deviation, largest of all load cases; the mark is the limit."),
     );
   };
-  live.listen((topic) => (topic === "pose" || topic === "answer") && draw());
+  live.listen(["answer", "pose"], draw);
   draw();
   return root;
 }

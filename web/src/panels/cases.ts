@@ -44,7 +44,7 @@ export function cases(live: Live): HTMLElement {
       h("p", { class: "note" }, `Case ${decides ?? 1} decides here. `, live.case_is_fixed ? h("button", { type: "button", class: "link", onclick: () => live.chooseCase(null) }, "Show the deciding case") : null),
     );
   };
-  live.listen((topic) => topic === "pose" && draw());
+  live.listen(["pose"], draw);
   draw();
   return root;
 }

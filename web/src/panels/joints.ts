@@ -47,7 +47,7 @@ export function joints(live: Live): HTMLElement {
         : h("p", { class: "note warn" }, `${posture.limit_joint ?? "A joint"} stands outside its limits${posture.limit_margin_deg === null ? "" : ` by ${fixed(Math.abs(posture.limit_margin_deg), 1)}°`}.`),
     );
   };
-  live.listen((topic) => topic === "pose" && draw());
+  live.listen(["pose"], draw);
   draw();
   return root;
 }

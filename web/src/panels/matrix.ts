@@ -32,7 +32,7 @@ export function matrix(live: Live): HTMLElement {
       soft ? h("p", { class: "note" }, `Softest way ${fixed(soft[0], 1)} µm/N, stiffest ${trimmed(soft.at(-1), 2)} µm/N.`) : null,
     );
   };
-  live.listen((topic) => topic === "pose" && draw());
+  live.listen(["pose"], draw);
   draw();
   return root;
 }

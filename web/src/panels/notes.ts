@@ -20,7 +20,7 @@ export function notes(live: Live): HTMLElement {
     );
     sources.show(h("ul", { class: "sources" }, answer.sources.map((s) => h("li", {}, h("b", {}, s.key), ` ${s.what}. `, h("span", { class: "where" }, s.where)))));
   };
-  live.listen((topic) => topic === "answer" && draw());
+  live.listen(["answer"], draw);
   draw();
   return h("div", {}, trust.root, sources.root);
 }

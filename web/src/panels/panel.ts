@@ -1,9 +1,10 @@
 // A panel: a heading that folds, and a body that is filled anew whenever its numbers change.
 
-import { fill, h, type Child } from "../dom";
+import { h, renew, type Child } from "../dom";
 
 export interface Panel {
   root: HTMLElement;
+  body: HTMLElement;
   show: (...children: Child[]) => void;
 }
 
@@ -16,7 +17,7 @@ export function panel(id: string, title: string, open = true, note = ""): Panel 
     body,
   );
   root.addEventListener("toggle", () => localStorage.setItem(`armill-panel-${id}`, String((root as HTMLDetailsElement).open)));
-  return { root, show: (...children) => fill(body, ...children) };
+  return { root, body, show: (...children) => renew(body, ...children) };
 }
 
 function remembered(id: string): boolean | null {

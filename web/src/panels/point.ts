@@ -37,7 +37,7 @@ export function point(live: Live): HTMLElement {
       posture.singularity ? h("p", { class: "note warn" }, `Near a singularity: ${posture.singularity.replaceAll("_", " ")}.`) : null,
     );
   };
-  live.listen((topic) => topic === "pose" && draw());
+  live.listen(["pose"], draw);
   draw();
   return root;
 }

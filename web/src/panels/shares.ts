@@ -38,7 +38,7 @@ export function shares(live: Live): HTMLElement {
       h("p", { class: "note" }, "µm and share of the in-plane deviation; below zero works against it."),
     );
   };
-  live.listen((topic) => topic === "pose" && draw());
+  live.listen(["pose"], draw);
   draw();
   return root;
 }

@@ -1,11 +1,12 @@
 // Where the robot stands, by number: what a click in the scene does, for the keyboard, and to walk along a path.
 
 import { NumberField } from "../controls/field";
+import { fill } from "../dom";
 import type { Live } from "../live";
 import { panel } from "./panel";
 
 export function stand(live: Live): HTMLElement {
-  const { root, show } = panel("stand", "Send the robot");
+  const { root, body } = panel("stand", "Send the robot");
   let fields: NumberField[] = [];
   let made = "";
 
@@ -37,7 +38,7 @@ export function stand(live: Live): HTMLElement {
     if (key !== made) {
       made = key;
       fields = kind === "map" ? onMap() : kind === "path" ? onPath() : [];
-      show(...fields.map((f) => f.root));
+      fill(body, ...fields.map((f) => f.root));
     }
     if (!at) return;
     if (typeof at.y_mm === "number" && kind === "map") {
@@ -46,6 +47,6 @@ export function stand(live: Live): HTMLElement {
     }
     if (typeof at.point === "number" && kind === "path") fields[0]!.set(at.point + 1);
   };
-  live.listen((topic) => (topic === "answer" || topic === "pose") && draw());
+  live.listen(["answer", "pose"], draw);
   return root;
 }

@@ -1,6 +1,6 @@
 // What must be seen at a glance: where the tolerance holds, how far the tool goes, which joint does it.
 
-import { fill, h, type Child } from "../dom";
+import { h, renew, type Child } from "../dom";
 import { DASH, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import type { Point } from "../types";
@@ -9,11 +9,11 @@ export function verdict(live: Live): HTMLElement {
   const root = h("section", { class: "verdict", "aria-label": "Verdict", "aria-live": "polite" });
   const draw = () => {
     const { answer, setting } = live;
-    if (!answer || !setting) return fill(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
+    if (!answer || !setting) return renew(root, h("div", { class: "verdict-main" }, h("p", { class: "verdict-line" }, "…")));
     const limit = `${trimmed(setting.limit_um, 1)}\u00a0µm`;
     const { share, what, extra } = held(live);
     const state = share >= 1 ? "good" : share > 0 ? "part" : "none";
-    fill(
+    renew(
       root,
       h(
         "div",
@@ -25,10 +25,7 @@ export function verdict(live: Live): HTMLElement {
       h("p", { class: "verdict-extra" }, extra || "\u00a0"),
     );
   };
-  live.listen((topic) => {
-    if (topic === "answer") draw();
-    if (topic === "pose") root.querySelectorAll("button[data-follow]").forEach((b) => b.setAttribute("aria-pressed", String((b as HTMLElement).dataset.follow === live.follow)));
-  });
+  live.listen(["answer", "pose"], draw);
   draw();
   return root;
 }

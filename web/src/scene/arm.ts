@@ -1,5 +1,6 @@
 // The arm, drawn from its joints: links as tapered limbs with round knuckles, joints as housings along their axes with
-// a ring whose colour tells the joint's share of the deviation, then flange and tool.
+// a ring whose colour tells the joint's share of the deviation, then flange and tool. An arm that moves keeps its parts:
+// only a part whose measures change is built anew.
 
 import * as THREE from "three";
 import type { ArmDrawing, Vec3 } from "../types";
@@ -10,6 +11,13 @@ const BODY = new THREE.MeshStandardMaterial({ color: 0xd5dbe3, roughness: 0.42, 
 const HOUSING = new THREE.MeshStandardMaterial({ color: 0x39434f, roughness: 0.5, metalness: 0.35 });
 const STEEL = new THREE.MeshStandardMaterial({ color: 0x9aa5b1, roughness: 0.3, metalness: 0.7 });
 const TIP = new THREE.MeshStandardMaterial({ color: 0xe8792b, roughness: 0.4, metalness: 0.1 });
+const UP = new THREE.Vector3(0, 1, 0);
+
+/** A part by its measures (mm), about its origin and along y. */
+interface Shape {
+  measures: string;
+  make: () => THREE.BufferGeometry;
+}
 
 export class Arm {
   readonly group = new THREE.Group();
@@ -19,6 +27,10 @@ export class Arm {
   limbs: Limb[] = [];
   private readonly body = new THREE.Group();
   private readonly tooling = new THREE.Group();
+  /** In the order in which they are drawn. */
+  private parts: { mesh: THREE.Mesh; measures: string }[] = [];
+  private drawn = 0;
+  private readonly rings: THREE.MeshStandardMaterial[] = [];
 
   constructor() {
     this.group.add(this.body, this.tooling);
@@ -31,7 +43,7 @@ export class Arm {
 
   /** `shares`: of each joint, 0 to 1; `accent`: the colour of a joint that does it all. */
   draw(drawing: ArmDrawing, shares: number[], quiet: THREE.Color, accent: THREE.Color): void {
-    this.clear();
+    this.drawn = 0;
     // The line ends at the tip; the arm itself ends at the flange.
     const tip = vector(drawing.tool_mm);
     const line = drawing.links_mm.map(vector).filter((p, i, all) => i < all.length - 1 || p.distanceTo(tip) > 0.5);
@@ -46,10 +58,10 @@ export class Arm {
     let along = 0;
     knots.slice(1).forEach((to, i) => {
       const from = knots[i]!;
-      this.add(limb(from, to, radius(along), radius(along + lengths[i]!)), BODY);
+      this.add(limb(lengths[i]!, radius(along), radius(along + lengths[i]!)), from, to.clone().sub(from).normalize(), BODY);
       this.limbs.push({ from, to, radius: radius(along) });
       along += lengths[i]!;
-      if (i + 2 < knots.length) this.add(ball(to, radius(along)), BODY);
+      if (i + 2 < knots.length) this.add(ball(radius(along)), to, UP, BODY);
     });
     this.pedestal(base, thick);
 
@@ -58,25 +70,27 @@ export class Arm {
       const { at, size, on_link } = this.seat(vector(joint.origin_mm), axis, knots, lengths, radius);
       const long = on_link ? size * 0.55 : size * 1.28;
       const wide = on_link ? size * 1.13 : size * 1.16;
-      this.add(drum(at, axis, wide, long), HOUSING);
+      this.add(drum(wide, long), at, axis, HOUSING);
       const share = Math.min(1, Math.max(0, shares[i] ?? 0));
-      const ring = new THREE.MeshStandardMaterial({ color: quiet.clone().lerp(accent, Math.sqrt(share)), roughness: 0.45, emissive: accent, emissiveIntensity: 0.35 * share });
-      for (const side of on_link ? [0] : [-1, 1]) {
-        const torus = new THREE.TorusGeometry(wide * (on_link ? 1 : 0.8), wide * 0.11, 14, 48);
-        torus.applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), axis));
-        const centre = at.clone().addScaledVector(axis, side * long * 0.97);
-        torus.translate(centre.x, centre.y, centre.z);
-        this.add(torus, ring);
-      }
+      const colour = (this.rings[i] ??= new THREE.MeshStandardMaterial({ roughness: 0.45 }));
+      colour.color.copy(quiet).lerp(accent, Math.sqrt(share));
+      colour.emissive.copy(accent);
+      colour.emissiveIntensity = 0.35 * share;
+      for (const side of on_link ? [0] : [-1, 1]) this.add(ring(wide * (on_link ? 1 : 0.8), wide * 0.11), at.clone().addScaledVector(axis, side * long * 0.97), axis, colour);
       return { name: joint.name, at: at.clone() };
     });
     this.tool(vector(drawing.flange_mm), vector(drawing.tool_mm), vector(drawing.tool_axis).normalize(), radius(total));
+    for (const { mesh } of this.parts.splice(this.drawn)) {
+      mesh.removeFromParent();
+      mesh.geometry.dispose();
+    }
   }
 
   /** See-through, where what lies behind matters more. */
   ghost(on: boolean): void {
     for (const child of [...this.body.children, ...this.tooling.children]) {
       const material = (child as THREE.Mesh).material as THREE.MeshStandardMaterial;
+      if (material.transparent === on) continue;
       material.transparent = on;
       material.opacity = on ? 0.12 : 1;
       material.depthWrite = !on;
@@ -84,15 +98,19 @@ export class Arm {
     }
   }
 
-  private clear(): void {
-    for (const part of [this.body, this.tooling]) {
-      for (const child of part.children) (child as THREE.Mesh).geometry.dispose();
-      part.clear();
+  /** The next part, its y along `way`. */
+  private add({ measures, make }: Shape, at: THREE.Vector3, way: THREE.Vector3, material: THREE.Material, group = this.body): void {
+    const part = (this.parts[this.drawn++] ??= { mesh: new THREE.Mesh(), measures: "" });
+    const { mesh } = part;
+    if (part.measures !== measures) {
+      mesh.geometry.dispose();
+      mesh.geometry = make();
+      part.measures = measures;
     }
-  }
-
-  private add(geometry: THREE.BufferGeometry, material: THREE.Material, part = this.body): void {
-    part.add(new THREE.Mesh(geometry, material));
+    mesh.material = material;
+    mesh.position.copy(at);
+    mesh.quaternion.setFromUnitVectors(UP, way);
+    if (mesh.parent !== group) group.add(mesh);
   }
 
   /** A joint whose axis runs along a link sits as a collar on that link, else at its origin. */
@@ -123,42 +141,49 @@ export class Arm {
 
   private pedestal(base: THREE.Vector3, thick: number): void {
     const profile = [[0, 0], [1.9, 0], [1.9, 0.22], [1.75, 0.3], [1.35, 0.36], [1.22, 1.1], [1.1, 1.25], [0, 1.25]].map(([r, z]) => new THREE.Vector2(r! * thick, z! * thick));
-    const lathe = new THREE.LatheGeometry(profile, 56).rotateX(Math.PI / 2).translate(base.x, base.y, base.z);
-    this.add(lathe, HOUSING);
+    const made = () => new THREE.LatheGeometry(profile, 56);
+    this.add({ measures: told("pedestal", thick), make: made }, base, new THREE.Vector3(0, 0, 1), HOUSING);
     this.limbs.push({ from: base, to: base.clone().setZ(base.z + 1.2 * thick), radius: 1.5 * thick });
   }
 
   private tool(flange: THREE.Vector3, tip: THREE.Vector3, axis: THREE.Vector3, thick: number): void {
-    this.add(drum(flange.clone().addScaledVector(axis, -thick * 0.25), axis, thick * 1.05, thick * 0.28), STEEL, this.tooling);
+    this.add(drum(thick * 1.05, thick * 0.28), flange.clone().addScaledVector(axis, -thick * 0.25), axis, STEEL, this.tooling);
     const length = tip.distanceTo(flange);
     this.limbs.push({ from: flange, to: tip, radius: thick * 0.7 });
     if (length > 2) {
       const way = tip.clone().sub(flange).normalize();
       const neck = Math.min(length * 0.75, Math.max(0, length - thick * 1.2));
       const shoulder = flange.clone().addScaledVector(way, neck);
-      this.add(limb(flange, shoulder, thick * 0.72, thick * 0.62), STEEL, this.tooling);
-      this.add(limb(shoulder, tip, thick * 0.3, thick * 0.14), TIP, this.tooling);
+      this.add(limb(neck, thick * 0.72, thick * 0.62), flange, way, STEEL, this.tooling);
+      this.add(limb(length - neck, thick * 0.3, thick * 0.14), shoulder, way, TIP, this.tooling);
     }
-    this.add(ball(tip, Math.max(6, thick * 0.24)), TIP, this.tooling);
+    this.add(ball(Math.max(6, thick * 0.24)), tip, UP, TIP, this.tooling);
   }
 }
 
-function limb(from: THREE.Vector3, to: THREE.Vector3, r0: number, r1: number): THREE.BufferGeometry {
-  const way = to.clone().sub(from);
-  const length = Math.max(way.length(), 0.01);
-  return new THREE.CylinderGeometry(r1, r0, length, 40)
-    .translate(0, length / 2, 0)
-    .applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.divideScalar(length)))
-    .translate(from.x, from.y, from.z);
-}
+/** What tells a shape from another: a hundredth of a millimetre is not seen. */
+const told = (kind: string, ...mm: number[]): string => `${kind} ${mm.map((m) => m.toFixed(2)).join(" ")}`;
 
-const ball = (at: THREE.Vector3, radius: number): THREE.BufferGeometry => new THREE.SphereGeometry(radius, 36, 24).translate(at.x, at.y, at.z);
+/** From the origin along y. */
+const limb = (length: number, r0: number, r1: number): Shape => ({
+  measures: told("limb", length, r0, r1),
+  make: () => new THREE.CylinderGeometry(r1, r0, Math.max(length, 0.01), 40).translate(0, length / 2, 0),
+});
 
-/** A cylinder along an axis with bevelled edges; `half` its half length. */
-function drum(at: THREE.Vector3, axis: THREE.Vector3, radius: number, half: number): THREE.BufferGeometry {
-  const bevel = Math.min(radius, half) * 0.2;
-  const profile = [[0, -half], [radius - bevel, -half], [radius, -half + bevel], [radius, half - bevel], [radius - bevel, half], [0, half]].map(([r, y]) => new THREE.Vector2(r, y));
-  return new THREE.LatheGeometry(profile, 48)
-    .applyQuaternion(new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), axis))
-    .translate(at.x, at.y, at.z);
-}
+const ball = (radius: number): Shape => ({ measures: told("ball", radius), make: () => new THREE.SphereGeometry(radius, 28, 18) });
+
+/** Round y. */
+const ring = (radius: number, thick: number): Shape => ({
+  measures: told("ring", radius, thick),
+  make: () => new THREE.TorusGeometry(radius, thick, 8, 40).rotateX(Math.PI / 2),
+});
+
+/** A cylinder with bevelled edges; `half` its half length. */
+const drum = (radius: number, half: number): Shape => ({
+  measures: told("drum", radius, half),
+  make: () => {
+    const bevel = Math.min(radius, half) * 0.2;
+    const profile = [[0, -half], [radius - bevel, -half], [radius, -half + bevel], [radius, half - bevel], [radius - bevel, half], [0, half]].map(([r, y]) => new THREE.Vector2(r, y));
+    return new THREE.LatheGeometry(profile, 48);
+  },
+});

@@ -1,6 +1,7 @@
 // Deviation to colour: viridis (Smith & van der Walt 2015), even in lightness and safe for the colour-blind, the same
 // as in the pictures of the command. Ten anchors of the published table, linear between.
 
+import * as THREE from "three";
 import { niceStep } from "../format";
 
 export type Rgb = [number, number, number];
@@ -45,3 +46,12 @@ export function scaleOf(least: number, largest: number, limit: number): Scale {
 export const along = (scale: Scale, value: number): number => (value - scale.low) / (scale.high - scale.low || 1);
 
 const tidy = (x: number): number => Number(x.toPrecision(12));
+
+const shades = new Map<string, THREE.Color>();
+/** A colour of the page, by its name in the style; read once a theme, since reading it makes the browser style all there is. */
+export function shade(name: string): THREE.Color {
+  const key = `${document.documentElement.dataset.theme} ${name}`;
+  let found = shades.get(key);
+  if (!found) shades.set(key, (found = new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(name).trim())));
+  return found;
+}

@@ -5,12 +5,27 @@ import * as THREE from "three";
 interface Label {
   at: THREE.Vector3;
   element: HTMLElement;
+  /** As they stand in the element: what stays is not written again. */
+  text: string;
+  kind: string;
+  place: string;
+  shown: boolean;
+}
+/** Labels of one kind of thing; of `all` the first `used` are in use. */
+interface Group {
+  all: Label[];
+  used: number;
 }
 
+/** Left, top, right, bottom in the picture. */
+export type Box = [number, number, number, number];
+
 export class Labels {
+  /** Where no label may stand: what lies over the picture. */
+  keep_out: Box[] = [];
   private readonly layer = document.createElement("div");
   private readonly hidden = new Set<string>();
-  private readonly groups = new Map<string, Label[]>();
+  private readonly groups = new Map<string, Group>();
 
   constructor(host: HTMLElement) {
     this.layer.className = "labels";
@@ -20,17 +35,24 @@ export class Labels {
 
   /** Empties a group. */
   group(name: string): void {
-    for (const { element } of this.groups.get(name) ?? []) element.remove();
-    this.groups.set(name, []);
+    const group = this.groups.get(name);
+    if (group) group.used = 0;
+    else this.groups.set(name, { all: [], used: 0 });
   }
 
-  add(group: string, at: THREE.Vector3, text: string, kind: string): void {
+  add(name: string, at: THREE.Vector3, text: string, kind: string): void {
+    if (!this.groups.has(name)) this.group(name);
+    const group = this.groups.get(name)!;
+    const label = (group.all[group.used++] ??= this.made());
+    label.at = at;
+    if (label.text !== text) label.element.textContent = label.text = text;
+    if (label.kind !== kind) label.element.className = `label ${(label.kind = kind)}`;
+  }
+
+  private made(): Label {
     const element = document.createElement("span");
-    element.className = `label ${kind}`;
-    element.textContent = text;
     this.layer.append(element);
-    if (!this.groups.has(group)) this.groups.set(group, []);
-    this.groups.get(group)!.push({ at, element });
+    return { at: new THREE.Vector3(), element, text: "", kind: "", place: "", shown: true };
   }
 
   visible(name: string, on: boolean): void {
@@ -43,22 +65,24 @@ export class Labels {
    * what `covered` says lies behind something.
    */
   place(camera: THREE.Camera, size: THREE.Vector2, covered: (group: string, at: THREE.Vector3) => boolean): void {
-    const taken: [number, number, number, number][] = [];
+    const taken: Box[] = [...this.keep_out];
     const point = new THREE.Vector3();
-    for (const [name, labels] of this.groups) {
-      for (const { at, element } of labels) {
+    for (const [name, { all, used }] of this.groups) {
+      all.forEach((label, i) => {
+        const { at, text } = label;
         point.copy(at).project(camera);
         const x = ((point.x + 1) / 2) * size.x;
         const y = ((1 - point.y) / 2) * size.y;
-        const [w, h] = [element.textContent!.length * 6.2 + 10, 17];
-        const box: [number, number, number, number] = [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
-        const outside = this.hidden.has(name) || point.z > 1 || point.z < -1 || box[0] < 0 || box[1] < 0 || box[2] > size.x || box[3] > size.y;
-        const gone = outside || taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1]) || covered(name, at);
-        element.style.visibility = gone ? "hidden" : "visible";
-        if (gone) continue;
+        const [w, h] = [text.length * 6.2 + 10, 17];
+        const box: Box = [x - w / 2, y - h / 2, x + w / 2, y + h / 2];
+        const outside = i >= used || this.hidden.has(name) || point.z > 1 || point.z < -1 || box[0] < 0 || box[1] < 0 || box[2] > size.x || box[3] > size.y;
+        const shown = !(outside || taken.some((t) => box[0] < t[2] && box[2] > t[0] && box[1] < t[3] && box[3] > t[1]) || covered(name, at));
+        if (shown !== label.shown) label.element.style.visibility = (label.shown = shown) ? "visible" : "hidden";
+        if (!shown) return;
         taken.push(box);
-        element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
-      }
+        const place = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+        if (place !== label.place) label.element.style.transform = label.place = place;
+      });
     }
   }
 }

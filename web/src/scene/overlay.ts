@@ -1,6 +1,6 @@
 // What lies over the scene: legend, view buttons, what is shown, arrow scales, values under the pointer.
 
-import { fill, h, s } from "../dom";
+import { fill, h, renew, s } from "../dom";
 import { fixed, mm, percent, trimmed, um } from "../format";
 import type { Live } from "../live";
 import { along, css, viridis } from "./colour";
@@ -43,7 +43,7 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
       });
       const label = h("label", {}, box, ` ${text}`);
       // There to be chosen where the robot has one.
-      if (key === "shape") live.listen((topic) => topic === "pose" && (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
+      if (key === "shape") live.listen(["pose"], () => (label.hidden = !live.pose?.drawings.some((d) => d.meshes.length > 0)));
       return label;
     }),
   );
@@ -68,6 +68,16 @@ export function overlay(view: SceneView, live: Live): HTMLElement {
     slider.value = String(Math.log10(view.show.magnified));
   };
   view.onHover = (under, x, y) => hover(tip, live, under, x, y, view.stage.host);
+  const cards = [views, shown, scales, legendBox];
+  const keepOut = new ResizeObserver(() => {
+    const host = view.stage.host.getBoundingClientRect();
+    view.stage.labels.keep_out = cards.map((card) => {
+      const { left, top, right, bottom } = card.getBoundingClientRect();
+      return [left - host.left, top - host.top, right - host.left, bottom - host.top];
+    });
+    view.stage.draw();
+  });
+  for (const element of [view.stage.host, ...cards]) keepOut.observe(element);
   return h("div", { class: "overlay" }, views, shown, scales, legendBox, tip);
 }
 
@@ -85,7 +95,7 @@ function legend(box: HTMLElement, view: SceneView, live: Live): void {
   const inside = limit >= scale.low && limit <= scale.high;
   const cases = live.setting!.cases_n.length;
   box.setAttribute("aria-label", `Colours from ${um(scale.low)} to ${um(scale.high)} micrometres; limit ${um(limit)}`);
-  fill(
+  renew(
     box,
     h("p", { class: "legend-name" }, "In-plane deviation ", h("b", {}, "µm"), cases > 1 ? h("small", {}, ` largest of ${cases} load cases`) : null),
     s(

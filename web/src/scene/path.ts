@@ -7,9 +7,11 @@ import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js";
 import type { ScenePoints } from "../types";
 import { along, viridis, type Scale } from "./colour";
-import { fat } from "./plate";
+import { fat } from "./lines";
 
 const MOST_BEADS = 4000;
+/** More whiskers would be a sheet. */
+const MOST_WHISKERS = 72;
 
 export class PathView {
   readonly group = new THREE.Group();
@@ -53,23 +55,24 @@ export class PathView {
   }
 
   /**
-   * Where the tool goes in truth: from every point an arrow without head, and a line through their ends. The line breaks
+   * Where the tool goes in truth: from points all along an arrow without head, and a line through their ends. The line breaks
    * where another load case begins to decide and the end leaps.
    */
   private deviation(points: ScenePoints, magnified: number, joined: boolean): void {
+    const every = Math.ceil(points.xyz_mm.length / MOST_WHISKERS);
     const ends = points.xyz_mm.map((p, i) => points.deviation_um[i]?.map((d, k) => p[k]! + d * magnified) ?? null);
     const whiskers: number[] = [];
     const rim: number[] = [];
     ends.forEach((end, i) => {
       if (!end) return;
-      whiskers.push(...points.xyz_mm[i]!, ...end);
+      if (i % every === 0) whiskers.push(...points.xyz_mm[i]!, ...end);
       const before = ends[i - 1];
       const [d, d0] = [points.deviation_um[i]!, points.deviation_um[i - 1]];
       const leap = d0 ? Math.hypot(...d.map((v, k) => v - d0[k]!)) : Infinity;
       if (joined && before && leap < 0.4 * Math.hypot(...d)) rim.push(...before, ...end);
     });
     for (const [line, width, opacity] of [[whiskers, 1.3, 0.55], [rim, 2.2, 1]] as const) {
-      const object = fat(width, 0xcc3fa0, opacity);
+      const object = fat({ width, colour: 0xcc3fa0, opacity });
       object.visible = line.length > 0;
       if (line.length > 0) object.geometry = new LineSegmentsGeometry().setPositions(line);
       this.group.add(object);

@@ -43,6 +43,7 @@ export class Shapes {
 
   ghost(on: boolean): void {
     for (const material of [MATERIAL, FOOT]) {
+      if (material.transparent === on) continue;
       material.transparent = on;
       material.opacity = on ? 0.12 : 1;
       material.depthWrite = !on;

@@ -1,8 +1,12 @@
 // The stage: camera, light, ground, axes in mm, standard views. x forward, z up, lengths in mm. Draws on demand only.
+//
+// A graphics card smooths edges as it draws. Without one the processor draws, and smoothing would take most of its time:
+// there a picture that changes is drawn as it is, and one that rests once more, with four points for each of the screen.
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { niceStep } from "../format";
+import { shade } from "./colour";
 import { Labels } from "./labels";
 
 export type View = "overview" | "front" | "side" | "top" | "plate";
@@ -11,6 +15,11 @@ export interface Subject {
   box: THREE.Box3;
   plate: { centre: THREE.Vector3; normal: THREE.Vector3; up: THREE.Vector3; size: number } | null;
 }
+
+/** What is asked of WebGL. */
+const CONTEXT = { alpha: true, antialias: true };
+/** So long a picture of the processor rests before it is drawn finely. */
+const REST_MS = 300;
 
 export class Stage {
   readonly scene = new THREE.Scene();
@@ -24,10 +33,19 @@ export class Stage {
   covered: (group: string, at: THREE.Vector3) => boolean = () => false;
   private ground_key = "";
   private asked = false;
+  private readonly by_card: boolean;
+  private rests: ReturnType<typeof setTimeout> | undefined;
 
   constructor(readonly host: HTMLElement) {
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    let renderer = new THREE.WebGLRenderer(CONTEXT);
+    this.by_card = !isProcessor(renderer.getContext());
+    if (!this.by_card) {
+      // Whether edges are smoothed is told when a context is made.
+      renderer.dispose();
+      renderer.forceContextLoss();
+      renderer = new THREE.WebGLRenderer({ ...CONTEXT, antialias: false });
+    }
+    this.renderer = renderer;
     this.renderer.setClearAlpha(0);
     host.append(this.renderer.domElement);
     this.renderer.domElement.setAttribute("aria-hidden", "true");
@@ -51,9 +69,17 @@ export class Stage {
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.renderer.render(this.scene, this.camera);
+      this.render(this.by_card ? Math.min(devicePixelRatio, 2) : Math.min(devicePixelRatio, 1));
       this.labels.place(this.camera, this.size, this.covered);
+      if (this.by_card) return;
+      clearTimeout(this.rests);
+      this.rests = setTimeout(() => this.render(Math.min(2 * devicePixelRatio, 2)), REST_MS);
     });
+  }
+
+  private render(pixel_ratio: number): void {
+    if (this.renderer.getPixelRatio() !== pixel_ratio) this.renderer.setPixelRatio(pixel_ratio);
+    this.renderer.render(this.scene, this.camera);
   }
 
   /** The ground grid under what is shown: 100 mm fine, 500 mm strong, labelled along x and y. */
@@ -63,23 +89,21 @@ export class Stage {
     if (key === this.ground_key) return;
     this.ground_key = key;
     this.ground.clear();
-    const style = getComputedStyle(document.documentElement);
-    const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
     const step = niceStep(half, 10);
-    const lines = (every: number, skip: number, shade: string, opacity: number) => {
+    const lines = (every: number, skip: number, name: string, opacity: number) => {
       const points: number[] = [];
       for (let x = -half; x <= half + 1; x += every) {
         if (skip && Math.round(x) % skip === 0) continue;
         points.push(x, -half, 0, x, half, 0, -half, x, 0, half, x, 0);
       }
       const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
-      return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: colour(shade), transparent: true, opacity }));
+      return new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color: shade(name), transparent: true, opacity }));
     };
     this.ground.add(lines(step / 2, step * 2.5, "--scene-grid", 0.45), lines(step * 2.5, 0, "--scene-grid-strong", 0.9));
     for (const [axis, direction] of [["x", [1, 0, 0]], ["y", [0, 1, 0]], ["z", [0, 0, 1]]] as const) {
       const to = new THREE.Vector3(...direction).multiplyScalar(axis === "z" ? half * 0.9 : half);
       const geometry = new THREE.BufferGeometry().setFromPoints([new THREE.Vector3(), to]);
-      this.ground.add(new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour(`--axis-${axis}`) })));
+      this.ground.add(new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: shade(`--axis-${axis}`) })));
     }
     this.ground.position.z = height;
     this.labels.group("ground");
@@ -140,4 +164,10 @@ export class Stage {
     this.camera.updateProjectionMatrix();
     this.draw();
   }
+}
+
+/** Whether the processor draws: there is no graphics card, or none that the browser would use. */
+function isProcessor(gl: WebGLRenderingContext | WebGL2RenderingContext): boolean {
+  const told = gl.getExtension("WEBGL_debug_renderer_info");
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(gl.getParameter(told?.UNMASKED_RENDERER_WEBGL ?? gl.RENDERER)));
 }

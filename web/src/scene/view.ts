@@ -8,7 +8,7 @@ import { sharesOf } from "../shares";
 import type { At, Plate } from "../types";
 import { Arm } from "./arm";
 import { Arrow } from "./arrows";
-import { scaleOf, type Scale } from "./colour";
+import { scaleOf, shade, type Scale } from "./colour";
 import { isCovered } from "./covered";
 import { Ellipsoid } from "./ellipsoid";
 import { Part } from "./part";
@@ -75,11 +75,8 @@ export class SceneView {
     this.shapes = new Shapes((file) => api.mesh(live.text, file), () => this.drawPose());
     this.stage.covered = (group, at) => group !== "arm" && this.show.arm && !this.ghost && this.live.pose !== null && isCovered(this.arm.limbs, this.stage.camera.position, at, this.shapes.group.visible ? STOUT : 1);
     this.stage.scene.add(this.arm.group, this.shapes.group, this.force.group, this.deviation.group, this.in_plane.group, this.normal.group, this.ellipsoid.group, this.path.group, this.volume.group, this.part.group);
-    live.listen((topic) => {
-      if (topic === "answer") this.drawAnswer();
-      if (topic === "pose") this.drawPose();
-      if (topic === "view") this.redraw();
-    });
+    live.listen(["answer", "view"], () => this.drawAnswer());
+    live.listen(["pose", "view"], () => this.drawPose());
     this.point();
   }
 
@@ -166,10 +163,8 @@ export class SceneView {
       this.magnify();
     }
     if (drawing && answer && setting) {
-      const style = getComputedStyle(document.documentElement);
-      const colour = (name: string) => new THREE.Color(style.getPropertyValue(name).trim());
       const shares = this.shares();
-      this.arm.draw(drawing, shares, colour("--joint-quiet"), colour("--joint-loud"));
+      this.arm.draw(drawing, shares, shade("--joint-quiet"), shade("--joint-loud"));
       const own = this.show.arm && this.show.shape && this.shapes.draw(pose!.answer.robot, drawing.meshes);
       this.arm.bare(own);
       this.arm.ghost(this.ghost);

@@ -19,7 +19,14 @@ import type { Tab } from "./tab";
 export function liveTab(live: Live): Tab & { view: SceneView } {
   const host = h("div", { class: "stage", tabindex: "0", role: "group", "aria-label": "The robot, the plate with its deviations, and the tool. Keys 1 to 5: views. All numbers are in the panels." });
   const right = h("aside", { class: "right", "aria-label": "At the tool" }, point(live), stand(live), shares(live), branches(live), cases(live), joints(live), matrix(live), notes(live));
-  live.listen((topic) => topic === "moving" && right.setAttribute("aria-busy", String(live.moving)));
+  let waits: ReturnType<typeof setTimeout> | undefined;
+  live.listen(["moving"], () => {
+    right.setAttribute("aria-busy", String(live.moving));
+    // Only what takes long is seen to: each change of looks costs a frame.
+    clearTimeout(waits);
+    if (live.moving) waits = setTimeout(() => right.classList.add("waits"), 250);
+    else right.classList.remove("waits");
+  });
   const root = h(
     "div",
     { class: "live" },

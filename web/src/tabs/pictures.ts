@@ -74,7 +74,7 @@ export function picturesTab(live: Live): Tab {
     status.textContent = "Drawing …";
     work.submit({ text: live.text, ask: live.ask });
   };
-  live.listen((topic) => topic === "answer" && refresh());
+  live.listen(["answer"], refresh);
   return { id: "pictures", title: "Pictures", root, shown: () => ((visible = true), refresh()), left: () => void (visible = false) };
 }
 

@@ -78,6 +78,48 @@ test("scrubbing does not pile up: the last value is shown, most between are neve
   await page.context().close();
 });
 
+test("a change is one question, and what is shown of map and arm comes with it", async () => {
+  const page = await open(browser, server.url);
+  const asked = [];
+  page.on("request", (r) => r.url().includes("/api/") && asked.push(new URL(r.url()).pathname));
+  await page.locator("#field-x").focus();
+  await page.keyboard.press("ArrowUp");
+  await settled(page);
+  assert.deepEqual(asked, ["/api/view"]);
+  const map = await showsAnswer(page, await changed("Fig. 6", ["plane.centre_mm", [810, 0, 1000]]), "Fig. 6");
+  assert.deepEqual(await page.locator("#panel-shares .bar-value").allInnerTexts(), map.worst.joint_share_um.map(um));
+  // The same numbers in the same elements: a panel takes on what is new, it is not made anew.
+  await page.evaluate(() => (document.querySelector("#panel-shares .bar-value").mine = true));
+  await page.keyboard.press("ArrowUp");
+  await settled(page);
+  assert.equal(await page.evaluate(() => document.querySelector("#panel-shares .bar-value").mine), true);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+const HOLES = `format = 1
+robot = "yaskawa/mh12"
+limit_um = 90
+plane = { centre_mm = [900, 0, 900], half_size_mm = 100, step_mm = 50 }
+load = { cases_n = [[3, 5, 5]] }
+[[ask]]
+kind = "holes"
+name = "rivets"
+holes = { at_mm = [[-50, 0, 0], [0, 0, 0], [50, 0, 0]] }
+`;
+test("holes: verdict, limit and the robot at the worst", async () => {
+  const own = await serve(() => HOLES);
+  const page = await open(browser, own.url);
+  const { holes } = await client(own.url)("POST", "/api/answer", { text: HOLES, ask: "rivets" });
+  assert.match(await page.locator(".verdict-line").innerText(), /holes? holds? 90\u00a0µm/);
+  assert.equal(await extreme(page, "worst"), `${um(holes[0].worst_holes[0].point.in_plane_um)} ± ${um(holes[0].worst_holes[0].point.in_plane_u_um)} µm`);
+  assert.equal(await page.inputValue("#stand-point"), String(holes[0].worst_holes[0].hole));
+  assert.match(await page.locator(".legend").innerText(), /limit 90/);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+  await own.stop();
+});
+
 test("a click on the plate sends the robot there", async () => {
   const page = await open(browser, server.url);
   await page.click(".views button:nth-child(5)");

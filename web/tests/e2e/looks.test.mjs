@@ -126,7 +126,7 @@ for (const dark of [false, true])
       const page = await open(browser, server.url, { dark, scale: 0.5 });
       await go(page);
       await page.waitForTimeout(700);
-      await page.evaluate(() => document.querySelectorAll(".pace").forEach((e) => (e.textContent = "")));
+      await page.evaluate(() => document.querySelectorAll(".pace").forEach((e) => (e.style.visibility = "hidden")));
       const now = await page.screenshot();
       const file = `${KEPT}${name}-${dark ? "dark" : "light"}.png`;
       if (process.env.KEEP_PICTURES || !existsSync(file)) {

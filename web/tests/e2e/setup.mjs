@@ -11,7 +11,7 @@ import { chromium } from "playwright-core";
 import { before } from "../../dev/server.mjs";
 
 export const STUDY = new URL("../../../studies/mh12-groove/study.toml", import.meta.url).pathname;
-const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+const FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"];
 
 /** `edit`: what the study is to be instead. */
 export async function serve(edit = (text) => text) {
@@ -78,7 +78,7 @@ export async function open(browser, url, { width = 1280, height = 800, dark = fa
 export async function settled(page) {
   await page.waitForTimeout(60);
   await page.waitForFunction(
-    () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && !document.querySelector(".pace.busy") && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
+    () => /\d ms/.test(document.querySelector(".pace")?.textContent ?? "") && document.querySelector("main")?.getAttribute("aria-busy") !== "true" && document.querySelector(".right")?.getAttribute("aria-busy") !== "true",
     null,
     { timeout: 60_000 },
   );

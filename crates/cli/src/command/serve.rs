@@ -3,7 +3,7 @@
 //! The first line on stdout is the address, with the token that it needs; all else is said on stderr.
 
 use armill_study::StudyError;
-use armill_web::{Options, Server, open_browser};
+use armill_web::{Options, Server, has_page, open_browser};
 
 use crate::Outcome;
 use crate::arguments::ServeArguments;
@@ -19,6 +19,10 @@ pub(crate) fn run(arguments: &ServeArguments) -> Result<Outcome, StudyError> {
         port: arguments.port,
     })?;
     print(server.url())?;
+    if !has_page() {
+        say("warning: this armill was built without its page, and serves its answers under /api alone");
+        say("help: in the sources, with Node 20 or later installed: cargo xtask web, then build again");
+    }
     say("the page is open on this machine alone; Ctrl-C ends it");
     if !arguments.no_open {
         open_browser(server.url());

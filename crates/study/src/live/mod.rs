@@ -11,6 +11,7 @@
 //! | `tables` | which values does the text give, for fields to be filled with? |
 //! | `answered` | what does `armill run` say of it: answer, table, pictures? |
 //! | `posture` | how does the arm stand at one place of it, and what does a load do there? |
+//! | `stand` | where are its worst and best points, and how does the arm stand there? |
 //! | `scene` | what of it can be drawn in space? |
 //! | `meshes` | how does the robot look, where its file names shapes? |
 //! | `file_kind` | what does a file seem to be? |
@@ -33,6 +34,7 @@ mod meshes;
 mod outline;
 mod posture;
 mod scene;
+mod stand;
 mod tables;
 mod values;
 mod view;
@@ -48,6 +50,7 @@ pub use posture::{
     postures,
 };
 pub use scene::{BoxInScene, PlateInScene, PointsInScene, SceneAnswer, SectionInScene, scene};
+pub use stand::{ExtremesAnswer, Follow, Stand, StandsAnswer};
 pub use tables::{TablesAnswer, ValuePlace, tables};
 pub use values::{ValuesAnswer, values};
 pub use view::{ViewAnswer, view};

@@ -24,7 +24,7 @@ use super::meshes::{DrawnMesh, Shapes};
 use super::{Text, setting};
 use crate::error::StudyError;
 use crate::file::path::PathAsk;
-use crate::file::resolve::{Setting, Study, Subject};
+use crate::file::resolve::{Parsed, Setting, Study, Subject};
 use crate::joint_unit::JointUnit;
 use crate::number::without_rounding;
 use crate::output::arm_posture;
@@ -32,20 +32,26 @@ use crate::pose::{At, PoseAnswer, PoseQuestion, answer_under, joint_positions};
 use crate::run::runner;
 
 /// Where the tool is: one of these.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
     /// In the plane, together with `z_mm`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub y_mm: Option<f64>,
     /// In the plane, together with `y_mm`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub z_mm: Option<f64>,
     /// Joint positions as the robot file counts them; mm for sliding ones.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub joints_deg: Option<Vec<f64>>,
     /// TCP in the frame that coordinates count from.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub xyz_mm: Option<[f64; 3]>,
     /// Point of a path, of holes or of a box, from 0, in the order of their table.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub point: Option<usize>,
     /// Of sections which one, from 0; the first if left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub section: Option<usize>,
 }
 
@@ -167,18 +173,24 @@ pub fn postures(
     watch: Watch<'_>,
 ) -> Result<PosturesAnswer, StudyError> {
     let (parsed, _, study) = text.one_ask(question.ask)?;
-    let setting = setting(&study, question.at.section.unwrap_or(0))?;
-    let asked = asked(&study, setting, &question.at, watch)?;
+    postures_of((text, &parsed, &study), (&question.at, question.case), watch)
+}
+
+/// [`postures`] of a text that has been read, its study with this ask alone.
+pub(super) fn postures_of(
+    (text, parsed, study): (Text<'_>, &Parsed, &Study),
+    (at, case): (&Place, usize),
+    watch: Watch<'_>,
+) -> Result<PosturesAnswer, StudyError> {
+    let setting = setting(study, at.section.unwrap_or(0))?;
+    let asked = asked(study, setting, at, watch)?;
     let robot = &study.robot.robot;
     let wrench = match (
-        question
-            .case
-            .checked_sub(1)
-            .and_then(|case| asked.cases.get(case)),
+        case.checked_sub(1).and_then(|case| asked.cases.get(case)),
         asked.cases.len(),
     ) {
         (None, count) if count > 0 => {
-            let message = format!("there is no load case {}", question.case);
+            let message = format!("there is no load case {case}");
             return Err(StudyError::value(
                 message,
                 format!("they count from 1 to {count}"),

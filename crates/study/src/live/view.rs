@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use super::outline::{asks, changed_text};
 use super::scene::scene_of;
+use super::stand::{ExtremesAnswer, Stand, StandsAnswer, extremes_of, stands_of};
 use super::values::values_of;
 use super::{ChangedValue, OutlinedAsk, SceneAnswer, Text, ValuesAnswer};
 use crate::answer::{StudyAnswer, answer};
@@ -26,9 +27,13 @@ pub struct ViewAnswer {
     pub scene: SceneAnswer,
     /// As `armill run --json` tells it of that ask.
     pub answer: StudyAnswer,
+    /// Where its worst and best points are: of sections those of each, else of one.
+    pub extremes: Vec<ExtremesAnswer>,
+    /// The arm where it was to stand; `null` where nobody asked, and where there is no such place.
+    pub stands: Option<StandsAnswer>,
 }
 
-/// What is shown of this ask, or of the first, once these values are changed.
+/// What is shown of this ask, or of the first, once these values are changed, and how the arm stands in it.
 ///
 /// # Errors
 /// A change that cannot be made; every problem of the changed text that concerns the ask; no ask of that name; cancelled
@@ -36,7 +41,7 @@ pub struct ViewAnswer {
 pub fn view(
     text: Text<'_>,
     ask: Option<&str>,
-    changes: &[ChangedValue],
+    (changes, stand): (&[ChangedValue], Option<&Stand>),
     watch: Watch<'_>,
 ) -> Result<ViewAnswer, StudyError> {
     let new = changed_text(text, ask, changes)?;
@@ -46,11 +51,20 @@ pub fn view(
     };
     let (parsed, name, study) = text.one_ask(ask)?;
     let done = run(&study, watch)?;
+    let answer = answer(&study, &done);
+    let extremes = extremes_of(&answer, &done);
+    let told = (&answer, extremes.as_slice());
+    let stands = match stand {
+        Some(stand) => stands_of((text, &parsed, &study), told, stand, watch)?,
+        None => None,
+    };
     Ok(ViewAnswer {
         asks: asks(&parsed),
         scene: scene_of(&parsed, &name, (&study, &done))?,
         values: values_of(&parsed, name, &study)?,
-        answer: answer(&study, &done),
+        answer,
+        extremes,
+        stands,
         text: new,
     })
 }

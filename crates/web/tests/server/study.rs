@@ -194,9 +194,13 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             { "key": "limit_um", "value": 70, "whole": true },
         ]);
         let of = json!({ "text": STUDY, "ask": ask, "changes": changes });
-        let view = served.post("/api/view", of.clone());
+        let stand = json!({ "follow": "worst" });
+        let view = served.post(
+            "/api/view",
+            json!({ "text": STUDY, "ask": ask, "changes": changes, "stand": stand }),
+        );
         assert_eq!(view.status, 200, "{}", view.text());
-        let changed = served.post("/api/change", of).json();
+        let changed = served.post("/api/change", of.clone()).json();
         assert_eq!(changed["problems"], json!([]));
         let text = changed["text"].as_str().unwrap();
         assert!(
@@ -220,6 +224,18 @@ fn a_view_is_what_change_answer_values_and_scene_give_one_after_the_other() {
             (&view.json()["text"], &view.json()["asks"]),
             (&changed["text"], &changed["asks"])
         );
+        let stands = &view.json()["stands"];
+        assert_eq!(stands["at"], view.json()["extremes"][0]["worst"]);
+        let pose = served.post(
+            "/api/pose",
+            json!({ "text": text, "ask": ask, "at": stands["at"], "case": stands["case"] }),
+        );
+        assert!(
+            body.contains(&format!("\"pose\":{}", pose.text().trim_end())),
+            "{ask}"
+        );
+        // Nobody has to ask where it stands.
+        assert!(served.post("/api/view", of).json()["stands"].is_null());
     }
     let refused = |changes: Value| {
         served.post(
