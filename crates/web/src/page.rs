@@ -2,23 +2,18 @@
 //!
 //! Its files hold nothing of the study, so that they need no token.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use axum::Router;
 use axum::http::Uri;
 use axum::response::{IntoResponse, Response};
-use rust_embed::RustEmbed;
 
 use crate::body::typed;
 use crate::error::ApiError;
 use crate::server::State;
 
-/// The files of `web/dist`, which `cargo xtask web` makes.
-#[derive(RustEmbed)]
-#[folder = "$CARGO_MANIFEST_DIR/../../web/dist"]
-#[allow_missing = true]
-struct Built;
+/// The files of the page by their names, which `cargo xtask web` makes and `build.rs` finds; empty where there are none.
+const BUILT: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/page.rs"));
 
 /// What is served without it.
 const NOT_BUILT: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>armill</title>\
@@ -36,11 +31,8 @@ async fn file(uri: Uri) -> Response {
         "" => "index.html",
         path => path,
     };
-    match Built::get(path) {
-        Some(file) => match file.data {
-            Cow::Borrowed(bytes) => typed(kind(path), bytes),
-            Cow::Owned(bytes) => typed(kind(path), bytes),
-        },
+    match BUILT.iter().find(|(name, _)| *name == path) {
+        Some((_, bytes)) => typed(kind(path), *bytes),
         None if path == "index.html" => typed(kind(path), NOT_BUILT),
         None => ApiError::not_found("there is nothing at this path").into_response(),
     }
