@@ -121,6 +121,9 @@ pub const EXAMPLES: &[Embedded] = embedded![
     "mh12-ballbar" in "studies/mh12-ballbar/ballbar-groove.csv",
     "mh12-ballbar" in "studies/mh12-ballbar/ballbar-side.csv",
     "mh12-ballbar" in "studies/mh12-ballbar/cmm.csv",
+    "r2000ic-measured" in "studies/r2000ic-measured/study.toml",
+    "r2000ic-measured" in "studies/r2000ic-measured/r2000ic-measured.toml",
+    "r2000ic-measured" in "studies/r2000ic-measured/tests.csv",
 ];
 
 /// The studies of all examples.

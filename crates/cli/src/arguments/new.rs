@@ -19,7 +19,8 @@ pub(crate) struct NewArguments {
     pub dir: PathBuf,
     #[arg(long, value_name = "NAME", default_value = "yaskawa/mh12", help = ROBOT_HELP)]
     pub robot: String,
-    /// A copy of this example, with all of its files: mh12-groove, kr120-groove, r2000ic-pocket, kr210-rivets, mh12-ballbar
+    /// A copy of this example, with all of its files: mh12-groove, kr120-groove, r2000ic-pocket, kr210-rivets, mh12-ballbar,
+    /// r2000ic-measured
     #[arg(long, value_name = "NAME", conflicts_with = "robot")]
     pub example: Option<String>,
     /// Print what was made as JSON on stdout

@@ -110,6 +110,9 @@ fn guide_runs() {
         "cam-to-robot",
         "many-machines",
         "plotting",
+        "ballbar-day",
+        "how-far-to-trust-it",
+        "README",
     ] {
         run_page(&format!("docs/guide/{page}.md"));
     }
@@ -120,7 +123,7 @@ fn every_page_of_the_guide_is_run() {
     let pages = std::fs::read_dir(repository().join("docs/guide"))
         .unwrap()
         .count();
-    assert_eq!(pages, 23, "name the new page in `guide_runs`");
+    assert_eq!(pages, 26, "name the new page in `guide_runs`");
 }
 
 #[test]

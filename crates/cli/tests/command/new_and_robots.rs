@@ -327,3 +327,51 @@ fn an_example_of_several_files_is_made_before_it_is_run() {
         assert!((found - gap).abs() < 4.0 * u && u < 2e-4, "{joint}");
     }
 }
+
+#[test]
+fn the_arm_of_the_measured_example_is_what_its_tests_give() {
+    let cell = Cell::new();
+    cell.armill(&["new", "arm", "--example", "r2000ic-measured"])
+        .fine();
+    cell.armill(&[
+        "identify",
+        "arm/tests.csv",
+        "--robot",
+        "fanuc/r2000ic",
+        "--tool-mm",
+        "6.9,245.3,319.3",
+        "--points",
+        "separate",
+        "--out",
+        "again.toml",
+    ])
+    .fine();
+    let compliances = |name: &str| -> Vec<f64> {
+        let text = std::fs::read_to_string(cell.at(name)).unwrap();
+        let values = text.lines().filter_map(|line| line.strip_prefix("compliance_"));
+        let values = values.filter_map(|line| line.split_once("rad_per_n_m = "));
+        values.map(|(_, value)| value.parse().unwrap()).collect()
+    };
+    let (shipped, again) = (
+        compliances("arm/r2000ic-measured.toml"),
+        compliances("again.toml"),
+    );
+    // Six drives and thirteen springs, each with its standard uncertainty.
+    assert_eq!(shipped.len(), 38);
+    assert_eq!(again.len(), 38);
+    for (here, there) in shipped.iter().zip(&again) {
+        // Seven digits are written; the rest is for other processors.
+        assert!((here / there - 1.0).abs() < 1e-4, "{here} {there}");
+    }
+    // The prediction and the published stiffness beside it.
+    let run = cell.armill(&["run", "arm", "--no-pictures"]).fine();
+    assert!(
+        run.out.contains("ring, branch front elbow-up no-flip") && run.out.contains("mostly by joint J1"),
+        "{}",
+        run.out
+    );
+    let compared = cell
+        .armill(&["compare", "arm", "--robot", "fanuc/r2000ic", "--out", "both"])
+        .fine();
+    assert!(compared.out.contains("13 further springs"), "{}", compared.out);
+}

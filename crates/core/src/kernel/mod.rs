@@ -4,16 +4,14 @@
 //! envelope over the cases and what decides it. Ortho-parallel arms with drive springs alone go through [`lanes`], many
 //! points in one instruction; where those cannot decide, and for every other model, `general` takes one point after the
 //! other. [`evaluate_loaded`] takes a load of its own at every point, [`evaluate_on_path`] one point of a path with all that
-//! moves the tool beside its load, [`at_joints`] any chain at joint positions that are
-//! known, [`stand_at`] an arm where it stands, for whoever writes down what he wants of it, [`postures_at`] every posture of
-//! many poses. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
+//! moves the tool beside its load, [`stand_at`] any chain at joint positions that are known, for whoever writes down what he
+//! wants of it, [`postures_at`] every posture of many poses. Blocks run on all threads of the current rayon pool; every point is written by index, so any number of threads
 //! gives the same bits.
 //!
 //! `question` and `answer`: what goes in and comes out; `solver`: a block of points, by lanes and by `general`; `loaded`:
 //! points that each have a load of their own; `column`: every posture of a few poses under a load; `placed`: a path wherever its part lies.
 
 mod answer;
-mod at_joints;
 mod column;
 mod general;
 // Loops over lanes index many planes at once.
@@ -27,7 +25,6 @@ mod solver;
 mod stand_at;
 
 pub use answer::{AT_LIMIT, Answers, Held};
-pub use at_joints::{AtJoints, at_joints};
 pub use column::{Column, Columns, Push, SLOTS, Stand};
 pub use loaded::evaluate_loaded;
 pub use placed::{Glance, Judge, Judged, Keeping, Lie, PlacedPath, Pushes, Sighted, ToldIn};

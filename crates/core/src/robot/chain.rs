@@ -93,14 +93,10 @@ impl Motion {
     pub(crate) fn advance(&self, distance: f64, axes: &mut Matrix3<f64>, origin: &mut Vector3<f64>) {
         match *self {
             Motion::Along(axis, _) => *origin += axes.column(axis.index()) * distance,
-            Motion::About(axis, _) => {
-                let (sin, cos) = distance.sin_cos();
-                // The two axes behind the turning one, in cyclic order, turn into each other.
-                let (a, b) = ((axis.index() + 1) % 3, (axis.index() + 2) % 3);
-                let (first, second) = (axes.column(a).into_owned(), axes.column(b).into_owned());
-                axes.set_column(a, &(first * cos + second * sin));
-                axes.set_column(b, &(second * cos - first * sin));
-            }
+            // The two axes behind the turning one, in cyclic order, turn into each other.
+            Motion::About(Axis::X, _) => turn::<1, 2>(axes, distance),
+            Motion::About(Axis::Y, _) => turn::<2, 0>(axes, distance),
+            Motion::About(Axis::Z, _) => turn::<0, 1>(axes, distance),
         }
     }
 
@@ -117,6 +113,15 @@ impl Motion {
             ),
         }
     }
+}
+
+/// Turns the axes (columns) `A` and `B` into each other. Which ones stands in the type, so that they stay in registers.
+#[inline]
+fn turn<const A: usize, const B: usize>(axes: &mut Matrix3<f64>, angle: f64) {
+    let (sin, cos) = angle.sin_cos();
+    let (first, second) = (axes.column(A).into_owned(), axes.column(B).into_owned());
+    axes.set_column(A, &(first * cos + second * sin));
+    axes.set_column(B, &(second * cos - first * sin));
 }
 
 /// A joint in the inner form: what stands before it, and the motion it makes.

@@ -1,7 +1,7 @@
 //! The kernel against the plain version in `predict.rs`, and against itself on every back end.
 //!
 //! `lanes`: each number of the lanes against the plain version; `same_bits`: back ends and counts of points against
-//! each other; `whole_answers`: what `evaluate` and `at_joints` give.
+//! each other; `whole_answers`: what `evaluate` and `stand_at` give.
 
 // A panic is how a test says that its claim is false; helper functions too.
 #![allow(clippy::unwrap_used)]

@@ -4,9 +4,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use nalgebra::Vector3;
 
-use super::super::tests::springy;
+use super::super::tests::{cases, springy};
 use super::*;
 use crate::arms::{self, Stream};
+use crate::predict::deviation_of;
 use crate::robot::Robot;
 use crate::robot::inverse::posture_at;
 use crate::source::StiffnessModel;
@@ -15,6 +16,66 @@ use crate::spatial::Wrench;
 fn joints(robot: &Robot, count: usize) -> Vec<f64> {
     let mut stream = Stream(47);
     (0..count).flat_map(|_| stream.joints(robot)).collect()
+}
+
+#[test]
+fn every_chain_is_told_as_predicted_at_each_point() {
+    let tool = arms::bent_tool();
+    for robot in [
+        arms::hung(),
+        arms::other::iiwa14(),
+        arms::other::on_rail(&arms::kr120()),
+    ] {
+        let (q, dof) = (joints(&robot, 300), robot.joints().len());
+        for model in [StiffnessModel::DRIVES.clone(), springy()] {
+            let arm = Arm {
+                robot: &robot,
+                compliance: robot.compliance().unwrap(),
+                model: &model,
+                flange_from_tool: &tool,
+            };
+            let tell = |standing: &mut Standing<'_>, out: &mut [f64]| {
+                for (wrench, out) in cases().iter().zip(out.chunks_mut(3)) {
+                    out.copy_from_slice(deviation_of(standing, wrench)?.linear.as_slice());
+                }
+                Ok(())
+            };
+            let mut told = vec![0.0; 300 * 9];
+            stand_at(&arm, &q, (&mut told, 9), tell, Watch::NONE).unwrap();
+            for (q, told) in q.chunks(dof).zip(told.chunks(9)).step_by(7) {
+                for (wrench, told) in cases().iter().zip(told.chunks(3)) {
+                    let predicted = arms::predicted(&arm, q, wrench).unwrap().twist.linear;
+                    let away = Vector3::from_column_slice(told) - predicted;
+                    let name = robot.name();
+                    assert!(away.norm() < 1e-13 * predicted.norm().max(1e-6), "{name}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+#[should_panic(expected = "joint positions for a whole number of points")]
+fn half_a_point_is_refused() {
+    stood(&[0.0; 9], 6);
+}
+
+#[test]
+#[should_panic(expected = "one compliance a joint")]
+fn a_joint_without_compliance_is_refused() {
+    stood(&[0.0; 6], 5);
+}
+
+/// An arm of which so many compliances are known.
+fn stood(joints: &[f64], known: usize) {
+    let (robot, tool) = (&arms::ALL[0], arms::bent_tool());
+    let arm = Arm {
+        robot,
+        compliance: &robot.compliance().unwrap()[..known],
+        model: StiffnessModel::DRIVES,
+        flange_from_tool: &tool,
+    };
+    stand_at(&arm, joints, (&mut [0.0], 1), |_, _| Ok(()), Watch::NONE).unwrap();
 }
 
 #[test]

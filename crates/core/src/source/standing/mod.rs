@@ -31,7 +31,6 @@ use super::gravity::{Carried, carry_into, torque};
 use super::stiffness_model::{Arm, Gravity};
 use crate::load::TipYield;
 use crate::robot::forward::{Frames, forward_into};
-use crate::robot::inverse::tool_on;
 use crate::robot::jacobian::screws_into;
 use crate::robot::yielding::{seat_frame, spring_screw};
 use crate::robot::{JointCompliance, Seat};
@@ -43,6 +42,9 @@ pub struct Standing<'a> {
     arm: Arm<'a>,
     compliances: Vec<JointCompliance>,
     seats: Vec<Seat>,
+    flange_from_tool: IsometryMatrix3<f64>,
+    /// Whether every drive and spring gives way in proportion to its torque, whatever else stands on the arm.
+    in_proportion: bool,
     /// Room for [`Standing::stand`]; taken while it is in use.
     frames: Option<Frames>,
     /// Joint positions where it stands, the controller's counting and the chain's.
@@ -88,6 +90,8 @@ impl<'a> Standing<'a> {
             arm,
             compliances,
             seats,
+            flange_from_tool: nalgebra::convert(*arm.flange_from_tool),
+            in_proportion: arm.model.is_affine() && arm.model.structure.compensator.is_none(),
             frames: None,
             joints: vec![0.0; joints],
             theta: vec![0.0; joints],
@@ -137,23 +141,18 @@ impl<'a> Standing<'a> {
         let room = self.frames.take();
         let mut frames = room.unwrap_or_else(|| Frames::for_robot(self.arm.robot));
         forward_into(self.arm.robot, q, &mut frames);
-        let tcp = tool_on(&frames, self.arm.flange_from_tool).translation.vector;
-        self.stand_in(q, &frames, &tcp.into());
+        let tcp = frames.base_from_flange * Point3::from(self.flange_from_tool.translation.vector);
+        self.stand_in(q, &frames, &tcp);
         self.frames = Some(frames);
     }
 
     /// [`Standing::stand`] where the frames at `q` and the TCP (m, base) are known already.
     pub fn stand_in(&mut self, q: &[f64], frames: &Frames, tcp: &Point3<f64>) {
-        let Arm {
-            robot,
-            model,
-            flange_from_tool,
-            ..
-        } = self.arm;
+        let Arm { robot, model, .. } = self.arm;
         let structure = &model.structure;
         let joints = self.theta.len();
         screws_into(robot, frames, tcp, &mut self.screws[..joints]);
-        let turn = frames.base_from_flange.rotation * flange_from_tool.rotation.to_rotation_matrix();
+        let turn = frames.base_from_flange.rotation * self.flange_from_tool.rotation;
         let base_from_tool = IsometryMatrix3::from_parts(tcp.coords.into(), turn);
         self.base_from_tool = base_from_tool;
         let frame = |seat: Seat| seat_frame(seat, frames, &base_from_tool);
@@ -200,6 +199,16 @@ impl<'a> Standing<'a> {
             return found;
         }
         let mut sum = Twist::ZERO;
+        if self.in_proportion {
+            let each = self.screws.iter().zip(&self.compliances);
+            let given_way = self.torques.iter_mut().zip(&mut self.turns);
+            for ((screw, compliance), (torque, turn)) in each.zip(given_way) {
+                *torque = screw.dot(wrench);
+                *turn = compliance.value * *torque;
+                sum = sum + *screw * *turn;
+            }
+            return Ok(sum);
+        }
         for (k, screw) in self.screws.iter().enumerate() {
             let torque = screw.dot(wrench);
             let turn = self.turn(k, self.before[k], torque).ok_or(Unstable::Buckles)?;

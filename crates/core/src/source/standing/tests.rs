@@ -4,6 +4,7 @@ use super::*;
 use crate::arms::{self, Stream};
 use crate::frame::Isometry;
 use crate::load::Doubt;
+use crate::robot::inverse::tool_on;
 use crate::robot::{Compensator, JointCurve, Mass, Robot, Spring, Structure, TorqueCurve};
 use crate::source::StiffnessModel;
 use crate::source::stiffness_model::FREE_FALL;
