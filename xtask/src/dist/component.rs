@@ -35,15 +35,8 @@ const PAGE_IN: &str = "armill-web";
 /// Pictures use the fonts.
 const FONTS_IN: &str = "armill-report";
 
-/// Told by the page's packages, one a line; `node` runs it in the folder of the page.
-const PAGE_PACKAGES: &str = "
-const lock = require('./package-lock.json').packages;
-for (const [path, told] of Object.entries(lock)) {
-  if (path === '' || told.dev) continue;
-  const it = require('./' + path + '/package.json');
-  const from = (it.repository?.url ?? it.repository ?? '').replace(/^git\\+/, '').replace(/\\.git$/, '');
-  console.log([it.name, it.version, it.license, from, path].join('|'));
-}";
+/// Tells the packages of the page, one a line.
+const PAGE_PACKAGES: &str = "web/dev/bundled.mjs";
 
 /// Everything that is built in.
 ///
@@ -71,11 +64,7 @@ pub fn all(release: &Release) -> Result<Components, String> {
             component.folder = Some(sources(&component.name, &component.version)?);
         }
     }
-    let told = printed(
-        Command::new("node")
-            .args(["-e", PAGE_PACKAGES])
-            .current_dir("web"),
-    )?;
+    let told = printed(Command::new("node").arg(PAGE_PACKAGES))?;
     add(
         &mut components,
         PAGE_IN,
