@@ -69,7 +69,6 @@ struct Release {
     /// When it was committed, s since 1970: the time of every file.
     committed_s: String,
     out: PathBuf,
-    allow_dirty: bool,
     tools: Tools,
 }
 
@@ -151,7 +150,6 @@ fn prepared(options: &Options) -> Result<Release, String> {
         version,
         committed_s: committed_s.trim().to_owned(),
         out: fs::canonicalize(&options.out).map_err(|error| format!("{}: {error}", options.out.display()))?,
-        allow_dirty: options.allow_dirty,
         tools: tools::installed(zig)?,
         target,
     })
