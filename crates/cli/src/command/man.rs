@@ -36,5 +36,6 @@ pub(crate) fn run(arguments: &ManArguments) -> Result<Outcome, StudyError> {
 /// The page of a command, and those of its own commands.
 fn pages(command: &Command) -> Vec<Man> {
     let own = command.get_subcommands().flat_map(pages);
-    [Man::new(command.clone())].into_iter().chain(own).collect()
+    let page = Man::new(command.clone()).source(concat!("armill ", env!("CARGO_PKG_VERSION")));
+    [page].into_iter().chain(own).collect()
 }
