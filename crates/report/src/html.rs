@@ -244,7 +244,7 @@ fn short(caption: &str) -> &str {
 fn prose(text: &str) -> String {
     let text = escape(text).replace("+-", "±");
     let parts: Vec<&str> = text.split('`').collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return text;
     }
     let shown = parts.iter().enumerate().map(|(k, part)| match k % 2 {
