@@ -31,8 +31,17 @@ pub fn edit(bytes: &[u8]) {
                 // A new entry goes again.
                 (false, false) if change.path.ends_with(']') => {
                     let path = change.path.clone();
-                    let gone = changed("study.toml", &new, &[Change { path, value: serde_json::Value::Null }]);
-                    let gone = gone.ok().and_then(|gone| Document::parse("study.toml", &gone).ok());
+                    let gone = changed(
+                        "study.toml",
+                        &new,
+                        &[Change {
+                            path,
+                            value: serde_json::Value::Null,
+                        }],
+                    );
+                    let gone = gone
+                        .ok()
+                        .and_then(|gone| Document::parse("study.toml", &gone).ok());
                     assert!(gone.is_some_and(|gone| !gone.contains(&change.path)));
                     return;
                 }
